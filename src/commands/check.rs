@@ -1,0 +1,39 @@
+//! `burgeon check`: tells all problems of a script at once, without deriving.
+
+use burgeon::Result;
+use clap::Args;
+use serde_json::json;
+
+use super::report;
+use super::shared::ScriptFlags;
+
+/// Loads a script and everything it requires, compiles every rule, and reports all problems at once
+#[derive(Args)]
+pub(crate) struct Check {
+    #[command(flatten)]
+    script: ScriptFlags,
+}
+
+impl Check {
+    pub(crate) fn json(&self) -> bool {
+        self.script.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        let params = burgeon::check(&self.script.script, self.script.options())?;
+        if self.script.json {
+            let params: Vec<_> = params
+                .iter()
+                .map(|param| json!({ "name": param.name, "value": param.value.to_string(), "unit": param.unit, "text": param.text }))
+                .collect();
+            report::print(&format!("{}\n", json!({ "ok": true, "params": params })));
+        } else {
+            report::eprint(&format!("{} is fine\n", self.script.script.display()));
+            for param in params {
+                let unit = if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) };
+                report::eprint(&format!("  {} = {}{unit}  {}\n", param.name, param.value, param.text));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,21 @@
+//! `burgeon completions`: completion of the command line for shells.
+
+use burgeon::Result;
+use clap::{Args, CommandFactory};
+use clap_complete::Shell;
+
+/// Prints a script that completes the command line in a shell
+#[derive(Args)]
+pub(crate) struct Completions {
+    /// The shell
+    shell: Shell,
+}
+
+impl Completions {
+    pub(crate) fn run(&self) -> Result<()> {
+        let mut script = Vec::new();
+        clap_complete::generate(self.shell, &mut super::Cli::command(), "burgeon", &mut script);
+        super::report::print(&String::from_utf8_lossy(&script));
+        Ok(())
+    }
+}

@@ -1,0 +1,53 @@
+//! `burgeon new`: a script to start from.
+
+use std::fs::OpenOptions;
+use std::io::Write;
+use std::path::PathBuf;
+
+use burgeon::{Error, Result};
+use clap::Args;
+use serde_json::json;
+
+use super::report;
+
+/// What a new script says.
+const STARTER: &str = include_str!("starter.lua");
+
+/// Makes a script to start from
+#[derive(Args)]
+pub(crate) struct New {
+    /// The file to make; .lua is added if it has no extension
+    path: PathBuf,
+
+    /// Prints for machines
+    #[arg(long)]
+    json: bool,
+}
+
+impl New {
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        let path =
+            if self.path.extension().is_none() { self.path.with_extension("lua") } else { self.path.clone() };
+        let shown = path.display();
+        let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(|error| {
+            match error.kind() {
+                std::io::ErrorKind::AlreadyExists => {
+                    Error::new(format!("{shown} exists already")).help("choose another name")
+                }
+                _ => Error::new(format!("cannot make {shown}: {error}")).help("check that the folder exists"),
+            }
+        })?;
+        file.write_all(STARTER.as_bytes())
+            .map_err(|error| Error::new(format!("cannot write {shown}: {error}")))?;
+        if self.json {
+            report::print(&format!("{}\n", json!({ "ok": true, "path": path })));
+        } else {
+            report::eprint(&format!("made {shown}; now: burgeon run {shown} -o model.glb\n"));
+        }
+        Ok(())
+    }
+}

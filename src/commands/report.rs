@@ -1,0 +1,151 @@
+//! What commands say: errors with the script's line, and the summary of a run.
+
+use std::fmt::Write as _;
+use std::time::Duration;
+
+use burgeon::{Error, Run};
+use serde_json::json;
+
+/// Prints an error to stderr, with the line of the script that it is about; as JSON to stdout for machines.
+pub(crate) fn error(error: &Error, json: bool) {
+    if json {
+        let problems: Vec<_> = error.problems().map(Error::to_json).collect();
+        print(&format!("{}\n", json!({ "ok": false, "errors": problems })));
+        return;
+    }
+    let mut text = String::new();
+    for problem in error.problems() {
+        let alone = problem.alone().to_string();
+        let (first, rest) =
+            alone.split_once('\n').map_or((alone.as_str(), ""), |(first, rest)| (first, rest));
+        // Writing into a string cannot fail.
+        let _ = writeln!(text, "error: {first}");
+        if let Some(line) = problem.place().and_then(line) {
+            let _ = writeln!(text, "  | {line}");
+        }
+        if !rest.is_empty() {
+            let _ = writeln!(text, "{rest}");
+        }
+    }
+    eprint(&text);
+}
+
+/// The text of a line of a script.
+fn line(place: &burgeon::error::Place) -> Option<String> {
+    let text = std::fs::read_to_string(&place.file).ok()?;
+    let line = text.lines().nth(place.line.checked_sub(1)?)?.trim();
+    (!line.is_empty()).then(|| line.chars().take(160).collect())
+}
+
+/// The summary of a run for a person.
+pub(crate) fn summary(run: &Run, writing: Duration, total: Duration) -> String {
+    let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
+    let chains: usize = run.systems.iter().map(|system| system.features.len()).sum();
+    let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
+    let times = &run.times;
+    let mut text = String::new();
+    let _ = writeln!(
+        text,
+        "{} modules in {}, {}",
+        count(modules),
+        plural(chains, "chain"),
+        plural(steps, "step")
+    );
+    let _ = writeln!(
+        text,
+        "{} triangles, {}, {}",
+        count(run.scene.triangles()),
+        plural(run.scene.instances.len(), "instance"),
+        plural(run.scene.materials.len(), "material")
+    );
+    let _ = writeln!(
+        text,
+        "{} in all: script {}, rewriting {}, interpretation {}, scene {}, writing {}",
+        time(total),
+        time(times.script),
+        time(times.derivation.rewriting),
+        time(times.derivation.interpretation),
+        time(times.scene),
+        time(writing)
+    );
+    if let Some(memory) = peak_memory() {
+        let _ = writeln!(text, "{memory} MB of memory at the peak");
+    }
+    text
+}
+
+/// The summary of a run for machines.
+pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> serde_json::Value {
+    let seconds = |duration: Duration| duration.as_secs_f64();
+    let params: serde_json::Map<String, serde_json::Value> = run
+        .params
+        .iter()
+        .map(|param| {
+            let value = match &param.value {
+                burgeon::script::Setting::Number(number) => json!(number),
+                burgeon::script::Setting::Boolean(value) => json!(value),
+                burgeon::script::Setting::Text(text) => json!(text),
+            };
+            (param.name.clone(), value)
+        })
+        .collect();
+    json!({
+        "ok": true,
+        "modules": run.systems.iter().map(|system| system.modules()).sum::<usize>(),
+        "chains": run.systems.iter().map(|system| system.features.len()).sum::<usize>(),
+        "steps": run.systems.iter().map(|system| system.steps).collect::<Vec<_>>(),
+        "triangles": run.scene.triangles(),
+        "instances": run.scene.instances.len(),
+        "materials": run.scene.materials.len(),
+        "params": params,
+        "seconds": {
+            "total": seconds(total),
+            "script": seconds(run.times.script),
+            "rewriting": seconds(run.times.derivation.rewriting),
+            "interpretation": seconds(run.times.derivation.interpretation),
+            "scene": seconds(run.times.scene),
+            "writing": seconds(writing),
+        },
+        "peak_memory_mb": peak_memory(),
+    })
+}
+
+/// The largest resident memory of this process (MB), where the system tells it.
+fn peak_memory() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find_map(|line| line.strip_prefix("VmHWM:"))?;
+    Some(line.split_whitespace().next()?.parse::<u64>().ok()? / 1024)
+}
+
+fn count(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (index, digit) in digits.chars().enumerate() {
+        if index > 0 && (digits.len() - index).is_multiple_of(3) {
+            text.push(',');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+fn plural(number: usize, noun: &str) -> String {
+    format!("{} {noun}{}", count(number), if number == 1 { "" } else { "s" })
+}
+
+fn time(duration: Duration) -> String {
+    let seconds = duration.as_secs_f64();
+    if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
+}
+
+/// Writes to standard output; a reader that has gone away is no error.
+pub(crate) fn print(text: &str) {
+    use std::io::Write as _;
+    let _ = std::io::stdout().write_all(text.as_bytes());
+}
+
+/// Writes to standard error.
+pub(crate) fn eprint(text: &str) {
+    use std::io::Write as _;
+    let _ = std::io::stderr().write_all(text.as_bytes());
+}

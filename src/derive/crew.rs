@@ -1,0 +1,175 @@
+//! The threads that help: each runs the same script in a machine of its own and waits at `derive` for work.
+
+use std::cell::RefCell;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::thread::JoinHandle;
+
+use super::batch::Scratch;
+use super::derived::Derived;
+use super::step::Rewriting;
+use crate::error::{Error, Result};
+use crate::interpret::Interpreting;
+use crate::script::{Declared, Machine, Session, Watchdog};
+
+/// Work for all threads.
+#[derive(Clone)]
+pub(crate) enum Job {
+    Rewrite(Arc<Rewriting>),
+    Interpret(Arc<Interpreting>),
+}
+
+enum Message {
+    Work(Job),
+    Derived(Arc<Derived>),
+}
+
+struct Helper {
+    outbox: Sender<Message>,
+    thread: JoinHandle<()>,
+}
+
+/// A machine's part in a run: the one that leads, or one that follows.
+pub(crate) struct Crew {
+    /// The systems derived so far, in order.
+    pub done: RefCell<Vec<Arc<Derived>>>,
+    role: RefCell<Role>,
+}
+
+enum Role {
+    Lead { helpers: Vec<Helper>, watchdog: Arc<Watchdog> },
+    Follow { inbox: Rc<Receiver<Message>>, recorded: Vec<Arc<Derived>> },
+}
+
+impl Crew {
+    /// The part of the machine whose result counts.
+    pub(crate) fn leading(watchdog: &Arc<Watchdog>) -> Self {
+        let role = Role::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog) };
+        Self { done: RefCell::default(), role: RefCell::new(role) }
+    }
+
+    /// In a following machine: works for the leader until system `index` is derived, and returns the result.
+    pub(crate) fn follow(&self, machine: &Machine, index: usize) -> Result<Option<Arc<Derived>>> {
+        let (inbox, known) = match &*self.role.borrow() {
+            Role::Lead { .. } => return Ok(None),
+            Role::Follow { inbox, recorded } => {
+                (Rc::clone(inbox), recorded.get(self.done.borrow().len()).map(Arc::clone))
+            }
+        };
+        let derived = match known {
+            Some(derived) => derived,
+            None => serve(machine, &inbox, index)?,
+        };
+        self.done.borrow_mut().push(Arc::clone(&derived));
+        Ok(Some(derived))
+    }
+
+    /// In the leading machine: tells the others what a system became.
+    pub(crate) fn finished(&self, derived: &Arc<Derived>) {
+        if let Role::Lead { helpers, .. } = &*self.role.borrow() {
+            for helper in helpers {
+                // A helper that has ended needs no news.
+                let _ = helper.outbox.send(Message::Derived(Arc::clone(derived)));
+            }
+        }
+        self.done.borrow_mut().push(Arc::clone(derived));
+    }
+
+    /// Gives a job of `pieces` pieces to as many helpers as can be of use.
+    pub(crate) fn hand_out(&self, machine: &Machine, pieces: usize, job: impl Fn() -> Job) -> Result<()> {
+        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
+        let threads = machine.session.options.threads.unwrap_or_else(cores);
+        let useful = threads.min(pieces).saturating_sub(1);
+        let mut role = self.role.borrow_mut();
+        let Role::Lead { helpers, watchdog } = &mut *role else { return Ok(()) };
+        while helpers.len() < useful {
+            helpers.push(Helper::start(&machine.session, watchdog, self.done.borrow().clone())?);
+        }
+        for helper in helpers.iter().take(useful) {
+            // A helper that has ended leaves its share to the others.
+            let _ = helper.outbox.send(Message::Work(job()));
+        }
+        Ok(())
+    }
+
+    /// Waits until every helper has let go of a job.
+    pub(crate) fn reclaim<T>(&self, mut job: Arc<T>) -> T {
+        loop {
+            match Arc::try_unwrap(job) {
+                Ok(job) => return job,
+                Err(shared) => {
+                    std::thread::yield_now();
+                    job = shared;
+                }
+            }
+        }
+    }
+}
+
+impl Drop for Crew {
+    fn drop(&mut self) {
+        if let Role::Lead { helpers, .. } = self.role.get_mut() {
+            for Helper { outbox, thread } in helpers.drain(..) {
+                drop(outbox);
+                // A helper that panicked has been left out of the result already.
+                let _ = thread.join();
+            }
+        }
+    }
+}
+
+impl Helper {
+    fn start(session: &Arc<Session>, watchdog: &Arc<Watchdog>, recorded: Vec<Arc<Derived>>) -> Result<Self> {
+        let (outbox, inbox) = channel();
+        let (session, watchdog) = (Arc::clone(session), Arc::clone(watchdog));
+        let follow = move || {
+            let crew = Crew {
+                done: RefCell::default(),
+                role: RefCell::new(Role::Follow { inbox: Rc::new(inbox), recorded }),
+            };
+            if let Ok(machine) = Machine::new(&session, &watchdog, crew) {
+                machine.silence();
+                // What goes wrong here goes wrong in the leading machine as well, which tells of it.
+                let _ = machine.run();
+            }
+        };
+        let thread = std::thread::Builder::new()
+            .name("burgeon helper".to_owned())
+            .spawn(follow)
+            .map_err(|error| Error::new(format!("cannot start a thread: {error}")).help("try --threads 1"))?;
+        Ok(Self { outbox, thread })
+    }
+}
+
+/// Works on jobs for system `index` until the leader has derived it.
+fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Arc<Derived>> {
+    let mut declared: Option<Declared> = None;
+    let mut scratch = Scratch::default();
+    loop {
+        let job = match inbox.recv() {
+            Ok(Message::Work(job)) => job,
+            Ok(Message::Derived(derived)) => return Ok(derived),
+            Err(_) => return Err(Error::new("the run has ended")),
+        };
+        if declared.is_none() {
+            let systems = machine.library.systems.borrow();
+            declared = Some(systems[index].prepare(machine).map_err(|error| machine.translate(error))?);
+        }
+        if let Some(declared) = &declared {
+            match job {
+                Job::Rewrite(rewriting) => {
+                    machine.current.objects.replace(rewriting.plan.objects.clone());
+                    machine.refresh();
+                    while rewriting.work(machine, declared, &mut scratch) {}
+                }
+                Job::Interpret(interpreting) => {
+                    machine.current.objects.replace(interpreting.plan.objects.clone());
+                    machine.refresh();
+                    while interpreting.work(machine) {}
+                }
+            }
+            machine.current.objects.replace(None);
+        }
+    }
+}

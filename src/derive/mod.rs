@@ -1,0 +1,156 @@
+//! Derivation: rewrites the chains of a system step by step, in parallel, and has them interpreted in between.
+//!
+//! Comes in: a system as a script declared it. Goes out: a [`Derived`] system. The chain of a step is read-only
+//! while the next one is made, so a batch never sees what another batch does.
+
+mod batch;
+mod crew;
+mod derived;
+mod step;
+
+pub(crate) use crew::{Crew, Job};
+pub use derived::{Derived, Times};
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::error::{Error, Result};
+use crate::interpret::Interpreting;
+use crate::objects::Object;
+use crate::rules::{Chain, Grammar, Key};
+use crate::script::{Interpretations, Machine, Objects};
+use step::Stepper;
+
+/// The first chains of a system and what belongs to each.
+#[derive(Default)]
+pub(crate) struct Axiom {
+    pub chain: Chain,
+    /// One object for each chain, or none at all.
+    pub objects: Vec<Box<dyn Object>>,
+    /// The id of each chain's feature.
+    pub features: Vec<Option<String>>,
+}
+
+/// What does not change while a system derives; shared by all threads.
+pub(crate) struct Plan {
+    /// The system's place in the script.
+    pub index: usize,
+    pub grammar: Grammar,
+    pub interpretations: Interpretations,
+    pub objects: Option<Arc<Objects>>,
+    /// The number of chains.
+    pub chains: usize,
+    /// Symbols that a worker takes at a time.
+    pub batch: usize,
+}
+
+/// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
+///
+/// In a machine that only helps, it works on what the leading machine hands out, and returns the leader's result.
+pub(crate) fn derive(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<Derived>> {
+    let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    if let Some(derived) = machine.crew.follow(machine, index)? {
+        return Ok(derived);
+    }
+    let derived = Arc::new(lead(machine, index, steps)?);
+    machine.crew.finished(&derived);
+    Ok(derived)
+}
+
+fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived> {
+    let session = &machine.session;
+    let options = &session.options;
+    let random = session.draws_random();
+    let (axiom, plan, declared) = {
+        let systems = machine.library.systems.borrow();
+        let system = &systems[index];
+        let grammar = system.grammar(&machine.library, random);
+        let key = Key::seed(system.seed.unwrap_or(options.seed));
+        let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
+        let objects = std::mem::take(&mut axiom.objects);
+        let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects)));
+        let plan = Plan {
+            index,
+            grammar,
+            interpretations: system.interpretations(&machine.library),
+            objects,
+            chains: axiom.features.len(),
+            batch: options.batch.max(1),
+        };
+        let declared = system.prepare(machine).map_err(|error| machine.translate(error))?;
+        (axiom, Arc::new(plan), declared)
+    };
+    let last_only = {
+        let systems = machine.library.systems.borrow();
+        systems[index].last_only || (declared.ignores_this && systems[index].draws_afresh())
+    };
+    let settled = machine.library.systems.borrow()[index].draws_afresh();
+    let limit = match (steps, options.steps) {
+        (Some(a), Some(b)) => a.min(b),
+        (Some(limit), None) | (None, Some(limit)) => limit,
+        (None, None) => usize::MAX,
+    };
+    let limit = if options.check { 0 } else { limit };
+
+    let mut times = Times::default();
+    let mut chain = axiom.chain;
+    chain.mark(plan.batch, plan.grammar.arities());
+    let mut stepper = Stepper::new(Arc::clone(&plan));
+    let interprets = plan.objects.is_some() && !options.check;
+    let mut done = 0;
+    let interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
+        let begin = Instant::now();
+        let chain = Interpreting::pass(machine, &plan, &declared, chain, step)?;
+        times.interpretation += begin.elapsed();
+        Ok(chain)
+    };
+    if interprets && !last_only {
+        chain = interpret(chain, 0, &mut times)?;
+    }
+    while done < limit {
+        session.stop.check()?;
+        let begin = Instant::now();
+        let outcome = stepper.step(machine, &declared, chain, done + 1)?;
+        times.rewriting += begin.elapsed();
+        chain = outcome.chain;
+        if !outcome.ran || (!outcome.changed && settled && !plan.grammar.draws_random()) {
+            break;
+        }
+        done += 1;
+        session.progress.note(done, limit, chain.symbols.len());
+        session.forget_unused(&chain.params);
+        if interprets && !last_only {
+            chain = interpret(chain, done, &mut times)?;
+        }
+    }
+    if interprets && last_only {
+        chain = interpret(chain, done, &mut times)?;
+    }
+    drop(stepper);
+    drop(declared);
+    machine.current.objects.replace(None);
+    session.keep(&chain.params);
+    let plan = Arc::try_unwrap(plan).map_err(|_| Error::new("a worker still holds the plan"));
+    let plan = match plan {
+        Ok(plan) => plan,
+        Err(error) => return Err(error),
+    };
+    let objects = match plan.objects.map(Arc::try_unwrap) {
+        Some(Ok(objects)) => objects.into_shared(),
+        Some(Err(_)) => return Err(Error::new("a worker still holds the objects")),
+        None => Vec::new(),
+    };
+    Ok(Derived::new(
+        index,
+        chain,
+        Arc::clone(plan.grammar.symbols()),
+        Arc::clone(&session.values),
+        objects,
+        axiom.features,
+        done,
+        times,
+    ))
+}

@@ -1,0 +1,204 @@
+//! One derivation step: hands out pieces of the chain and puts the results together in their order.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+
+use super::Plan;
+use super::batch::{Batch, Output, Piece, Scratch};
+use super::crew::Job;
+use crate::error::{Error, Result};
+use crate::rules::{Chain, Links, Mark};
+use crate::script::{Declared, Machine};
+
+/// The work of one step, shared by the threads.
+pub(crate) struct Rewriting {
+    pub plan: Arc<Plan>,
+    pub chain: Chain,
+    pub links: Links,
+    pub step: usize,
+    pieces: Vec<Piece>,
+    next: AtomicUsize,
+    /// The first piece that failed; later ones are not begun.
+    failed: AtomicUsize,
+    results: Mutex<Vec<Option<Result<Output>>>>,
+    ready: Condvar,
+}
+
+impl Rewriting {
+    /// Takes a piece and rewrites it; `false` when none is left.
+    pub(crate) fn work(&self, machine: &Machine, declared: &Declared, scratch: &mut Scratch) -> bool {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index >= self.pieces.len() || index > self.failed.load(Ordering::Relaxed) {
+            return false;
+        }
+        let batch = Batch {
+            machine,
+            plan: &self.plan,
+            declared,
+            chain: &self.chain,
+            links: &self.links,
+            step: self.step,
+        };
+        let result = machine.session.stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch));
+        if result.is_err() {
+            self.failed.fetch_min(index, Ordering::Relaxed);
+        }
+        self.results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+        self.ready.notify_all();
+        true
+    }
+
+    /// Gives up the pieces that nobody has begun.
+    pub(crate) fn abandon(&self) {
+        self.failed.store(0, Ordering::Relaxed);
+        self.next.store(self.pieces.len(), Ordering::Relaxed);
+    }
+
+    fn take(&self, index: usize) -> Option<Result<Output>> {
+        self.results.lock().unwrap_or_else(PoisonError::into_inner)[index].take()
+    }
+
+    fn wait(&self, index: usize) -> Result<Output> {
+        let mut results = self.results.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            match results[index].take() {
+                Some(result) => return result,
+                None => results = self.ready.wait(results).unwrap_or_else(PoisonError::into_inner),
+            }
+        }
+    }
+}
+
+/// What a step gave.
+pub(crate) struct Outcome {
+    pub chain: Chain,
+    pub ran: bool,
+    pub changed: bool,
+}
+
+/// Makes steps; keeps the memory of the last chain for the next.
+pub(crate) struct Stepper {
+    plan: Arc<Plan>,
+    spare: Chain,
+    links: Links,
+    scratch: Scratch,
+}
+
+impl Stepper {
+    pub(crate) fn new(plan: Arc<Plan>) -> Self {
+        Self { plan, spare: Chain::default(), links: Links::default(), scratch: Scratch::default() }
+    }
+
+    /// Makes step number `step` on `chain`.
+    pub(crate) fn step(
+        &mut self,
+        machine: &Machine,
+        declared: &Declared,
+        chain: Chain,
+        step: usize,
+    ) -> Result<Outcome> {
+        self.links.build(&chain, &self.plan.grammar);
+        let pieces = pieces(&chain, self.plan.batch);
+        let count = pieces.len();
+        machine.current.objects.replace(self.plan.objects.clone());
+        let rewriting = Arc::new(Rewriting {
+            plan: Arc::clone(&self.plan),
+            chain,
+            links: std::mem::take(&mut self.links),
+            step,
+            pieces,
+            next: AtomicUsize::new(0),
+            failed: AtomicUsize::new(usize::MAX),
+            results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
+            ready: Condvar::new(),
+        });
+        machine.crew.hand_out(machine, count, || Job::Rewrite(Arc::clone(&rewriting)))?;
+        let result = self.merge(machine, declared, &rewriting);
+        if result.is_err() {
+            rewriting.abandon();
+        }
+        let rewriting = machine.crew.reclaim(rewriting);
+        let (ran, changed) = result?;
+        self.links = rewriting.links;
+        let made = std::mem::replace(&mut self.spare, rewriting.chain);
+        Ok(Outcome { chain: made, ran, changed })
+    }
+
+    /// Works on pieces and puts the results together as they come, in order.
+    fn merge(
+        &mut self,
+        machine: &Machine,
+        declared: &Declared,
+        rewriting: &Rewriting,
+    ) -> Result<(bool, bool)> {
+        let limit = machine.session.options.limits.modules;
+        let made = &mut self.spare;
+        made.clear();
+        let mut growth = vec![0usize; self.plan.grammar.rules().len()];
+        let (mut ran, mut changed) = (false, false);
+        let mut chain = 0;
+        for index in 0..rewriting.pieces.len() {
+            let output = loop {
+                if let Some(output) = rewriting.take(index) {
+                    break output?;
+                }
+                if !rewriting.work(machine, declared, &mut self.scratch) {
+                    break rewriting.wait(index)?;
+                }
+            };
+            let base = made.end(chain);
+            made.symbols.extend_from_slice(&output.chain.symbols);
+            made.params.extend_from_slice(&output.chain.params);
+            made.keys.extend_from_slice(&output.chain.keys);
+            let rebased = output.chain.marks.iter().map(|mark| Mark {
+                module: base.module + mark.module,
+                param: base.param + mark.param,
+                chain: base.chain + mark.chain,
+            });
+            made.marks.extend(rebased);
+            if self.plan.chains > 1 {
+                chain += output.chain.symbols.iter().filter(|symbol| **symbol == crate::rules::END).count();
+            }
+            ran |= output.ran;
+            changed |= output.changed;
+            for (rule, count) in output.made {
+                growth[usize::from(rule)] += count;
+            }
+            if made.symbols.len() > limit {
+                return Err(self.runaway(&growth, limit, rewriting.step));
+            }
+        }
+        Ok((ran, changed))
+    }
+
+    fn runaway(&self, growth: &[usize], limit: usize, step: usize) -> Error {
+        let error = Error::new(format!("the chain grew past {limit} modules in step {step}"))
+            .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");
+        match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
+            Some((rule, _)) => {
+                let rule = &self.plan.grammar.rules()[rule];
+                error.at(rule.place.clone()).rule(format!("{} (which grew most)", rule.pattern.text))
+            }
+            None => error,
+        }
+    }
+}
+
+/// Joins the chain's marks to pieces of at least `size` symbols.
+fn pieces(chain: &Chain, size: usize) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for mark in &chain.marks {
+        match pieces.last_mut() {
+            Some(piece) if mark.module - piece.begin.module < size => {}
+            Some(piece) => {
+                piece.end = mark.module;
+                pieces.push(Piece { begin: *mark, end: mark.module });
+            }
+            None => pieces.push(Piece { begin: *mark, end: mark.module }),
+        }
+    }
+    if let Some(piece) = pieces.last_mut() {
+        piece.end = chain.symbols.len();
+    }
+    pieces
+}

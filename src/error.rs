@@ -1,0 +1,231 @@
+//! What a person is told when something is wrong: where, in which rule, on which module, and what to do.
+
+use std::fmt;
+
+/// The crate's result.
+pub type Result<T, E = Error> = std::result::Result<T, E>;
+
+/// A line of a script or data file.
+#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Place {
+    /// The file as the user named it.
+    pub file: String,
+    /// The line, counted from 1.
+    pub line: usize,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:{}", self.file, self.line)
+    }
+}
+
+/// An error with its place and remedy. Each part is filled in by the first layer that knows it.
+///
+/// It reads, with everything known:
+///
+/// ```text
+/// city.lua:41: rule Lot(w): the parts take 12.5 m but the shape is 10 m wide
+///   module: Lot(10), step 3
+///   help: give the last part a smaller minimum
+/// ```
+#[derive(Debug, Clone)]
+pub struct Error(Box<Parts>);
+
+#[derive(Debug, Clone, Default)]
+struct Parts {
+    message: String,
+    place: Option<Place>,
+    rule: Option<String>,
+    module: Option<String>,
+    step: Option<usize>,
+    help: Option<String>,
+    more: Vec<Error>,
+}
+
+impl Error {
+    /// An error that says `message`, a clause without a full stop.
+    pub fn new(message: impl fmt::Display) -> Self {
+        Self(Box::new(Parts { message: message.to_string(), ..Parts::default() }))
+    }
+
+    /// Several problems found in one go; `problems` is not empty.
+    pub fn several(mut problems: Vec<Error>) -> Self {
+        if problems.is_empty() {
+            return Self::new("nothing is wrong");
+        }
+        let mut first = problems.remove(0);
+        first.0.more.extend(problems);
+        first
+    }
+
+    /// Says what to do about it.
+    #[must_use]
+    pub fn help(mut self, help: impl fmt::Display) -> Self {
+        self.0.help.get_or_insert_with(|| help.to_string());
+        self
+    }
+
+    /// Says where, unless that is known already.
+    #[must_use]
+    pub fn at(mut self, place: Option<Place>) -> Self {
+        if self.0.place.is_none() {
+            self.0.place = place;
+        }
+        self
+    }
+
+    /// Names the rule, unless it is named already.
+    #[must_use]
+    pub fn rule(mut self, rule: impl fmt::Display) -> Self {
+        self.0.rule.get_or_insert_with(|| rule.to_string());
+        self
+    }
+
+    /// Names the module with its parameters and the derivation step, unless they are known already.
+    #[must_use]
+    pub fn module(mut self, module: impl fmt::Display, step: usize) -> Self {
+        if self.0.module.is_none() {
+            self.0.module = Some(module.to_string());
+            self.0.step = Some(step);
+        }
+        self
+    }
+
+    /// What is wrong, without the place.
+    pub fn message(&self) -> &str {
+        &self.0.message
+    }
+
+    /// Where, if known.
+    pub fn place(&self) -> Option<&Place> {
+        self.0.place.as_ref()
+    }
+
+    /// This problem without those reported with it.
+    #[must_use]
+    pub fn alone(&self) -> Self {
+        let mut alone = self.clone();
+        alone.0.more.clear();
+        alone
+    }
+
+    /// This problem and those reported with it, in order.
+    pub fn problems(&self) -> impl Iterator<Item = &Error> {
+        std::iter::once(self).chain(&self.0.more)
+    }
+
+    /// The error for machines: `{ message, file, line, rule, module, step, help }`, absent where unknown.
+    pub fn to_json(&self) -> serde_json::Value {
+        let mut object = serde_json::Map::new();
+        let parts = &*self.0;
+        object.insert("message".into(), parts.message.clone().into());
+        if let Some(place) = &parts.place {
+            object.insert("file".into(), place.file.clone().into());
+            object.insert("line".into(), place.line.into());
+        }
+        for (key, part) in [("rule", &parts.rule), ("module", &parts.module), ("help", &parts.help)] {
+            if let Some(text) = part {
+                object.insert(key.into(), text.clone().into());
+            }
+        }
+        if let Some(step) = parts.step {
+            object.insert("step".into(), step.into());
+        }
+        object.into()
+    }
+
+    fn write_one(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let parts = &*self.0;
+        if let Some(place) = &parts.place {
+            write!(f, "{place}: ")?;
+        }
+        if let Some(rule) = &parts.rule {
+            write!(f, "rule {rule}: ")?;
+        }
+        f.write_str(&parts.message)?;
+        match (&parts.module, parts.step) {
+            (Some(module), Some(step)) => write!(f, "\n  module: {module}, step {step}")?,
+            (Some(module), None) => write!(f, "\n  module: {module}")?,
+            _ => {}
+        }
+        if let Some(help) = &parts.help {
+            write!(f, "\n  help: {help}")?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, problem) in self.problems().enumerate() {
+            if i > 0 {
+                f.write_str("\n")?;
+            }
+            problem.write_one(f)?;
+        }
+        Ok(())
+    }
+}
+
+impl std::error::Error for Error {}
+
+/// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    let lower = name.to_lowercase();
+    let limit = name.chars().count().div_ceil(3).max(1);
+    known
+        .into_iter()
+        .map(|candidate| (edit_distance(&lower, &candidate.to_lowercase()), candidate))
+        .filter(|(distance, _)| *distance <= limit)
+        .min_by_key(|(distance, candidate)| (*distance, candidate.len()))
+        .map(|(_, candidate)| candidate)
+}
+
+/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
+fn edit_distance(a: &str, b: &str) -> usize {
+    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
+    let width = b.len() + 1;
+    let mut table: Vec<usize> = vec![0; (a.len() + 1) * width];
+    for i in 0..=a.len() {
+        for j in 0..=b.len() {
+            table[i * width + j] = if i == 0 || j == 0 {
+                i + j
+            } else {
+                let replace = table[(i - 1) * width + j - 1] + usize::from(a[i - 1] != b[j - 1]);
+                let mut best = replace.min(table[(i - 1) * width + j] + 1).min(table[i * width + j - 1] + 1);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    best = best.min(table[(i - 2) * width + j - 2] + 1);
+                }
+                best
+            };
+        }
+    }
+    table[a.len() * width + b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_error_reads_place_rule_message_module_and_help() {
+        let error = Error::new("the height is NaN")
+            .at(Some(Place { file: "a.lua".into(), line: 3 }))
+            .rule("Slab(h)")
+            .module("Slab(NaN)", 2)
+            .help("give a finite length");
+        insta::assert_snapshot!(error, @r"
+        a.lua:3: rule Slab(h): the height is NaN
+          module: Slab(NaN), step 2
+          help: give a finite length
+        ");
+    }
+
+    #[test]
+    fn the_nearest_name_is_found_and_a_far_one_is_not() {
+        assert_eq!(nearest("Flor", ["Floor", "Slab"]), Some("Floor"));
+        assert_eq!(nearest("smoth", ["sides", "smooth"]), Some("smooth"));
+        assert_eq!(nearest("window", ["sides", "smooth"]), None);
+    }
+}

@@ -1,0 +1,145 @@
+//! glTF 2.0, which viewers, game engines and Blender open.
+//!
+//! glTF is y up: a point (x, y, z) of the scene is (x, z, -y) in the file, and transforms are turned alike.
+//! Each mesh is stored once, whatever the number of its instances (`place`). Arrays go straight from the
+//! scene to the file (`body`); only what describes them is held in memory.
+//!
+//! Specification: Khronos Group, "glTF 2.0 Specification", 2021.
+
+mod body;
+mod decompose;
+mod material;
+mod mesh;
+mod place;
+
+#[cfg(test)]
+mod tests;
+
+use super::check::{Checked, check};
+use super::file::Files;
+use super::texture::Images;
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use body::Body;
+use gltf_json as json;
+use std::io::{self, Write};
+
+/// Where the images of a document are.
+enum Textures {
+    /// In the body.
+    Embedded,
+    /// In files of these names beside the document.
+    Beside(Vec<String>),
+}
+
+/// The description and what it describes.
+struct Document<'a> {
+    root: json::Root,
+    body: Body<'a>,
+}
+
+/// `scene` as the bytes of a `.glb` file.
+///
+/// Fails if the scene is not sound, if a texture cannot be read, and beyond 4 GiB.
+pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded)?;
+    let mut bytes = Vec::new();
+    let head = document.head()?;
+    bytes.reserve_exact(head.len() + document.body.length() as usize);
+    bytes.extend(head);
+    document.body.write(&mut bytes).map_err(Error::new)?;
+    Ok(bytes)
+}
+
+/// Writes one `.glb` file.
+pub(super) fn write_glb(scene: &Scene, files: &mut Files) -> Result<()> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded)?;
+    let head = document.head()?;
+    let path = files.main().to_owned();
+    files.write(&path, |out| {
+        out.write_all(&head)?;
+        document.body.write(out)
+    })
+}
+
+/// Writes a `.gltf` file, its `.bin` file and copies of the textures.
+pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let names = images.copy_names(files);
+    for (name, file) in names.iter().zip(&images.files) {
+        files.write(&files.sibling(name), |out| out.write_all(&file.bytes))?;
+    }
+    let mut document = Document::new(&checked, &images, &Textures::Beside(names))?;
+    if let Some(buffer) = document.root.buffers.first_mut() {
+        let name = format!("{}.bin", files.stem());
+        buffer.uri = Some(uri(&name));
+        files.write(&files.sibling(&name), |out| document.body.write(out))?;
+    }
+    let path = files.main().to_owned();
+    files.write(&path, |out| document.root.to_writer_pretty(out).map_err(io::Error::from))
+}
+
+impl<'a> Document<'a> {
+    fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures) -> Result<Self> {
+        let mut root = json::Root {
+            asset: json::Asset {
+                generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
+                version: "2.0".into(),
+                ..json::Asset::default()
+            },
+            scene: Some(json::Index::new(0)),
+            ..json::Root::default()
+        };
+        let mut body = Body::default();
+        let materials = material::write(checked, images, textures, &mut root, &mut body);
+        let meshes = mesh::write(checked, &materials, &mut root, &mut body);
+        let nodes = place::write(checked, &meshes, &mut root, &mut body);
+        root.scenes.push(json::Scene { extensions: None, extras: None, name: None, nodes });
+        body.describe(&mut root)?;
+        Ok(Self { root, body })
+    }
+
+    /// All of a `.glb` file but the body: both headers and the description between them.
+    fn head(&self) -> Result<Vec<u8>> {
+        let mut text =
+            self.root.to_vec().map_err(|error| Error::new(format!("cannot write glTF: {error}")))?;
+        text.resize(text.len().next_multiple_of(4), b' ');
+        let body = self.body.length();
+        let tail = if body > 0 { 8 + body } else { 0 };
+        let total = body::within_limit(20 + text.len() as u64 + tail)?;
+        let mut head = Vec::with_capacity(28 + text.len());
+        head.extend(b"glTF");
+        for number in [2, total, text.len() as u32] {
+            head.extend(number.to_le_bytes());
+        }
+        head.extend(b"JSON");
+        head.extend(text);
+        if body > 0 {
+            head.extend((body as u32).to_le_bytes());
+            head.extend(b"BIN\0");
+        }
+        Ok(head)
+    }
+}
+
+/// A file name as a relative reference of RFC 3986.
+fn uri(name: &str) -> String {
+    let mut uri = String::with_capacity(name.len());
+    for byte in name.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(byte)),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+/// A name for people, or nothing.
+fn name(name: &str) -> Option<String> {
+    (!name.is_empty()).then(|| name.to_owned())
+}

@@ -1,0 +1,217 @@
+//! The binary part of a glTF: planned first, so that its description can be written, then streamed.
+
+use super::super::check::triangles;
+use crate::error::{Error, Result};
+use crate::scene::Part;
+use glam::Vec3;
+use gltf_json as json;
+use json::buffer::{Stride, Target, View};
+use json::validation::Checked::Valid;
+use json::validation::USize64;
+use std::io::{self, Write};
+
+#[cfg(target_endian = "big")]
+compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
+
+/// Vertices or triangles that are converted at a time.
+const BATCH: usize = 4096;
+
+/// Arrays that share a buffer view, since thousands of small views make a file slow to open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shared {
+    Positions,
+    Normals,
+    TexCoords,
+    /// Indices as u16.
+    Short,
+    /// Indices as u32.
+    Long,
+}
+
+/// An array of the body.
+pub(super) enum Block<'a> {
+    Positions(&'a Part),
+    Normals(&'a Part),
+    /// The texture coordinates of a part whose texture has this width and height (m).
+    TexCoords(&'a Part, [f64; 2]),
+    Short(&'a Part),
+    Long(&'a Part),
+    Floats(Vec<f32>),
+    Bytes(&'a [u8]),
+}
+
+/// What the buffer views of a document show, in order.
+#[derive(Default)]
+pub(super) struct Body<'a> {
+    sections: Vec<Section<'a>>,
+}
+
+/// What one buffer view shows.
+struct Section<'a> {
+    shared: Option<Shared>,
+    blocks: Vec<Block<'a>>,
+    length: u64,
+}
+
+impl<'a> Body<'a> {
+    /// Adds `block` to the view of its kind. Returns the view and the offset in it (bytes).
+    pub(super) fn share(&mut self, kind: Shared, block: Block<'a>) -> (json::Index<View>, u64) {
+        let index = match self.sections.iter().position(|section| section.shared == Some(kind)) {
+            Some(index) => index,
+            None => self.section(Some(kind)),
+        };
+        let section = &mut self.sections[index];
+        let offset = section.length;
+        section.length += block.length();
+        section.blocks.push(block);
+        (json::Index::new(index as u32), offset)
+    }
+
+    /// Adds `block` as a view of its own.
+    pub(super) fn add(&mut self, block: Block<'a>) -> json::Index<View> {
+        let index = self.section(None);
+        self.sections[index].length = block.length();
+        self.sections[index].blocks.push(block);
+        json::Index::new(index as u32)
+    }
+
+    fn section(&mut self, shared: Option<Shared>) -> usize {
+        self.sections.push(Section { shared, blocks: Vec::new(), length: 0 });
+        self.sections.len() - 1
+    }
+
+    /// Length (bytes) with padding; each view begins at a multiple of 4.
+    pub(super) fn length(&self) -> u64 {
+        self.sections.iter().map(|section| section.length.next_multiple_of(4)).sum()
+    }
+
+    /// Adds the buffer and its views to `root`. Fails beyond 4 GiB.
+    pub(super) fn describe(&self, root: &mut json::Root) -> Result<()> {
+        let length = self.length();
+        within_limit(length)?;
+        if length == 0 {
+            return Ok(());
+        }
+        let buffer = root.push(json::Buffer {
+            byte_length: USize64(length),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: None,
+        });
+        let mut offset = 0;
+        for section in &self.sections {
+            root.buffer_views.push(View {
+                buffer,
+                byte_length: USize64(section.length),
+                byte_offset: (offset > 0).then_some(USize64(offset)),
+                byte_stride: section.stride().map(Stride),
+                name: None,
+                target: section.target().map(Valid),
+                extensions: None,
+                extras: None,
+            });
+            offset += section.length.next_multiple_of(4);
+        }
+        Ok(())
+    }
+
+    /// Writes exactly [`length`](Self::length) bytes.
+    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        for section in &self.sections {
+            for block in &section.blocks {
+                block.write(out)?;
+            }
+            let padding = section.length.next_multiple_of(4) - section.length;
+            out.write_all(&[0; 4][..padding as usize])?;
+        }
+        Ok(())
+    }
+}
+
+impl Section<'_> {
+    fn target(&self) -> Option<Target> {
+        Some(match self.shared? {
+            Shared::Positions | Shared::Normals | Shared::TexCoords => Target::ArrayBuffer,
+            Shared::Short | Shared::Long => Target::ElementArrayBuffer,
+        })
+    }
+
+    /// Bytes from one vertex to the next; several accessors may share a view only if it says so.
+    fn stride(&self) -> Option<usize> {
+        match self.shared? {
+            Shared::Positions | Shared::Normals => Some(12),
+            Shared::TexCoords => Some(8),
+            Shared::Short | Shared::Long => None,
+        }
+    }
+}
+
+impl Block<'_> {
+    fn length(&self) -> u64 {
+        let bytes = match self {
+            Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
+            Self::TexCoords(part, _) => part.positions.len() * 8,
+            Self::Short(part) => triangles(part).count() * 6,
+            Self::Long(part) => triangles(part).count() * 12,
+            Self::Floats(floats) => floats.len() * 4,
+            Self::Bytes(bytes) => bytes.len(),
+        };
+        bytes as u64
+    }
+
+    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+        match self {
+            Self::Positions(part) => stream(out, part.positions.iter().map(|at| y_up(*at).to_array())),
+            Self::Normals(part) => stream(out, part.normals.iter().map(|it| y_up(unit(*it)).to_array())),
+            Self::TexCoords(part, size) => stream(out, part.uvs.iter().map(|uv| tex_coord(*uv, *size))),
+            Self::Short(part) => {
+                stream(out, triangles(part).map(|corners| corners.map(|corner| corner as u16)))
+            }
+            Self::Long(part) => stream(out, triangles(part)),
+            Self::Floats(floats) => out.write_all(bytemuck::cast_slice(floats)),
+            Self::Bytes(bytes) => out.write_all(bytes),
+        }
+    }
+}
+
+/// Writes items as they lie in memory, a batch at a time.
+fn stream<T: bytemuck::NoUninit>(out: &mut impl Write, mut items: impl Iterator<Item = T>) -> io::Result<()> {
+    let mut batch = Vec::with_capacity(BATCH);
+    loop {
+        batch.extend(items.by_ref().take(BATCH));
+        if batch.is_empty() {
+            return Ok(());
+        }
+        out.write_all(bytemuck::cast_slice(&batch))?;
+        batch.clear();
+    }
+}
+
+/// A vector of the scene, z up, in glTF's coordinates, y up. Adding zero turns -0 into 0.
+pub(super) fn y_up(vector: Vec3) -> Vec3 {
+    Vec3::new(vector.x, vector.z, -vector.y) + 0.0
+}
+
+/// `normal` at length 1 after rounding; upwards if it has no direction.
+pub(super) fn unit(normal: Vec3) -> Vec3 {
+    let exact = normal.as_dvec3();
+    match exact.try_normalize() {
+        Some(unit) => unit.as_vec3(),
+        None => Vec3::Z,
+    }
+}
+
+/// Texture coordinates in metres, v upwards, as parts of the image, v downwards.
+fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
+    [(f64::from(uv.x) / size[0]) as f32, (1.0 - f64::from(uv.y) / size[1]) as f32]
+}
+
+/// `bytes` as the u32 that glTF's headers have, or what to do about it.
+pub(super) fn within_limit(bytes: u64) -> Result<u32> {
+    u32::try_from(bytes).map_err(|_| {
+        let gigabytes = bytes as f64 / f64::from(1 << 30);
+        Error::new(format!("the model takes {gigabytes:.1} GiB, and glTF files end at 4 GiB"))
+            .help("write it in parts, with less detail, or with more instances of fewer meshes")
+    })
+}

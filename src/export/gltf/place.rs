@@ -1,0 +1,209 @@
+//! Where meshes stand: a node for each instance, or one node for many.
+
+use super::super::check::Checked;
+use super::decompose::{Steps, Trs, decompose, y_up};
+use super::material::use_extension;
+use super::mesh::accessor;
+use super::name;
+use super::{body::Block, body::Body};
+use crate::scene::Instance;
+use glam::{DAffine3, DQuat, DVec3};
+use gltf_json as json;
+use json::accessor::{ComponentType, Type};
+use json::extras::RawValue;
+use json::scene::UnitQuaternion;
+use json::{Index, Node};
+use rustc_hash::FxHashMap;
+
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// From how many on instances share a node.
+///
+/// A node takes about 130 bytes of JSON, an instance up to 40 of the body and its share of some 600 that
+/// describe the arrays; so from 7 on sharing is smaller. But a reader that does not know the extension cannot
+/// open the file, so sharing has to be worth it: at 16 it halves the size.
+const ENOUGH: usize = 16;
+
+/// Instances that differ in their transform alone.
+#[derive(PartialEq, Eq, Hash, Clone, Copy)]
+struct Kind<'a> {
+    mesh: usize,
+    name: &'a str,
+    /// Renderers choose the side that is seen once for all instances of a node.
+    mirrored: bool,
+}
+
+#[derive(Default)]
+struct Group {
+    count: usize,
+    translations: Vec<f32>,
+    rotations: Vec<f32>,
+    scales: Vec<f32>,
+}
+
+/// Adds the instances. Returns the nodes of the scene's top.
+pub(super) fn write(
+    checked: &Checked<'_>,
+    meshes: &[Option<Index<json::Mesh>>],
+    root: &mut json::Root,
+    body: &mut Body<'_>,
+) -> Vec<Index<Node>> {
+    let scene = checked.scene;
+    let mut groups: Vec<(Kind<'_>, Group)> = Vec::new();
+    let mut known = FxHashMap::default();
+    let mut group_of = Vec::with_capacity(scene.instances.len());
+    for instance in &scene.instances {
+        group_of.push(Kind::of(instance).map(|kind| {
+            let group = *known.entry(kind).or_insert_with(|| {
+                groups.push((kind, Group::default()));
+                groups.len() - 1
+            });
+            groups[group].1.count += 1;
+            group
+        }));
+    }
+    let mut nodes = Vec::new();
+    for (instance, group) in scene.instances.iter().zip(group_of) {
+        let Some(mesh) = meshes[instance.mesh] else { continue };
+        let mut transform = instance.transform;
+        transform.translation -= checked.origin;
+        let transform = y_up(&transform);
+        let shared = group.map(|group| &mut groups[group]).filter(|(_, group)| group.count >= ENOUGH);
+        if let Some((kind, group)) = shared
+            && group.take(&kind.mirror(transform))
+        {
+            continue;
+        }
+        nodes.push(alone(instance, mesh, &transform, root));
+    }
+    for (kind, group) in groups {
+        if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
+            nodes.push(together(kind, group, mesh, root, body));
+        }
+    }
+    if checked.origin == DVec3::ZERO || nodes.is_empty() {
+        return nodes;
+    }
+    let origin = Node {
+        name: Some("origin".into()),
+        translation: translation(y_up(&DAffine3::from_translation(checked.origin)).translation),
+        children: Some(nodes),
+        ..Node::default()
+    };
+    vec![root.push(origin)]
+}
+
+impl<'a> Kind<'a> {
+    fn of(instance: &'a Instance) -> Option<Self> {
+        instance.feature.is_none().then(|| Self {
+            mesh: instance.mesh,
+            name: &instance.name,
+            mirrored: instance.transform.matrix3.determinant() < 0.0,
+        })
+    }
+
+    /// What is left for the instance if its node mirrors.
+    fn mirror(self, transform: DAffine3) -> DAffine3 {
+        if self.mirrored { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * transform } else { transform }
+    }
+}
+
+impl Group {
+    /// Adds an instance, unless its transform is sheared.
+    fn take(&mut self, transform: &DAffine3) -> bool {
+        let Steps::One(Trs { translation, rotation, scale }) = decompose(transform) else { return false };
+        self.translations.extend((translation.as_vec3() + 0.0).to_array());
+        self.rotations.extend(quaternion(rotation));
+        self.scales.extend((scale.as_vec3() + 0.0).to_array());
+        true
+    }
+}
+
+/// A node for one instance; two nodes, one in the other, for a sheared one.
+fn alone(
+    instance: &Instance,
+    mesh: Index<json::Mesh>,
+    transform: &DAffine3,
+    root: &mut json::Root,
+) -> Index<Node> {
+    let shown = Node {
+        mesh: Some(mesh),
+        name: name(&instance.name),
+        // Here and not in the name, since viewers change names that repeat or have unusual letters.
+        extras: instance.feature.as_ref().and_then(|feature| {
+            RawValue::from_string(serde_json::json!({ "feature": feature }).to_string()).ok()
+        }),
+        ..Node::default()
+    };
+    match decompose(transform) {
+        Steps::One(trs) => root.push(placed(shown, &trs)),
+        Steps::Two(rest, first) => {
+            let inner = root.push(Node { rotation: rotation(first), ..shown });
+            root.push(placed(Node { children: Some(vec![inner]), ..Node::default() }, &rest))
+        }
+    }
+}
+
+/// A node for all instances of a group.
+fn together(
+    kind: Kind<'_>,
+    group: Group,
+    mesh: Index<json::Mesh>,
+    root: &mut json::Root,
+    body: &mut Body<'_>,
+) -> Index<Node> {
+    use_extension(root, INSTANCING);
+    root.extensions_required = vec![INSTANCING.into()];
+    let mut attributes = serde_json::Map::new();
+    let mut add = |key: &str, floats: Vec<f32>, width: usize, kind: Type, default: &[f32]| {
+        if floats.chunks(width).any(|item| item != default) {
+            let count = floats.len() / width;
+            let view = body.add(Block::Floats(floats));
+            let array =
+                json::Accessor { buffer_view: Some(view), ..accessor(ComponentType::F32, kind, count) };
+            attributes.insert(key.into(), root.push(array).value().into());
+        }
+    };
+    // No default, since one array has to be there to tell the number of instances.
+    add("TRANSLATION", group.translations, 3, Type::Vec3, &[]);
+    add("ROTATION", group.rotations, 4, Type::Vec4, &[0.0, 0.0, 0.0, 1.0]);
+    add("SCALE", group.scales, 3, Type::Vec3, &[1.0, 1.0, 1.0]);
+    let mut extension = json::extensions::scene::Node::default();
+    extension.others.insert(INSTANCING.into(), serde_json::json!({ "attributes": attributes }));
+    root.push(Node {
+        mesh: Some(mesh),
+        name: name(kind.name),
+        scale: kind.mirrored.then_some([-1.0, 1.0, 1.0]),
+        extensions: Some(extension),
+        ..Node::default()
+    })
+}
+
+/// `node` with a transform; what is the default is left out.
+fn placed(node: Node, trs: &Trs) -> Node {
+    Node {
+        translation: translation(trs.translation),
+        rotation: rotation(trs.rotation),
+        scale: unless([1.0; 3], (trs.scale.as_vec3() + 0.0).to_array()),
+        ..node
+    }
+}
+
+fn translation(translation: DVec3) -> Option<[f32; 3]> {
+    unless([0.0; 3], (translation.as_vec3() + 0.0).to_array())
+}
+
+fn rotation(rotation: DQuat) -> Option<UnitQuaternion> {
+    unless([0.0, 0.0, 0.0, 1.0], quaternion(rotation)).map(UnitQuaternion)
+}
+
+/// `value`, unless it is exactly the default.
+fn unless<const N: usize>(default: [f32; N], value: [f32; N]) -> Option<[f32; N]> {
+    (value.map(f32::to_bits) != default.map(f32::to_bits)).then_some(value)
+}
+
+/// The one of the two quaternions for `rotation` whose w is not negative, as x, y, z, w.
+fn quaternion(rotation: DQuat) -> [f32; 4] {
+    let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
+    rotation.as_quat().to_array().map(|number| number + 0.0)
+}

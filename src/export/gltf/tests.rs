@@ -1,0 +1,276 @@
+//! What is written, read back by another crate.
+
+use super::super::samples;
+use super::*;
+use glam::{DMat4, DVec3};
+use gltf::Gltf;
+use proptest::prelude::*;
+
+const TURN: fn(DVec3) -> DVec3 = |p| DVec3::new(p.x, p.z, -p.y);
+
+/// The triangles of every instance in the world, as a viewer draws them.
+fn drawn(bytes: &[u8]) -> Vec<[DVec3; 3]> {
+    let file = Gltf::from_slice_without_validation(bytes).unwrap();
+    let blob = file.blob.clone().unwrap_or_default();
+    let mut triangles = Vec::new();
+    for node in file.default_scene().unwrap().nodes() {
+        visit(&node, DMat4::IDENTITY, &file, &blob, &mut triangles);
+    }
+    triangles
+}
+
+fn matrix(node: &gltf::Node<'_>) -> DMat4 {
+    let (translation, rotation, scale) = node.transform().decomposed();
+    DMat4::from_scale_rotation_translation(
+        glam::Vec3::from(scale).as_dvec3(),
+        glam::Quat::from_array(rotation).as_dquat(),
+        glam::Vec3::from(translation).as_dvec3(),
+    )
+}
+
+fn visit(node: &gltf::Node<'_>, parent: DMat4, file: &Gltf, blob: &[u8], out: &mut Vec<[DVec3; 3]>) {
+    let world = parent * matrix(node);
+    if let Some(mesh) = node.mesh() {
+        let places = match node.extension_value(place_extension()) {
+            None => vec![DMat4::IDENTITY],
+            Some(extension) => instances(extension, file, blob),
+        };
+        for primitive in mesh.primitives() {
+            let reader = primitive.reader(|_| Some(blob));
+            let points: Vec<_> = reader.read_positions().unwrap().collect();
+            let corners: Vec<_> = reader.read_indices().unwrap().into_u32().collect();
+            for place in &places {
+                let at = |corner: u32| {
+                    (world * *place).transform_point3(glam::Vec3::from(points[corner as usize]).as_dvec3())
+                };
+                for triangle in corners.chunks(3) {
+                    let mut triangle = [at(triangle[0]), at(triangle[1]), at(triangle[2])];
+                    if world.determinant() < 0.0 {
+                        triangle.swap(1, 2);
+                    }
+                    assert!(place.determinant() > 0.0, "an instance must not mirror, its node has to");
+                    out.push(triangle);
+                }
+            }
+        }
+    }
+    for child in node.children() {
+        visit(&child, world, file, blob, out);
+    }
+}
+
+fn place_extension() -> &'static str {
+    "EXT_mesh_gpu_instancing"
+}
+
+fn instances(extension: &serde_json::Value, file: &Gltf, blob: &[u8]) -> Vec<DMat4> {
+    let array = |key: &str, width: usize| -> Option<Vec<Vec<f64>>> {
+        let index = extension["attributes"].get(key)?.as_u64().unwrap() as usize;
+        let accessor = file.accessors().nth(index).unwrap();
+        let start = accessor.view().unwrap().offset() + accessor.offset();
+        let bytes = &blob[start..start + accessor.count() * width * 4];
+        let floats: Vec<f32> = bytemuck::pod_collect_to_vec(bytes);
+        Some(floats.chunks(width).map(|item| item.iter().map(|it| f64::from(*it)).collect()).collect())
+    };
+    let translations = array("TRANSLATION", 3).unwrap();
+    let rotations = array("ROTATION", 4);
+    let scales = array("SCALE", 3);
+    let place = |i: usize| {
+        DMat4::from_scale_rotation_translation(
+            scales.as_ref().map_or(DVec3::ONE, |it| DVec3::from_slice(&it[i])),
+            rotations.as_ref().map_or(glam::DQuat::IDENTITY, |it| glam::DQuat::from_slice(&it[i])),
+            DVec3::from_slice(&translations[i]),
+        )
+    };
+    (0..translations.len()).map(place).collect()
+}
+
+/// The triangles of every instance, straight from the scene.
+fn meant(scene: &Scene) -> Vec<[DVec3; 3]> {
+    let mut triangles = Vec::new();
+    for instance in &scene.instances {
+        for part in &scene.meshes[instance.mesh].parts {
+            for corners in super::super::check::triangles(part) {
+                let mut triangle = corners.map(|corner| {
+                    TURN(instance.transform.transform_point3(part.positions[corner as usize].as_dvec3()))
+                });
+                if instance.transform.matrix3.determinant() < 0.0 {
+                    triangle.swap(1, 2);
+                }
+                triangles.push(triangle);
+            }
+        }
+    }
+    triangles
+}
+
+/// The largest distance (m) between a triangle that is meant and the one that is drawn, in any order.
+fn distance(scene: &Scene) -> f64 {
+    let (mut meant, mut drawn) = (meant(scene), drawn(&glb(scene).unwrap()));
+    assert_eq!(meant.len(), drawn.len());
+    let key = |it: &[DVec3; 3]| {
+        let [a, b, c] = it.map(|p| [p.x, p.y, p.z].map(|it| (it * 37.7123).round() as i64));
+        let turns = [[a, b, c], [b, c, a], [c, a, b]];
+        turns.into_iter().min().unwrap()
+    };
+    meant.sort_by_key(key);
+    drawn.sort_by_key(key);
+    let apart = |a: &[DVec3; 3], b: &[DVec3; 3]| {
+        let turned = |by: usize| (0..3).map(|i| a[i].distance(b[(i + by) % 3])).fold(0.0, f64::max);
+        turned(0).min(turned(1)).min(turned(2))
+    };
+    meant.iter().zip(&drawn).map(|(a, b)| apart(a, b)).fold(0.0, f64::max)
+}
+
+#[test]
+fn what_is_drawn_is_what_was_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    // The reader that checks has no empty scenes.
+    let seen = |(_, scene): &(&str, Scene)| scene.triangles() > 0;
+    for (name, scene) in samples::all(folder.path()).into_iter().filter(seen) {
+        let distance = distance(&scene);
+        assert!(distance < 1e-3, "{name}: {distance} m apart");
+        count += 1;
+    }
+    assert_eq!(count, 14);
+}
+
+#[test]
+fn an_instance_becomes_a_node_and_its_mesh_is_stored_once() {
+    let scene = samples::boxes(5);
+    let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
+    assert_eq!((file.meshes().count(), file.nodes().count(), file.accessors().count()), (1, 5, 3));
+    let names: Vec<_> = file.nodes().map(|node| node.name().unwrap().to_owned()).collect();
+    assert_eq!(names, ["box 0", "box 1", "box 2", "box 3", "box 4"]);
+}
+
+#[test]
+fn a_feature_id_stays_with_its_node() {
+    let scene = samples::town(2);
+    let text = String::from_utf8_lossy(&glb(&scene).unwrap()).into_owned();
+    for i in 0..4 {
+        assert!(text.contains(&format!(r#""extras":{{"feature":"way/{i}"}}"#)), "way/{i}");
+    }
+}
+
+#[test]
+fn many_like_instances_share_a_node_and_mirrored_ones_another() {
+    let node_count = |scene: &Scene| {
+        let file = Gltf::from_slice_without_validation(&glb(scene).unwrap()).unwrap();
+        (file.nodes().count(), file.extensions_required().map(str::to_owned).collect::<Vec<_>>())
+    };
+    assert_eq!(node_count(&samples::many(500)), (2, vec![place_extension().into()]));
+    assert_eq!(node_count(&samples::many(15)), (15, vec![]));
+    let mut named = samples::many(500);
+    for (i, instance) in named.instances.iter_mut().enumerate() {
+        instance.feature = Some(i.to_string());
+    }
+    assert_eq!(node_count(&named), (500, vec![]));
+    assert!(glb(&samples::many(100)).unwrap().len() < glb(&samples::many(15)).unwrap().len() * 2);
+}
+
+#[test]
+fn a_far_model_has_one_whole_offset_and_loses_less_than_a_millimetre() {
+    let scene = samples::far();
+    let file = Gltf::from_slice(&glb(&scene).unwrap()).unwrap();
+    let top: Vec<_> = file.default_scene().unwrap().nodes().collect();
+    assert_eq!(top.len(), 1);
+    assert_eq!(top[0].transform().decomposed().0.to_vec(), [531_000.0, 0.0, -4_556_000.0]);
+    assert!(distance(&scene) < 1e-4);
+}
+
+#[test]
+fn points_beyond_a_u16_are_indexed_by_u32() {
+    for (n, kind) in [(254, json::accessor::ComponentType::U16), (256, json::accessor::ComponentType::U32)] {
+        let bytes = glb(&samples::hill(n)).unwrap();
+        let file = Gltf::from_slice(&bytes).unwrap();
+        let primitive = file.meshes().next().unwrap().primitives().next().unwrap();
+        assert_eq!(primitive.indices().unwrap().data_type(), kind, "{n}");
+        assert_eq!(drawn(&bytes).len(), (n * n * 2) as usize);
+    }
+}
+
+#[test]
+fn texture_coordinates_are_parts_of_the_image_from_its_top() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scene = samples::textured(folder.path());
+    for mesh in &mut scene.meshes {
+        mesh.parts[0].uvs[0] = glam::Vec2::new(0.25, 0.5);
+    }
+    let bytes = glb(&scene).unwrap();
+    let (file, buffers, images) = gltf::import_slice(&bytes).unwrap();
+    assert_eq!((images.len(), file.images().count(), file.textures().count()), (2, 2, 2));
+    let first = |mesh: gltf::Mesh<'_>| {
+        let primitive = mesh.primitives().next().unwrap();
+        let reader = primitive.reader(|_| Some(&buffers[0]));
+        reader.read_tex_coords(0).unwrap().into_f32().next().unwrap()
+    };
+    let all: Vec<_> = file.meshes().map(first).collect();
+    assert_eq!(all, [[0.5, -1.0], [0.25, 0.5], [0.5, 0.25]]);
+    let plain = Gltf::from_slice(&glb(&samples::boxes(1)).unwrap()).unwrap();
+    assert_eq!(plain.meshes().next().unwrap().primitives().next().unwrap().attributes().count(), 2);
+}
+
+#[test]
+fn a_gltf_file_refers_to_its_body_and_textures() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("große Stadt.gltf");
+    let scene = samples::textured(folder.path());
+    super::super::write(&scene, &path, &crate::picture::Picture::default()).unwrap();
+    let (file, buffers, images) = gltf::import(&path).unwrap();
+    assert_eq!((file.meshes().count(), buffers.len(), images.len()), (3, 1, 2));
+    assert!(folder.path().join("große Stadt.bin").is_file());
+    assert!(folder.path().join("große Stadt_brick.png").is_file());
+}
+
+#[test]
+fn normals_have_length_one_whatever_came_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let samples = samples::all(folder.path());
+    let odd = &samples.iter().find(|(name, _)| *name == "odd").unwrap().1;
+    let bytes = glb(odd).unwrap();
+    let (file, buffers, _) = gltf::import_slice(&bytes).unwrap();
+    let mut count = 0;
+    for primitive in file.meshes().flat_map(|mesh| mesh.primitives().collect::<Vec<_>>()) {
+        for normal in primitive.reader(|_| Some(&buffers[0])).read_normals().unwrap() {
+            assert!((glam::Vec3::from(normal).length() - 1.0).abs() < 1e-6, "{normal:?}");
+            count += 1;
+        }
+    }
+    assert_eq!(count, 48, "the parts without triangles are left out");
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bytes() {
+    let scene = samples::many(100);
+    assert_eq!(glb(&scene).unwrap(), glb(&scene.clone()).unwrap());
+}
+
+#[test]
+fn more_than_4_gib_is_refused_with_a_remedy() {
+    assert_eq!(body::within_limit(u64::from(u32::MAX)).unwrap(), u32::MAX);
+    insta::assert_snapshot!(body::within_limit(10 << 30).unwrap_err(), @r"
+    the model takes 10.0 GiB, and glTF files end at 4 GiB
+      help: write it in parts, with less detail, or with more instances of fewer meshes
+    ");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(64))]
+    #[test]
+    fn any_transform_survives_the_file(
+        cols in proptest::array::uniform9(-3.0_f64..3.0), at in proptest::array::uniform3(-9000.0_f64..9000.0)
+    ) {
+        let mut scene = samples::boxes(1);
+        scene.instances[0].transform = glam::DAffine3::from_mat3_translation(
+            glam::DMat3::from_cols_array(&cols), DVec3::from(at) * 0.5,
+        );
+        let (meant, drawn) = (meant(&scene), drawn(&glb(&scene).unwrap()));
+        for (meant, drawn) in meant.iter().zip(&drawn) {
+            for (a, b) in meant.iter().zip(drawn) {
+                prop_assert!(a.distance(*b) < 1e-3, "{a} {b}");
+            }
+        }
+    }
+}

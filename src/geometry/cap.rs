@@ -1,0 +1,214 @@
+//! Triangles that fill the end of a sweep, without T-junctions and slivers.
+
+use geo::{Coord, LineString, Polygon, TriangulateEarcut};
+use glam::DVec2;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::error::{Error, Result};
+
+/// Fills a polygon: counter-clockwise triangles of indices into the points of all `rings`, one after another.
+///
+/// The first ring is the counter-clockwise outline, the others are clockwise holes; they do not touch. Every
+/// edge of a ring is the edge of exactly one triangle, also where points lie on a straight line.
+///
+/// Method: ear clipping (D. Eberly, "Triangulation by Ear Clipping", 2002); edges that skip a point on a line
+/// are split there; then edges are flipped until the triangulation is Delaunay but for the rings (C. Lawson,
+/// "Software for C1 surface interpolation", 1977), which removes slivers.
+pub(super) fn triangulate(rings: &[Vec<DVec2>]) -> Result<Vec<[usize; 3]>> {
+    let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
+    let mut triangles = earcut(rings, &points);
+    let border = border(rings);
+    for _ in 0..points.len() {
+        let unmatched = unmatched(&triangles, &border);
+        if unmatched.is_empty() {
+            break;
+        }
+        split_at_skipped_points(&mut triangles, &points, &unmatched);
+    }
+    flip(&mut triangles, &points);
+    let sound = triangles.iter().all(|&[a, b, c]| twice_area(points[a], points[b], points[c]) > 0.0);
+    if !sound || !unmatched(&triangles, &border).is_empty() {
+        return Err(Error::new(
+            "the cross-section cannot be filled with triangles, as it is too narrow somewhere",
+        )
+        .help("move the points that almost touch another edge further from it, or leave them out"));
+    }
+    Ok(triangles)
+}
+
+/// The ear-clipping result, counter-clockwise as a whole.
+fn earcut(rings: &[Vec<DVec2>], points: &[DVec2]) -> Vec<[usize; 3]> {
+    let line = |ring: &Vec<DVec2>| -> LineString {
+        ring.iter().map(|point| Coord { x: point.x, y: point.y }).collect()
+    };
+    let mut lines = rings.iter().map(line);
+    let Some(outer) = lines.next() else { return Vec::new() };
+    let raw = Polygon::new(outer, lines.collect()).earcut_triangles_raw();
+    let mut triangles: Vec<[usize; 3]> =
+        raw.triangle_indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
+    // One triangle alone may be so thin that its sign is rounding.
+    let sum: f64 = triangles.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c])).sum();
+    if sum < 0.0 {
+        triangles.iter_mut().for_each(|triangle| triangle.reverse());
+    }
+    triangles
+}
+
+/// The directed edges of the rings.
+fn border(rings: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
+    let mut first = 0;
+    let mut edges = Vec::new();
+    for ring in rings {
+        edges.extend((0..ring.len()).map(|i| (first + i, first + (i + 1) % ring.len())));
+        first += ring.len();
+    }
+    edges
+}
+
+/// The directed triangle edges that have neither a neighbour running the other way nor an edge of the border.
+fn unmatched(triangles: &[[usize; 3]], border: &[(usize, usize)]) -> Vec<(usize, usize)> {
+    let sides = || triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+    let inside: FxHashSet<(usize, usize)> = sides().collect();
+    let allowed: FxHashSet<(usize, usize)> = border.iter().copied().collect();
+    let missing = border.iter().filter(|edge| !inside.contains(edge)).map(|&(a, b)| (b, a));
+    sides().filter(|&(a, b)| !inside.contains(&(b, a)) && !allowed.contains(&(a, b))).chain(missing).collect()
+}
+
+/// Splits each triangle with an unmatched edge at the ends of other unmatched edges that lie on that edge.
+fn split_at_skipped_points(triangles: &mut Vec<[usize; 3]>, points: &[DVec2], unmatched: &[(usize, usize)]) {
+    let mut ends: Vec<usize> = unmatched.iter().flat_map(|&(a, b)| [a, b]).collect();
+    ends.sort_unstable();
+    ends.dedup();
+    let lonely: FxHashSet<(usize, usize)> = unmatched.iter().copied().collect();
+    let mut result = Vec::with_capacity(triangles.len() + ends.len());
+    for &triangle in triangles.iter() {
+        let turned = (0..3).map(|k| [triangle[k], triangle[(k + 1) % 3], triangle[(k + 2) % 3]]);
+        let split = turned.filter(|&[a, b, _]| lonely.contains(&(a, b))).find_map(|[a, b, c]| {
+            let on_edge = skipped(points, &ends, a, b);
+            (!on_edge.is_empty()).then_some((a, b, c, on_edge))
+        });
+        let Some((a, b, c, on_edge)) = split else {
+            result.push(triangle);
+            continue;
+        };
+        let mut from = a;
+        for to in on_edge.into_iter().chain([b]) {
+            result.push([from, to, c]);
+            from = to;
+        }
+    }
+    *triangles = result;
+}
+
+/// Those of `candidates` that lie between the points `a` and `b`, in order from `a`.
+fn skipped(points: &[DVec2], candidates: &[usize], a: usize, b: usize) -> Vec<usize> {
+    let along = points[b] - points[a];
+    let square = along.length_squared();
+    let mut found: Vec<(f64, usize)> = candidates
+        .iter()
+        .map(|&candidate| (points[candidate] - points[a], candidate))
+        .filter(|(offset, _)| along.perp_dot(*offset).abs() <= square * 1e-9)
+        .map(|(offset, candidate)| (along.dot(offset) / square, candidate))
+        .filter(|&(fraction, candidate)| candidate != a && candidate != b && fraction > 0.0 && fraction < 1.0)
+        .collect();
+    found.sort_by(|x, y| x.0.total_cmp(&y.0));
+    found.into_iter().map(|(_, candidate)| candidate).collect()
+}
+
+/// Flips inner edges whose opposite angles add up to more than half a turn, until there are none.
+fn flip(triangles: &mut [[usize; 3]], points: &[DVec2]) {
+    let mut owner: FxHashMap<(usize, usize), usize> = FxHashMap::default();
+    for (index, &[a, b, c]) in triangles.iter().enumerate() {
+        owner.extend([((a, b), index), ((b, c), index), ((c, a), index)]);
+    }
+    let mut pending: Vec<(usize, usize)> =
+        triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).filter(|(a, b)| a < b).collect();
+    // Each flip raises the smallest angles, so it ends by itself; the limit is for angles that rounding ties.
+    let mut left = 16 * triangles.len() * triangles.len().min(64);
+    while let Some((a, b)) = pending.pop() {
+        let (Some(&one), Some(&two)) = (owner.get(&(a, b)), owner.get(&(b, a))) else { continue };
+        let (c, d) = (opposite(triangles[one], a, b), opposite(triangles[two], a, b));
+        let [pa, pb, pc, pd] = [a, b, c, d].map(|index| points[index]);
+        let angles = angle(pc, pa, pb) + angle(pd, pb, pa);
+        let convex = twice_area(pa, pd, pc) > 0.0 && twice_area(pd, pb, pc) > 0.0;
+        if angles <= std::f64::consts::PI + 1e-9 || !convex || left == 0 {
+            continue;
+        }
+        left -= 1;
+        triangles[one] = [a, d, c];
+        triangles[two] = [d, b, c];
+        owner.remove(&(a, b));
+        owner.remove(&(b, a));
+        owner.extend([((a, d), one), ((d, c), one), ((c, a), one)]);
+        owner.extend([((d, b), two), ((b, c), two), ((c, d), two)]);
+        pending.extend([(a, d), (d, b), (b, c), (c, a)]);
+    }
+}
+
+/// The corner of `triangle` that is neither `a` nor `b`.
+fn opposite(triangle: [usize; 3], a: usize, b: usize) -> usize {
+    triangle.into_iter().find(|&corner| corner != a && corner != b).unwrap_or(a)
+}
+
+/// The angle (radians) at `tip` from `from` to `to`, counter-clockwise.
+fn angle(tip: DVec2, from: DVec2, to: DVec2) -> f64 {
+    let (u, v) = (from - tip, to - tip);
+    let angle = u.perp_dot(v).atan2(u.dot(v));
+    // Half a turn that rounding has turned over.
+    if angle < -std::f64::consts::FRAC_PI_2 { angle + std::f64::consts::TAU } else { angle }
+}
+
+fn twice_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
+    (b - a).perp_dot(c - a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
+        points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
+    }
+
+    fn area(rings: &[Vec<DVec2>]) -> f64 {
+        let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
+        let triangles = triangulate(rings).expect("a sound polygon");
+        assert!(unmatched(&triangles, &border(rings)).is_empty());
+        triangles.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c]) / 2.0).sum()
+    }
+
+    #[test]
+    fn points_on_straight_edges_keep_their_edges() {
+        let square = ring(&[(0., 0.), (1., 0.), (2., 0.), (2., 1.), (2., 2.), (1., 2.), (0., 2.), (0., 1.)]);
+        assert!((area(&[square]) - 4.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_grid_of_square_holes_in_line_has_no_t_junctions() {
+        let mut rings = vec![ring(&[(0., 0.), (9., 0.), (9., 9.), (0., 9.)])];
+        for (x, y) in
+            (0..3).flat_map(|i| (0..3).map(move |j| (1.0 + 3.0 * f64::from(i), 1.0 + 3.0 * f64::from(j))))
+        {
+            rings.push(ring(&[(x, y), (x, y + 1.), (x + 1., y + 1.), (x + 1., y)]));
+        }
+        assert!((area(&rings) - 72.0).abs() < 1e-12);
+    }
+
+    #[test]
+    fn a_turned_comb_has_no_slivers() {
+        let mut comb = Vec::new();
+        for tooth in 0..6 {
+            let x = 2.0 * f64::from(tooth);
+            comb.extend([(x, 1.), (x, 0.), (x + 1., 0.), (x + 1., 1.)]);
+        }
+        comb.extend([(11., 2.), (0., 2.)]);
+        let turned: Vec<DVec2> = ring(&comb).into_iter().map(|p| DVec2::from_angle(0.3).rotate(p)).collect();
+        let triangles = triangulate(std::slice::from_ref(&turned)).expect("a sound polygon");
+        let thinnest = triangles
+            .iter()
+            .map(|&[a, b, c]| twice_area(turned[a], turned[b], turned[c]))
+            .fold(f64::INFINITY, f64::min);
+        assert!(thinnest > 0.5, "{thinnest}");
+        assert!((area(&[turned]) - 17.0).abs() < 1e-12);
+    }
+}

@@ -1,0 +1,26 @@
+//! Geometry without rules or scripts: frames, cross-sections and sweeps.
+
+mod cap;
+mod face;
+mod frame;
+mod outline;
+mod path;
+mod quad;
+mod ring;
+mod section;
+mod shapes;
+mod skin;
+pub mod solid;
+mod span;
+mod strand;
+mod surface;
+mod sweep;
+#[cfg(test)]
+mod sweep_tests;
+
+pub use face::{face, sphere};
+pub use frame::Frame;
+pub use path::{Segment, Station};
+pub use section::{MOST_POINTS, Section, SectionPoint};
+pub use strand::{MOST_SIDES, Strand, tube};
+pub use sweep::{Lengthwise, SweepOptions, Swept, sweep};

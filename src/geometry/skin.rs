@@ -1,0 +1,180 @@
+//! How the side of a sweep is divided around: columns of vertices, joined to strips between edges.
+
+use std::ops::Range;
+
+use glam::{DVec2, DVec3};
+
+use super::Section;
+use super::section::Knot;
+
+/// One vertex in each row around: a point of the section and the outline's direction there.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Column {
+    pub(super) point: usize,
+    pub(super) tangent: Tangent,
+}
+
+/// A direction between those of up to three edges, each with its weight.
+///
+/// It is mixed only after the edges have been scaled, so that it stays between them.
+pub(super) type Tangent = [(DVec2, f64); 3];
+
+/// Columns that follow each other without an edge between.
+#[derive(Debug, Clone)]
+pub(super) struct Strip {
+    /// Each column and the next one are joined by faces.
+    pub(super) columns: Range<usize>,
+    /// The section's ring.
+    pub(super) ring: usize,
+    /// Whether the strip follows a straight line.
+    pub(super) straight: bool,
+}
+
+/// The division of a section's outline.
+#[derive(Debug)]
+pub(super) struct Skin {
+    pub(super) columns: Vec<Column>,
+    pub(super) strips: Vec<Strip>,
+}
+
+impl Skin {
+    /// Divides at the sharp points, or at every point unless the surface is smooth `around`.
+    ///
+    /// A ring without sharp points is divided at its first point, since texture coordinates begin there.
+    pub(super) fn new(section: &Section, around: bool) -> Self {
+        let mut skin = Self { columns: Vec::new(), strips: Vec::new() };
+        let mut first = 0;
+        for (index, ring) in section.rings().iter().enumerate() {
+            skin.add_ring(index, first, ring, section.is_open(), around);
+            first += ring.len();
+        }
+        skin
+    }
+
+    fn add_ring(&mut self, index: usize, first: usize, ring: &[Knot], open: bool, around: bool) {
+        let count = ring.len();
+        let is_sharp = |knot: &Knot| !around || !(knot.smooth || knot.inserted);
+        let start = if open { 0 } else { ring.iter().position(is_sharp).unwrap_or(0) };
+        let edges = if open { count - 1 } else { count };
+        let tangents = Tangents { ring, open, around };
+        let mut begin = self.columns.len();
+        for step in 0..edges {
+            let (from, to) = ((start + step) % count, (start + step + 1) % count);
+            if self.columns.len() == begin {
+                self.columns.push(Column { point: first + from, tangent: tangents.after(from) });
+            }
+            self.columns.push(Column { point: first + to, tangent: tangents.before(to) });
+            if step + 1 == edges || is_sharp(&ring[to]) {
+                let columns = begin..self.columns.len();
+                let tangents = || self.columns[columns.clone()].iter().flat_map(|column| column.tangent);
+                let first = self.columns[begin].tangent[0].0;
+                let straight = tangents().all(|(edge, weight)| weight == 0.0 || edge.dot(first) > 1.0 - 1e-9);
+                begin = columns.end;
+                self.strips.push(Strip { columns, ring: index, straight });
+            }
+        }
+    }
+
+    /// Texture coordinates (m) of all columns along a ring of points, after the strips' middles.
+    ///
+    /// They run to both sides from the middle of each strip, so that a face which tapers is not sheared.
+    pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> Vec<f64> {
+        let mut across = vec![0.0; self.columns.len()];
+        for (strip, middle) in self.strips.iter().zip(middles) {
+            let mut sum = 0.0;
+            for column in strip.columns.start + 1..strip.columns.end {
+                sum += points[self.columns[column].point].distance(points[self.columns[column - 1].point]);
+                across[column] = sum;
+            }
+            strip.columns.clone().for_each(|column| across[column] += middle - sum / 2.0);
+        }
+        across
+    }
+
+    /// The middle (m) of each strip on the way around its ring.
+    pub(super) fn middles(&self, points: &[DVec3]) -> Vec<f64> {
+        let (mut ring, mut sum) = (0, 0.0);
+        let middle = |strip: &Strip| {
+            if strip.ring != ring {
+                (ring, sum) = (strip.ring, 0.0);
+            }
+            let columns = self.columns[strip.columns.clone()].windows(2);
+            let length: f64 = columns.map(|pair| points[pair[0].point].distance(points[pair[1].point])).sum();
+            sum += length;
+            sum - length / 2.0
+        };
+        self.strips.iter().map(middle).collect()
+    }
+}
+
+fn only(edge: DVec2) -> Tangent {
+    [(edge, 1.0), (edge, 0.0), (edge, 0.0)]
+}
+
+/// Directions of a ring's outline at its points.
+struct Tangents<'a> {
+    ring: &'a [Knot],
+    open: bool,
+    around: bool,
+}
+
+impl Tangents<'_> {
+    /// The direction at a point as the edge before it sees it.
+    fn before(&self, point: usize) -> Tangent {
+        self.at(point, self.edge(self.previous(point)))
+    }
+
+    /// The direction at a point as the edge after it sees it.
+    fn after(&self, point: usize) -> Tangent {
+        self.at(point, self.edge(point))
+    }
+
+    fn at(&self, point: usize, edge: DVec2) -> Tangent {
+        let knot = self.ring[point];
+        if !self.around {
+            only(edge)
+        } else if knot.inserted {
+            self.between_corners(point)
+        } else if self.is_round(point) {
+            [(self.edge(self.previous(point)), 0.5), (self.edge(point), 0.5), (edge, 0.0)]
+        } else {
+            only(edge)
+        }
+    }
+
+    /// Whether the direction at a corner is halfway between both edges.
+    fn is_round(&self, corner: usize) -> bool {
+        let end = self.open && (corner == 0 || corner + 1 == self.ring.len());
+        self.ring[corner].smooth && !end
+    }
+
+    /// The direction at an inserted point: between those of the corners at both ends of its edge.
+    fn between_corners(&self, point: usize) -> Tangent {
+        let (mut from, mut to) = (self.previous(point), self.next(point));
+        while self.ring[from].inserted {
+            from = self.previous(from);
+        }
+        while self.ring[to].inserted {
+            to = self.next(to);
+        }
+        let [a, here, b] = [from, point, to].map(|index| self.ring[index].at);
+        let fraction = a.distance(here) / a.distance(b);
+        let before = if self.is_round(from) { 0.5 - 0.5 * fraction } else { 0.0 };
+        let after = if self.is_round(to) { 0.5 * fraction } else { 0.0 };
+        let edge = (b - a).normalize_or_zero();
+        [(edge, 1.0 - before - after), (self.edge(self.previous(from)), before), (self.edge(to), after)]
+    }
+
+    /// The direction of the edge that begins at a point.
+    fn edge(&self, point: usize) -> DVec2 {
+        (self.ring[self.next(point)].at - self.ring[point].at).normalize_or_zero()
+    }
+
+    fn next(&self, point: usize) -> usize {
+        (point + 1) % self.ring.len()
+    }
+
+    fn previous(&self, point: usize) -> usize {
+        (point + self.ring.len() - 1) % self.ring.len()
+    }
+}

@@ -1,0 +1,190 @@
+//! Applies recorded method calls to the objects, brackets and ends of chains in between.
+
+use std::sync::Arc;
+
+use mlua::Buffer;
+
+use super::Interpreting;
+use crate::error::{Error, Result};
+use crate::objects::{Call, Method, Object};
+use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_text};
+use crate::script::{Flusher, Machine, Objects, read_column};
+
+/// Where a piece of the chain has been applied up to.
+pub(crate) struct Applier {
+    pass: Arc<Interpreting>,
+    objects: Arc<Objects>,
+    methods: &'static [Method],
+    values: Arc<Values>,
+    triangle_limit: usize,
+    buffers: [Buffer; 3],
+    /// The next symbol to be applied.
+    position: usize,
+    /// Its chain.
+    chain: usize,
+    /// Whether the chain's object has begun its pass.
+    begun: bool,
+    /// The triangles of the chain's object that have been counted.
+    counted: usize,
+    entries: Vec<(usize, usize)>,
+    /// The first entry that is not wholly applied.
+    next: usize,
+    calls: Vec<u16>,
+    numbers: Vec<f64>,
+    ends: Vec<u32>,
+}
+
+impl Applier {
+    pub(crate) fn new(pass: Arc<Interpreting>, machine: &Machine, begin: Mark) -> Result<Self> {
+        let missing = || Error::new("the system has no object");
+        let objects = pass.plan.objects.clone().ok_or_else(missing)?;
+        let methods = objects.read(begin.chain, |object| Ok(object.kind().methods))?;
+        let (calls, numbers, counts) =
+            machine.prelude().recorded().map_err(|error| machine.translate(error))?;
+        Ok(Self {
+            values: Arc::clone(&machine.session.values),
+            triangle_limit: machine.session.options.limits.triangles,
+            pass,
+            objects,
+            methods,
+            buffers: [calls, numbers, counts],
+            position: begin.module,
+            chain: begin.chain,
+            begun: false,
+            counted: 0,
+            entries: Vec::new(),
+            next: 0,
+            calls: Vec::new(),
+            numbers: Vec::new(),
+            ends: Vec::new(),
+        })
+    }
+
+    /// Begins a batch of entries, each the place of a module and of its parameters.
+    pub(crate) fn begin_entries(&mut self, entries: &[(usize, usize)]) {
+        self.entries.clear();
+        self.entries.extend_from_slice(entries);
+        self.next = 0;
+    }
+
+    /// Applies the rest of a batch and all symbols before `until`.
+    pub(crate) fn finish_entries(&mut self, called: usize, until: usize) -> Result<()> {
+        if self.entries.is_empty() {
+            return self.walk(until);
+        }
+        self.flush(self.entries.len(), called)?;
+        self.walk(until)?;
+        self.count()
+    }
+
+    /// Applies brackets and ends before the symbol `until`.
+    fn walk(&mut self, until: usize) -> Result<()> {
+        while self.position < until {
+            let pass = Arc::clone(&self.pass);
+            let objects = Arc::clone(&self.objects);
+            // One lock for all symbols of a chain.
+            objects.write(self.chain, |object| {
+                if !self.begun {
+                    object.begin();
+                    self.begun = true;
+                }
+                while self.position < until {
+                    let symbol = pass.chain.symbols[self.position];
+                    self.position += 1;
+                    match symbol {
+                        OPEN => object.push(),
+                        CLOSE => object.pop()?,
+                        END => {
+                            object.end()?;
+                            break;
+                        }
+                        _ => {}
+                    }
+                }
+                Ok(())
+            })?;
+            if self.position > 0 && pass.chain.symbols[self.position - 1] == END {
+                self.count()?;
+                self.chain += 1;
+                self.begun = false;
+                self.counted = 0;
+            }
+        }
+        Ok(())
+    }
+
+    fn count(&mut self) -> Result<()> {
+        if !self.begun {
+            return Ok(());
+        }
+        let triangles = self.objects.read(self.chain, |object| Ok(object.triangles()))?;
+        self.pass.count_triangles(self.triangle_limit, triangles.saturating_sub(self.counted))?;
+        self.counted = triangles;
+        Ok(())
+    }
+
+    fn call(&self, object: &mut dyn Object, method: u16, numbers: &[f64]) -> Result<()> {
+        match self.methods.get(usize::from(method)).map(|method| &method.call) {
+            Some(Call::Write { numbers: Some(call), .. }) => call(object, numbers),
+            _ => Err(Error::new("this method cannot be recorded")),
+        }
+    }
+
+    fn blame(&self, error: Error, entry: usize) -> Error {
+        let Some((module, param)) = self.entries.get(entry) else { return error };
+        let plan = &self.pass.plan;
+        let symbol = self.pass.chain.symbols[*module];
+        let arity = usize::from(plan.grammar.arities()[usize::from(symbol)]);
+        let params = &self.pass.chain.params[*param..*param + arity];
+        let text = module_text(plan.grammar.symbols(), &self.values, symbol, params);
+        let interpretations = &plan.interpretations;
+        let (_, name, place) =
+            &interpretations.list[usize::from(interpretations.by_symbol[usize::from(symbol)])];
+        error.at(place.clone()).rule(format!("{name} (interpretation)")).module(text, self.pass.step)
+    }
+}
+
+impl Flusher for Applier {
+    fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
+        let [calls, numbers, counts] = self.buffers.clone();
+        read_column(calls, called, &mut self.calls)?;
+        let arguments: usize =
+            self.calls.iter().map(|call| self.methods[usize::from(*call)].arguments.len()).sum();
+        read_column(numbers, arguments, &mut self.numbers)?;
+        read_column(counts, entry.min(self.entries.len()), &mut self.ends)?;
+        let (mut call_at, mut number_at) = (0, 0);
+        for index in self.next..=entry {
+            let Some((module, _)) = self.entries.get(index).copied() else { break };
+            self.walk(module)?;
+            let end = if index < entry { self.ends[index] as usize } else { called };
+            if call_at < end {
+                let objects = Arc::clone(&self.objects);
+                let applied = objects.write(self.chain, |object| {
+                    if !self.begun {
+                        object.begin();
+                        self.begun = true;
+                    }
+                    while call_at < end {
+                        let method = self.calls[call_at];
+                        let count = self.methods[usize::from(method)].arguments.len();
+                        self.call(object, method, &self.numbers[number_at..number_at + count])?;
+                        call_at += 1;
+                        number_at += count;
+                    }
+                    Ok(())
+                });
+                applied.map_err(|error| self.blame(error, index))?;
+            }
+        }
+        self.next = entry;
+        Ok(())
+    }
+
+    fn chain(&self, _entry: usize) -> usize {
+        self.chain
+    }
+
+    fn applier(&mut self) -> Option<&mut Applier> {
+        Some(self)
+    }
+}

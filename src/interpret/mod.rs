@@ -1,0 +1,197 @@
+//! Interpretation: the modules of the chains, in order, change the objects.
+//!
+//! Comes in: chains and objects. Goes out: the same chains and changed objects. Rules record their method calls
+//! in columns, and the calls are applied here, so that a module crosses between Lua and Rust only if it asks the
+//! object something.
+
+mod apply;
+
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use crate::derive::{Job, Plan};
+use crate::error::{Error, Result};
+use crate::rules::{Chain, END, Mark};
+use crate::script::{Declared, Machine, write_column};
+pub(crate) use apply::Applier;
+
+/// Entries that one call into Lua interprets.
+const ENTRIES: usize = 4096;
+
+/// One pass over all chains, shared by the threads.
+pub(crate) struct Interpreting {
+    pub plan: Arc<Plan>,
+    pub chain: Chain,
+    pub step: usize,
+    /// Where each piece of whole chains begins; one more for the end.
+    pieces: Vec<Mark>,
+    next: AtomicUsize,
+    triangles: AtomicUsize,
+    failure: Mutex<Option<(usize, Error)>>,
+}
+
+impl Interpreting {
+    /// Interprets `chain` as it stands after `step` steps, and gives it back.
+    pub(crate) fn pass(
+        machine: &Machine,
+        plan: &Arc<Plan>,
+        _declared: &Declared,
+        chain: Chain,
+        step: usize,
+    ) -> Result<Chain> {
+        let starts = chain.starts(plan.grammar.arities());
+        let mut pieces = vec![Mark::default()];
+        for start in &starts[1..] {
+            let begin = pieces.last().copied().unwrap_or_default();
+            if start.module - begin.module >= plan.batch || start.module == chain.symbols.len() {
+                pieces.push(*start);
+            }
+        }
+        let count = pieces.len() - 1;
+        machine.current.objects.replace(plan.objects.clone());
+        let interpreting = Arc::new(Self {
+            plan: Arc::clone(plan),
+            chain,
+            step,
+            pieces,
+            next: AtomicUsize::new(0),
+            triangles: AtomicUsize::new(0),
+            failure: Mutex::new(None),
+        });
+        machine.crew.hand_out(machine, count, || Job::Interpret(Arc::clone(&interpreting)))?;
+        while interpreting.work(machine) {}
+        let done = machine.crew.reclaim(interpreting);
+        match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            Some((_, error)) => Err(error),
+            None => Ok(done.chain),
+        }
+    }
+
+    /// Takes a piece and interprets it; `false` when none is left.
+    pub(crate) fn work(self: &Arc<Self>, machine: &Machine) -> bool {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index + 1 >= self.pieces.len() {
+            return false;
+        }
+        let failed =
+            |failure: &Option<(usize, Error)>| failure.as_ref().is_some_and(|(first, _)| *first < index);
+        if failed(&self.failure.lock().unwrap_or_else(PoisonError::into_inner)) {
+            return true;
+        }
+        if let Err(error) = self.piece(machine, self.pieces[index], self.pieces[index + 1]) {
+            let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+            if !failed(&failure) {
+                *failure = Some((index, error));
+            }
+        }
+        true
+    }
+
+    fn piece(self: &Arc<Self>, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
+        let applier = Applier::new(Arc::clone(self), machine, begin)?;
+        machine.current.flusher.replace(Some(Box::new(applier)));
+        let result = self.run(machine, begin, end);
+        machine.current.flusher.replace(None);
+        result
+    }
+
+    fn run(&self, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
+        let arities = self.plan.grammar.arities();
+        let interpretations = &self.plan.interpretations;
+        let (mut entries, mut ids, mut arguments) = (Vec::new(), Vec::new(), Vec::new());
+        let mut param = begin.param;
+        let mut module = begin.module;
+        while module < end.module {
+            entries.clear();
+            ids.clear();
+            arguments.clear();
+            while module < end.module && entries.len() < ENTRIES {
+                let symbol = usize::from(self.chain.symbols[module]);
+                let id = interpretations.by_symbol[symbol];
+                if id != u16::MAX {
+                    entries.push((module, param));
+                    ids.push(id);
+                    let (bound, ..) = interpretations.list[usize::from(id)];
+                    arguments.extend_from_slice(&self.chain.params[param..param + bound]);
+                }
+                param += usize::from(arities[symbol]);
+                module += 1;
+            }
+            machine.session.stop.check()?;
+            self.interpret(machine, &entries, &ids, &arguments, module)?;
+        }
+        Ok(())
+    }
+
+    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`.
+    fn interpret(
+        &self,
+        machine: &Machine,
+        entries: &[(usize, usize)],
+        ids: &[u16],
+        arguments: &[f64],
+        until: usize,
+    ) -> Result<()> {
+        let lua = |error: mlua::Error| machine.translate(error);
+        let prelude = machine.prelude();
+        write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
+        write_column(prelude.input(arguments.len() * 8).map_err(lua)?, arguments)?;
+        prelude.counts(ids.len() * 4).map_err(lua)?;
+        if self.plan.grammar.draws_random() {
+            let mut keys = machine.current.keys.borrow_mut();
+            keys.clear();
+            keys.extend(entries.iter().map(|(module, _)| self.chain.keys[*module].interpretation()));
+            machine.current.used.set(0);
+        }
+        let with_applier = |act: &mut dyn FnMut(&mut Applier) -> Result<()>| -> Result<()> {
+            let mut flusher = machine.current.flusher.borrow_mut();
+            match flusher.as_mut().and_then(|flusher| flusher.applier()) {
+                Some(applier) => act(applier),
+                None => Err(Error::new("nothing is being interpreted")),
+            }
+        };
+        with_applier(&mut |applier| {
+            applier.begin_entries(entries);
+            Ok(())
+        })?;
+        let called: usize = match prelude.interpret.call::<(usize, usize)>(ids.len()) {
+            Ok((called, _)) => called,
+            Err(error) => {
+                let at: usize = prelude.at.call(()).unwrap_or(0);
+                // A machine that cannot even end the batch is thrown away with the run.
+                let _ = prelude.finish.call::<()>(());
+                return Err(self.blame(machine, machine.translate(error), entries.get(at).copied()));
+            }
+        };
+        with_applier(&mut |applier| applier.finish_entries(called, until))
+    }
+
+    /// An error with the interpretation rule and the module where it happened.
+    fn blame(&self, machine: &Machine, error: Error, entry: Option<(usize, usize)>) -> Error {
+        let Some((module, param)) = entry else { return error };
+        let symbol = self.chain.symbols[module];
+        if symbol <= END {
+            return error;
+        }
+        let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+        let params = &self.chain.params[param..param + arity];
+        let text =
+            crate::rules::module_text(self.plan.grammar.symbols(), &machine.session.values, symbol, params);
+        let interpretations = &self.plan.interpretations;
+        let (_, name, place) =
+            &interpretations.list[usize::from(interpretations.by_symbol[usize::from(symbol)])];
+        error.at(place.clone()).rule(format!("{name} (interpretation)")).module(text, self.step)
+    }
+
+    /// Counts triangles against the limit.
+    fn count_triangles(&self, machine_limit: usize, more: usize) -> Result<()> {
+        let total = self.triangles.fetch_add(more, Ordering::Relaxed) + more;
+        if total > machine_limit {
+            return Err(Error::new(format!("the system draws more than {machine_limit} triangles"))
+                .help("draw with fewer sides, derive fewer steps, or raise the limit: --triangle-limit N"));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,9 @@
+//! The command line.
+
+use std::process::ExitCode;
+
+mod commands;
+
+fn main() -> ExitCode {
+    commands::main()
+}

@@ -1,0 +1,344 @@
+//! How an object type says what scripts can do with it: said once, in the type's own file.
+
+use super::{Boxed, Object, Table, Value};
+use crate::error::{Error, Result, nearest};
+
+/// A type of object.
+pub struct Kind {
+    /// Its name in scripts, which is also its constructor's.
+    pub name: &'static str,
+    /// What it is; the first line is a summary.
+    pub doc: &'static str,
+    /// What its constructor takes.
+    pub fields: &'static [Field],
+    /// What scripts may call.
+    pub methods: &'static [Method],
+    /// Makes one from the constructor's table.
+    pub construct: fn(&Table) -> Result<Box<dyn Object>>,
+}
+
+/// A field of a constructor's table.
+pub struct Field {
+    /// Its name.
+    pub name: &'static str,
+    /// What it means, with the unit.
+    pub doc: &'static str,
+    /// Its type in Luau.
+    pub luau: fn() -> String,
+    /// The value where it is left out, as one would write it.
+    pub default: fn() -> String,
+}
+
+/// A method that scripts may call.
+pub struct Method {
+    /// Its name.
+    pub name: &'static str,
+    /// What it does; the first sentence is its help.
+    pub doc: &'static str,
+    /// Its arguments, `self` not counted.
+    pub arguments: &'static [Argument],
+    /// The type of its result in Luau; empty where it returns the object itself.
+    pub returns: fn() -> String,
+    /// The function.
+    pub call: Call,
+}
+
+/// An argument of a method.
+pub struct Argument {
+    /// Its name.
+    pub name: &'static str,
+    /// Its type in Luau.
+    pub luau: fn() -> String,
+}
+
+/// Calls a method by itself.
+pub type Read = fn(&dyn Object, &[Value]) -> Result<Value>;
+/// Calls a method that changes the object.
+pub type Write = fn(&mut dyn Object, &[Value]) -> Result<Value>;
+/// Calls a method that changes the object and takes only numbers.
+pub type WriteNumbers = fn(&mut dyn Object, &[f64]) -> Result<()>;
+
+/// How a method is called.
+pub enum Call {
+    /// It only reads, so rules may call it.
+    Read(Read),
+    /// It changes the object, so only interpretation rules may call it.
+    Write {
+        /// With any values.
+        values: Write,
+        /// With numbers only, where all its arguments are numbers: the fast way.
+        numbers: Option<WriteNumbers>,
+    },
+}
+
+impl Kind {
+    /// The method called `name`.
+    pub fn method(&self, name: &str) -> Option<&'static Method> {
+        self.methods.iter().find(|method| method.name == name)
+    }
+
+    /// The error for a name that is no method, with the nearest one that is.
+    pub fn unknown_method(&self, name: &str) -> Error {
+        let error = Error::new(format!("{} has no method or field called {name}", self.name));
+        match nearest(name, self.methods.iter().map(|method| method.name)) {
+            Some(near) => error.help(format!("did you mean {near}?")),
+            None => error.help(format!(
+                "it has {}",
+                self.methods.iter().map(|method| method.name).collect::<Vec<_>>().join(", ")
+            )),
+        }
+    }
+}
+
+/// Refuses entries of `table` that `fields` does not name.
+pub(crate) fn refuse_unknown(kind: &str, fields: &[Field], table: &Table) -> Result<()> {
+    for (key, value) in &table.entries {
+        let super::Key::Name(name) = key else {
+            return Err(Error::new(format!(
+                "{kind} takes named fields, but was given {value} without a name"
+            ))
+            .help(format!("write {kind} {{ {} = {value} }}", fields.first().map_or("name", |f| f.name))));
+        };
+        if !fields.iter().any(|field| field.name == &**name) {
+            let error = Error::new(format!("{kind} has no field called {name}"));
+            return Err(match nearest(name, fields.iter().map(|field| field.name)) {
+                Some(near) => error.help(format!("did you mean {near}?")),
+                None => error.help(format!(
+                    "it has {}",
+                    fields.iter().map(|field| field.name).collect::<Vec<_>>().join(", ")
+                )),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Declares the table that a constructor takes: a struct with documented, defaulted fields.
+///
+/// Gives the struct, its `Default`, `FIELDS` and `from_table`, which refuses unknown names and wrong types.
+macro_rules! fields {
+    (
+        $(#[doc = $doc:literal])+
+        pub struct $options:ident for $kind:literal {
+            $( $(#[doc = $field_doc:literal])+ pub $field:ident: $type:ty = $default:expr, )*
+        }
+    ) => {
+        $(#[doc = $doc])+
+        #[derive(Debug, Clone)]
+        pub struct $options {
+            $( $(#[doc = $field_doc])+ pub $field: $type, )*
+        }
+
+        impl Default for $options {
+            fn default() -> Self {
+                Self { $( $field: $default, )* }
+            }
+        }
+
+        impl $options {
+            /// The fields, for documentation.
+            pub const FIELDS: &'static [$crate::objects::Field] = &[$(
+                $crate::objects::Field {
+                    name: stringify!($field),
+                    doc: concat!($($field_doc, "\n"),+),
+                    luau: <$type as $crate::objects::Parameter>::luau,
+                    default: || {
+                        let value: $type = $default;
+                        $crate::objects::Parameter::into_value(value).to_string()
+                    },
+                },
+            )*];
+
+            /// Reads a constructor's table.
+            pub fn from_table(table: &$crate::objects::Table) -> $crate::error::Result<Self> {
+                $crate::objects::declare::refuse_unknown($kind, Self::FIELDS, table)?;
+                let mut options = Self::default();
+                $(
+                    if let Some(value) = table.get(stringify!($field)) {
+                        options.$field = $crate::objects::Parameter::from_value(value.clone())
+                            .map_err(|expected| expected.refuse($kind, stringify!($field), value))?;
+                    }
+                )*
+                Ok(options)
+            }
+        }
+    };
+}
+
+/// Declares the methods of an object type: an `impl` block whose methods scripts can call.
+///
+/// Gives the methods and `METHODS`. `&self` methods may be called while rewriting, `&mut self` ones while
+/// interpreting.
+macro_rules! methods {
+    ($object:ident = $kind:literal { $($body:tt)* }) => {
+        methods!(@next $object $kind [] $($body)*);
+    };
+    (@next $object:ident $kind:literal [$($info:expr,)*]) => {
+        impl $object {
+            /// The methods that scripts can call.
+            pub const METHODS: &'static [$crate::objects::Method] = &[$($info,)*];
+        }
+    };
+    (
+        @next $object:ident $kind:literal [$($info:expr,)*]
+        $(#[doc = $doc:literal])+
+        pub fn $method:ident(&mut $this:ident $(, $argument:ident: $type:ty)* $(,)?) $(-> $answer:ty)? $body:block
+        $($rest:tt)*
+    ) => {
+        impl $object {
+            $(#[doc = $doc])+
+            pub fn $method(&mut $this $(, $argument: $type)*) $(-> $answer)? $body
+        }
+        methods!(@next $object $kind [$($info,)* $crate::objects::Method {
+            name: stringify!($method),
+            doc: concat!($($doc, "\n"),+),
+            arguments: &[$(
+                $crate::objects::Argument {
+                    name: stringify!($argument),
+                    luau: <$type as $crate::objects::Parameter>::luau,
+                },
+            )*],
+            returns: <methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
+            call: $crate::objects::Call::Write {
+                values: |object, arguments| {
+                    let object = $crate::objects::declare::downcast_mut::<$object>(object)?;
+                    let mut arguments = $crate::objects::declare::Arguments::new($kind, stringify!($method), arguments);
+                    $( let $argument: $type = arguments.next(stringify!($argument))?; )*
+                    arguments.end()?;
+                    $crate::objects::Answer::answer(object.$method($($argument),*))
+                },
+                numbers: if true $(&& <$type as $crate::objects::Parameter>::IS_NUMBER)* {
+                    Some(|object, numbers| {
+                        let object = $crate::objects::declare::downcast_mut::<$object>(object)?;
+                        let mut numbers = $crate::objects::declare::Numbers::new($kind, stringify!($method), numbers);
+                        $( let $argument: $type = numbers.next(stringify!($argument))?; )*
+                        numbers.end();
+                        $crate::objects::Answer::answer(object.$method($($argument),*)).map(|_| ())
+                    })
+                } else {
+                    None
+                },
+            },
+        },] $($rest)*);
+    };
+    (
+        @next $object:ident $kind:literal [$($info:expr,)*]
+        $(#[doc = $doc:literal])+
+        pub fn $method:ident(&$this:ident $(, $argument:ident: $type:ty)* $(,)?) $(-> $answer:ty)? $body:block
+        $($rest:tt)*
+    ) => {
+        impl $object {
+            $(#[doc = $doc])+
+            pub fn $method(&$this $(, $argument: $type)*) $(-> $answer)? $body
+        }
+        methods!(@next $object $kind [$($info,)* $crate::objects::Method {
+            name: stringify!($method),
+            doc: concat!($($doc, "\n"),+),
+            arguments: &[$(
+                $crate::objects::Argument {
+                    name: stringify!($argument),
+                    luau: <$type as $crate::objects::Parameter>::luau,
+                },
+            )*],
+            returns: <methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
+            call: $crate::objects::Call::Read(|object, arguments| {
+                let object = $crate::objects::declare::downcast_ref::<$object>(object)?;
+                let mut arguments = $crate::objects::declare::Arguments::new($kind, stringify!($method), arguments);
+                $( let $argument: $type = arguments.next(stringify!($argument))?; )*
+                arguments.end()?;
+                $crate::objects::Answer::answer(object.$method($($argument),*))
+            }),
+        },] $($rest)*);
+    };
+    (@answer) => { () };
+    (@answer $answer:ty) => { $answer };
+}
+
+/// The arguments of a call, taken one after the other.
+pub(crate) struct Arguments<'a> {
+    kind: &'static str,
+    method: &'static str,
+    values: &'a [Value],
+    taken: usize,
+}
+
+impl<'a> Arguments<'a> {
+    pub(crate) fn new(kind: &'static str, method: &'static str, values: &'a [Value]) -> Self {
+        Self { kind, method, values, taken: 0 }
+    }
+
+    pub(crate) fn next<T: super::Parameter>(&mut self, name: &str) -> Result<T> {
+        let value = self.values.get(self.taken).cloned().unwrap_or(Value::Nil);
+        self.taken += 1;
+        T::from_value(value.clone())
+            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
+    }
+
+    pub(crate) fn end(&self) -> Result<()> {
+        if self.values.len() > self.taken {
+            return Err(Error::new(format!(
+                "{}:{} takes {} arguments, not {}",
+                self.kind,
+                self.method,
+                self.taken,
+                self.values.len()
+            )));
+        }
+        Ok(())
+    }
+}
+
+/// The arguments of a call that takes only numbers.
+pub(crate) struct Numbers<'a> {
+    kind: &'static str,
+    method: &'static str,
+    numbers: &'a [f64],
+    taken: usize,
+}
+
+impl<'a> Numbers<'a> {
+    pub(crate) fn new(kind: &'static str, method: &'static str, numbers: &'a [f64]) -> Self {
+        Self { kind, method, numbers, taken: 0 }
+    }
+
+    #[inline]
+    pub(crate) fn next<T: super::Parameter>(&mut self, name: &str) -> Result<T> {
+        let number = self.numbers.get(self.taken).copied().unwrap_or(f64::NAN);
+        self.taken += 1;
+        match T::from_number(number) {
+            Some(value) => Ok(value),
+            None => self.refuse::<T>(name, number),
+        }
+    }
+
+    #[cold]
+    fn refuse<T: super::Parameter>(&self, name: &str, number: f64) -> Result<T> {
+        let value = match Boxed::unpack(number) {
+            Boxed::Number(number) => Value::Number(number),
+            Boxed::Boolean(value) => Value::Boolean(value),
+            _ => Value::Nil,
+        };
+        T::from_value(value.clone())
+            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
+    }
+
+    /// Ends the reading of arguments; their number was checked before.
+    #[allow(clippy::unused_self, reason = "mirrors Arguments::end")]
+    pub(crate) fn end(&self) {}
+}
+
+pub(crate) fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
+    let any: &dyn std::any::Any = object;
+    any.downcast_ref().ok_or_else(wrong_type)
+}
+
+#[inline]
+pub(crate) fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
+    let any: &mut dyn std::any::Any = object;
+    any.downcast_mut().ok_or_else(wrong_type)
+}
+
+#[cold]
+fn wrong_type() -> Error {
+    Error::new("the method belongs to another type of object").help("call it with a colon: this:method()")
+}

@@ -1,0 +1,74 @@
+//! The objects that rules read and interpretation rules change, one type to a file.
+//!
+//! Comes in: values from scripts. Goes out: geometry for the scene. Objects know nothing of Lua or of chains.
+//!
+//! A new type is a new file and one line in [`KINDS`]: a struct, `fields!` for what its constructor takes,
+//! `methods!` for what scripts may call, and an implementation of [`Object`].
+
+mod boxed;
+#[macro_use]
+mod declare;
+mod distance;
+mod drawing;
+mod extruder;
+mod model;
+mod parameter;
+mod turtle;
+mod value;
+
+pub use boxed::Boxed;
+pub use declare::{Argument, Call, Field, Kind, Method};
+pub use drawing::Surface;
+pub use extruder::Extruder;
+pub use model::Model;
+pub use parameter::{Answer, Color, Parameter, Vector};
+pub use turtle::Turtle;
+pub use value::{Key, Table, Value};
+
+use std::any::Any;
+
+use crate::error::Result;
+use crate::scene::Scene;
+
+/// The built-in types that scripts can construct.
+pub static KINDS: &[&Kind] = &[&Extruder::KIND, &Turtle::KIND];
+
+/// Something that a script can make and ask, and that the modules of a chain may draw with.
+///
+/// A method that takes `&self` may be called while rewriting, one that takes `&mut self` only while interpreting.
+pub trait Object: Any + Send + Sync {
+    /// Its type: name, fields and methods.
+    fn kind(&self) -> &'static Kind;
+
+    /// A copy, for one chain of many.
+    fn boxed(&self) -> Box<dyn Object>;
+
+    /// Empties a drawing object before an interpretation pass.
+    fn begin(&mut self) {}
+
+    /// Whether [`Object::begin`] forgets all that earlier passes did.
+    fn begins_empty(&self) -> bool {
+        false
+    }
+
+    /// Remembers the frame where a branch opens.
+    fn push(&mut self) {}
+
+    /// Returns to the frame of the matching [`Object::push`].
+    fn pop(&mut self) -> Result<()> {
+        Ok(())
+    }
+
+    /// Closes what is still open at the end of a pass.
+    fn end(&mut self) -> Result<()> {
+        Ok(())
+    }
+
+    /// The number of triangles drawn so far, for the limit.
+    fn triangles(&self) -> usize {
+        0
+    }
+
+    /// Adds what it has drawn to `scene`; `name` and `feature` are for its instances.
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()>;
+}

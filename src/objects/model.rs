@@ -1,0 +1,95 @@
+//! What a derived system has drawn, as one thing that other systems can place.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DVec3};
+
+use super::{Kind, Object, Table};
+use crate::error::{Error, Result};
+use crate::scene::{Instance, Scene};
+
+/// The drawing of a derived system. It never changes.
+#[derive(Clone)]
+pub struct Model {
+    scene: Arc<Scene>,
+}
+
+methods! {
+    Model = "model" {
+        /// The lowest corner of the box around it (m).
+        pub fn low(&self) -> DVec3 {
+            self.scene.bounds().map_or(DVec3::ZERO, |(low, _)| low)
+        }
+
+        /// The highest corner of the box around it (m).
+        pub fn high(&self) -> DVec3 {
+            self.scene.bounds().map_or(DVec3::ZERO, |(_, high)| high)
+        }
+    }
+}
+
+impl Model {
+    /// The type, as scripts see it.
+    pub const KIND: Kind = Kind {
+        name: "model",
+        doc: "What a derived system has drawn, for placing elsewhere.",
+        fields: &[],
+        methods: Self::METHODS,
+        construct: |_: &Table| {
+            Err(Error::new("a model is not made, it is what derive returns")
+                .help("write local model = system:derive()"))
+        },
+    };
+
+    /// A model of all that `scene` shows.
+    pub fn new(scene: Scene) -> Self {
+        Self { scene: Arc::new(scene) }
+    }
+
+    /// The number of its triangles.
+    pub fn size(&self) -> usize {
+        self.scene.triangles()
+    }
+
+    /// Adds an instance of everything to `scene`, each at one of `frames`; its meshes are added once.
+    pub fn place(&self, scene: &mut Scene, frames: &[DAffine3], name: &str, feature: Option<&str>) {
+        let mut meshes = vec![None; self.scene.meshes.len()];
+        for frame in frames {
+            for instance in &self.scene.instances {
+                let mesh = *meshes[instance.mesh].get_or_insert_with(|| {
+                    let mut mesh = self.scene.meshes[instance.mesh].clone();
+                    for part in &mut mesh.parts {
+                        part.material = scene.material(&self.scene.materials[part.material]);
+                    }
+                    scene.meshes.push(mesh);
+                    scene.meshes.len() - 1
+                });
+                scene.instances.push(Instance {
+                    mesh,
+                    transform: *frame * instance.transform,
+                    name: name.to_owned(),
+                    feature: feature.map(str::to_owned),
+                });
+            }
+        }
+    }
+}
+
+impl Object for Model {
+    fn kind(&self) -> &'static Kind {
+        const { &Self::KIND }
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn triangles(&self) -> usize {
+        self.size()
+    }
+
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        self.place(scene, &[DAffine3::IDENTITY], name, feature);
+        Ok(())
+    }
+}

@@ -1,0 +1,162 @@
+//! Values as scripts have them, owned by Rust: parameters of modules, arguments and results of methods.
+
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::sync::Arc;
+
+use super::Object;
+
+/// A number, a boolean, a string, a frozen table or an object.
+#[derive(Clone)]
+pub enum Value {
+    /// Nothing, or an optional value that was left out.
+    Nil,
+    /// `true` or `false`.
+    Boolean(bool),
+    /// A number.
+    Number(f64),
+    /// A string.
+    Text(Arc<str>),
+    /// A frozen table.
+    Table(Arc<Table>),
+    /// A geometry or another object, shared and unchanging.
+    Object(Arc<dyn Object>),
+}
+
+/// A frozen table of values.
+#[derive(Clone, Default, PartialEq, Eq, Hash)]
+pub struct Table {
+    /// The class that gives it operators in scripts, such as the vectors of the standard library.
+    pub class: Option<Arc<str>>,
+    /// The entries, in the order of their keys.
+    pub entries: Vec<(Key, Value)>,
+}
+
+/// The key of a table's entry.
+#[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Key {
+    /// A position, from 1.
+    Index(i64),
+    /// A name.
+    Name(Arc<str>),
+}
+
+impl PartialEq for Value {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Nil, Self::Nil) => true,
+            (Self::Boolean(a), Self::Boolean(b)) => a == b,
+            (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
+            (Self::Text(a), Self::Text(b)) => a == b,
+            (Self::Table(a), Self::Table(b)) => a == b,
+            (Self::Object(a), Self::Object(b)) => Arc::ptr_eq(a, b),
+            _ => false,
+        }
+    }
+}
+
+impl Eq for Value {}
+
+impl Hash for Value {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        std::mem::discriminant(self).hash(state);
+        match self {
+            Self::Nil => {}
+            Self::Boolean(value) => value.hash(state),
+            Self::Number(value) => value.to_bits().hash(state),
+            Self::Text(value) => value.hash(state),
+            Self::Table(value) => value.hash(state),
+            Self::Object(value) => Arc::as_ptr(value).cast::<()>().hash(state),
+        }
+    }
+}
+
+impl Value {
+    /// What it is, for messages: "a number", "a table".
+    pub fn describe(&self) -> &'static str {
+        match self {
+            Self::Nil => "nothing",
+            Self::Boolean(_) => "a boolean",
+            Self::Number(_) => "a number",
+            Self::Text(_) => "a string",
+            Self::Table(_) => "a table",
+            Self::Object(_) => "an object",
+        }
+    }
+}
+
+impl Table {
+    /// The value of the entry called `name`.
+    pub fn get(&self, name: &str) -> Option<&Value> {
+        self.entries
+            .iter()
+            .find(|(key, _)| matches!(key, Key::Name(known) if **known == *name))
+            .map(|(_, value)| value)
+    }
+
+    /// The entries 1, 2, 3 and so on, as long as there are.
+    pub fn list(&self) -> Vec<Value> {
+        let mut list = Vec::new();
+        for (key, value) in &self.entries {
+            if matches!(key, Key::Index(index) if usize::try_from(*index) == Ok(list.len() + 1)) {
+                list.push(value.clone());
+            }
+        }
+        list
+    }
+}
+
+impl fmt::Display for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Nil => f.write_str("nil"),
+            Self::Boolean(value) => write!(f, "{value}"),
+            Self::Number(value) => write_number(*value, f),
+            Self::Text(value) => write!(f, "{value:?}"),
+            Self::Object(value) => f.write_str(value.kind().name),
+            Self::Table(table) => {
+                f.write_str("{")?;
+                for (i, (key, value)) in table.entries.iter().enumerate() {
+                    f.write_str(if i > 0 { "," } else { "" })?;
+                    match key {
+                        Key::Index(_) => write!(f, "{value}")?,
+                        Key::Name(name) => write!(f, "{name}={value}")?,
+                    }
+                }
+                f.write_str("}")
+            }
+        }
+    }
+}
+
+/// Writes the shortest decimal that reads back as the same number.
+fn write_number(value: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    if value.is_nan() {
+        f.write_str("nan")
+    } else if value == 0.0 {
+        f.write_str(if value.is_sign_negative() { "-0" } else { "0" })
+    } else if value.is_finite() && !(1e-7..1e21).contains(&value.abs()) {
+        write!(f, "{value:e}")
+    } else {
+        write!(f, "{value}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_written_as_the_shortest_decimal() {
+        for (number, text) in [
+            (24.0, "24"),
+            (0.1, "0.1"),
+            (1.0 / 3.0, "0.3333333333333333"),
+            (1e300, "1e300"),
+            (-2.5e-9, "-2.5e-9"),
+        ] {
+            assert_eq!(Value::Number(number).to_string(), text);
+            assert!((text.parse::<f64>().unwrap() - number).abs() == 0.0);
+        }
+    }
+}

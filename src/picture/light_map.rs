@@ -1,0 +1,134 @@
+//! The frame of a depth map: parallel projection along the light, fitted to the model.
+
+use super::stage::Draw;
+use glam::{Affine3A, Mat3A, Vec3A};
+
+/// A parallel projection of the stage onto a grid of texels.
+#[derive(Debug, Clone)]
+pub(super) struct Frame {
+    /// From the stage to texels to the right and downwards, and the distance along the light, 0 or more.
+    pub to_texels: Affine3A,
+    /// Texels in a row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Side of a texel, in the stage's units.
+    pub texel: f32,
+    /// Distance from the nearest to the farthest point, in the stage's units.
+    pub depth: f32,
+}
+
+impl Frame {
+    /// The frame for light from `direction`, a unit vector, with about `side` times `side` texels.
+    pub(super) fn fit(hull: &[Vec3A], direction: Vec3A, side: f32) -> Self {
+        let upright = if direction.z.abs() > 0.99 { Vec3A::Y } else { Vec3A::Z };
+        let right = upright.cross(direction).normalize();
+        let up = direction.cross(right);
+        let turn = Mat3A::from_cols(right, up, -direction).transpose();
+        let (low, high) = hull
+            .iter()
+            .map(|point| turn * *point)
+            .fold(None, |bounds: Option<(Vec3A, Vec3A)>, p| {
+                Some(bounds.map_or((p, p), |(low, high)| (low.min(p), high.max(p))))
+            })
+            .unwrap_or_default();
+        let pad = Vec3A::splat(0.005);
+        let (low, high) = (low - pad, high + pad);
+        let size = high - low;
+        // A long narrow model has a long narrow map, with square texels.
+        let texel = ((size.x * size.y).sqrt() / side).max(size.x.max(size.y) / (8.0 * side));
+        let count = |length: f32| (length / texel).ceil().max(1.0) as usize;
+        let scale = Mat3A::from_diagonal(glam::Vec3::new(1.0 / texel, 1.0 / texel, 1.0));
+        let matrix3 = scale * turn;
+        Self {
+            to_texels: Affine3A { matrix3, translation: -(scale * low) },
+            width: count(size.x),
+            height: count(size.y),
+            texel,
+            depth: size.z,
+        }
+    }
+
+    /// The number of texels.
+    pub(super) fn texels(&self) -> usize {
+        self.width * self.height
+    }
+}
+
+/// Which samples a translucent surface covers: as many of a hundred as its opacity says, and for each surface
+/// others.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Coverage {
+    opacity: f32,
+    seed: u32,
+    /// Samples across and down a block, in each of which as many are covered, give or take one.
+    block: [usize; 2],
+}
+
+impl Coverage {
+    /// The coverage of `draw` in blocks of so many samples across and down.
+    pub(super) fn of(draw: &Draw, block: [usize; 2]) -> Self {
+        Self { opacity: draw.opacity, seed: draw.first.wrapping_mul(0x9e37_79b9), block }
+    }
+
+    /// Whether the surface covers all samples.
+    pub(super) fn is_full(self) -> bool {
+        self.opacity >= 1.0
+    }
+
+    /// Whether the surface covers sample `x`, `y`.
+    #[inline]
+    pub(super) fn covers(self, x: usize, y: usize) -> bool {
+        self.is_full() || self.threshold(x, y) < self.opacity
+    }
+
+    fn threshold(self, x: usize, y: usize) -> f32 {
+        let [columns, rows] = self.block;
+        let count = columns * rows;
+        let place = y % rows * columns + x % columns;
+        // Odd steps visit all of a power of two; other surfaces use other steps, so that they do not line up.
+        let step = 2 * (self.seed as usize >> 16) + 5;
+        let turn = place.wrapping_mul(step) % count;
+        let start = noise((x / columns) as u32, (y / rows) as u32, self.seed);
+        (turn as f32 / count as f32 + start).fract()
+    }
+}
+
+/// A number from 0 to 1 that looks random.
+pub(super) fn noise(x: u32, y: u32, seed: u32) -> f32 {
+    let mut bits = x.wrapping_mul(0x8da6_b343) ^ y.wrapping_mul(0xd816_3841) ^ seed.wrapping_mul(0xcb1a_b31f);
+    bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
+    bits = (bits ^ (bits >> 15)).wrapping_mul(0x846c_a68b);
+    ((bits ^ (bits >> 16)) >> 8) as f32 / 16_777_216.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_holds_the_hull() {
+        let hull = [Vec3A::ZERO, Vec3A::new(1.0, 0.2, 0.3), Vec3A::new(-0.5, 0.1, 0.9)];
+        for direction in [Vec3A::Z, Vec3A::new(0.6, 0.0, -0.8), Vec3A::Y] {
+            let frame = Frame::fit(&hull, direction, 100.0);
+            for point in hull {
+                let at = frame.to_texels.transform_point3a(point);
+                assert!(
+                    at.x >= 0.0 && at.x < frame.width as f32 && at.y >= 0.0 && at.y < frame.height as f32
+                );
+                assert!(at.z >= 0.0 && at.z <= frame.depth);
+                let toward = frame.to_texels.transform_point3a(point + direction * 0.1);
+                assert!(
+                    (at.z - toward.z - 0.1).abs() < 1e-5 && at.truncate().distance(toward.truncate()) < 1e-3
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn noise_covers_as_much_as_the_opacity_says() {
+        let coverage = Coverage { opacity: 0.3, seed: 5, block: [4, 4] };
+        let covered = (0..10_000).filter(|i| coverage.covers(i % 100, i / 100)).count();
+        assert!((2850..3150).contains(&covered), "{covered} of 10000");
+    }
+}

@@ -1,0 +1,70 @@
+//! Pictures of a scene, made without a graphics card or a display.
+//!
+//! Comes in: a [`Scene`] and the wishes of a [`Picture`]. Goes out: an image. It never changes the scene and
+//! writes no file. The same scene gives the same bytes for any number of threads.
+//!
+//! In order: the scene is checked and moved to the origin (`stage`), a viewpoint is chosen (`view`) and the
+//! camera fitted (`camera`); depth maps are drawn from the sun (`sun`) and from many directions of the sky
+//! (`sky`), and from them how the ground is lit (`floor`); the camera's samples learn which triangle they see
+//! (`visible`); each pixel's triangles become points on a surface (`surface`), are lit (`shade`) and mixed
+//! into a colour (`develop`).
+
+#![allow(
+    clippy::cast_possible_truncation,
+    reason = "numbers of pixels, texels and triangles are checked against their limits once, at the start"
+)]
+
+mod camera;
+mod develop;
+mod floor;
+mod light_map;
+mod points;
+mod raster;
+mod settings;
+mod shade;
+mod sky;
+mod stage;
+mod sun;
+mod surface;
+mod texture;
+mod tone;
+mod view;
+mod visible;
+
+#[cfg(test)]
+mod samples;
+#[cfg(test)]
+mod tests;
+
+pub use settings::{Background, Picture, Quality};
+
+use crate::error::Result;
+use crate::scene::Scene;
+use image::RgbaImage;
+
+/// The picture of `scene` as sRGB with straight opacity; opaque unless the background is clear.
+///
+/// Corners with a coordinate that is not finite hide their triangles. Fails if the size is zero or beyond
+/// 16384, a texture cannot be read, or the scene names a mesh, material or corner that it does not have.
+pub fn render(scene: &Scene, picture: &Picture) -> Result<RgbaImage> {
+    picture.check()?;
+    let stage = stage::Stage::new(scene)?;
+    let textures = texture::load(&scene.materials)?;
+    let detail = settings::Detail::of(picture.quality, stage.triangles());
+    let eye = view::viewpoint(&stage, picture);
+    let camera = camera::Camera::fit(&stage, eye, [picture.width, picture.height]);
+    let sun = sun::Sun::new(&stage, eye, &detail);
+    let sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
+    // A little below the model, so that what lies on the ground is not mixed with it.
+    let height = stage.bounds.0.z - 0.0005;
+    let floor = picture.ground.then(|| floor::Floor::new(&stage, &sun, &sky, height));
+    let light = shade::Light {
+        stage: &stage,
+        textures: &textures,
+        camera: &camera,
+        sun: &sun,
+        sky: &sky,
+        floor: floor.as_ref(),
+    };
+    Ok(develop::develop(&light, picture, &detail))
+}

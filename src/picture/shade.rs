@@ -1,0 +1,246 @@
+//! How a point on a surface looks in the light of sun, sky and ground.
+
+use super::camera::Camera;
+use super::floor::Floor;
+use super::sky::{SUN, Sky};
+use super::stage::Stage;
+use super::sun::Sun;
+use super::surface::Surface;
+use super::texture::Texture;
+use glam::{Vec2, Vec3, Vec3A};
+use std::f32::consts::{PI, TAU};
+
+/// The part of light that passes through leaves.
+const THROUGH: f32 = 0.32;
+
+/// All that shading needs to know.
+pub(super) struct Light<'a> {
+    /// The model.
+    pub stage: &'a Stage<'a>,
+    /// Of each material.
+    pub textures: &'a [Option<Texture>],
+    /// Where it is seen from.
+    pub camera: &'a Camera,
+    /// The sun.
+    pub sun: &'a Sun,
+    /// The sky.
+    pub sky: &'a Sky,
+    /// The ground, if there is one.
+    pub floor: Option<&'a Floor>,
+}
+
+/// A surface that a part of a pixel sees, and the light that it has gathered.
+#[derive(Debug)]
+pub(super) struct Fragment {
+    /// The surface.
+    pub surface: Surface,
+    /// Its turn and how many take turns in using the maps of the sky and the lookups in the sun's.
+    pub share: (usize, usize),
+    /// A number from 0 to 1 that varies from pixel to pixel.
+    pub noise: f32,
+    /// Irradiance by the sky, and the same if nothing were in the way.
+    sky: [Vec3A; 2],
+    /// The visible part of what the surface mirrors, and the same if nothing were in the way.
+    mirrored: [f32; 2],
+}
+
+impl Fragment {
+    /// A fragment without light.
+    pub(super) fn new(surface: Surface, noise: f32) -> Self {
+        Self { surface, share: (0, 1), noise, sky: [Vec3A::ZERO; 2], mirrored: [0.0; 2] }
+    }
+
+    /// Whether another `surface` in the same pixel would look the same.
+    pub(super) fn joins(&self, surface: &Surface) -> bool {
+        let own = &self.surface;
+        own.material == surface.material
+            && own.normal.dot(surface.normal) > 0.94
+            && own.plane.dot(surface.plane) > 0.85
+            && (own.position - surface.position).length_squared() < 1e-5
+    }
+
+    /// The part of the sky's light that arrives, for each colour.
+    fn openness(&self) -> Vec3 {
+        let [seen, all] = self.sky;
+        Vec3::from(seen / all.max(Vec3A::splat(1e-6)))
+    }
+}
+
+/// What of a fragment the sky needs to know, close together in memory.
+struct Probe {
+    point: Vec3A,
+    plane: Vec3A,
+    normal: Vec3A,
+    mirror: Vec3A,
+    spin: Vec2,
+    share: (usize, usize),
+    sky: [Vec3A; 2],
+    mirrored: [f32; 2],
+}
+
+impl Probe {
+    fn new(fragment: &Fragment, lift: f32) -> Self {
+        let surface = &fragment.surface;
+        Self {
+            point: surface.rounded + surface.plane * lift,
+            plane: surface.plane,
+            normal: surface.normal,
+            mirror: surface.mirror(),
+            spin: Vec2::from_angle(fragment.noise * TAU),
+            share: fragment.share,
+            sky: [Vec3A::ZERO; 2],
+            mirrored: [0.0; 2],
+        }
+    }
+}
+
+impl Light<'_> {
+    /// Collects the light of all directions of the sky for `fragments`, which are close together.
+    pub(super) fn gather(&self, fragments: &mut [Fragment]) {
+        let count = self.sky.maps.len();
+        let mut probes: Vec<Probe> =
+            fragments.iter().map(|fragment| Probe::new(fragment, self.sky.lift)).collect();
+        for (index, map) in self.sky.maps.iter().enumerate() {
+            for probe in &mut probes {
+                let (turn, of) = probe.share;
+                if of > 1 && index * of / count != turn {
+                    continue;
+                }
+                let facing = probe.normal.dot(map.direction).max(0.0);
+                // A lobe this wide takes in enough directions to be smooth, for any roughness.
+                let lobe = probe.mirror.dot(map.direction).max(0.0).powi(4);
+                if facing <= 0.0 && lobe < 0.01 {
+                    continue;
+                }
+                let light = map.light * facing;
+                probe.sky[1] += light;
+                probe.mirrored[1] += lobe;
+                let seen = probe.plane.dot(map.direction) > 0.0 && map.reaches(probe.point, probe.spin);
+                if seen {
+                    let strength = self.strength(probe.point, map.direction);
+                    probe.sky[0] += light * strength;
+                    probe.mirrored[0] += lobe * strength;
+                }
+            }
+        }
+        for (fragment, probe) in fragments.iter_mut().zip(probes) {
+            (fragment.sky, fragment.mirrored) = (probe.sky, probe.mirrored);
+        }
+    }
+
+    /// How bright what lies in an unblocked `direction` from `point` is, compared with the open sky's or
+    /// the open ground's there.
+    fn strength(&self, point: Vec3A, direction: Vec3A) -> f32 {
+        match self.floor {
+            Some(floor) if direction.z < 0.0 => floor.light(point, direction),
+            _ => 1.0,
+        }
+    }
+
+    /// The light that `fragment` sends to the camera, after [`Light::gather`].
+    pub(super) fn color(&self, fragment: &Fragment) -> Vec3 {
+        let surface = &fragment.surface;
+        let diffuse = surface.base * (1.0 - surface.metallic);
+        let glossy = Vec3::splat(0.04).lerp(surface.base, surface.metallic);
+        let facing = surface.normal.dot(surface.view).max(0.03);
+
+        let open = fragment.openness();
+        let mut sky = self.sky.open(surface.normal) * bounced(open, diffuse);
+        let mut color = surface.emissive;
+        let toward = surface.normal.dot(self.sun.direction);
+        if toward > 0.0 {
+            let seen = self.sun_seen(fragment, surface.normal);
+            let kept = if surface.thin { 1.0 - 0.5 * THROUGH } else { 1.0 };
+            let light = SUN * (toward * seen);
+            color += light * (diffuse * (kept / PI) + self.gloss(surface, glossy, facing, toward));
+        } else if surface.thin {
+            // What shines through a leaf is more saturated than what it reflects.
+            let seen = self.sun_seen(fragment, -surface.normal);
+            color += SUN * diffuse * diffuse.powf(0.35) * (-toward * seen * 1.6 * THROUGH / PI);
+        }
+        if surface.thin {
+            sky += self.sky.open(-surface.normal) * open * THROUGH;
+        }
+        color += diffuse * sky / PI;
+
+        let [seen, all] = fragment.mirrored;
+        let unblocked = if all > 1e-3 { seen / all } else { open.element_sum() / 3.0 };
+        // What stands in the way of a reflection is the model itself, in the shade more often than not.
+        let blocker = self.sky.open(surface.normal) * open * (0.25 / PI) * surface.base.lerp(Vec3::ONE, 0.3);
+        let reflected = blocker.lerp(self.sky.reflection(surface.mirror(), surface.roughness), unblocked);
+        color + reflected * mirror_part(glossy, surface.roughness, facing)
+    }
+
+    /// The ground's brightness at `fragment` compared with its brightness without the model.
+    pub(super) fn ground(&self, fragment: &Fragment) -> Vec3 {
+        let sky = self.sky.open(Vec3A::Z);
+        let sun = SUN * self.sun.direction.z;
+        let seen = self.sun_seen(fragment, Vec3A::Z);
+        let part = (sky * bounced(fragment.openness(), Vec3::splat(0.5)) + sun * seen) / (sky + sun);
+        // Half as blue as it would be, since the eye takes the sky's light for white.
+        part.lerp(Vec3::splat(part.element_sum() / 3.0), 0.5)
+    }
+
+    fn sun_seen(&self, fragment: &Fragment, normal: Vec3A) -> f32 {
+        self.sun.visibility(fragment.surface.rounded, normal, fragment.noise * TAU, fragment.share)
+    }
+
+    /// The sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's
+    /// Fresnel.
+    fn gloss(&self, surface: &Surface, glossy: Vec3, facing: f32, toward: f32) -> Vec3 {
+        let half = (surface.view + self.sun.direction).normalize_or(surface.normal);
+        let (across, along) = (surface.normal.dot(half).max(0.0), surface.view.dot(half).max(0.0));
+        // The sun is a disc, and a sharper highlight than this would sparkle.
+        let alpha = (surface.roughness * surface.roughness).max(0.02);
+        let squared = alpha * alpha;
+        let spread = across * across * (squared - 1.0) + 1.0;
+        let density = squared / (PI * spread * spread);
+        let seen = toward * (facing * facing * (1.0 - squared) + squared).sqrt();
+        let lit = facing * (toward * toward * (1.0 - squared) + squared).sqrt();
+        let fresnel = glossy + (Vec3::ONE - glossy) * (1.0 - along).powi(5);
+        (fresnel * (density * 0.5 / (seen + lit).max(1e-4))).min(Vec3::splat(12.0))
+    }
+}
+
+/// The part of the surroundings' light that a surface mirrors.
+///
+/// Method: Karis, "Physically based shading on mobile", 2014.
+fn mirror_part(glossy: Vec3, roughness: f32, facing: f32) -> Vec3 {
+    let r =
+        [1.0 - roughness, 0.0425 - 0.0275 * roughness, 1.04 - 0.572 * roughness, 0.022 * roughness - 0.04];
+    let a = (r[0] * r[0]).min((-9.28 * facing).exp2()) * r[0] + r[1];
+    glossy * (-1.04 * a + r[2]) + Vec3::splat((1.04 * a + r[3]).max(0.0))
+}
+
+/// The part of the light that arrives in a crease that is `open` to this part and sends on light by its
+/// `albedo`.
+///
+/// Method: Jimenez et al., "Practical realtime strategies for accurate indirect occlusion", 2016.
+fn bounced(open: Vec3, albedo: Vec3) -> Vec3 {
+    let a = albedo * 2.0404 - 0.3324;
+    let b = albedo * -4.7951 + 0.6417;
+    let c = albedo * 2.7552 + 0.6903;
+    open.max(((open * a + b) * open + c) * open)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_crease_between_white_walls_is_lighter_than_between_black_ones() {
+        let open = Vec3::splat(0.4);
+        assert!((bounced(open, Vec3::ZERO).x - 0.4).abs() < 1e-3);
+        assert!(bounced(open, Vec3::splat(0.8)).x > 0.55);
+        assert!((bounced(Vec3::ONE, Vec3::splat(0.8)).x - 1.0).abs() < 0.05);
+    }
+
+    #[test]
+    fn a_surface_mirrors_no_more_than_there_is() {
+        for i in 0..100 {
+            let (roughness, facing) = ((i % 10) as f32 / 9.0, (i / 10) as f32 / 9.0);
+            let part = mirror_part(Vec3::ONE, roughness, facing);
+            assert!(part.x > 0.3 && part.x < 1.01, "{part} at roughness {roughness}, facing {facing}");
+        }
+    }
+}

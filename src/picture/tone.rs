@@ -1,0 +1,57 @@
+//! From light to the colours of a screen.
+
+use glam::Vec3;
+
+/// Compresses light of any strength to 0 to 1, keeping hue and saturation of what is not glaring.
+///
+/// Method: Khronos Group, "PBR Neutral Tone Mapper", 2024, with half of its contrast in the shadows, which
+/// makes dark colours too strong.
+pub(super) fn compress(light: Vec3) -> Vec3 {
+    const START: f32 = 0.8 - 0.02;
+    const DESATURATION: f32 = 0.15;
+    let light = light.max(Vec3::ZERO);
+    let least = light.min_element();
+    let offset = if least < 0.08 { 0.5 * least - 3.125 * least * least } else { 0.02 };
+    let light = light - offset;
+    let peak = light.max_element();
+    if peak < START {
+        return light;
+    }
+    let span = 1.0 - START;
+    let compressed = 1.0 - span * span / (peak + span - START);
+    let faded = 1.0 - 1.0 / (DESATURATION * (peak - compressed) + 1.0);
+    (light * (compressed / peak)).lerp(Vec3::splat(compressed), faded)
+}
+
+/// The sRGB byte of a linear value from 0 to 1.
+pub(super) fn encode(linear: f32) -> u8 {
+    let x = linear.clamp(0.0, 1.0);
+    let curved = if x <= 0.003_130_8 { 12.92 * x } else { 1.055 * x.powf(1.0 / 2.4) - 0.055 };
+    (curved * 255.0 + 0.5) as u8
+}
+
+/// The linear value, 0 to 1, of an sRGB value from 0 to 1.
+pub(super) fn decode(curved: f32) -> f32 {
+    if curved <= 0.040_45 { curved / 12.92 } else { ((curved + 0.055) / 1.055).powf(2.4) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_byte_survives_decoding_and_encoding() {
+        let bytes = (0..=255_u8).filter(|byte| encode(decode(f32::from(*byte) / 255.0)) == *byte).count();
+        assert_eq!(bytes, 256);
+    }
+
+    #[test]
+    fn more_light_is_never_darker_and_never_too_bright() {
+        let mut last = 0.0;
+        for i in 1..1000 {
+            let now = compress(Vec3::splat(i as f32 * 0.02)).x;
+            assert!(now > last && now <= 1.0, "{now} after {last}");
+            last = now;
+        }
+    }
+}

@@ -1,0 +1,25 @@
+//! Rewriting without scripts: symbols, chains, patterns and how they match.
+//!
+//! Comes in: declarations and patterns as text. Goes out: a [`Grammar`] that tells which rules may apply to a
+//! module of a [`Chain`]. It never runs Lua: guards and successors are only known to exist.
+
+mod chain;
+mod grammar;
+mod links;
+mod pattern;
+mod stream;
+mod symbols;
+mod text;
+mod values;
+
+pub use chain::{CLOSE, Chain, END, Mark, OPEN, Symbol};
+pub use grammar::{Choice, Grammar, Rule};
+pub use links::Links;
+pub(crate) use pattern::Bindings;
+pub use pattern::{Context, Item, Pattern};
+pub use stream::{Key, Stream};
+pub use symbols::{FIRST_SYMBOL, Signature, Symbols};
+pub use text::{chain_text, module_text, write_chains};
+pub use values::Values;
+
+pub use crate::objects::Boxed;

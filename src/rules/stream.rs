@@ -1,0 +1,107 @@
+//! Random numbers that depend on the seed and on where a module comes from, and on nothing else.
+
+use rand_core::{Rng, SeedableRng};
+use rand_xoshiro::Xoshiro256PlusPlus;
+
+/// The seed and a module's lineage, mixed into one number.
+///
+/// A child's key follows from its parent's and its place among the successors, so a module keeps its random
+/// numbers whatever happens elsewhere in the chain.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub struct Key(pub u64);
+
+impl Key {
+    /// The key of a whole system.
+    pub fn seed(seed: u64) -> Self {
+        Self(mix(seed))
+    }
+
+    /// The key of a chain that came from the feature with this id.
+    #[must_use]
+    pub fn feature(self, id: &str) -> Self {
+        id.bytes().fold(Self(mix(self.0 ^ 0xFEA7)), |key, byte| Self(mix(key.0 ^ u64::from(byte))))
+    }
+
+    /// The key of the successor's module number `ordinal`, from 0.
+    #[must_use]
+    #[inline]
+    pub fn child(self, ordinal: usize) -> Self {
+        Self(mix(self.0.wrapping_add((ordinal as u64 + 1).wrapping_mul(GOLDEN))))
+    }
+
+    /// The key after a rule ran and left the module.
+    #[must_use]
+    pub fn advanced(self) -> Self {
+        Self(mix(self.0 ^ 0x5A17))
+    }
+
+    /// The key of the numbers that an interpretation rule draws.
+    #[must_use]
+    pub fn interpretation(self) -> Self {
+        Self(mix(self.0 ^ 0x1D7E))
+    }
+}
+
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The finaliser of `SplitMix64` (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
+#[inline]
+fn mix(state: u64) -> u64 {
+    let mut z = state.wrapping_add(GOLDEN);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+/// A module's random numbers: xoshiro256++ seeded by its key.
+#[derive(Debug, Clone)]
+pub struct Stream(Xoshiro256PlusPlus);
+
+impl Stream {
+    /// The numbers of `key`, from the first.
+    pub fn new(key: Key) -> Self {
+        Self(Xoshiro256PlusPlus::seed_from_u64(key.0))
+    }
+
+    /// The next number, uniform in [0, 1).
+    #[inline]
+    pub fn uniform(&mut self) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
+        let bits = (self.0.next_u64() >> 11) as f64;
+        bits * (1.0 / 9_007_199_254_740_992.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stream_depends_on_the_seed_the_ordinal_and_the_feature() {
+        let root = Key::seed(1);
+        let keys = [
+            root,
+            Key::seed(2),
+            root.child(0),
+            root.child(1),
+            root.advanced(),
+            root.feature("a"),
+            root.feature("b"),
+        ];
+        let mut first: Vec<u64> = keys.iter().map(|key| Stream::new(*key).uniform().to_bits()).collect();
+        first.sort_unstable();
+        first.dedup();
+        assert_eq!(first.len(), keys.len());
+    }
+
+    #[test]
+    fn the_numbers_are_uniform() {
+        let mut stream = Stream::new(Key::seed(7));
+        let mut counts = [0u32; 10];
+        for _ in 0..100_000 {
+            counts[(stream.uniform() * 10.0) as usize] += 1;
+        }
+        let chi: f64 = counts.iter().map(|count| (f64::from(*count) - 10_000.0).powi(2) / 10_000.0).sum();
+        assert!(chi < 27.9, "chi-square {chi} with 9 degrees of freedom");
+    }
+}

@@ -1,0 +1,127 @@
+//! One run of a script, from the file to the scene.
+
+use std::path::Path;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::derive::{Crew, Derived, Times};
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use crate::script::{Machine, Options, Param, Session, Watchdog};
+
+/// What a run of a script gave.
+pub struct Run {
+    /// What the systems have drawn, in the order in which they were derived.
+    pub scene: Scene,
+    /// The derived systems, in order.
+    pub systems: Vec<Arc<Derived>>,
+    /// The parameters that the script declared.
+    pub params: Vec<Param>,
+    /// Where the time went.
+    pub times: RunTimes,
+}
+
+/// Where the time of a run went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RunTimes {
+    /// Starting the virtual machine and running the script, without derivation.
+    pub script: Duration,
+    /// Derivation, of all systems.
+    pub derivation: Times,
+    /// Building the scene from the objects.
+    pub scene: Duration,
+}
+
+/// Runs the script at `path`.
+pub fn run(path: &Path, options: Options) -> Result<Run> {
+    let session = Session::new(path, options)?;
+    run_session(&session)
+}
+
+/// Runs a session, which may be stopped from outside.
+pub fn run_session(session: &Arc<Session>) -> Result<Run> {
+    let begin = Instant::now();
+    let watchdog = Arc::new(Watchdog::new(session));
+    let machine = Machine::new(session, &watchdog, Crew::leading(&watchdog))?;
+    machine.run()?;
+    let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    let params = session.params();
+    refuse_unknown(session, &params)?;
+    let systems = machine.crew.done.borrow().clone();
+    drop(machine);
+    let mut times = RunTimes::default();
+    for system in &systems {
+        times.derivation.rewriting += system.times.rewriting;
+        times.derivation.interpretation += system.times.interpretation;
+    }
+    times.script =
+        begin.elapsed().saturating_sub(times.derivation.rewriting + times.derivation.interpretation);
+    let begin = Instant::now();
+    let mut scene = Scene::default();
+    for system in systems.iter().filter(|system| !system.is_placed()) {
+        system.add_to(&mut scene)?;
+    }
+    find_textures(&mut scene, session)?;
+    times.scene = begin.elapsed();
+    Ok(Run { scene, systems, params, times })
+}
+
+/// Reads the script and everything it requires, compiles every rule, and tells all problems at once.
+pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
+    let session = Session::new(path, Options { check: true, ..options })?;
+    let watchdog = Arc::new(Watchdog::new(&session));
+    let machine = Machine::new(&session, &watchdog, Crew::leading(&watchdog))?;
+    let ran = machine.run();
+    let mut problems = session.problems();
+    problems.extend(machine.library.problems.borrow_mut().drain(..));
+    if let Err(error) = ran {
+        for problem in error.problems() {
+            let told =
+                problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
+            if !told {
+                problems.push(problem.alone());
+            }
+        }
+    }
+    if let Err(error) = refuse_unknown(&session, &session.params()) {
+        problems.push(error);
+    }
+    problems.sort_by(|a, b| a.place().cmp(&b.place()));
+    if problems.is_empty() { Ok(session.params()) } else { Err(Error::several(problems)) }
+}
+
+/// Refuses values for parameters that the script does not have.
+fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
+    for (name, _) in &session.options.set {
+        if !params.iter().any(|param| param.name == *name) {
+            let script = session.script().display();
+            let error = Error::new(format!("{script} has no parameter called {name}"));
+            let names = params.iter().map(|param| param.name.as_str());
+            return Err(match crate::error::nearest(name, names.clone()) {
+                Some(near) => error.help(format!("did you mean {near}?")),
+                None if params.is_empty() => error.help("it declares none"),
+                None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// Turns the textures' names into files within the script's folder.
+fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
+    for texture in scene.materials.iter_mut().filter_map(|material| material.texture.as_mut()) {
+        let shown = texture.path.display().to_string();
+        let path = session.root().join(&texture.path).canonicalize().map_err(|_| {
+            Error::new(format!("there is no texture {shown}")).help("textures are files beside the script")
+        })?;
+        if !path.starts_with(session.root()) {
+            return Err(Error::new(format!("the texture {shown} lies outside the script's folder"))
+                .help("a script reads only files in its own folder and below it"));
+        }
+        texture.path = path;
+    }
+    Ok(())
+}

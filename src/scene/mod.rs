@@ -1,0 +1,74 @@
+//! The scene: what a run has made, ready for an exporter or the renderer.
+//!
+//! Comes in: meshes and instances from objects, in chain order. Goes out: the same, unchanged.
+//! It never builds geometry and never looks at rules.
+
+mod material;
+mod mesh;
+
+pub use material::{Material, Texture};
+pub use mesh::{Mesh, Part};
+
+use glam::{DAffine3, DVec3};
+
+/// Everything a run has made, in an order that depends only on the scripts, inputs and seed.
+///
+/// Metres, z up, right-handed.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Scene {
+    /// Materials without duplicates, in the order of their first use.
+    pub materials: Vec<Material>,
+    /// Shapes, each in its own coordinates; [`Part::material`] is an index into `materials`.
+    pub meshes: Vec<Mesh>,
+    /// Where the meshes stand. A mesh that no instance names is not shown.
+    pub instances: Vec<Instance>,
+}
+
+/// A mesh put somewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instance {
+    /// Index into [`Scene::meshes`].
+    pub mesh: usize,
+    /// From the mesh's coordinates to the world's.
+    pub transform: DAffine3,
+    /// A name for people, such as the system's; may repeat, may be empty.
+    pub name: String,
+    /// The id of the data record that it came from, if it came from one.
+    pub feature: Option<String>,
+}
+
+impl Scene {
+    /// The index of `material`, added if it is new.
+    pub fn material(&mut self, material: &Material) -> usize {
+        match self.materials.iter().position(|known| known == material) {
+            Some(index) => index,
+            None => {
+                self.materials.push(material.clone());
+                self.materials.len() - 1
+            }
+        }
+    }
+
+    /// The number of triangles that are seen, instances counted each.
+    pub fn triangles(&self) -> usize {
+        self.instances.iter().map(|instance| self.meshes[instance.mesh].triangles()).sum()
+    }
+
+    /// The least box (m) around all that is seen, as its lowest and highest corner; `None` if nothing is.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let boxes: Vec<_> = self.meshes.iter().map(Mesh::bounds).collect();
+        let mut bounds: Option<(DVec3, DVec3)> = None;
+        for instance in &self.instances {
+            let Some((low, high)) = boxes[instance.mesh] else { continue };
+            for corner in 0..8 {
+                let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+                let point = instance.transform.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
+                bounds = Some(match bounds {
+                    None => (point, point),
+                    Some((a, b)) => (a.min(point), b.max(point)),
+                });
+            }
+        }
+        bounds
+    }
+}

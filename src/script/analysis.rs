@@ -1,0 +1,790 @@
+//! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
+//!
+//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes calls
+//! that write the modules where they belong, so that nothing has to be returned and taken apart; its other
+//! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
+//! outside it is preceded by a check that no rule is running.
+
+use full_moon::ast::luau::{ElseIfExpression, IfExpression};
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{
+    Ast, Block, Call, Expression, Field, FunctionArgs, FunctionBody, FunctionCall, Index, LastStmt,
+    Parameter, Prefix, Stmt, Suffix, TableConstructor, Var,
+};
+use full_moon::node::Node;
+use full_moon::tokenizer::{TokenReference, TokenType};
+use rustc_hash::FxHashMap;
+
+use crate::error::{Error, Place, nearest};
+use crate::rules::Signature;
+
+/// What a script may use without declaring it.
+#[derive(Debug, Clone, Default)]
+pub struct Globals {
+    /// The names of values.
+    pub names: Vec<String>,
+    /// The modules among them.
+    pub modules: FxHashMap<String, Signature>,
+}
+
+/// What reading a script gives.
+#[derive(Debug, Clone, Default)]
+pub struct Analysis {
+    /// The text to run, with as many lines as the script.
+    pub text: String,
+    /// What is wrong, by line.
+    pub problems: Vec<Error>,
+    /// Whether the script names `random`.
+    pub random: bool,
+    /// Whether a rule or a guard names its first parameter, the object.
+    pub reads_this: bool,
+}
+
+/// Reads `text`, the content of `file`. What the parser cannot read is left to the compiler, as it stands.
+pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
+    let plain = || Analysis {
+        text: text.to_owned(),
+        problems: Vec::new(),
+        random: text.contains("random"),
+        reads_this: true,
+    };
+    let Ok(ast) = full_moon::parse(text) else { return plain() };
+    // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
+    let mut first = Walk::new(file, globals, Facts::default());
+    first.run(&ast);
+    let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
+    second.run(&ast);
+    let Walk { mut edits, mut problems, random, reads_this, .. } = second;
+    problems.sort_by(|a, b| a.place().cmp(&b.place()));
+    edits.sort_by_key(|edit| (edit.begin, edit.order));
+    let mut out = String::with_capacity(text.len() + 64 * edits.len());
+    let mut at = 0;
+    for edit in &edits {
+        if edit.begin < at {
+            return plain();
+        }
+        out.push_str(&text[at..edit.begin]);
+        out.push_str(&edit.text);
+        at = edit.end;
+    }
+    out.push_str(&text[at..]);
+    Analysis { text: out, problems, random, reads_this }
+}
+
+/// What the first walk learned about the variables, in the order of their declaration.
+#[derive(Default)]
+struct Facts {
+    variables: Vec<Fact>,
+    impure: FxHashMap<usize, bool>,
+}
+
+#[derive(Default, Clone)]
+struct Fact {
+    assigned: bool,
+    assigned_inside: bool,
+    pure_function: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Role {
+    Script,
+    Rule,
+    Guard,
+    Interpretation,
+    Other,
+}
+
+struct Function {
+    role: Role,
+    begin: usize,
+    impure: bool,
+    this: Option<String>,
+}
+
+struct Variable {
+    name: String,
+    id: usize,
+    function: usize,
+    module: Option<Signature>,
+}
+
+struct Edit {
+    begin: usize,
+    end: usize,
+    text: String,
+    order: usize,
+}
+
+struct Walk<'a> {
+    file: &'a str,
+    globals: &'a Globals,
+    known: Facts,
+    facts: Facts,
+    functions: Vec<Function>,
+    variables: Vec<Variable>,
+    edits: Vec<Edit>,
+    problems: Vec<Error>,
+    random: bool,
+    reads_this: bool,
+}
+
+impl<'a> Walk<'a> {
+    fn new(file: &'a str, globals: &'a Globals, known: Facts) -> Self {
+        Self {
+            file,
+            globals,
+            known,
+            facts: Facts::default(),
+            functions: vec![Function { role: Role::Script, begin: 0, impure: false, this: None }],
+            variables: Vec::new(),
+            edits: Vec::new(),
+            problems: Vec::new(),
+            random: false,
+            reads_this: false,
+        }
+    }
+
+    fn run(&mut self, ast: &Ast) {
+        self.block(ast.nodes());
+    }
+
+    fn block(&mut self, block: &Block) {
+        let outside = self.variables.len();
+        self.open_block(block);
+        self.variables.truncate(outside);
+    }
+
+    /// Walks a block and leaves its variables in scope.
+    fn open_block(&mut self, block: &Block) {
+        for statement in block.stmts() {
+            self.statement(statement);
+        }
+        if let Some(LastStmt::Return(statement)) = block.last_stmt() {
+            self.returns(statement.token(), statement.returns());
+        }
+    }
+
+    fn statement(&mut self, statement: &Stmt) {
+        match statement {
+            Stmt::Assignment(assignment) => {
+                self.expressions(assignment.expressions());
+                for variable in assignment.variables() {
+                    self.assign(variable, statement);
+                }
+            }
+            Stmt::CompoundAssignment(assignment) => {
+                self.expression(assignment.rhs());
+                self.assign(assignment.lhs(), statement);
+            }
+            Stmt::Do(inner) => self.block(inner.block()),
+            Stmt::FunctionCall(call) => self.call(call),
+            Stmt::FunctionDeclaration(declaration) => {
+                let names = declaration.name().names();
+                if let Some(first) = names.first() {
+                    if names.len() == 1 && declaration.name().method_name().is_none() {
+                        self.assign_name(first.value(), statement);
+                    } else {
+                        self.read(first.value());
+                    }
+                }
+                let this = declaration.name().method_name().map(|_| "self");
+                self.function(declaration.body(), Role::Other, this);
+            }
+            Stmt::LocalFunction(function) => self.local_function(function.name(), function.body(), statement),
+            Stmt::ConstFunction(function) => self.local_function(function.name(), function.body(), statement),
+            Stmt::LocalAssignment(local) => self.local(local.names(), local.expressions(), statement),
+            Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions(), statement),
+            Stmt::GenericFor(generic) => {
+                self.expressions(generic.expressions());
+                let outside = self.variables.len();
+                for name in generic.names() {
+                    self.declare(name, first_position(generic.block(), generic.end_token()));
+                }
+                self.block(generic.block());
+                self.variables.truncate(outside);
+            }
+            Stmt::NumericFor(numeric) => {
+                self.expression(numeric.start());
+                self.expression(numeric.end());
+                if let Some(step) = numeric.step() {
+                    self.expression(step);
+                }
+                let outside = self.variables.len();
+                self.declare(numeric.index_variable(), first_position(numeric.block(), numeric.end_token()));
+                self.block(numeric.block());
+                self.variables.truncate(outside);
+            }
+            Stmt::If(branches) => {
+                self.expression(branches.condition());
+                self.block(branches.block());
+                for branch in branches.else_if().into_iter().flatten() {
+                    self.expression(branch.condition());
+                    self.block(branch.block());
+                }
+                if let Some(block) = branches.else_block() {
+                    self.block(block);
+                }
+            }
+            Stmt::Repeat(repeat) => {
+                let outside = self.variables.len();
+                self.open_block(repeat.block());
+                self.expression(repeat.until());
+                self.variables.truncate(outside);
+            }
+            Stmt::While(repeat) => {
+                self.expression(repeat.condition());
+                self.block(repeat.block());
+            }
+            _ => {}
+        }
+    }
+
+    fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
+        let id = self.declare(name, end_of(statement));
+        let impure = self.function(body, Role::Other, None);
+        self.facts.variables[id].pure_function = !impure;
+    }
+
+    fn local(
+        &mut self,
+        names: &Punctuated<TokenReference>,
+        values: &Punctuated<Expression>,
+        statement: &Stmt,
+    ) {
+        self.expressions(values);
+        let values: Vec<&Expression> = values.iter().collect();
+        for (index, name) in names.iter().enumerate() {
+            let id = self.declare(name, end_of(statement));
+            let module = values.get(index).and_then(|value| declared_module(value));
+            if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
+                variable.module = module;
+            }
+        }
+    }
+
+    /// Puts a variable into scope. `behind` is where a statement may follow its declaration.
+    fn declare(&mut self, name: &TokenReference, behind: Option<usize>) -> usize {
+        let id = self.facts.variables.len();
+        self.facts.variables.push(Fact::default());
+        let function = self.functions.len() - 1;
+        self.variables.push(Variable { name: text_of(name), id, function, module: None });
+        if function > 0
+            && self.fact(id).assigned_inside
+            && let Some(at) = behind
+        {
+            self.edit(at, at, format!(" local __epoch_{id} = __epoch();"));
+        }
+        id
+    }
+
+    fn fact(&self, id: usize) -> Fact {
+        self.known.variables.get(id).cloned().unwrap_or_default()
+    }
+
+    fn find(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().rev().find(|variable| variable.name == name)
+    }
+
+    fn assign(&mut self, variable: &Var, statement: &Stmt) {
+        match variable {
+            Var::Name(name) => self.assign_name(name, statement),
+            Var::Expression(expression) => {
+                self.prefix(expression.prefix());
+                for suffix in expression.suffixes() {
+                    self.suffix(suffix);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn assign_name(&mut self, token: &TokenReference, statement: &Stmt) {
+        let name = text_of(token);
+        let here = self.functions.len() - 1;
+        let rule = self
+            .functions
+            .iter()
+            .rposition(|function| matches!(function.role, Role::Rule | Role::Guard | Role::Interpretation));
+        let found = self.find(&name).map(|variable| (variable.id, variable.function));
+        let Some((id, owner)) = found else {
+            let error = Error::new(format!("{name} is assigned, but it is no local variable"));
+            self.problem(token, match rule {
+                Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
+                None => error.help(format!("scripts have no globals of their own; write: local {name} = ...")),
+            });
+            return;
+        };
+        let fact = &mut self.facts.variables[id];
+        fact.assigned = true;
+        fact.assigned_inside |= owner < here;
+        if let Some(rule) = rule {
+            if owner < rule {
+                let what = match self.functions[rule].role {
+                    Role::Guard => "a guard",
+                    Role::Interpretation => "an interpretation rule",
+                    _ => "a rule",
+                };
+                let help = match self.functions[rule].role {
+                    Role::Interpretation => {
+                        "it changes only this; keep what must be remembered in a parameter of a module"
+                    }
+                    _ => {
+                        "carry it in a parameter of a module; to change the object, use an interpretation rule"
+                    }
+                };
+                self.problem(
+                    token,
+                    Error::new(format!("{what} assigns {name}, a variable from outside it")).help(help),
+                );
+            }
+            return;
+        }
+        if owner < here
+            && let Some(begin) = statement.start_position()
+        {
+            let epoch = if owner == 0 { "0".to_owned() } else { format!("__epoch_{id}") };
+            self.edit(begin.bytes(), begin.bytes(), format!("__guard(\"{name}\", {epoch}); "));
+        }
+    }
+
+    fn read(&mut self, token: &TokenReference) {
+        let name = text_of(token);
+        if name == "random" {
+            self.random = true;
+        }
+        self.reads_this |= self.functions.iter().any(|function| {
+            matches!(function.role, Role::Rule | Role::Guard) && function.this.as_ref() == Some(&name)
+        });
+        if self.find(&name).is_some() || self.globals.names.contains(&name) {
+            return;
+        }
+        let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
+        let near = nearest(&name, locals.chain(self.globals.names.iter().map(String::as_str)));
+        let error = Error::new(format!("unknown name {name}"));
+        let error = match (near, name.starts_with(|c: char| c.is_ascii_uppercase())) {
+            (Some(near), _) => error.help(format!("did you mean {near}?")),
+            (None, true) => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
+            (None, false) => error.help(format!("declare it: local {name} = ...")),
+        };
+        self.problem(token, error);
+    }
+
+    fn expressions(&mut self, expressions: &Punctuated<Expression>) {
+        for expression in expressions {
+            self.expression(expression);
+        }
+    }
+
+    fn expression(&mut self, expression: &Expression) {
+        match expression {
+            Expression::BinaryOperator { lhs, rhs, .. } => {
+                self.expression(lhs);
+                self.expression(rhs);
+            }
+            Expression::Parentheses { expression, .. }
+            | Expression::UnaryOperator { expression, .. }
+            | Expression::TypeAssertion { expression, .. } => self.expression(expression),
+            Expression::Function(function) => {
+                self.function(function.body(), Role::Other, None);
+            }
+            Expression::FunctionCall(call) => self.call(call),
+            Expression::IfExpression(branches) => self.if_expression(branches),
+            Expression::InterpolatedString(string) => {
+                for inner in string.expressions() {
+                    self.expression(inner);
+                }
+            }
+            Expression::TableConstructor(table) => self.table(table),
+            Expression::Var(variable) => match variable {
+                Var::Name(name) => {
+                    self.mention(name);
+                    self.read(name);
+                }
+                Var::Expression(expression) => {
+                    self.prefix(expression.prefix());
+                    for suffix in expression.suffixes() {
+                        self.suffix(suffix);
+                    }
+                }
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+
+    fn if_expression(&mut self, branches: &IfExpression) {
+        self.expression(branches.condition());
+        self.expression(branches.if_expression());
+        for branch in branches.else_if_expressions().into_iter().flatten() {
+            let branch: &ElseIfExpression = branch;
+            self.expression(branch.condition());
+            self.expression(branch.expression());
+        }
+        self.expression(branches.else_expression());
+    }
+
+    fn table(&mut self, table: &TableConstructor) {
+        for field in table.fields() {
+            match field {
+                Field::ExpressionKey { key, value, .. } => {
+                    self.expression(key);
+                    self.expression(value);
+                }
+                Field::NameKey { value, .. } => self.expression(value),
+                Field::NoKey(value) => self.expression(value),
+                _ => {}
+            }
+        }
+    }
+
+    fn prefix(&mut self, prefix: &Prefix) {
+        match prefix {
+            Prefix::Expression(expression) => self.expression(expression),
+            Prefix::Name(name) => {
+                self.mention(name);
+                self.read(name);
+            }
+            _ => {}
+        }
+    }
+
+    /// A module's constructor used as a value may end up anywhere, so its function cannot be prepared.
+    fn mention(&mut self, name: &TokenReference) {
+        if self.module(name).is_some() {
+            self.impure();
+        }
+    }
+
+    fn impure(&mut self) {
+        for function in &mut self.functions {
+            function.impure = true;
+        }
+    }
+
+    fn suffix(&mut self, suffix: &Suffix) {
+        match suffix {
+            Suffix::Call(Call::AnonymousCall(arguments)) => self.arguments(arguments),
+            Suffix::Call(Call::MethodCall(method)) => self.arguments(method.args()),
+            Suffix::Index(Index::Brackets { expression, .. }) => self.expression(expression),
+            _ => {}
+        }
+    }
+
+    fn arguments(&mut self, arguments: &FunctionArgs) {
+        match arguments {
+            FunctionArgs::Parentheses { arguments, .. } => self.expressions(arguments),
+            FunctionArgs::TableConstructor(table) => self.table(table),
+            _ => {}
+        }
+    }
+
+    fn call(&mut self, call: &FunctionCall) {
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+            (call.prefix(), suffixes.as_slice())
+            && let Some(signature) = self.module(name)
+        {
+            self.check_arity(name, &signature, arguments);
+        }
+        if !self.is_pure(call.prefix(), &suffixes) {
+            self.impure();
+        }
+        match call.prefix() {
+            Prefix::Name(name) => self.read(name),
+            prefix => self.prefix(prefix),
+        }
+        for suffix in suffixes {
+            match suffix {
+                Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
+                    "rule" => self.rule(method.args(), Role::Rule),
+                    "interpret" => self.rule(method.args(), Role::Interpretation),
+                    _ => self.suffix(suffix),
+                },
+                _ => self.suffix(suffix),
+            }
+        }
+    }
+
+    /// Whether a call surely makes no modules.
+    fn is_pure(&self, prefix: &Prefix, suffixes: &[&Suffix]) -> bool {
+        let Prefix::Name(name) = prefix else { return false };
+        let text = text_of(name);
+        match self.find(&text) {
+            None => !self.globals.modules.contains_key(&text),
+            Some(variable) => {
+                let fact = self.fact(variable.id);
+                let is_this = self.functions.iter().any(|function| function.this.as_deref() == Some(&text));
+                (is_this && matches!(suffixes, [Suffix::Call(Call::MethodCall(_))]))
+                    || (fact.pure_function && !fact.assigned && suffixes.len() == 1)
+            }
+        }
+    }
+
+    fn check_arity(&mut self, name: &TokenReference, signature: &Signature, arguments: &FunctionArgs) {
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return };
+        let open = matches!(arguments.iter().last(), Some(Expression::FunctionCall(_)))
+            || matches!(arguments.iter().last(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "...");
+        let given = arguments.len();
+        let few = given < signature.required && !open;
+        let many = given > signature.arity() + usize::from(open);
+        if few || many {
+            self.problem(
+                name,
+                Error::new(format!("{} has {}, not {given}", signature.name, signature.count()))
+                    .help(format!("it was declared as {}", signature.usage())),
+            );
+        }
+    }
+
+    /// The signature of the module whose constructor `name` is.
+    fn module(&self, name: &TokenReference) -> Option<Signature> {
+        let text = text_of(name);
+        match self.find(&text) {
+            Some(variable) if self.fact(variable.id).assigned => None,
+            Some(variable) => variable.module.clone(),
+            None => self.globals.modules.get(&text).cloned(),
+        }
+    }
+
+    /// Walks the arguments of `:rule` or `:interpret`; the functions among them have a role.
+    fn rule(&mut self, arguments: &FunctionArgs, role: Role) {
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.arguments(arguments) };
+        let last = arguments.len().saturating_sub(1);
+        for (index, argument) in arguments.iter().enumerate() {
+            match argument {
+                Expression::Function(function) if index == last && index > 0 => {
+                    if role == Role::Rule {
+                        self.prepared(argument, function.body(), role);
+                    } else {
+                        self.function(function.body(), role, None);
+                    }
+                }
+                Expression::TableConstructor(table) if role == Role::Rule => {
+                    for field in table.fields() {
+                        match field {
+                            Field::NameKey { key, value, .. } => match &**value {
+                                Expression::Function(function) if text_of(key) == "when" => {
+                                    self.prepared(value, function.body(), Role::Guard);
+                                }
+                                value => self.expression(value),
+                            },
+                            Field::NoKey(value) => self.expression(value),
+                            _ => {}
+                        }
+                    }
+                }
+                other => self.expression(other),
+            }
+        }
+    }
+
+    /// Walks a function of a rule, and lets the script say that it has been seen.
+    fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: Role) {
+        if let (Some(begin), Some(end)) = (value.start_position(), value.end_position()) {
+            self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
+            self.function(body, role, None);
+            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+        }
+    }
+
+    /// Walks a function; tells whether it may make modules other than by its returns.
+    fn function(&mut self, body: &FunctionBody, role: Role, this: Option<&str>) -> bool {
+        let outside = self.variables.len();
+        let begin =
+            body.parameters_parentheses().tokens().0.start_position().map_or(0, |position| position.bytes());
+        let start = first_position(body.block(), body.end_token());
+        let mut parameters = body.parameters().iter();
+        let first = match body.parameters().iter().next() {
+            Some(Parameter::Name(name)) => Some(text_of(name)),
+            _ => None,
+        };
+        let this = this.map(str::to_owned).or(if role == Role::Other { None } else { first });
+        let names_self = this.as_deref() == Some("self");
+        self.functions.push(Function { role, begin, impure: false, this });
+        if names_self && role == Role::Other {
+            let id = self.facts.variables.len();
+            self.facts.variables.push(Fact::default());
+            self.variables.push(Variable {
+                name: "self".to_owned(),
+                id,
+                function: self.functions.len() - 1,
+                module: None,
+            });
+        }
+        for parameter in parameters.by_ref() {
+            if let Parameter::Name(name) = parameter {
+                self.declare(name, start);
+            }
+        }
+        self.block(body.block());
+        self.variables.truncate(outside);
+        let impure = self.functions.pop().is_none_or(|function| function.impure);
+        self.facts.impure.insert(begin, impure);
+        impure
+    }
+
+    fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
+        let here = self.functions.last().map(|function| (function.role, function.begin));
+        let Some((Role::Rule, begin)) = here else { return self.expressions(values) };
+        let ready = !self.known.impure.get(&begin).copied().unwrap_or(true);
+        let listed = values.iter().all(|value| self.is_item(value));
+        if !values.is_empty() && listed {
+            for value in values {
+                self.item(value);
+            }
+            if ready && let Some(last) = values.iter().last().and_then(Node::end_position) {
+                self.blank(token, "");
+                for pair in values.pairs() {
+                    self.write_item(pair.value());
+                    if let Some(comma) = pair.punctuation() {
+                        self.blank(comma, ";");
+                    }
+                }
+                self.edit(last.bytes(), last.bytes(), ";return __done".to_owned());
+                return;
+            }
+        } else {
+            self.expressions(values);
+        }
+        let (Some(begin), Some(end)) =
+            (token.end_position(), values.iter().last().and_then(Node::end_position))
+        else {
+            return;
+        };
+        if values.len() == 1
+            && matches!(values.iter().next(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "nil")
+        {
+            self.edit(begin.bytes(), end.bytes(), " __erased".to_owned());
+        } else {
+            self.edit(begin.bytes(), begin.bytes(), " __list(".to_owned());
+            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+        }
+    }
+
+    /// Whether `value` is a module made on the spot, or a branch of such.
+    fn is_item(&self, value: &Expression) -> bool {
+        match value {
+            Expression::FunctionCall(call) => {
+                let suffixes: Vec<&Suffix> = call.suffixes().collect();
+                match (call.prefix(), suffixes.as_slice()) {
+                    (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) => {
+                        matches!(**arguments, FunctionArgs::Parentheses { .. }) && self.module(name).is_some()
+                    }
+                    _ => false,
+                }
+            }
+            Expression::TableConstructor(table) => table.fields().iter().all(|field| match field {
+                Field::NoKey(value) => self.is_item(value),
+                _ => false,
+            }),
+            _ => false,
+        }
+    }
+
+    /// Walks an item without counting its own constructors as mentioned.
+    fn item(&mut self, value: &Expression) {
+        match value {
+            Expression::FunctionCall(call) => {
+                for suffix in call.suffixes() {
+                    if let (Prefix::Name(name), Suffix::Call(Call::AnonymousCall(arguments))) =
+                        (call.prefix(), suffix)
+                    {
+                        if let Some(signature) = self.module(name) {
+                            self.check_arity(name, &signature, arguments);
+                        }
+                        self.arguments(arguments);
+                    }
+                }
+            }
+            Expression::TableConstructor(table) => {
+                for field in table.fields() {
+                    if let Field::NoKey(value) = field {
+                        self.item(value);
+                    }
+                }
+            }
+            _ => {}
+        }
+    }
+
+    fn write_item(&mut self, value: &Expression) {
+        let Expression::TableConstructor(table) = value else { return };
+        let (open, close) = table.braces().tokens();
+        self.blank(open, "__open();");
+        let last = table.fields().len().saturating_sub(1);
+        for (index, pair) in table.fields().pairs().enumerate() {
+            if let Field::NoKey(value) = pair.value() {
+                self.write_item(value);
+            }
+            if let Some(separator) = pair.punctuation() {
+                self.blank(separator, if index == last { "" } else { ";" });
+            }
+        }
+        self.blank(close, if table.fields().is_empty() { "__close()" } else { ";__close()" });
+    }
+
+    /// Replaces a token by `text`.
+    fn blank(&mut self, token: &TokenReference, text: &str) {
+        if let (Some(begin), Some(end)) = (token.start_position(), token.end_position()) {
+            self.edit(begin.bytes(), end.bytes(), text.to_owned());
+        }
+    }
+
+    fn edit(&mut self, begin: usize, end: usize, text: String) {
+        let order = self.edits.len();
+        self.edits.push(Edit { begin, end, text, order });
+    }
+
+    fn problem(&mut self, token: &TokenReference, error: Error) {
+        let line = token.start_position().map_or(1, |position| position.line());
+        self.problems.push(error.at(Some(Place { file: self.file.to_owned(), line })));
+    }
+}
+
+fn text_of(token: &TokenReference) -> String {
+    token.token().to_string()
+}
+
+fn end_of(statement: &Stmt) -> Option<usize> {
+    statement.end_position().map(|position| position.bytes())
+}
+
+fn first_position(block: &Block, end: &TokenReference) -> Option<usize> {
+    let first =
+        block.stmts().next().and_then(Node::start_position).or_else(|| block.last_stmt()?.start_position());
+    first.or_else(|| end.start_position()).map(|position| position.bytes())
+}
+
+/// The signature, where `value` is `module("Name", "parameter", ...)`.
+fn declared_module(value: &Expression) -> Option<Signature> {
+    let Expression::FunctionCall(call) = value else { return None };
+    let suffixes: Vec<&Suffix> = call.suffixes().collect();
+    let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+        (call.prefix(), suffixes.as_slice())
+    else {
+        return None;
+    };
+    if text_of(name) != "module" {
+        return None;
+    }
+    let texts: Vec<String> = match &**arguments {
+        FunctionArgs::String(text) => vec![string_of(text)?],
+        FunctionArgs::Parentheses { arguments, .. } => arguments
+            .iter()
+            .map(|argument| match argument {
+                Expression::String(text) => string_of(text),
+                _ => None,
+            })
+            .collect::<Option<_>>()?,
+        _ => return None,
+    };
+    let (name, parameters) = texts.split_first()?;
+    Signature::new(name, parameters).ok()
+}
+
+fn string_of(token: &TokenReference) -> Option<String> {
+    match token.token_type() {
+        TokenType::StringLiteral { literal, .. } => Some(literal.to_string()),
+        _ => None,
+    }
+}

@@ -1,0 +1,112 @@
+//! Values across the border between Lua and Rust.
+
+use std::sync::Arc;
+
+use mlua::{Lua, Value as LuaValue};
+
+use super::handles::{DerivedHandle, ObjectHandle};
+use crate::error::{Error, Result};
+use crate::objects::{Key, Table, Value};
+
+/// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
+const CLASS: &str = "__class";
+const DEEPEST: usize = 64;
+
+/// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
+pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
+    convert(value, freeze, 0)
+}
+
+fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
+    Ok(match value {
+        LuaValue::Nil => Value::Nil,
+        LuaValue::Boolean(value) => Value::Boolean(*value),
+        #[allow(clippy::cast_precision_loss, reason = "Luau's own numbers are f64")]
+        LuaValue::Integer(value) => Value::Number(*value as f64),
+        LuaValue::Number(value) => Value::Number(*value),
+        LuaValue::String(text) => Value::Text(text.to_string_lossy().as_str().into()),
+        LuaValue::Table(table) => {
+            if depth > DEEPEST {
+                return Err(Error::new(format!(
+                    "a table is nested more than {DEEPEST} deep, or contains itself"
+                )));
+            }
+            let mut entries = Vec::new();
+            for pair in table.pairs::<LuaValue, LuaValue>() {
+                let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
+                let key = match key {
+                    LuaValue::Integer(index) => Key::Index(index),
+                    #[allow(clippy::cast_possible_truncation, reason = "whole numbers that fit are kept")]
+                    LuaValue::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => {
+                        Key::Index(number as i64)
+                    }
+                    LuaValue::String(name) => Key::Name(name.to_string_lossy().as_str().into()),
+                    other => {
+                        return Err(Error::new(format!("a table has a {} as a key", other.type_name()))
+                            .help("keys of such tables are names or whole numbers"));
+                    }
+                };
+                entries.push((key, convert(&value, freeze, depth + 1)?));
+            }
+            entries.sort_by(|a, b| a.0.cmp(&b.0));
+            let class = match table.metatable() {
+                Some(metatable) => match metatable.raw_get::<Option<String>>(CLASS) {
+                    Ok(Some(class)) => Some(class.into()),
+                    _ => return Err(Error::new("a table with a metatable cannot be passed on")),
+                },
+                None => None,
+            };
+            if freeze {
+                table.set_readonly(true);
+            }
+            Value::Table(Arc::new(Table { class, entries }))
+        }
+        LuaValue::UserData(data) => {
+            if let Ok(handle) = data.borrow::<ObjectHandle>() {
+                Value::Object(Arc::clone(&handle.0))
+            } else if let Ok(handle) = data.borrow::<DerivedHandle>() {
+                Value::Object(handle.model()?)
+            } else {
+                return Err(Error::new("this object cannot be passed on"));
+            }
+        }
+        other => {
+            return Err(Error::new(format!("a {} cannot be passed on", other.type_name()))
+                .help("pass numbers, booleans, strings, tables of these, or objects"));
+        }
+    })
+}
+
+/// Makes the Lua value; tables are frozen if `freeze`.
+pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<LuaValue> {
+    Ok(match value {
+        Value::Nil => LuaValue::Nil,
+        Value::Boolean(value) => LuaValue::Boolean(*value),
+        Value::Number(value) => LuaValue::Number(*value),
+        Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
+        Value::Object(object) => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
+        Value::Table(table) => {
+            let made = lua.create_table_with_capacity(0, table.entries.len())?;
+            for (key, value) in &table.entries {
+                let value = to_lua(lua, value, freeze)?;
+                match key {
+                    Key::Index(index) => made.raw_set(*index, value)?,
+                    Key::Name(name) => made.raw_set(&**name, value)?,
+                }
+            }
+            if let Some(class) = &table.class {
+                let metatable: Option<mlua::Table> = lua.named_registry_value(&class_key(class))?;
+                made.set_metatable(metatable)?;
+            }
+            if freeze {
+                made.set_readonly(true);
+            }
+            LuaValue::Table(made)
+        }
+    })
+}
+
+/// The registry's name for the metatable of a class.
+pub(crate) fn class_key(class: &str) -> String {
+    format!("burgeon class {class}")
+}

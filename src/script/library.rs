@@ -1,0 +1,357 @@
+//! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
+
+use std::cell::RefCell;
+use std::path::{Component, Path, PathBuf};
+use std::sync::Arc;
+
+use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
+use rustc_hash::FxHashMap;
+
+use super::analysis::Globals;
+use super::convert::{class_key, to_lua, to_value};
+use super::handles::{ObjectHandle, methods_key};
+use super::machine::Machine;
+use super::param::Param;
+use super::session::Session;
+use super::system::{SourceHandle, System, SystemHandle};
+use crate::error::{Error, Result};
+use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
+use crate::rules::{Pattern, Signature, Symbol, Symbols};
+
+/// Names that would make a script's meaning depend on more than itself, or would slow it down.
+const LOCKED: [&str; 14] = [
+    "getfenv",
+    "setfenv",
+    "loadstring",
+    "load",
+    "newproxy",
+    "collectgarbage",
+    "os",
+    "debug",
+    "vector",
+    "_G",
+    "gcinfo",
+    "io",
+    "dofile",
+    "loadfile",
+];
+
+/// An interpretation that the standard library gives to modules of every system with a type of object.
+pub(crate) struct Standard {
+    pub kind: String,
+    pub symbol: Symbol,
+    pub bound: usize,
+    pub rule: Function,
+}
+
+/// What a machine knows of its script.
+#[derive(Default)]
+pub(crate) struct Library {
+    pub symbols: RefCell<Symbols>,
+    pub systems: RefCell<Vec<System>>,
+    pub standard: RefCell<Vec<Standard>>,
+    pub problems: RefCell<Vec<Error>>,
+    /// Constructors of modules, by symbol.
+    pub constructors: RefCell<FxHashMap<Symbol, Function>>,
+    /// The files that are being required, from the main one on.
+    loading: RefCell<Vec<PathBuf>>,
+    loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
+    names: RefCell<Vec<String>>,
+    modules: RefCell<FxHashMap<String, Signature>>,
+    machine: RefCell<Option<std::rc::Weak<Machine>>>,
+}
+
+impl Library {
+    /// What scripts may use without declaring it.
+    pub(crate) fn globals(&self) -> Globals {
+        Globals { names: self.names.borrow().clone(), modules: self.modules.borrow().clone() }
+    }
+
+    /// The machine that this library belongs to, once it is complete.
+    pub(crate) fn machine(&self) -> Result<std::rc::Rc<Machine>> {
+        let machine = self.machine.borrow().as_ref().and_then(std::rc::Weak::upgrade);
+        machine.ok_or_else(|| Error::new("this cannot be used while the machine is being made"))
+    }
+
+    pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
+        *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
+    }
+
+    /// Gives the machine its globals and runs the standard library.
+    pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
+        self.install_names(machine).map_err(|error| machine.translate(error))?;
+        self.note_names(machine.lua());
+        let source = machine.session.standard(&self.globals());
+        let exports: Table = machine
+            .load(&source.name, &source.analysis.text)?
+            .call(())
+            .map_err(|error| machine.translate(error))?;
+        let globals = machine.lua().globals();
+        for pair in exports.pairs::<String, LuaValue>() {
+            let (name, value) = pair.map_err(|error| machine.translate(error))?;
+            globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
+        }
+        for name in ["__interpretation", "__class"] {
+            globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
+        }
+        self.note_names(machine.lua());
+        let mut symbols = self.symbols.borrow_mut();
+        symbols.end_of_standard();
+        *self.modules.borrow_mut() = symbols
+            .names()
+            .filter_map(|name| Some((name.to_owned(), symbols.signature(symbols.find(name).ok()?).clone())))
+            .collect();
+        Ok(())
+    }
+
+    fn note_names(&self, lua: &Lua) {
+        let mut names: Vec<String> = lua
+            .globals()
+            .pairs::<String, LuaValue>()
+            .filter_map(|pair| pair.ok())
+            .map(|(name, _)| name)
+            .filter(|name| !name.starts_with("__"))
+            .collect();
+        names.sort();
+        *self.names.borrow_mut() = names;
+    }
+
+    fn install_names(&self, machine: &Machine) -> mlua::Result<()> {
+        let lua = machine.lua();
+        let globals = lua.globals();
+        for name in LOCKED {
+            globals.raw_set(name, LuaValue::Nil)?;
+        }
+        let math: Table = globals.raw_get("math")?;
+        for name in ["random", "randomseed", "noise"] {
+            math.raw_set(name, LuaValue::Nil)?;
+        }
+        for pair in machine.prelude().globals.pairs::<String, LuaValue>() {
+            let (name, value) = pair?;
+            globals.raw_set(name, value)?;
+        }
+        self.install_plain(machine, &globals)?;
+        for kind in KINDS {
+            install_kind(machine, &globals, kind)?;
+        }
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "__interpretation",
+            lua.create_function(move |_, (kind, pattern, rule): (String, String, Function)| {
+                let pattern =
+                    Pattern::parse(&pattern, &library.symbols.borrow()).map_err(mlua::Error::external)?;
+                let item = pattern.predecessor;
+                library.standard.borrow_mut().push(Standard {
+                    kind,
+                    symbol: item.symbol,
+                    bound: item.bound,
+                    rule,
+                });
+                Ok(())
+            })?,
+        )?;
+        globals.raw_set(
+            "__class",
+            lua.create_function(|lua, (name, metatable): (String, Table)| {
+                metatable.raw_set("__class", name.as_str())?;
+                lua.set_named_registry_value(&class_key(&name), metatable)
+            })?,
+        )
+    }
+
+    fn install_plain(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
+        let lua = machine.lua();
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "module",
+            lua.create_function(move |_, (name, parameters): (String, Variadic<String>)| {
+                declare(&library, &name, &parameters).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let session = Arc::clone(&machine.session);
+        globals.raw_set(
+            "param",
+            lua.create_function(move |lua, (name, options): (String, Table)| {
+                let Value::Table(options) =
+                    to_value(&LuaValue::Table(options), false).map_err(mlua::Error::external)?
+                else {
+                    return Ok(LuaValue::Nil);
+                };
+                let param =
+                    Param::declare(&name, &options, &session.options.set).map_err(mlua::Error::external)?;
+                let value = param.value.to_value();
+                session.add_param(param);
+                to_lua(lua, &value, false)
+            })?,
+        )?;
+        globals.raw_set("print", lua.create_function(|lua, values: MultiValue| print(lua, &values))?)?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "lsystem",
+            lua.create_function(move |_, options: Option<Table>| {
+                SystemHandle::create(&library, options.as_ref()).map_err(mlua::Error::external)
+            })?,
+        )?;
+        globals.raw_set(
+            "source",
+            lua.create_function(|_, features: LuaValue| {
+                SourceHandle::new(features).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
+            "require",
+            lua.create_function(move |_, name: String| {
+                require(&library, &session, &name).map_err(mlua::Error::external)
+            })?,
+        )
+    }
+}
+
+fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<Function> {
+    let signature = Signature::new(name, parameters)?;
+    let symbol = library.symbols.borrow_mut().declare(signature)?;
+    if let Some(constructor) = library.constructors.borrow().get(&symbol) {
+        return Ok(constructor.clone());
+    }
+    // The standard library declares modules before the machine is complete, so the prelude is asked directly.
+    let machine = library.machine()?;
+    let constructor =
+        machine.constructor(&library.symbols.borrow(), symbol).map_err(|error| machine.translate(error))?;
+    library.constructors.borrow_mut().insert(symbol, constructor.clone());
+    Ok(constructor)
+}
+
+fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
+    if lua.app_data_ref::<Quiet>().is_some() {
+        return Ok(());
+    }
+    let tostring: Function = lua.globals().get("tostring")?;
+    let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
+    eprintln!("{}", texts.join("\t"));
+    Ok(())
+}
+
+/// Marks a machine whose script has been run before, so that it prints nothing again.
+pub(crate) struct Quiet;
+
+/// Makes the constructor of a type of object and its table of methods.
+fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua::Result<()> {
+    let lua = machine.lua();
+    let methods = lua.create_table()?;
+    for (index, method) in kind.methods.iter().enumerate() {
+        let name = format!("{}:{}", kind.name, method.name);
+        let function: Function = match &method.call {
+            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 6 => {
+                machine.prelude().recorder.call((index, name, method.arguments.len()))?
+            }
+            Call::Write { .. } => machine.prelude().direct.call((index, name, true))?,
+            Call::Read(_) => machine.prelude().direct.call((index, name, false))?,
+        };
+        methods.raw_set(method.name, function)?;
+    }
+    let unknown = lua.create_table()?;
+    unknown.raw_set(
+        "__index",
+        lua.create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            Err(mlua::Error::external(kind.unknown_method(&name)))
+        })?,
+    )?;
+    methods.set_metatable(Some(unknown))?;
+    lua.set_named_registry_value(&methods_key(kind.name), &methods)?;
+    if kind.name == crate::objects::Model::KIND.name {
+        return Ok(());
+    }
+    globals.raw_set(
+        kind.name,
+        lua.create_function(move |_, options: Option<Table>| {
+            let table = match options {
+                None => Arc::new(ValueTable::default()),
+                Some(options) => {
+                    match to_value(&LuaValue::Table(options), false).map_err(mlua::Error::external)? {
+                        Value::Table(table) => table,
+                        _ => Arc::default(),
+                    }
+                }
+            };
+            let object = (kind.construct)(&table).map_err(mlua::Error::external)?;
+            Ok(ObjectHandle(Arc::from(object)))
+        })?,
+    )
+}
+
+/// Runs another file of the script's folder once and gives what it returns.
+fn require(library: &Library, session: &Session, name: &str) -> Result<LuaValue> {
+    let machine = library.machine()?;
+    let from = library
+        .loading
+        .borrow()
+        .last()
+        .and_then(|file| file.parent())
+        .map_or_else(|| session.root().to_path_buf(), Path::to_path_buf);
+    let (path, shown) = find(session, &from, name)?;
+    if let Some(value) = library.loaded.borrow().get(&path) {
+        return Ok(value.clone());
+    }
+    if let Some(position) = library.loading.borrow().iter().position(|file| *file == path) {
+        let loading = library.loading.borrow();
+        let cycle: Vec<String> = loading[position..]
+            .iter()
+            .chain([&path])
+            .map(|file| file.strip_prefix(session.root()).unwrap_or(file).display().to_string())
+            .collect();
+        return Err(Error::new(format!("files require each other in a circle: {}", cycle.join(" -> ")))
+            .help("move what both need into a third file"));
+    }
+    let source = session.source(&path, &shown, &library.globals())?;
+    library.loading.borrow_mut().push(path.clone());
+    let value = machine
+        .load(&source.name, &source.analysis.text)
+        .and_then(|chunk| chunk.call::<LuaValue>(()).map_err(|error| machine.translate(error)));
+    library.loading.borrow_mut().pop();
+    let value = value?;
+    library.loaded.borrow_mut().insert(path, value.clone());
+    Ok(value)
+}
+
+/// The file that `require(name)` means, and its name for messages.
+fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)> {
+    let outside = || {
+        Error::new(format!("require(\"{name}\") leads outside the script's folder"))
+            .help("a script reads only files in its own folder and below it")
+    };
+    let relative = Path::new(name.strip_suffix(".lua").unwrap_or(name)).with_extension("lua");
+    if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
+        return Err(outside());
+    }
+    let inside = |folder: &Path| {
+        let mut path = folder.to_path_buf();
+        for part in relative.components() {
+            match part {
+                Component::ParentDir => {
+                    path.pop();
+                }
+                Component::Normal(part) => path.push(part),
+                _ => {}
+            }
+        }
+        path
+    };
+    for folder in [from, session.root()] {
+        let path = inside(folder);
+        if !path.starts_with(session.root()) {
+            return Err(outside());
+        }
+        if let Ok(path) = path.canonicalize() {
+            if !path.starts_with(session.root()) {
+                return Err(outside());
+            }
+            let inner = path.strip_prefix(session.root()).unwrap_or(&path);
+            let shown =
+                session.script().parent().map_or_else(|| inner.to_path_buf(), |parent| parent.join(inner));
+            return Ok((path.clone(), shown.display().to_string()));
+        }
+    }
+    Err(Error::new(format!("require(\"{name}\") finds no file {}", relative.display()))
+        .help("the name is a path from the requiring file or from the script's folder"))
+}

@@ -1,0 +1,88 @@
+//! The work that a machine is at, for the functions that Rust gives to Lua.
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+
+use crate::error::{Error, Result};
+use crate::objects::{Call, Method, Value};
+use crate::rules::{Key, Stream};
+use crate::script::handles::Objects;
+use crate::script::session::Session;
+
+/// Applies recorded method calls to objects while a batch is interpreted.
+pub(crate) trait Flusher {
+    /// Applies all calls recorded so far: those of the entries before `entry` and the first `called` of it.
+    fn flush(&mut self, entry: usize, called: usize) -> Result<()>;
+
+    /// The chain of the entry.
+    fn chain(&self, entry: usize) -> usize;
+
+    /// The one type that implements this, for the loop that drives it.
+    fn applier(&mut self) -> Option<&mut crate::interpret::Applier>;
+}
+
+/// What is being rewritten or interpreted.
+pub(crate) struct Current {
+    pub session: Arc<Session>,
+    /// The objects of the system at work.
+    pub objects: RefCell<Option<Arc<Objects>>>,
+    /// The chain of each application in the batch.
+    pub chains: RefCell<Vec<u32>>,
+    /// The random key of each application in the batch.
+    pub keys: RefCell<Vec<Key>>,
+    /// How many numbers of its stream an application's weighted choice has used already.
+    pub used: Cell<usize>,
+    /// The most random numbers that one application has drawn lately.
+    pub drawn: Cell<usize>,
+    /// The methods of `this`, as their numbers in Lua.
+    pub methods: RefCell<Vec<&'static Method>>,
+    /// Applies recorded calls while interpreting.
+    pub flusher: RefCell<Option<Box<dyn Flusher>>>,
+    /// The stream of the top level of the script.
+    pub top: RefCell<Stream>,
+}
+
+impl Current {
+    pub(crate) fn new(session: Arc<Session>) -> Self {
+        let top = Stream::new(Key::seed(session.options.seed));
+        Self {
+            session,
+            objects: RefCell::default(),
+            chains: RefCell::default(),
+            keys: RefCell::default(),
+            used: Cell::new(0),
+            drawn: Cell::new(0),
+            methods: RefCell::default(),
+            flusher: RefCell::default(),
+            top: RefCell::new(top),
+        }
+    }
+
+    /// Draws number `index` of an application's stream.
+    pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
+        let keys = self.keys.borrow();
+        let key = keys.get(application).ok_or_else(|| Error::new("random is not available here"))?;
+        let mut stream = Stream::new(*key);
+        for _ in 0..self.used.get() + index {
+            stream.uniform();
+        }
+        self.drawn.set(self.drawn.get().max(index + 1));
+        Ok(stream.uniform())
+    }
+
+    /// Calls a method of `this` at once, while rewriting or interpreting.
+    pub(crate) fn call(&self, method: usize, application: usize, arguments: &[Value]) -> Result<Value> {
+        let methods = self.methods.borrow();
+        let method = methods.get(method).ok_or_else(|| Error::new("there is no such method"))?;
+        let chain = match self.flusher.borrow().as_ref() {
+            Some(flusher) => flusher.chain(application),
+            None => self.chains.borrow().get(application).copied().unwrap_or(0) as usize,
+        };
+        let objects = self.objects.borrow();
+        let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
+        match method.call {
+            Call::Read(read) => objects.read(chain, |object| read(object, arguments)),
+            Call::Write { values, .. } => objects.write(chain, |object| values(object, arguments)),
+        }
+    }
+}

@@ -1,0 +1,266 @@
+//! A virtual machine: a sandboxed Luau with the hot path's Lua side, one in each thread.
+
+mod current;
+mod host;
+mod prelude;
+mod watchdog;
+
+pub(crate) use current::{Current, Flusher};
+pub use watchdog::Watchdog;
+
+use std::cell::Cell;
+use std::io::{Read, Write};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use mlua::chunk::{ChunkMode, Compiler};
+use mlua::{Buffer, Function, Lua, LuaOptions, StdLib};
+
+use super::library::{Library, Quiet};
+use super::session::Session;
+use crate::derive::Crew;
+use crate::error::{Error, Place, Result};
+use crate::rules::{Symbol, Symbols};
+use prelude::Prelude;
+
+/// The name of the machine's own Lua code in tracebacks.
+const OWN: &str = "burgeon";
+
+/// A virtual machine that runs a script and the rules it declares.
+pub struct Machine {
+    lua: Lua,
+    /// The run that it belongs to.
+    pub session: Arc<Session>,
+    /// What the functions that Rust gives to Lua need to know of the work at hand.
+    pub(crate) current: Rc<Current>,
+    pub(crate) library: Rc<Library>,
+    /// Its part in the run.
+    pub(crate) crew: Crew,
+    prelude: Prelude,
+    epoch: Cell<usize>,
+    // Declared last, so that it lets go of the state only when nothing runs any more.
+    _guard: watchdog::Registration,
+}
+
+impl Machine {
+    /// A machine with the standard library loaded and everything else locked away.
+    pub(crate) fn new(session: &Arc<Session>, watchdog: &Watchdog, crew: Crew) -> Result<Rc<Self>> {
+        let build = || -> mlua::Result<Rc<Self>> {
+            let libraries = StdLib::MATH
+                | StdLib::STRING
+                | StdLib::TABLE
+                | StdLib::BIT
+                | StdLib::UTF8
+                | StdLib::BUFFER
+                | StdLib::COROUTINE
+                | StdLib::VECTOR
+                | StdLib::OS
+                | StdLib::DEBUG;
+            let lua = Lua::new_with(libraries, LuaOptions::default())?;
+            lua.set_compiler(
+                Compiler::new().set_optimization_level(2).set_type_info_level(1).set_debug_level(1),
+            );
+            lua.enable_jit(true);
+            let guard = watchdog.register(&lua);
+            let current = Rc::new(Current::new(Arc::clone(session)));
+            let library = Rc::new(Library::default());
+            let host = host::functions(&lua, &current, &library)?;
+            let prelude = Prelude::load(&lua, host)?;
+            let session = Arc::clone(session);
+            Ok(Rc::new(Self {
+                lua,
+                session,
+                current,
+                library,
+                crew,
+                prelude,
+                epoch: Cell::new(0),
+                _guard: guard,
+            }))
+        };
+        let machine =
+            build().map_err(|error| Error::new(format!("the virtual machine did not start: {error}")))?;
+        machine.library.set_machine(&machine);
+        machine.library.install(&machine)?;
+        machine.lua.sandbox(true).map_err(|error| machine.translate(error))?;
+        machine.lua.globals().set_readonly(true);
+        machine
+            .lua
+            .set_memory_limit(session.options.limits.memory)
+            .map_err(|error| machine.translate(error))?;
+        Ok(machine)
+    }
+
+    /// Runs the script's main file.
+    pub fn run(&self) -> Result<()> {
+        let session = &self.session;
+        let path = session.script().canonicalize().map_err(|error| Error::new(error.to_string()))?;
+        let source =
+            session.source(&path, &session.script().display().to_string(), &self.library.globals())?;
+        let problems = session.problems();
+        if !problems.is_empty() && !session.options.check {
+            self.load(&source.name, &source.analysis.text)?;
+            return Err(Error::several(problems));
+        }
+        self.load(&source.name, &source.analysis.text)?.call::<()>(()).map_err(|error| self.translate(error))
+    }
+
+    /// Keeps the script from printing, since another machine runs it too.
+    pub(crate) fn silence(&self) {
+        self.lua.set_app_data(Quiet);
+    }
+
+    /// Empties the caches of parameters if some of them have been dropped.
+    pub(crate) fn refresh(&self) {
+        let epoch = self.session.values.epoch();
+        if self.epoch.replace(epoch) != epoch {
+            // The function only clears two tables.
+            let _ = self.prelude.forget_values.call::<()>(());
+        }
+    }
+
+    pub(crate) fn lua(&self) -> &Lua {
+        &self.lua
+    }
+
+    pub(crate) fn prelude(&self) -> &Prelude {
+        &self.prelude
+    }
+
+    /// Compiles `text`; errors name the file `name`.
+    pub(crate) fn load(&self, name: &str, text: &str) -> Result<Function> {
+        self.lua
+            .load(text)
+            .set_name(format!("@{name}"))
+            .set_mode(ChunkMode::Text)
+            .into_function()
+            .map_err(|error| self.translate(error))
+    }
+
+    /// A module's constructor.
+    pub(crate) fn constructor(&self, symbols: &Symbols, symbol: Symbol) -> mlua::Result<Function> {
+        let signature = symbols.signature(symbol);
+        let table = self.lua.create_table()?;
+        table.raw_set("name", signature.name.as_str())?;
+        table.raw_set("arity", signature.arity())?;
+        table.raw_set("required", signature.required)?;
+        table.raw_set("count", signature.count())?;
+        table.raw_set("usage", signature.usage())?;
+        table.raw_set(
+            "parameters",
+            self.lua.create_sequence_from(signature.parameters.iter().map(String::as_str))?,
+        )?;
+        self.prelude.constructor.call((symbol, table))
+    }
+
+    /// What a Lua error means: the place and the remedy taken out of its text.
+    pub(crate) fn translate(&self, error: mlua::Error) -> Error {
+        let translated = translate(&error);
+        match self.session.stop.check() {
+            Ok(()) => translated,
+            Err(reason) => reason.at(translated.place().cloned()),
+        }
+    }
+
+    /// The line of the script that is being run, `level` calls up from the Rust function that asks.
+    pub(crate) fn place(lua: &Lua) -> Option<Place> {
+        (1..20).find_map(|level| {
+            lua.inspect_stack(level, |debug| {
+                let source = debug.source();
+                let file = source.source?.strip_prefix('@')?.to_owned();
+                Some(Place { file, line: debug.current_line()? })
+            })
+            .flatten()
+        })
+    }
+}
+
+fn translate(error: &mlua::Error) -> Error {
+    match error {
+        mlua::Error::CallbackError { traceback, cause } => translate(cause).at(place_in_traceback(traceback)),
+        mlua::Error::ExternalError(inner) => match inner.downcast_ref::<Error>() {
+            Some(error) => error.clone(),
+            None => Error::new(inner.to_string()),
+        },
+        mlua::Error::WithContext { cause, .. } => translate(cause),
+        mlua::Error::MemoryError(_) => Error::new("the script needs more memory than it may use")
+            .help("raise the limit: --memory-limit MEGABYTES"),
+        mlua::Error::SyntaxError { message, .. } => parse(message),
+        mlua::Error::RuntimeError(message) => parse(message),
+        other => parse(&other.to_string()),
+    }
+}
+
+/// Takes `file:line: message`, a remedy behind the character 1 and a traceback apart.
+fn parse(text: &str) -> Error {
+    let text = text.split("\nstack traceback:").next().unwrap_or(text).trim_end();
+    let (text, help) = match text.split_once('\u{1}') {
+        Some((text, help)) => (text, Some(help)),
+        None => (text, None),
+    };
+    let (place, message) = match split_place(text) {
+        Some((place, message)) => (Some(place), message),
+        None => (None, text),
+    };
+    if message.contains("not enough memory") {
+        return Error::new("the script needs more memory than it may use")
+            .help("raise the limit: --memory-limit MEGABYTES")
+            .at(place);
+    }
+    let error = Error::new(message).at(place);
+    match help {
+        Some(help) => error.help(help),
+        None if message.contains("modify a readonly table") => error.help(
+            "while rules run, tables from outside them and those in parameters are frozen; make a new table, or use table.clone",
+        ),
+        None => error,
+    }
+}
+
+fn split_place(text: &str) -> Option<(Place, &str)> {
+    let mut from = 0;
+    while let Some(found) = text[from..].find(':') {
+        let colon = from + found;
+        let digits = text[colon + 1..].find(|c: char| !c.is_ascii_digit())?;
+        let behind = colon + 1 + digits;
+        if digits > 0 && text[behind..].starts_with(':') && !text[..colon].contains('\n') {
+            let line = text[colon + 1..behind].parse().ok()?;
+            let file = text[..colon].to_owned();
+            let message = text[behind + 1..].trim_start();
+            return (file != OWN && !file.is_empty()).then_some((Place { file, line }, message)).or(None);
+        }
+        from = colon + 1;
+    }
+    None
+}
+
+fn place_in_traceback(traceback: &str) -> Option<Place> {
+    traceback.lines().find_map(|line| {
+        let line = line.trim();
+        let (file, rest) = line.rsplit_once(':').or_else(|| line.split_once(':'))?;
+        let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
+        if digits.is_empty() || file == OWN || file.starts_with('[') {
+            return None;
+        }
+        Some(Place { file: file.to_owned(), line: digits.parse().ok()? })
+    })
+}
+
+/// Copies a column into the beginning of a buffer, which is long enough.
+pub(crate) fn write_column<T: bytemuck::Pod>(buffer: Buffer, column: &[T]) -> Result<()> {
+    buffer.cursor().write_all(bytemuck::cast_slice(column)).map_err(|error| Error::new(error.to_string()))
+}
+
+/// Replaces `column` by the first `count` items of a buffer.
+pub(crate) fn read_column<T: bytemuck::Pod + Default>(
+    buffer: Buffer,
+    count: usize,
+    column: &mut Vec<T>,
+) -> Result<()> {
+    column.clear();
+    column.resize(count, T::default());
+    buffer
+        .cursor()
+        .read_exact(bytemuck::cast_slice_mut(column))
+        .map_err(|error| Error::new(error.to_string()))
+}

@@ -1,0 +1,142 @@
+//! Loads the Lua side of the hot path.
+
+use mlua::{Buffer, Function, Lua, Table};
+
+const TEMPLATE: &str = include_str!("prelude.luau");
+
+/// The functions of `prelude.luau` that Rust calls.
+pub(crate) struct Prelude {
+    /// `(symbol, signature)`: a module's constructor.
+    pub constructor: Function,
+    /// `(rule, arity)`: a function that applies the rule to a batch.
+    pub driver: Function,
+    /// `(guard, arity)`: a function that asks the guard about a batch.
+    pub guard_driver: Function,
+    /// `(id, rule, arity)`: sets an interpretation rule.
+    pub interpreter: Function,
+    /// `(method, name, arity)`: a method that records its calls.
+    pub recorder: Function,
+    /// `(method, name, changes)`: a method that runs at once.
+    pub direct: Function,
+    /// `(count)`: interprets a batch; gives the calls and arguments recorded last.
+    pub interpret: Function,
+    /// Ends a batch that failed.
+    pub finish: Function,
+    /// The application at hand.
+    pub at: Function,
+    /// Sets `this`.
+    pub set_this: Function,
+    /// Forgets cached parameters.
+    pub forget_values: Function,
+    /// Forgets the interpretation rules of the last system.
+    pub fresh_interpreters: Function,
+    /// What scripts get from it.
+    pub globals: Table,
+    /// `(function)`: whether it was seen when the script was read.
+    pub is_prepared: Function,
+    input: Function,
+    counts: Function,
+    randoms: Function,
+    entries: Function,
+    outputs: Function,
+    recorded: Function,
+}
+
+impl Prelude {
+    pub(crate) fn load(lua: &Lua, host: Table) -> mlua::Result<Self> {
+        let table: Table = lua.load(expand(TEMPLATE)).set_name("=burgeon").call(host)?;
+        Ok(Self {
+            constructor: table.get("constructor")?,
+            driver: table.get("driver")?,
+            guard_driver: table.get("guard_driver")?,
+            interpreter: table.get("interpreter")?,
+            recorder: table.get("recorder")?,
+            direct: table.get("direct")?,
+            interpret: table.get("interpret")?,
+            finish: table.get("finish")?,
+            at: table.get("current")?,
+            set_this: table.get("set_this")?,
+            forget_values: table.get("forget_values")?,
+            fresh_interpreters: table.get("fresh_interpreters")?,
+            globals: table.get("globals")?,
+            is_prepared: table.get("is_prepared")?,
+            input: table.get("input")?,
+            counts: table.get("counts")?,
+            randoms: table.get("randoms")?,
+            entries: table.get("entries")?,
+            outputs: table.get("outputs")?,
+            recorded: table.get("recorded")?,
+        })
+    }
+
+    /// The column of arguments, at least `size` bytes long.
+    pub(crate) fn input(&self, size: usize) -> mlua::Result<Buffer> {
+        self.input.call(size)
+    }
+
+    /// The column of counts, at least `size` bytes long.
+    pub(crate) fn counts(&self, size: usize) -> mlua::Result<Buffer> {
+        self.counts.call(size)
+    }
+
+    /// The column of random numbers, `each` for an application.
+    pub(crate) fn randoms(&self, size: usize, each: usize) -> mlua::Result<Buffer> {
+        self.randoms.call((size, each))
+    }
+
+    /// The column that tells which interpretation rule each entry runs.
+    pub(crate) fn entries(&self, size: usize) -> mlua::Result<Buffer> {
+        self.entries.call(size)
+    }
+
+    /// The columns of new symbols and parameters.
+    pub(crate) fn outputs(&self) -> mlua::Result<(Buffer, Buffer)> {
+        self.outputs.call(())
+    }
+
+    /// The columns of recorded calls, their arguments, and the number of calls up to each entry.
+    pub(crate) fn recorded(&self) -> mlua::Result<(Buffer, Buffer, Buffer)> {
+        self.recorded.call(())
+    }
+}
+
+/// Repeats the marked parts of the template for each number of parameters.
+fn expand(template: &str) -> String {
+    let mut out = String::with_capacity(template.len() * 3);
+    let mut lines = template.lines();
+    while let Some(line) = lines.next() {
+        let Some(range) = line.strip_prefix("--@each K=") else {
+            out.push_str(line);
+            out.push('\n');
+            continue;
+        };
+        let part: Vec<&str> = lines.by_ref().take_while(|line| *line != "--@end").collect();
+        let (first, last) = range.split_once("..").unwrap_or((range, range));
+        let bounds = first.parse().unwrap_or(0)..=last.parse().unwrap_or(0);
+        for count in bounds {
+            for line in &part {
+                out.push_str(&instance(line, count));
+                out.push('\n');
+            }
+        }
+    }
+    out
+}
+
+/// One line of the template for `count` parameters.
+fn instance(line: &str, count: usize) -> String {
+    let names: Vec<String> = (1..=count).map(|index| format!("a{index}")).collect();
+    if let Some(each) = line.trim().strip_prefix("@{").and_then(|line| line.strip_suffix('}')) {
+        return (1..=count)
+            .map(|index| {
+                each.replace("aI", &names[index - 1])
+                    .replace("OFFSET", &((index - 1) * 8).to_string())
+                    .replace(", I)", &format!(", {index})"))
+            })
+            .collect::<Vec<_>>()
+            .join(" ");
+    }
+    let arguments = names.join(", ");
+    let with_comma = if count > 0 { format!(", {arguments}") } else { String::new() };
+    line.replace(" @COMMA_ARGS", &with_comma).replace("@ARGS", &arguments).replace('K', &count.to_string())
+}

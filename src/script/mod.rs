@@ -1,0 +1,21 @@
+//! Scripts: virtual machines, what they offer to a script, and what a script declares.
+//!
+//! Comes in: Lua files. Goes out: grammars with functions for their guards, successors and interpretations, one
+//! set in each virtual machine. Every machine runs the same script, and `derive` is where all of them meet.
+
+mod analysis;
+mod convert;
+mod freeze;
+mod handles;
+mod library;
+mod machine;
+mod param;
+mod session;
+mod system;
+
+pub(crate) use handles::Objects;
+pub(crate) use machine::{Flusher, read_column, write_column};
+pub use machine::{Machine, Watchdog};
+pub use param::{Control, Param, Setting};
+pub use session::{Limits, Options, Progress, Session, Stop};
+pub(crate) use system::{Declared, Interpretations};

@@ -1,0 +1,293 @@
+//! What all virtual machines of one run share: options, limits, source files, parameters.
+
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use rustc_hash::FxHashMap;
+
+use super::analysis::{Analysis, Globals, analyse};
+use super::param::Param;
+use crate::error::{Error, Result};
+use crate::rules::Values;
+
+/// The standard library, which every script has.
+const STANDARD: &str = include_str!("../../stdlib.lua");
+
+/// How much a run may use.
+#[derive(Debug, Clone)]
+pub struct Limits {
+    /// Time for the whole run.
+    pub time: Duration,
+    /// Memory (bytes) of one virtual machine.
+    pub memory: usize,
+    /// Modules in all chains of a system.
+    pub modules: usize,
+    /// Triangles of all objects of a system.
+    pub triangles: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { time: Duration::from_secs(300), memory: 2 << 30, modules: 50_000_000, triangles: 50_000_000 }
+    }
+}
+
+/// How a script is to be run.
+#[derive(Debug, Clone)]
+pub struct Options {
+    /// Values for `param` declarations, by name, as text.
+    pub set: Vec<(String, String)>,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// The greatest number of derivation steps of each system; as the script says if `None`.
+    pub steps: Option<usize>,
+    /// Worker threads; as many as there are cores if `None`.
+    pub threads: Option<usize>,
+    /// Modules that a worker takes at a time. The result does not depend on it.
+    pub batch: usize,
+    /// How much the run may use.
+    pub limits: Limits,
+    /// Whether to stop before deriving, after all declarations have been read.
+    pub check: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            set: Vec::new(),
+            seed: 0,
+            steps: None,
+            threads: None,
+            batch: 4096,
+            limits: Limits::default(),
+            check: false,
+        }
+    }
+}
+
+/// Tells everything that works on a run to stop, and why.
+#[derive(Debug, Default)]
+pub struct Stop {
+    stopped: AtomicBool,
+    reason: Mutex<Option<Error>>,
+}
+
+impl Stop {
+    /// Asks for a stop; the first reason is kept.
+    pub fn stop(&self, reason: Error) {
+        self.reason.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
+        self.stopped.store(true, Ordering::Release);
+    }
+
+    /// Whether a stop was asked for.
+    #[inline]
+    pub fn is_stopped(&self) -> bool {
+        self.stopped.load(Ordering::Acquire)
+    }
+
+    /// The reason as an error, if a stop was asked for.
+    pub fn check(&self) -> Result<()> {
+        if !self.is_stopped() {
+            return Ok(());
+        }
+        let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        Err(reason.unwrap_or_else(|| Error::new("stopped")))
+    }
+}
+
+/// How far a run has come, for those who wait.
+#[derive(Debug, Default)]
+pub struct Progress {
+    step: AtomicUsize,
+    steps: AtomicUsize,
+    modules: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Progress {
+    /// Notes that `step` of at most `steps` has made a chain of `modules`.
+    pub(crate) fn note(&self, step: usize, steps: usize, modules: usize) {
+        self.step.store(step, Ordering::Relaxed);
+        self.steps.store(steps, Ordering::Relaxed);
+        self.modules.store(modules, Ordering::Relaxed);
+        self.total.fetch_add(modules, Ordering::Relaxed);
+    }
+
+    /// Says it in words, with the rate and an estimate of the time left.
+    pub fn message(&self, elapsed: Duration) -> String {
+        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
+        let (step, steps) = (load(&self.step), load(&self.steps));
+        #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
+        let rate = load(&self.total) as f64 / elapsed.as_secs_f64().max(1e-3) / 1e6;
+        let modules = load(&self.modules);
+        let of = if steps == usize::MAX { String::new() } else { format!(" of {steps}") };
+        // Chains grow, so the steps that are left take at least as long as those that are done.
+        let left = match (step, steps) {
+            (1.., steps) if steps != usize::MAX && steps > step => {
+                #[allow(clippy::cast_precision_loss, reason = "an estimate")]
+                let share = (steps - step) as f64 / step as f64;
+                format!(", at least {:.0} s left", elapsed.as_secs_f64() * share)
+            }
+            _ => String::new(),
+        };
+        format!("step {step}{of}, {modules} modules, {rate:.1} M modules/s{left}")
+    }
+}
+
+/// A source file, read once, as every virtual machine runs it.
+#[derive(Debug)]
+pub(crate) struct Source {
+    /// The name in messages, relative to where the script was called.
+    pub name: String,
+    /// The file, without links.
+    pub path: PathBuf,
+    /// What reading it gave.
+    pub analysis: Analysis,
+}
+
+/// One run of a script.
+pub struct Session {
+    /// How to run it.
+    pub options: Options,
+    /// Asks the run to stop.
+    pub stop: Arc<Stop>,
+    /// How far the run has come.
+    pub progress: Progress,
+    /// The parameters of modules that are not numbers.
+    pub(crate) values: Arc<Values>,
+    script: PathBuf,
+    root: PathBuf,
+    sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    params: Mutex<Vec<Param>>,
+    standard: Mutex<Option<Arc<Source>>>,
+    randoms: AtomicBool,
+    reads_this: AtomicBool,
+    kept: Mutex<Vec<f64>>,
+}
+
+impl Session {
+    /// A run of the file `script`.
+    pub fn new(script: &Path, options: Options) -> Result<Arc<Self>> {
+        let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
+        let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        Ok(Arc::new(Self {
+            options,
+            stop: Arc::default(),
+            progress: Progress::default(),
+            values: Arc::default(),
+            script: script.to_path_buf(),
+            root,
+            sources: Mutex::default(),
+            params: Mutex::default(),
+            standard: Mutex::default(),
+            randoms: AtomicBool::new(false),
+            reads_this: AtomicBool::new(false),
+            kept: Mutex::default(),
+        }))
+    }
+
+    /// The script's file as it was named.
+    pub fn script(&self) -> &Path {
+        &self.script
+    }
+
+    /// The folder that holds the script and all that it may read.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// Every file that was read, in the order of their paths.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> =
+            self.sources.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect();
+        files.sort();
+        files
+    }
+
+    /// The parameters that the script declared, in order.
+    pub fn params(&self) -> Vec<Param> {
+        self.params.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    pub(crate) fn add_param(&self, param: Param) {
+        let mut params = self.params.lock().unwrap_or_else(PoisonError::into_inner);
+        if !params.iter().any(|known| known.name == param.name) {
+            params.push(param);
+        }
+    }
+
+    /// Whether any file of the script names `random`.
+    pub(crate) fn draws_random(&self) -> bool {
+        self.randoms.load(Ordering::Acquire)
+    }
+
+    /// Takes notice of what a piece of the script may do.
+    pub(crate) fn note(&self, analysis: &Analysis) {
+        self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
+        self.reads_this.fetch_or(analysis.reads_this, Ordering::AcqRel);
+    }
+
+    /// Whether any rule or guard in the files may read its object.
+    pub(crate) fn reads_this(&self) -> bool {
+        self.reads_this.load(Ordering::Acquire)
+    }
+
+    /// Keeps the values that `params` names for the rest of the run.
+    pub(crate) fn keep(&self, params: &[f64]) {
+        let boxed = params.iter().filter(|stored| stored.is_nan());
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).extend(boxed);
+    }
+
+    /// Drops the values that neither `params` nor earlier systems name, once they are many.
+    pub(crate) fn forget_unused(&self, params: &[f64]) {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        self.values.retain_if_many(&[params, &kept]);
+    }
+
+    /// All problems that reading the files showed, in the order of the files' names.
+    pub(crate) fn problems(&self) -> Vec<Error> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sources: Vec<_> = sources.values().collect();
+        sources.sort_by(|a, b| a.name.cmp(&b.name));
+        sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
+    }
+
+    /// The standard library's source.
+    pub(crate) fn standard(&self, globals: &Globals) -> Arc<Source> {
+        let mut standard = self.standard.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(standard.get_or_insert_with(|| {
+            let analysis = analyse("stdlib.lua", STANDARD, globals);
+            Arc::new(Source { name: "stdlib.lua".to_owned(), path: PathBuf::from("stdlib.lua"), analysis })
+        }))
+    }
+
+    /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
+    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<Source>> {
+        let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(source) = sources.get(path) {
+            return Ok(Arc::clone(source));
+        }
+        let bytes = std::fs::read(path).map_err(|error| unreadable(Path::new(name), &error))?;
+        let text = String::from_utf8(bytes).map_err(|_| {
+            Error::new(format!("{name} is not a text file"))
+                .help("scripts are UTF-8 text; check the file's name")
+        })?;
+        let analysis = analyse(name, &text, globals);
+        self.note(&analysis);
+        let source = Arc::new(Source { name: name.to_owned(), path: path.to_path_buf(), analysis });
+        sources.insert(path.to_path_buf(), Arc::clone(&source));
+        Ok(source)
+    }
+}
+
+/// The error for a script that cannot be read.
+fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+    let shown = path.display();
+    match error.kind() {
+        std::io::ErrorKind::NotFound => Error::new(format!("there is no script {shown}"))
+            .help("check the path, or make one: burgeon new NAME"),
+        _ => Error::new(format!("cannot read {shown}: {error}")),
+    }
+}

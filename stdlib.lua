@@ -1,0 +1,3 @@
+--!strict
+-- Burgeon's standard library: what every script has besides Luau itself.
+return {}
