@@ -59,6 +59,14 @@ impl Error {
         first
     }
 
+    /// The same place, rule and module, but the message and the remedy of `cause`.
+    #[must_use]
+    pub(crate) fn because(mut self, cause: &Self) -> Self {
+        self.0.message.clone_from(&cause.0.message);
+        self.0.help.clone_from(&cause.0.help);
+        self
+    }
+
     /// Says what to do about it.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {

@@ -20,7 +20,7 @@ use crate::rules::Signature;
 
 /// What a script may use without declaring it.
 #[derive(Debug, Clone, Default)]
-pub struct Globals {
+pub(crate) struct Globals {
     /// The names of values.
     pub names: Vec<String>,
     /// The modules among them.
@@ -29,7 +29,7 @@ pub struct Globals {
 
 /// What reading a script gives.
 #[derive(Debug, Clone, Default)]
-pub struct Analysis {
+pub(crate) struct Analysis {
     /// The text to run, with as many lines as the script.
     pub text: String,
     /// What is wrong, by line.
@@ -41,7 +41,7 @@ pub struct Analysis {
 }
 
 /// Reads `text`, the content of `file`. What the parser cannot read is left to the compiler, as it stands.
-pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
+pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
     let plain = || Analysis {
         text: text.to_owned(),
         problems: Vec::new(),
