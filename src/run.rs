@@ -50,7 +50,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     }
     let params = session.params();
     refuse_unknown(session, &params)?;
-    let systems = machine.crew.done.borrow().clone();
+    let systems: Vec<Arc<Derived>> = machine.crew.done.borrow().iter().flatten().cloned().collect();
     drop(machine);
     let mut times = RunTimes::default();
     for system in &systems {
