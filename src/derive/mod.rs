@@ -113,6 +113,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     while done < limit {
         session.stop.check()?;
         let begin = Instant::now();
+        times.read += chain.symbols.len();
         let outcome = stepper.step(machine, &declared, chain, done + 1)?;
         times.rewriting += begin.elapsed();
         chain = outcome.chain;

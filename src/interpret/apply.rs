@@ -60,8 +60,10 @@ impl Applier {
         })
     }
 
-    /// Begins a batch of entries, each the place of a module and of its parameters.
-    pub(crate) fn begin_entries(&mut self, entries: &[(usize, usize)]) {
+    /// Begins a batch of entries, each the place of a module and of its parameters; `buffers` are the columns
+    /// of calls, of their arguments, and of the number of calls up to each entry.
+    pub(crate) fn begin_entries(&mut self, entries: &[(usize, usize)], buffers: [Buffer; 3]) {
+        self.buffers = buffers;
         self.entries.clear();
         self.entries.extend_from_slice(entries);
         self.next = 0;

@@ -152,8 +152,10 @@ impl Interpreting {
                 None => Err(Error::new("nothing is being interpreted")),
             }
         };
+        let (calls, numbers, counts) = prelude.recorded().map_err(lua)?;
+        let buffers = [calls, numbers, counts];
         with_applier(&mut |applier| {
-            applier.begin_entries(entries);
+            applier.begin_entries(entries, buffers.clone());
             Ok(())
         })?;
         let called: usize = match prelude.interpret.call::<(usize, usize)>(ids.len()) {

@@ -96,6 +96,24 @@ methods! {
             self.state.frame.roll(angle);
         }
 
+        /// Turns to the right by `angle` (degrees).
+        pub fn turn_right(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.turn(-angle);
+        }
+
+        /// Pitches up by `angle` (degrees).
+        pub fn pitch_up(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.pitch(-angle);
+        }
+
+        /// Rolls about the heading by `angle` (degrees), the right side up.
+        pub fn roll_back(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.roll(-angle);
+        }
+
         /// Turns around.
         pub fn turn_around(&mut self) {
             self.state.frame.turn(std::f64::consts::PI);
