@@ -14,7 +14,10 @@ pub(crate) fn try_run(script: &str, options: Options) -> burgeon::Result<Run> {
 }
 
 pub(crate) fn run_with(script: &str, options: Options) -> Run {
-    try_run(script, options).unwrap_or_else(|error| panic!("{error}\nin the script\n{script}"))
+    try_run(script, options).unwrap_or_else(|error| {
+        let shown: Vec<&str> = script.lines().take(30).collect();
+        panic!("{error}\nin the script\n{}", shown.join("\n"))
+    })
 }
 
 pub(crate) fn run(script: &str) -> Run {
