@@ -1,6 +1,8 @@
 //! Six rewriting workloads, beside the crate `symbios` in one process: CPU time of one thread, wall time of two,
 //! and the memory at the peak. `cargo bench --bench rewriting [-- WORKLOAD...]`.
 
+#![allow(clippy::print_stdout, reason = "a bench prints its figures")]
+
 use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -193,7 +195,12 @@ fn ours(workload: &Workload, threads: usize, steps: usize) -> Measure {
     let cpu = cpu.elapsed();
     std::fs::remove_file(path).ok();
     let system = &run.systems[0];
-    Measure { cpu, wall: system.times.rewriting, read: system.times.read, modules: system.chain.symbols.len() }
+    Measure {
+        cpu,
+        wall: system.times.rewriting,
+        read: system.times.read,
+        modules: system.chain.symbols.len(),
+    }
 }
 
 fn theirs(workload: &Workload) -> Measure {
@@ -241,7 +248,8 @@ fn memory(workload: &Workload) -> f64 {
 }
 
 fn main() {
-    let arguments: Vec<String> = std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
+    let arguments: Vec<String> =
+        std::env::args().skip(1).filter(|argument| !argument.starts_with("--")).collect();
     if let [command, name, steps] = arguments.as_slice()
         && command == "memory"
     {
@@ -251,7 +259,9 @@ fn main() {
         return;
     }
     println!("Rewriting, million symbols read per second; the best of five.");
-    println!("| workload | symbols read | Burgeon, 1 thread | symbios | ratio | 2 threads / 1 | bytes/symbol |");
+    println!(
+        "| workload | symbols read | Burgeon, 1 thread | symbios | ratio | 2 threads / 1 | bytes/symbol |"
+    );
     println!("|---|---|---|---|---|---|---|");
     for workload in WORKLOADS {
         if !arguments.is_empty() && !arguments.iter().any(|name| workload.name.starts_with(name.as_str())) {

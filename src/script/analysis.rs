@@ -1,7 +1,7 @@
 //! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
 //!
-//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes calls
-//! that write the modules where they belong, so that nothing has to be returned and taken apart; its other
+//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes one call
+//! with all parameters, since its modules and brackets, its shape, can be seen from the text; its other
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
@@ -12,24 +12,36 @@ use full_moon::ast::{
     Parameter, Prefix, Stmt, Suffix, TableConstructor, Var,
 };
 use full_moon::node::Node;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use full_moon::tokenizer::{TokenReference, TokenType};
+use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
 use crate::error::{Error, Place, nearest};
 use crate::rules::Signature;
 
+/// The most parameters that a prepared return can have.
+const MOST_EMITTED: usize = 16;
+
+/// Added to the number of a shape, so that it cannot be taken for a count of modules.
+const SHAPE: usize = 1 << 30;
+
 /// What a script may use without declaring it.
 #[derive(Debug, Clone, Default)]
-pub struct Globals {
+pub(crate) struct Globals {
     /// The names of values.
     pub names: Vec<String>,
     /// The modules among them.
     pub modules: FxHashMap<String, Signature>,
+    /// Counts the shapes of the run's rules.
+    pub shapes: Arc<AtomicUsize>,
 }
 
 /// What reading a script gives.
 #[derive(Debug, Clone, Default)]
-pub struct Analysis {
+pub(crate) struct Analysis {
     /// The text to run, with as many lines as the script.
     pub text: String,
     /// What is wrong, by line.
@@ -40,15 +52,38 @@ pub struct Analysis {
     pub reads_this: bool,
 }
 
-/// Reads `text`, the content of `file`. What the parser cannot read is left to the compiler, as it stands.
-pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
-    let plain = || Analysis {
-        text: text.to_owned(),
-        problems: Vec::new(),
-        random: text.contains("random"),
-        reads_this: true,
+/// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
+const STACK: usize = 256 << 20;
+
+/// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
+pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
+    // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
+    if Compiler::new().compile(text).is_err() {
+        return unread(text, Vec::new());
+    }
+    let read = || analyse_compiled(file, text, globals);
+    let read = std::thread::scope(|scope| {
+        std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, read).ok()?.join().ok()
+    });
+    read.unwrap_or_else(|| unread(text, vec![Error::new(format!("{file} could not be read"))]))
+}
+
+/// The analysis of a script that is not to be run.
+fn unread(text: &str, problems: Vec<Error>) -> Analysis {
+    Analysis { text: text.to_owned(), problems, random: true, reads_this: true }
+}
+
+fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
+    let refuse = |line: usize| {
+        let place = Place { file: file.to_owned(), line };
+        let error = Error::new("this part of Luau's syntax is not known to Burgeon")
+            .help("write it in another way; attributes in brackets, such as @[native], are not needed");
+        unread(text, vec![error.at(Some(place))])
     };
-    let Ok(ast) = full_moon::parse(text) else { return plain() };
+    let ast = match full_moon::parse(text) {
+        Ok(ast) => ast,
+        Err(errors) => return refuse(errors.first().map_or(1, |error| error.range().0.line())),
+    };
     // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
     let mut first = Walk::new(file, globals, Facts::default());
     first.run(&ast);
@@ -56,12 +91,13 @@ pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
     second.run(&ast);
     let Walk { mut edits, mut problems, random, reads_this, .. } = second;
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
-    edits.sort_by_key(|edit| (edit.begin, edit.order));
+    // What is put before a token comes before what replaces it.
+    edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
     let mut out = String::with_capacity(text.len() + 64 * edits.len());
     let mut at = 0;
     for edit in &edits {
         if edit.begin < at {
-            return plain();
+            return refuse(text[..edit.begin].matches('\n').count() + 1);
         }
         out.push_str(&text[at..edit.begin]);
         out.push_str(&edit.text);
@@ -75,14 +111,12 @@ pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
 #[derive(Default)]
 struct Facts {
     variables: Vec<Fact>,
-    impure: FxHashMap<usize, bool>,
 }
 
 #[derive(Default, Clone)]
 struct Fact {
     assigned: bool,
     assigned_inside: bool,
-    pure_function: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -96,9 +130,11 @@ enum Role {
 
 struct Function {
     role: Role,
-    begin: usize,
-    impure: bool,
     this: Option<String>,
+    /// The rule that it belongs to, as errors name it.
+    rule: Option<String>,
+    /// What its prepared returns make, as Lua tables.
+    shapes: Vec<String>,
 }
 
 struct Variable {
@@ -106,6 +142,20 @@ struct Variable {
     id: usize,
     function: usize,
     module: Option<Signature>,
+}
+
+/// What a return makes, as far as its text tells: symbols and brackets, and where the parameters stand.
+#[derive(Default)]
+struct Shape {
+    items: Vec<String>,
+    arguments: Vec<Argument>,
+}
+
+enum Argument {
+    /// From one place to another; open if it may have any number of values, of which one is taken.
+    At(usize, usize, bool),
+    /// Left out, before this place.
+    Missing(usize),
 }
 
 struct Edit {
@@ -126,6 +176,8 @@ struct Walk<'a> {
     problems: Vec<Error>,
     random: bool,
     reads_this: bool,
+    /// The rule whose functions are being walked.
+    rule: Option<String>,
 }
 
 impl<'a> Walk<'a> {
@@ -135,12 +187,13 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { role: Role::Script, begin: 0, impure: false, this: None }],
+            functions: vec![Function { role: Role::Script, this: None, rule: None, shapes: Vec::new() }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
             random: false,
             reads_this: false,
+            rule: None,
         }
     }
 
@@ -240,9 +293,8 @@ impl<'a> Walk<'a> {
     }
 
     fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
-        let id = self.declare(name, end_of(statement));
-        let impure = self.function(body, Role::Other, None);
-        self.facts.variables[id].pure_function = !impure;
+        self.declare(name, end_of(statement));
+        self.function(body, Role::Other, None);
     }
 
     fn local(
@@ -267,7 +319,12 @@ impl<'a> Walk<'a> {
         let id = self.facts.variables.len();
         self.facts.variables.push(Fact::default());
         let function = self.functions.len() - 1;
-        self.variables.push(Variable { name: text_of(name), id, function, module: None });
+        let text = text_of(name);
+        if text.starts_with("__") {
+            let error = Error::new(format!("a variable cannot be called {text}"));
+            self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
+        }
+        self.variables.push(Variable { name: text, id, function, module: None });
         if function > 0
             && self.fact(id).assigned_inside
             && let Some(at) = behind
@@ -307,6 +364,11 @@ impl<'a> Walk<'a> {
             .rposition(|function| matches!(function.role, Role::Rule | Role::Guard | Role::Interpretation));
         let found = self.find(&name).map(|variable| (variable.id, variable.function));
         let Some((id, owner)) = found else {
+            if self.globals.names.contains(&name) {
+                let error = Error::new(format!("{name} is Burgeon's own and cannot be assigned"));
+                self.problem(token, error.help("choose another name: local ..."));
+                return;
+            }
             let error = Error::new(format!("{name} is assigned, but it is no local variable"));
             self.problem(token, match rule {
                 Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
@@ -349,9 +411,7 @@ impl<'a> Walk<'a> {
 
     fn read(&mut self, token: &TokenReference) {
         let name = text_of(token);
-        if name == "random" {
-            self.random = true;
-        }
+        self.random |= name == "random";
         self.reads_this |= self.functions.iter().any(|function| {
             matches!(function.role, Role::Rule | Role::Guard) && function.this.as_ref() == Some(&name)
         });
@@ -361,6 +421,9 @@ impl<'a> Walk<'a> {
         let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
         let near = nearest(&name, locals.chain(self.globals.names.iter().map(String::as_str)));
         let error = Error::new(format!("unknown name {name}"));
+        if let Some(instead) = instead_of(&name) {
+            return self.problem(token, error.help(instead));
+        }
         let error = match (near, name.starts_with(|c: char| c.is_ascii_uppercase())) {
             (Some(near), _) => error.help(format!("did you mean {near}?")),
             (None, true) => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
@@ -397,10 +460,10 @@ impl<'a> Walk<'a> {
             Expression::TableConstructor(table) => self.table(table),
             Expression::Var(variable) => match variable {
                 Var::Name(name) => {
-                    self.mention(name);
                     self.read(name);
                 }
                 Var::Expression(expression) => {
+                    self.library_field(expression.prefix(), expression.suffixes().next());
                     self.prefix(expression.prefix());
                     for suffix in expression.suffixes() {
                         self.suffix(suffix);
@@ -441,23 +504,9 @@ impl<'a> Walk<'a> {
         match prefix {
             Prefix::Expression(expression) => self.expression(expression),
             Prefix::Name(name) => {
-                self.mention(name);
                 self.read(name);
             }
             _ => {}
-        }
-    }
-
-    /// A module's constructor used as a value may end up anywhere, so its function cannot be prepared.
-    fn mention(&mut self, name: &TokenReference) {
-        if self.module(name).is_some() {
-            self.impure();
-        }
-    }
-
-    fn impure(&mut self) {
-        for function in &mut self.functions {
-            function.impure = true;
         }
     }
 
@@ -478,16 +527,26 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Refuses the fields of Luau's tables that scripts do not have.
+    fn library_field(&mut self, prefix: &Prefix, suffix: Option<&Suffix>) {
+        if let (Prefix::Name(table), Some(Suffix::Index(Index::Dot { name, .. }))) = (prefix, suffix)
+            && self.find(&text_of(table)).is_none()
+        {
+            let name = format!("{}.{}", text_of(table), text_of(name));
+            if let Some(instead) = instead_of(&name) {
+                self.problem(table, Error::new(format!("unknown name {name}")).help(instead));
+            }
+        }
+    }
+
     fn call(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        self.library_field(call.prefix(), suffixes.first().copied());
         if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
             (call.prefix(), suffixes.as_slice())
             && let Some(signature) = self.module(name)
         {
             self.check_arity(name, &signature, arguments);
-        }
-        if !self.is_pure(call.prefix(), &suffixes) {
-            self.impure();
         }
         match call.prefix() {
             Prefix::Name(name) => self.read(name),
@@ -501,21 +560,6 @@ impl<'a> Walk<'a> {
                     _ => self.suffix(suffix),
                 },
                 _ => self.suffix(suffix),
-            }
-        }
-    }
-
-    /// Whether a call surely makes no modules.
-    fn is_pure(&self, prefix: &Prefix, suffixes: &[&Suffix]) -> bool {
-        let Prefix::Name(name) = prefix else { return false };
-        let text = text_of(name);
-        match self.find(&text) {
-            None => !self.globals.modules.contains_key(&text),
-            Some(variable) => {
-                let fact = self.fact(variable.id);
-                let is_this = self.functions.iter().any(|function| function.this.as_deref() == Some(&text));
-                (is_this && matches!(suffixes, [Suffix::Call(Call::MethodCall(_))]))
-                    || (fact.pure_function && !fact.assigned && suffixes.len() == 1)
             }
         }
     }
@@ -550,6 +594,14 @@ impl<'a> Walk<'a> {
     fn rule(&mut self, arguments: &FunctionArgs, role: Role) {
         let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.arguments(arguments) };
         let last = arguments.len().saturating_sub(1);
+        let outer = self.rule.take();
+        if let Some(Expression::String(text)) = arguments.iter().next() {
+            let pattern = string_of(text).filter(|pattern| !pattern.is_empty());
+            self.rule = pattern.map(|pattern| match role {
+                Role::Interpretation => format!("{pattern} (interpretation)"),
+                _ => pattern,
+            });
+        }
         for (index, argument) in arguments.iter().enumerate() {
             match argument {
                 Expression::Function(function) if index == last && index > 0 => {
@@ -576,22 +628,22 @@ impl<'a> Walk<'a> {
                 other => self.expression(other),
             }
         }
+        self.rule = outer;
     }
 
     /// Walks a function of a rule, and lets the script say that it has been seen.
     fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: Role) {
         if let (Some(begin), Some(end)) = (value.start_position(), value.end_position()) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
-            self.function(body, role, None);
-            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+            let shapes = self.function(body, role, None);
+            let shapes: String = shapes.iter().map(|shape| format!(", {shape}")).collect();
+            self.edit(end.bytes(), end.bytes(), format!("{shapes})"));
         }
     }
 
-    /// Walks a function; tells whether it may make modules other than by its returns.
-    fn function(&mut self, body: &FunctionBody, role: Role, this: Option<&str>) -> bool {
+    /// Walks a function; gives the shapes of its returns.
+    fn function(&mut self, body: &FunctionBody, role: Role, this: Option<&str>) -> Vec<String> {
         let outside = self.variables.len();
-        let begin =
-            body.parameters_parentheses().tokens().0.start_position().map_or(0, |position| position.bytes());
         let start = first_position(body.block(), body.end_token());
         let mut parameters = body.parameters().iter();
         let first = match body.parameters().iter().next() {
@@ -600,7 +652,8 @@ impl<'a> Walk<'a> {
         };
         let this = this.map(str::to_owned).or(if role == Role::Other { None } else { first });
         let names_self = this.as_deref() == Some("self");
-        self.functions.push(Function { role, begin, impure: false, this });
+        let rule = if role == Role::Other { None } else { self.rule.clone() };
+        self.functions.push(Function { role, this, rule, shapes: Vec::new() });
         if names_self && role == Role::Other {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
@@ -618,40 +671,23 @@ impl<'a> Walk<'a> {
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        let impure = self.functions.pop().is_none_or(|function| function.impure);
-        self.facts.impure.insert(begin, impure);
-        impure
+        self.functions.pop().map(|function| function.shapes).unwrap_or_default()
     }
 
     fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
-        let here = self.functions.last().map(|function| (function.role, function.begin));
-        let Some((Role::Rule, begin)) = here else { return self.expressions(values) };
-        let ready = !self.known.impure.get(&begin).copied().unwrap_or(true);
-        let listed = values.iter().all(|value| self.is_item(value));
-        if !values.is_empty() && listed {
-            for value in values {
-                self.item(value);
-            }
-            if ready && let Some(last) = values.iter().last().and_then(Node::end_position) {
-                self.blank(token, "");
-                for pair in values.pairs() {
-                    self.write_item(pair.value());
-                    if let Some(comma) = pair.punctuation() {
-                        self.blank(comma, ";");
-                    }
-                }
-                self.edit(last.bytes(), last.bytes(), ";return __done".to_owned());
-                return;
-            }
-        } else {
-            self.expressions(values);
+        if self.functions.last().is_none_or(|function| function.role != Role::Rule) {
+            return self.expressions(values);
         }
+        self.expressions(values);
         let (Some(begin), Some(end)) =
             (token.end_position(), values.iter().last().and_then(Node::end_position))
         else {
             return;
         };
-        if values.len() == 1
+        let mut shape = Shape::default();
+        if values.iter().all(|value| self.shape(value, &mut shape)) && shape.arguments.len() <= MOST_EMITTED {
+            self.emit(begin.bytes(), end.bytes(), values, &shape);
+        } else if values.len() == 1
             && matches!(values.iter().next(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "nil")
         {
             self.edit(begin.bytes(), end.bytes(), " __erased".to_owned());
@@ -661,66 +697,120 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether `value` is a module made on the spot, or a branch of such.
-    fn is_item(&self, value: &Expression) -> bool {
+    /// Writes `return A(x), { B(y) }` as one call with the shape's number and the parameters in order.
+    fn emit(&mut self, begin: usize, end: usize, values: &Punctuated<Expression>, shape: &Shape) {
+        let number = self.globals.shapes.fetch_add(1, Ordering::Relaxed);
+        self.edit(begin, begin, format!(" __emit{}({}", shape.arguments.len(), SHAPE + number));
+        self.blank_items(values);
+        for argument in &shape.arguments {
+            match argument {
+                Argument::At(from, to, open) => {
+                    self.edit(*from, *from, if *open { ", (" } else { ", " }.to_owned());
+                    self.edit(*to, *to, if *open { ")" } else { "" }.to_owned());
+                }
+                Argument::Missing(at) => self.edit(*at, *at, ", nil".to_owned()),
+            }
+        }
+        self.edit(end, end, ")".to_owned());
+        if let Some(function) = self.functions.last_mut() {
+            function.shapes.push(format!("{{ {}, {} }}", SHAPE + number, shape.items.join(", ")));
+        }
+    }
+
+    /// Adds what `value` makes to `shape`; `false` if that cannot be seen from its text.
+    fn shape(&self, value: &Expression, shape: &mut Shape) -> bool {
         match value {
             Expression::FunctionCall(call) => {
                 let suffixes: Vec<&Suffix> = call.suffixes().collect();
-                match (call.prefix(), suffixes.as_slice()) {
-                    (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) => {
-                        matches!(**arguments, FunctionArgs::Parentheses { .. }) && self.module(name).is_some()
-                    }
-                    _ => false,
+                let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+                    (call.prefix(), suffixes.as_slice())
+                else {
+                    return false;
+                };
+                let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments else { return false };
+                let (Some(signature), Some(close)) =
+                    (self.module(name), parentheses.tokens().1.start_position())
+                else {
+                    return false;
+                };
+                // The shape is made outside of the rule's function, where the module must mean the same.
+                let inside =
+                    self.find(&text_of(name)).is_some_and(|known| known.function + 1 >= self.functions.len());
+                let given = arguments.len();
+                if inside || given < signature.required || given > signature.arity() {
+                    return false;
                 }
+                shape.items.push(text_of(name));
+                for (index, argument) in arguments.iter().enumerate() {
+                    let open = is_open(argument) && index + 1 == given;
+                    if open && given < signature.arity() {
+                        return false;
+                    }
+                    let (Some(from), Some(to)) = (argument.start_position(), argument.end_position()) else {
+                        return false;
+                    };
+                    shape.arguments.push(Argument::At(from.bytes(), to.bytes(), open));
+                }
+                shape.arguments.extend((given..signature.arity()).map(|_| Argument::Missing(close.bytes())));
+                true
             }
-            Expression::TableConstructor(table) => table.fields().iter().all(|field| match field {
-                Field::NoKey(value) => self.is_item(value),
-                _ => false,
-            }),
+            Expression::TableConstructor(table) => {
+                shape.items.push("0".to_owned());
+                let known = table.fields().iter().all(|field| match field {
+                    Field::NoKey(value) => self.shape(value, shape),
+                    _ => false,
+                });
+                shape.items.push("1".to_owned());
+                known
+            }
             _ => false,
         }
     }
 
-    /// Walks an item without counting its own constructors as mentioned.
-    fn item(&mut self, value: &Expression) {
+    /// Takes away everything of a list of items but the arguments.
+    fn blank_items(&mut self, values: &Punctuated<Expression>) {
+        for pair in values.pairs() {
+            self.blank_item(pair.value());
+            if let Some(comma) = pair.punctuation() {
+                self.blank(comma, "");
+            }
+        }
+    }
+
+    fn blank_item(&mut self, value: &Expression) {
         match value {
             Expression::FunctionCall(call) => {
+                if let Prefix::Name(name) = call.prefix() {
+                    self.blank(name, "");
+                }
                 for suffix in call.suffixes() {
-                    if let (Prefix::Name(name), Suffix::Call(Call::AnonymousCall(arguments))) =
-                        (call.prefix(), suffix)
+                    if let Suffix::Call(Call::AnonymousCall(arguments)) = suffix
+                        && let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments
                     {
-                        if let Some(signature) = self.module(name) {
-                            self.check_arity(name, &signature, arguments);
+                        let (open, close) = parentheses.tokens();
+                        self.blank(open, "");
+                        for comma in arguments.pairs().filter_map(|pair| pair.punctuation()) {
+                            self.blank(comma, "");
                         }
-                        self.arguments(arguments);
+                        self.blank(close, "");
                     }
                 }
             }
             Expression::TableConstructor(table) => {
-                for field in table.fields() {
-                    if let Field::NoKey(value) = field {
-                        self.item(value);
+                let (open, close) = table.braces().tokens();
+                self.blank(open, "");
+                for pair in table.fields().pairs() {
+                    if let Field::NoKey(value) = pair.value() {
+                        self.blank_item(value);
+                    }
+                    if let Some(separator) = pair.punctuation() {
+                        self.blank(separator, "");
                     }
                 }
+                self.blank(close, "");
             }
             _ => {}
         }
-    }
-
-    fn write_item(&mut self, value: &Expression) {
-        let Expression::TableConstructor(table) = value else { return };
-        let (open, close) = table.braces().tokens();
-        self.blank(open, "__open();");
-        let last = table.fields().len().saturating_sub(1);
-        for (index, pair) in table.fields().pairs().enumerate() {
-            if let Field::NoKey(value) = pair.value() {
-                self.write_item(value);
-            }
-            if let Some(separator) = pair.punctuation() {
-                self.blank(separator, if index == last { "" } else { ";" });
-            }
-        }
-        self.blank(close, if table.fields().is_empty() { "__close()" } else { ";__close()" });
     }
 
     /// Replaces a token by `text`.
@@ -737,7 +827,39 @@ impl<'a> Walk<'a> {
 
     fn problem(&mut self, token: &TokenReference, error: Error) {
         let line = token.start_position().map_or(1, |position| position.line());
-        self.problems.push(error.at(Some(Place { file: self.file.to_owned(), line })));
+        let error = error.at(Some(Place { file: self.file.to_owned(), line }));
+        let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
+        self.problems.push(match rule {
+            Some(rule) => error.rule(rule),
+            None => error,
+        });
+    }
+}
+
+/// What to write in place of a name of Lua that scripts do not have.
+fn instead_of(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "io" | "os" | "package" | "dofile" | "loadfile" => {
+            "scripts reach no files, clock or programs; other scripts in the folder come in with require"
+        }
+        "loadstring" | "load" => "scripts do not compile text; a successor may be given as a string",
+        "_G" | "getfenv" | "setfenv" | "shared" => {
+            "there are no globals to change; pass values on as parameters or with require"
+        }
+        "debug" | "newproxy" | "collectgarbage" | "gcinfo" => "a script does without it",
+        "math.random" => "write random() or random(low, high), which follow the seed and the module",
+        "math.randomseed" => "give the seed with --seed, or a system its own: lsystem { seed = 7 }",
+        "math.noise" => "write noise(x, y, z)",
+        _ => return None,
+    })
+}
+
+/// Whether an expression may have any number of values.
+fn is_open(expression: &Expression) -> bool {
+    match expression {
+        Expression::FunctionCall(_) => true,
+        Expression::Symbol(symbol) => text_of(symbol) == "...",
+        _ => false,
     }
 }
 

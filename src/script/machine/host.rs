@@ -30,6 +30,21 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             }
         })?,
     )?;
+    host.set(
+        "freeze",
+        lua.create_function(|_, table: Table| {
+            table.set_readonly(true);
+            Ok(())
+        })?,
+    )?;
+    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "shape",
+        lua.create_function(move |_, (number, symbols): (usize, Vec<u16>)| {
+            state.add_shape(number, symbols, &shelf.symbols.borrow().arities());
+            Ok(())
+        })?,
+    )?;
     let state = Rc::clone(current);
     host.set(
         "unpack",
