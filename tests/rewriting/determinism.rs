@@ -13,7 +13,7 @@ const TREE: &str = r##"
     local tree = lsystem { object = turtle { width = 0.05, sides = 5 } }
     tree:ignore("Turn Roll")
     tree:axiom(source { { id = "a", n = 2 }, { id = "b", n = 1 }, { id = "c", n = 3 } }, function(feature)
-      local list = { Signal({ feature.id, { depth = 0 } }) }
+      local list = { Signal({ feature.id, { depth = 0 } }), Stem(2, 0.2) }
       for i = 1, feature.n do table.insert(list, { Turn(30 * i), Stem(1, 0.1), Apex(0, kinds[i]) }) end
       return turtle { position = { feature.n * 10, 0, 0 }, width = 0.05, sides = 5 }, table.unpack(list)
     end)
