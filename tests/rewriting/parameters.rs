@@ -1,25 +1,30 @@
 //! Parameters of every kind (law 7): they travel through modules and are the same when rules read them back.
 
-use super::scripts::{chain, divided, error, lines, run, run_with};
+use super::scripts::{chain, chain_of_each, divided, error, lines, run, run_with};
 
-/// What `P(value)` shows in the chain after it went through `passes` rewritings.
-fn travelled(value: &str, passes: usize) -> String {
-    let text = chain(&format!(
+/// What each `P(value)` shows in the chain after it went through `passes` rewritings.
+fn travelled(values: &[String], passes: usize) -> Vec<String> {
+    let axioms: Vec<String> = values.iter().map(|value| format!("P({value})")).collect();
+    let found = chain_of_each(&format!(
         r#"
         local P = module("P", "x"); local Q = module("Q", "x")
-        local s = lsystem {{}}
-        s:axiom(P({value}))
-        s:rule("P(x)", function(this, x) return Q(x) end)
-        s:rule("Q(x)", function(this, x) local y = x return P(y) end)
-        s:derive({passes})
-        "#
+        for _, axiom in {{ {} }} do
+          local s = lsystem {{}}
+          s:axiom(axiom)
+          s:rule("P(x)", function(this, x) return Q(x) end)
+          s:rule("Q(x)", function(this, x) local y = x return P(y) end)
+          s:derive({passes})
+        end
+        "#,
+        axioms.join(", ")
     ));
-    text[2..text.len() - 1].to_owned()
+    assert_eq!(found.len(), values.len());
+    found.iter().map(|text| text[2..text.len() - 1].to_owned()).collect()
 }
 
 #[test]
 fn every_kind_of_parameter_travels_and_is_shown() {
-    for (value, shown) in [
+    let table = [
         ("1", "1"),
         ("-0", "-0"),
         ("0/0", "nan"),
@@ -38,16 +43,17 @@ fn every_kind_of_parameter_travels_and_is_shown() {
         ("{ { 1 }, { y = { true } } }", "{{1},{y={true}}}"),
         ("turtle {}", "turtle"),
         ("{ turtle {}, extruder {} }", "{turtle,extruder}"),
-    ] {
-        for passes in [0, 2, 3] {
-            assert_eq!(travelled(value, passes), shown, "{value} after {passes} steps");
-        }
+    ];
+    let (values, shown): (Vec<String>, Vec<&str>) =
+        table.iter().map(|(value, shown)| ((*value).to_owned(), *shown)).unzip();
+    for passes in [0, 2, 3] {
+        assert_eq!(travelled(&values, passes), shown, "after {passes} steps");
     }
 }
 
 #[test]
 fn numbers_are_shown_as_the_shortest_decimal_that_reads_back() {
-    for value in [
+    let numbers = [
         0.1,
         1.0 / 3.0,
         0.1 + 0.2,
@@ -62,8 +68,9 @@ fn numbers_are_shown_as_the_shortest_decimal_that_reads_back() {
         9e-8,
         4_503_599_627_370_497.5,
         123_456_789_012_345_680_000.0,
-    ] {
-        let shown = travelled(&format!("{value:e}"), 1);
+    ];
+    let written: Vec<String> = numbers.iter().map(|value| format!("{value:e}")).collect();
+    for (value, shown) in numbers.into_iter().zip(travelled(&written, 1)) {
         assert!(shown.parse::<f64>() == Ok(value), "{value} is shown as {shown}");
         let digits = |text: &str| {
             let mantissa = text.split('e').next().unwrap_or("").replace(['.', '-'], "");

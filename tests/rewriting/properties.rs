@@ -55,12 +55,12 @@ fn expected(chains: &[Vec<Item>], pattern: &Pattern, ignored: &str) -> Vec<usize
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 40, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig { cases: 24, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(7), ..ProptestConfig::default() })]
 
     #[test]
     fn the_engine_matches_what_the_naive_matcher_matches(
         chains in vec(items(4, 16), 1..4),
-        patterns in vec((pattern(), ignored()), 12),
+        patterns in vec((pattern(), ignored()), 20),
         options in division(),
     ) {
         let texts: Vec<String> = chains.iter().map(|chain| naive::write(chain)).collect();

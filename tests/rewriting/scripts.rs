@@ -7,9 +7,9 @@ use super::naive::Pattern;
 
 /// Runs a script as `main.lua` in a folder of its own.
 pub(crate) fn try_run(script: &str, options: Options) -> burgeon::Result<Run> {
-    let folder = tempfile::tempdir().unwrap();
+    let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("main.lua");
-    std::fs::write(&path, script).unwrap();
+    std::fs::write(&path, script).expect("a file");
     burgeon::run(&path, options)
 }
 
@@ -41,6 +41,11 @@ pub(crate) fn chains(script: &str) -> Vec<String> {
 
 pub(crate) fn lines(run: &Run) -> Vec<String> {
     run.systems.last().expect("a derived system").chain_text().lines().map(str::to_owned).collect()
+}
+
+/// The one chain of each system, in the order of derivation.
+pub(crate) fn chain_of_each(script: &str) -> Vec<String> {
+    run(script).systems.iter().map(|system| system.chain_text().trim_end_matches('\n').to_owned()).collect()
 }
 
 /// The one chain of the system that was derived last.
@@ -91,12 +96,24 @@ pub(crate) struct Plain<'a> {
 }
 
 impl Plain<'_> {
-    /// The chain after `steps` steps.
-    pub(crate) fn derive(&self, steps: usize) -> String {
-        chain(&self.script(steps))
+    /// The chain after each of the numbers of steps.
+    pub(crate) fn derive<const N: usize>(&self, steps: [usize; N]) -> [String; N] {
+        let mut chains = self.derive_each(&steps).into_iter();
+        steps.map(|_| chains.next().unwrap_or_default())
     }
 
-    fn script(&self, steps: usize) -> String {
+    /// The chain after each of the numbers of steps.
+    pub(crate) fn derive_each(&self, steps: &[usize]) -> Vec<String> {
+        let run = run(&self.script(steps));
+        run.systems.iter().map(|system| system.chain_text().trim_end().to_owned()).collect()
+    }
+
+    /// The chain after 0, 1, 2, ... steps, `count` of them.
+    pub(crate) fn first(&self, count: usize) -> Vec<String> {
+        self.derive_each(&(0..count).collect::<Vec<_>>())
+    }
+
+    fn script(&self, steps: &[usize]) -> String {
         let mut names: Vec<String> = words(&format!("{} {} {}", self.ignore, self.axiom, self.rules))
             .into_iter()
             .filter(|word| word.starts_with(|c: char| c.is_ascii_alphabetic()))
@@ -104,7 +121,7 @@ impl Plain<'_> {
         names.sort();
         names.dedup();
         let mut script = declare(&names.join(" "));
-        script.push_str("\nlocal s = lsystem {}\n");
+        script.push_str("\nlocal function derive(steps: number)\nlocal s = lsystem {}\n");
         if !self.ignore.is_empty() {
             script.push_str(&format!("s:ignore(\"{}\")\n", self.ignore));
         }
@@ -117,7 +134,10 @@ impl Plain<'_> {
             };
             script.push_str(&format!("s:rule(\"{}\", function() return {successor} end)\n", pattern.trim()));
         }
-        script.push_str(&format!("s:derive({steps})\n"));
+        script.push_str("s:derive(steps)\nend\n");
+        for steps in steps {
+            script.push_str(&format!("derive({steps})\n"));
+        }
         script
     }
 }
