@@ -59,6 +59,14 @@ impl Error {
         first
     }
 
+    /// The same place, rule and module, but the message and the remedy of `cause`.
+    #[must_use]
+    pub(crate) fn because(mut self, cause: &Self) -> Self {
+        self.0.message.clone_from(&cause.0.message);
+        self.0.help.clone_from(&cause.0.help);
+        self
+    }
+
     /// Says what to do about it.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {
@@ -135,24 +143,29 @@ impl Error {
         object.into()
     }
 
-    fn write_one(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// This problem alone, with `line`, the text of the line that it is about, below its message.
+    pub fn with_line(&self, line: Option<&str>) -> String {
         let parts = &*self.0;
+        let mut text = String::new();
         if let Some(place) = &parts.place {
-            write!(f, "{place}: ")?;
+            text += &format!("{place}: ");
         }
         if let Some(rule) = &parts.rule {
-            write!(f, "rule {rule}: ")?;
+            text += &format!("rule {rule}: ");
         }
-        f.write_str(&parts.message)?;
+        text += &parts.message;
+        if let Some(line) = line {
+            text += &format!("\n  | {line}");
+        }
         match (&parts.module, parts.step) {
-            (Some(module), Some(step)) => write!(f, "\n  module: {module}, step {step}")?,
-            (Some(module), None) => write!(f, "\n  module: {module}")?,
+            (Some(module), Some(step)) => text += &format!("\n  module: {module}, step {step}"),
+            (Some(module), None) => text += &format!("\n  module: {module}"),
             _ => {}
         }
         if let Some(help) = &parts.help {
-            write!(f, "\n  help: {help}")?;
+            text += &format!("\n  help: {help}");
         }
-        Ok(())
+        text
     }
 }
 
@@ -162,7 +175,7 @@ impl fmt::Display for Error {
             if i > 0 {
                 f.write_str("\n")?;
             }
-            problem.write_one(f)?;
+            f.write_str(&problem.with_line(None))?;
         }
         Ok(())
     }
@@ -173,7 +186,11 @@ impl std::error::Error for Error {}
 /// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let lower = name.to_lowercase();
-    let limit = name.chars().count().div_ceil(3).max(1);
+    // Every name of one letter is one letter away from every other.
+    let limit = match name.chars().count() {
+        0 | 1 => 0,
+        length => length.div_ceil(3),
+    };
     known
         .into_iter()
         .map(|candidate| (edit_distance(&lower, &candidate.to_lowercase()), candidate))
@@ -227,5 +244,7 @@ mod tests {
         assert_eq!(nearest("Flor", ["Floor", "Slab"]), Some("Floor"));
         assert_eq!(nearest("smoth", ["sides", "smooth"]), Some("smooth"));
         assert_eq!(nearest("window", ["sides", "smooth"]), None);
+        assert_eq!(nearest("m", ["n", "max"]), None);
+        assert_eq!(nearest("a", ["A"]), Some("A"));
     }
 }

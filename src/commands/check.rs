@@ -24,14 +24,15 @@ impl Check {
         if self.script.json {
             let params: Vec<_> = params
                 .iter()
-                .map(|param| json!({ "name": param.name, "value": param.value.to_string(), "unit": param.unit, "text": param.text }))
+                .map(|param| json!({ "name": param.name, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.text }))
                 .collect();
             report::print(&format!("{}\n", json!({ "ok": true, "params": params })));
         } else {
             report::eprint(&format!("{} is fine\n", self.script.script.display()));
             for param in params {
                 let unit = if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) };
-                report::eprint(&format!("  {} = {}{unit}  {}\n", param.name, param.value, param.text));
+                let text = if param.text.is_empty() { String::new() } else { format!("  {}", param.text) };
+                report::eprint(&format!("  {} = {}{unit}{text}\n", param.name, param.value));
             }
         }
         Ok(())

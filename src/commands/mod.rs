@@ -13,13 +13,15 @@ mod shared;
 
 use std::process::ExitCode;
 
+use burgeon::Error;
 use clap::{Parser, Subcommand};
 
 #[derive(Parser)]
 #[command(
     name = "burgeon",
     version,
-    about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust."
+    about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
+    after_help = "To begin:\n  burgeon new tree\n  burgeon run tree.lua -o tree.glb"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -36,7 +38,11 @@ enum Command {
 
 /// Runs the command that the command line names.
 pub(crate) fn main() -> ExitCode {
-    let (json, result) = match Cli::parse().command {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refuse_command_line(&error),
+    };
+    let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
@@ -49,4 +55,20 @@ pub(crate) fn main() -> ExitCode {
             ExitCode::FAILURE
         }
     }
+}
+
+/// Tells what is wrong with the command line, or what was asked about it.
+fn refuse_command_line(error: &clap::Error) -> ExitCode {
+    let wants_json = std::env::args_os()
+        .skip(1)
+        .take_while(|argument| argument != "--")
+        .any(|argument| argument == "--json");
+    if !error.use_stderr() || !wants_json {
+        error.exit();
+    }
+    let text = error.to_string();
+    let text = text.trim_start_matches("error: ");
+    let (message, help) = text.split_once("\n\n").unwrap_or((text, ""));
+    report::error(&Error::new(message.trim()).help(help.trim()), true);
+    ExitCode::from(2)
 }

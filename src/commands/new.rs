@@ -1,7 +1,7 @@
 //! `burgeon new`: a script to start from.
 
 use std::fs::OpenOptions;
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
 use burgeon::{Error, Result};
@@ -19,7 +19,7 @@ pub(crate) struct New {
     /// The file to make; .lua is added if it has no extension
     path: PathBuf,
 
-    /// Prints for machines
+    /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
     json: bool,
 }
@@ -35,14 +35,23 @@ impl New {
         let shown = path.display();
         let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(|error| {
             match error.kind() {
-                std::io::ErrorKind::AlreadyExists => {
+                ErrorKind::AlreadyExists => {
                     Error::new(format!("{shown} exists already")).help("choose another name")
                 }
-                _ => Error::new(format!("cannot make {shown}: {error}")).help("check that the folder exists"),
+                ErrorKind::NotFound | ErrorKind::NotADirectory => {
+                    let folder =
+                        path.parent().map_or_else(|| ".".into(), |folder| folder.display().to_string());
+                    Error::new(format!("cannot make {shown}: there is no folder {folder}"))
+                        .help("make the folder first")
+                }
+                _ => Error::new(format!("cannot make {shown}: {error}")).help("choose another folder"),
             }
         })?;
-        file.write_all(STARTER.as_bytes())
-            .map_err(|error| Error::new(format!("cannot write {shown}: {error}")))?;
+        file.write_all(STARTER.as_bytes()).map_err(|error| {
+            // Half a script would only be in the way.
+            let _ = std::fs::remove_file(&path);
+            Error::new(format!("cannot write {shown}: {error}")).help("write to another folder or disk")
+        })?;
         if self.json {
             report::print(&format!("{}\n", json!({ "ok": true, "path": path })));
         } else {

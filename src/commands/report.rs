@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
+use burgeon::script::Setting;
 use burgeon::{Error, Run};
 use serde_json::json;
 
@@ -15,17 +16,9 @@ pub(crate) fn error(error: &Error, json: bool) {
     }
     let mut text = String::new();
     for problem in error.problems() {
-        let alone = problem.alone().to_string();
-        let (first, rest) =
-            alone.split_once('\n').map_or((alone.as_str(), ""), |(first, rest)| (first, rest));
+        let line = problem.place().and_then(line);
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "error: {first}");
-        if let Some(line) = problem.place().and_then(line) {
-            let _ = writeln!(text, "  | {line}");
-        }
-        if !rest.is_empty() {
-            let _ = writeln!(text, "{rest}");
-        }
+        let _ = writeln!(text, "error: {}", problem.with_line(line.as_deref()));
     }
     eprint(&text);
 }
@@ -77,18 +70,8 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration) -> String {
 /// The summary of a run for machines.
 pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> serde_json::Value {
     let seconds = |duration: Duration| duration.as_secs_f64();
-    let params: serde_json::Map<String, serde_json::Value> = run
-        .params
-        .iter()
-        .map(|param| {
-            let value = match &param.value {
-                burgeon::script::Setting::Number(number) => json!(number),
-                burgeon::script::Setting::Boolean(value) => json!(value),
-                burgeon::script::Setting::Text(text) => json!(text),
-            };
-            (param.name.clone(), value)
-        })
-        .collect();
+    let params: serde_json::Map<String, serde_json::Value> =
+        run.params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect();
     json!({
         "ok": true,
         "modules": run.systems.iter().map(|system| system.modules()).sum::<usize>(),
@@ -108,6 +91,15 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         },
         "peak_memory_mb": peak_memory(),
     })
+}
+
+/// A parameter's value for machines.
+pub(crate) fn setting_json(setting: &Setting) -> serde_json::Value {
+    match setting {
+        Setting::Number(number) => json!(number),
+        Setting::Boolean(value) => json!(value),
+        Setting::Text(text) => json!(text),
+    }
 }
 
 /// The largest resident memory of this process (MB), where the system tells it.

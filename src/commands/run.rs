@@ -22,10 +22,10 @@ pub(crate) struct Run {
     script: ScriptFlags,
 
     /// Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
-    #[arg(short, long, value_name = "FILE")]
+    #[arg(short, long, value_name = "FILE", value_parser = output)]
     output: Vec<PathBuf>,
 
-    /// Writes the final chains as text, a line for each; - is standard output
+    /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
     #[arg(long, value_name = "FILE")]
     chain: Option<PathBuf>,
 
@@ -61,31 +61,68 @@ impl Run {
 
     pub(crate) fn run(&self) -> Result<()> {
         let begin = Instant::now();
-        for output in &self.output {
-            export::check_writable(output)?;
-        }
+        self.check_files()?;
         let session = Session::new(&self.script.script, self.script.options())?;
         let (run, writing) = {
             let _progress = Progress::show(&session, !self.script.json);
             let run = burgeon::run_session(&session)?;
+            if run.systems.is_empty() && !self.output.is_empty() {
+                let script = self.script.script.display();
+                return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
+                    .help("end it with system:derive()"));
+            }
             let writing = Instant::now();
             for output in &self.output {
                 export::write(&run.scene, output, &self.picture())?;
             }
-            if let Some(path) = &self.chain {
+            if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
                 write_chains(path, &run.systems)?;
             }
             (run, writing.elapsed())
         };
-        let to_stdout = self.chain.as_deref() == Some(Path::new("-"));
-        match (self.script.json, to_stdout) {
-            (true, false) => {
-                report::print(&format!("{}\n", report::summary_json(&run, writing, begin.elapsed())));
+        if self.script.json {
+            let mut summary = report::summary_json(&run, writing, begin.elapsed());
+            if self.chain_in_json() {
+                let texts = run.systems.iter().map(|system| system.chain_text());
+                let lines: Vec<String> =
+                    texts.flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+                summary["chain"] = lines.into();
             }
-            (true, true) => {
-                report::eprint(&format!("{}\n", report::summary_json(&run, writing, begin.elapsed())));
-            }
-            (false, _) => report::eprint(&report::summary(&run, writing, begin.elapsed())),
+            report::print(&format!("{summary}\n"));
+        } else {
+            report::eprint(&report::summary(&run, writing, begin.elapsed()));
+        }
+        Ok(())
+    }
+
+    /// Whether the chains go to standard output as a part of the JSON document.
+    fn chain_in_json(&self) -> bool {
+        self.script.json && self.chain.as_deref() == Some(Path::new("-"))
+    }
+
+    /// Refuses, before any work, files that could not be written when it is done.
+    fn check_files(&self) -> Result<()> {
+        for output in &self.output {
+            export::check_writable(output)?;
+        }
+        let Some(chain) = self.chain.as_deref().filter(|chain| *chain != Path::new("-")) else {
+            return Ok(());
+        };
+        let same =
+            |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+        let shown = chain.display();
+        if same(chain, &self.script.script) {
+            return Err(Error::new(format!("the chains would overwrite the script {shown}"))
+                .help("name another file: --chain chains.txt, or - for standard output"));
+        }
+        if chain.is_dir() {
+            return Err(Error::new(format!("cannot write {shown}: it is a folder"))
+                .help(format!("name a file in it, such as {}", chain.join("chains.txt").display())));
+        }
+        let folder = chain.parent().filter(|folder| !folder.as_os_str().is_empty());
+        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+            return Err(Error::new(format!("cannot write {shown}: there is no folder {}", folder.display()))
+                .help("make the folder first, or write to one that is there"));
         }
         Ok(())
     }
@@ -123,6 +160,11 @@ fn write_chains(path: &Path, systems: &[std::sync::Arc<Derived>]) -> Result<()> 
         };
     }
     export::write_file(path, |out| systems.iter().try_for_each(|system| system.write_chains(out)))
+}
+
+fn output(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    export::Format::of(&path).map(|_| path).map_err(|error| error.to_string())
 }
 
 fn size(text: &str) -> Result<(u32, u32), String> {

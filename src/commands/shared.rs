@@ -17,39 +17,42 @@ pub(crate) struct ScriptFlags {
     set: Vec<(String, String)>,
 
     /// The seed of all random numbers
-    #[arg(long, value_name = "N", default_value_t = 0)]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>, allow_negative_numbers = true)]
     pub seed: u64,
 
     /// Derives at most N steps
-    #[arg(long, value_name = "N")]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     steps: Option<usize>,
 
     /// Works with N threads; the result does not depend on it [default: one for each core]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
 
     /// Stops after this time
-    #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds, help_heading = "Limits")]
+    #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds,
+          allow_negative_numbers = true, help_heading = "Limits")]
     time_limit: f64,
 
-    /// Memory that each virtual machine may use
-    #[arg(long, value_name = "MEGABYTES", default_value_t = 2048, help_heading = "Limits",
-          value_parser = clap::value_parser!(u32).range(16..))]
+    /// Memory that each thread's script may use
+    #[arg(long, value_name = "MEGABYTES", default_value_t = 2048, value_parser = megabytes,
+          allow_negative_numbers = true, help_heading = "Limits")]
     memory_limit: u32,
 
     /// Modules that a system's chains may have
-    #[arg(long, value_name = "N", default_value_t = 50_000_000, help_heading = "Limits")]
+    #[arg(long, value_name = "N", default_value_t = 50_000_000, value_parser = whole::<u32>,
+          allow_negative_numbers = true, help_heading = "Limits")]
     module_limit: u32,
 
     /// Triangles that a system may draw
-    #[arg(long, value_name = "N", default_value_t = 50_000_000, help_heading = "Limits")]
+    #[arg(long, value_name = "N", default_value_t = 50_000_000, value_parser = whole::<u32>,
+          allow_negative_numbers = true, help_heading = "Limits")]
     triangle_limit: u32,
 
     /// Modules that a thread takes at a time; the result does not depend on it
     #[arg(long, value_name = "N", default_value_t = 4096, hide = true)]
     batch: u32,
 
-    /// Prints for machines
+    /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
     pub json: bool,
 }
@@ -77,6 +80,24 @@ fn setting(text: &str) -> Result<(String, String), String> {
     match text.split_once('=') {
         Some((name, value)) if !name.trim().is_empty() => Ok((name.trim().to_owned(), value.to_owned())),
         _ => Err("write NAME=VALUE".to_owned()),
+    }
+}
+
+fn whole<T: std::str::FromStr>(text: &str) -> Result<T, String> {
+    text.parse().map_err(|_| "write a whole number from 0".to_owned())
+}
+
+fn threads(text: &str) -> Result<u16, String> {
+    match text.parse() {
+        Ok(threads) if (1..=1024).contains(&threads) => Ok(threads),
+        _ => Err("write a whole number from 1 to 1024".to_owned()),
+    }
+}
+
+fn megabytes(text: &str) -> Result<u32, String> {
+    match text.parse() {
+        Ok(megabytes) if megabytes >= 16 => Ok(megabytes),
+        _ => Err("write a whole number of megabytes from 16".to_owned()),
     }
 }
 

@@ -154,7 +154,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<A
         };
         if declared.is_none() {
             let systems = machine.library.systems.borrow();
-            declared = Some(systems[index].prepare(machine).map_err(|error| machine.translate(error))?);
+            declared = Some(systems[index].prepare(machine)?);
         }
         if let Some(declared) = &declared {
             match job {

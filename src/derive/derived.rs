@@ -14,6 +14,8 @@ use crate::scene::Scene;
 pub struct Times {
     /// Finding and applying rules.
     pub rewriting: Duration,
+    /// Symbols that all steps together have read: the length of the chains before each step.
+    pub read: usize,
     /// Interpretation passes.
     pub interpretation: Duration,
 }

@@ -33,8 +33,6 @@ pub(crate) struct Axiom {
 
 /// What does not change while a system derives; shared by all threads.
 pub(crate) struct Plan {
-    /// The system's place in the script.
-    pub index: usize,
     pub grammar: Grammar,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
@@ -73,14 +71,13 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         let objects = std::mem::take(&mut axiom.objects);
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects)));
         let plan = Plan {
-            index,
             grammar,
             interpretations: system.interpretations(&machine.library),
             objects,
             chains: axiom.features.len(),
             batch: options.batch.max(1),
         };
-        let declared = system.prepare(machine).map_err(|error| machine.translate(error))?;
+        let declared = system.prepare(machine)?;
         (axiom, Arc::new(plan), declared)
     };
     let last_only = {
@@ -113,6 +110,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     while done < limit {
         session.stop.check()?;
         let begin = Instant::now();
+        times.read += chain.symbols.len();
         let outcome = stepper.step(machine, &declared, chain, done + 1)?;
         times.rewriting += begin.elapsed();
         chain = outcome.chain;
@@ -133,11 +131,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&chain.params);
-    let plan = Arc::try_unwrap(plan).map_err(|_| Error::new("a worker still holds the plan"));
-    let plan = match plan {
-        Ok(plan) => plan,
-        Err(error) => return Err(error),
-    };
+    let plan = Arc::try_unwrap(plan).map_err(|_| Error::new("a worker still holds the plan"))?;
     let objects = match plan.objects.map(Arc::try_unwrap) {
         Some(Ok(objects)) => objects.into_shared(),
         Some(Err(_)) => return Err(Error::new("a worker still holds the objects")),

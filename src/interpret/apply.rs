@@ -159,7 +159,8 @@ impl Flusher for Applier {
             let Some((module, _)) = self.entries.get(index).copied() else { break };
             self.walk(module)?;
             let end = if index < entry { self.ends[index] as usize } else { called };
-            if call_at < end {
+            // A method that runs at once follows, so the pass must have begun even without calls.
+            if call_at < end || index == entry {
                 let objects = Arc::clone(&self.objects);
                 let applied = objects.write(self.chain, |object| {
                     if !self.begun {

@@ -52,11 +52,11 @@ pub struct Argument {
 }
 
 /// Calls a method by itself.
-pub type Read = fn(&dyn Object, &[Value]) -> Result<Value>;
+pub(crate) type Read = fn(&dyn Object, &[Value]) -> Result<Value>;
 /// Calls a method that changes the object.
-pub type Write = fn(&mut dyn Object, &[Value]) -> Result<Value>;
+pub(crate) type Write = fn(&mut dyn Object, &[Value]) -> Result<Value>;
 /// Calls a method that changes the object and takes only numbers.
-pub type WriteNumbers = fn(&mut dyn Object, &[f64]) -> Result<()>;
+pub(crate) type WriteNumbers = fn(&mut dyn Object, &[f64]) -> Result<()>;
 
 /// How a method is called.
 pub enum Call {
@@ -202,6 +202,7 @@ macro_rules! methods {
             call: $crate::objects::Call::Write {
                 values: |object, arguments| {
                     let object = $crate::objects::declare::downcast_mut::<$object>(object)?;
+                    #[allow(unused_mut, reason = "a method may take no arguments")]
                     let mut arguments = $crate::objects::declare::Arguments::new($kind, stringify!($method), arguments);
                     $( let $argument: $type = arguments.next(stringify!($argument))?; )*
                     arguments.end()?;
@@ -210,6 +211,7 @@ macro_rules! methods {
                 numbers: if true $(&& <$type as $crate::objects::Parameter>::IS_NUMBER)* {
                     Some(|object, numbers| {
                         let object = $crate::objects::declare::downcast_mut::<$object>(object)?;
+                        #[allow(unused_mut, reason = "a method may take no arguments")]
                         let mut numbers = $crate::objects::declare::Numbers::new($kind, stringify!($method), numbers);
                         $( let $argument: $type = numbers.next(stringify!($argument))?; )*
                         numbers.end();
@@ -243,6 +245,7 @@ macro_rules! methods {
             returns: <methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
             call: $crate::objects::Call::Read(|object, arguments| {
                 let object = $crate::objects::declare::downcast_ref::<$object>(object)?;
+                #[allow(unused_mut, reason = "a method may take no arguments")]
                 let mut arguments = $crate::objects::declare::Arguments::new($kind, stringify!($method), arguments);
                 $( let $argument: $type = arguments.next(stringify!($argument))?; )*
                 arguments.end()?;

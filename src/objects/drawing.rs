@@ -106,11 +106,6 @@ impl Drawing {
         self.materials.len() - 1
     }
 
-    /// The material of a part.
-    pub(super) fn material_of(&self, part: usize) -> Material {
-        self.materials.get(part).cloned().unwrap_or_default()
-    }
-
     /// The part with this number, as [`Drawing::material`] gave it.
     #[inline]
     pub(super) fn part(&mut self, index: usize) -> &mut Part {

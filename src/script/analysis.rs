@@ -13,6 +13,7 @@ use full_moon::ast::{
 };
 use full_moon::node::Node;
 use full_moon::tokenizer::{TokenReference, TokenType};
+use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
 use crate::error::{Error, Place, nearest};
@@ -20,7 +21,7 @@ use crate::rules::Signature;
 
 /// What a script may use without declaring it.
 #[derive(Debug, Clone, Default)]
-pub struct Globals {
+pub(crate) struct Globals {
     /// The names of values.
     pub names: Vec<String>,
     /// The modules among them.
@@ -29,7 +30,7 @@ pub struct Globals {
 
 /// What reading a script gives.
 #[derive(Debug, Clone, Default)]
-pub struct Analysis {
+pub(crate) struct Analysis {
     /// The text to run, with as many lines as the script.
     pub text: String,
     /// What is wrong, by line.
@@ -40,15 +41,38 @@ pub struct Analysis {
     pub reads_this: bool,
 }
 
-/// Reads `text`, the content of `file`. What the parser cannot read is left to the compiler, as it stands.
-pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
-    let plain = || Analysis {
-        text: text.to_owned(),
-        problems: Vec::new(),
-        random: text.contains("random"),
-        reads_this: true,
+/// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
+const STACK: usize = 256 << 20;
+
+/// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
+pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
+    // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
+    if Compiler::new().compile(text).is_err() {
+        return unread(text, Vec::new());
+    }
+    let read = || analyse_compiled(file, text, globals);
+    let read = std::thread::scope(|scope| {
+        std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, read).ok()?.join().ok()
+    });
+    read.unwrap_or_else(|| unread(text, vec![Error::new(format!("{file} could not be read"))]))
+}
+
+/// The analysis of a script that is not to be run.
+fn unread(text: &str, problems: Vec<Error>) -> Analysis {
+    Analysis { text: text.to_owned(), problems, random: true, reads_this: true }
+}
+
+fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
+    let refuse = |line: usize| {
+        let place = Place { file: file.to_owned(), line };
+        let error = Error::new("this part of Luau's syntax is not known to Burgeon")
+            .help("write it in another way; attributes in brackets, such as @[native], are not needed");
+        unread(text, vec![error.at(Some(place))])
     };
-    let Ok(ast) = full_moon::parse(text) else { return plain() };
+    let ast = match full_moon::parse(text) {
+        Ok(ast) => ast,
+        Err(errors) => return refuse(errors.first().map_or(1, |error| error.range().0.line())),
+    };
     // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
     let mut first = Walk::new(file, globals, Facts::default());
     first.run(&ast);
@@ -61,7 +85,7 @@ pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
     let mut at = 0;
     for edit in &edits {
         if edit.begin < at {
-            return plain();
+            return refuse(text[..edit.begin].matches('\n').count() + 1);
         }
         out.push_str(&text[at..edit.begin]);
         out.push_str(&edit.text);
@@ -76,6 +100,8 @@ pub fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
 struct Facts {
     variables: Vec<Fact>,
     impure: FxHashMap<usize, bool>,
+    /// Whether operators may run functions of the script.
+    metatables: bool,
 }
 
 #[derive(Default, Clone)]
@@ -99,6 +125,8 @@ struct Function {
     begin: usize,
     impure: bool,
     this: Option<String>,
+    /// The rule that it belongs to, as errors name it.
+    rule: Option<String>,
 }
 
 struct Variable {
@@ -126,6 +154,8 @@ struct Walk<'a> {
     problems: Vec<Error>,
     random: bool,
     reads_this: bool,
+    /// The rule whose functions are being walked.
+    rule: Option<String>,
 }
 
 impl<'a> Walk<'a> {
@@ -135,12 +165,13 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { role: Role::Script, begin: 0, impure: false, this: None }],
+            functions: vec![Function { role: Role::Script, begin: 0, impure: false, this: None, rule: None }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
             random: false,
             reads_this: false,
+            rule: None,
         }
     }
 
@@ -267,7 +298,12 @@ impl<'a> Walk<'a> {
         let id = self.facts.variables.len();
         self.facts.variables.push(Fact::default());
         let function = self.functions.len() - 1;
-        self.variables.push(Variable { name: text_of(name), id, function, module: None });
+        let text = text_of(name);
+        if text.starts_with("__") {
+            let error = Error::new(format!("a variable cannot be called {text}"));
+            self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
+        }
+        self.variables.push(Variable { name: text, id, function, module: None });
         if function > 0
             && self.fact(id).assigned_inside
             && let Some(at) = behind
@@ -307,6 +343,11 @@ impl<'a> Walk<'a> {
             .rposition(|function| matches!(function.role, Role::Rule | Role::Guard | Role::Interpretation));
         let found = self.find(&name).map(|variable| (variable.id, variable.function));
         let Some((id, owner)) = found else {
+            if self.globals.names.contains(&name) {
+                let error = Error::new(format!("{name} is Burgeon's own and cannot be assigned"));
+                self.problem(token, error.help("choose another name: local ..."));
+                return;
+            }
             let error = Error::new(format!("{name} is assigned, but it is no local variable"));
             self.problem(token, match rule {
                 Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
@@ -349,9 +390,8 @@ impl<'a> Walk<'a> {
 
     fn read(&mut self, token: &TokenReference) {
         let name = text_of(token);
-        if name == "random" {
-            self.random = true;
-        }
+        self.random |= name == "random";
+        self.facts.metatables |= name == "setmetatable";
         self.reads_this |= self.functions.iter().any(|function| {
             matches!(function.role, Role::Rule | Role::Guard) && function.this.as_ref() == Some(&name)
         });
@@ -361,6 +401,9 @@ impl<'a> Walk<'a> {
         let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
         let near = nearest(&name, locals.chain(self.globals.names.iter().map(String::as_str)));
         let error = Error::new(format!("unknown name {name}"));
+        if let Some(instead) = instead_of(&name) {
+            return self.problem(token, error.help(instead));
+        }
         let error = match (near, name.starts_with(|c: char| c.is_ascii_uppercase())) {
             (Some(near), _) => error.help(format!("did you mean {near}?")),
             (None, true) => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
@@ -401,6 +444,7 @@ impl<'a> Walk<'a> {
                     self.read(name);
                 }
                 Var::Expression(expression) => {
+                    self.library_field(expression.prefix(), expression.suffixes().next());
                     self.prefix(expression.prefix());
                     for suffix in expression.suffixes() {
                         self.suffix(suffix);
@@ -478,8 +522,21 @@ impl<'a> Walk<'a> {
         }
     }
 
+    /// Refuses the fields of Luau's tables that scripts do not have.
+    fn library_field(&mut self, prefix: &Prefix, suffix: Option<&Suffix>) {
+        if let (Prefix::Name(table), Some(Suffix::Index(Index::Dot { name, .. }))) = (prefix, suffix)
+            && self.find(&text_of(table)).is_none()
+        {
+            let name = format!("{}.{}", text_of(table), text_of(name));
+            if let Some(instead) = instead_of(&name) {
+                self.problem(table, Error::new(format!("unknown name {name}")).help(instead));
+            }
+        }
+    }
+
     fn call(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        self.library_field(call.prefix(), suffixes.first().copied());
         if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
             (call.prefix(), suffixes.as_slice())
             && let Some(signature) = self.module(name)
@@ -510,7 +567,7 @@ impl<'a> Walk<'a> {
         let Prefix::Name(name) = prefix else { return false };
         let text = text_of(name);
         match self.find(&text) {
-            None => !self.globals.modules.contains_key(&text),
+            None => !self.globals.modules.contains_key(&text) && !calls_back(&text, suffixes),
             Some(variable) => {
                 let fact = self.fact(variable.id);
                 let is_this = self.functions.iter().any(|function| function.this.as_deref() == Some(&text));
@@ -550,6 +607,14 @@ impl<'a> Walk<'a> {
     fn rule(&mut self, arguments: &FunctionArgs, role: Role) {
         let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.arguments(arguments) };
         let last = arguments.len().saturating_sub(1);
+        let outer = self.rule.take();
+        if let Some(Expression::String(text)) = arguments.iter().next() {
+            let pattern = string_of(text).filter(|pattern| !pattern.is_empty());
+            self.rule = pattern.map(|pattern| match role {
+                Role::Interpretation => format!("{pattern} (interpretation)"),
+                _ => pattern,
+            });
+        }
         for (index, argument) in arguments.iter().enumerate() {
             match argument {
                 Expression::Function(function) if index == last && index > 0 => {
@@ -576,6 +641,7 @@ impl<'a> Walk<'a> {
                 other => self.expression(other),
             }
         }
+        self.rule = outer;
     }
 
     /// Walks a function of a rule, and lets the script say that it has been seen.
@@ -600,7 +666,8 @@ impl<'a> Walk<'a> {
         };
         let this = this.map(str::to_owned).or(if role == Role::Other { None } else { first });
         let names_self = this.as_deref() == Some("self");
-        self.functions.push(Function { role, begin, impure: false, this });
+        let rule = if role == Role::Other { None } else { self.rule.clone() };
+        self.functions.push(Function { role, begin, impure: false, this, rule });
         if names_self && role == Role::Other {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
@@ -626,7 +693,7 @@ impl<'a> Walk<'a> {
     fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
         let here = self.functions.last().map(|function| (function.role, function.begin));
         let Some((Role::Rule, begin)) = here else { return self.expressions(values) };
-        let ready = !self.known.impure.get(&begin).copied().unwrap_or(true);
+        let ready = !self.known.metatables && !self.known.impure.get(&begin).copied().unwrap_or(true);
         let listed = values.iter().all(|value| self.is_item(value));
         if !values.is_empty() && listed {
             for value in values {
@@ -737,8 +804,47 @@ impl<'a> Walk<'a> {
 
     fn problem(&mut self, token: &TokenReference, error: Error) {
         let line = token.start_position().map_or(1, |position| position.line());
-        self.problems.push(error.at(Some(Place { file: self.file.to_owned(), line })));
+        let error = error.at(Some(Place { file: self.file.to_owned(), line }));
+        let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
+        self.problems.push(match rule {
+            Some(rule) => error.rule(rule),
+            None => error,
+        });
     }
+}
+
+/// What to write in place of a name of Lua that scripts do not have.
+fn instead_of(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "io" | "os" | "package" | "dofile" | "loadfile" => {
+            "scripts reach no files, clock or programs; other scripts in the folder come in with require"
+        }
+        "loadstring" | "load" => "scripts do not compile text; a successor may be given as a string",
+        "_G" | "getfenv" | "setfenv" | "shared" => {
+            "there are no globals to change; pass values on as parameters or with require"
+        }
+        "debug" | "newproxy" | "collectgarbage" | "gcinfo" => "a script does without it",
+        "math.random" => "write random() or random(low, high), which follow the seed and the module",
+        "math.randomseed" => "give the seed with --seed, or a system its own: lsystem { seed = 7 }",
+        "math.noise" => "write noise(x, y, z)",
+        _ => return None,
+    })
+}
+
+/// Whether a function of Luau calls functions that it is given.
+fn calls_back(name: &str, suffixes: &[&Suffix]) -> bool {
+    let field = match suffixes.first() {
+        Some(Suffix::Index(Index::Dot { name, .. })) => text_of(name),
+        Some(Suffix::Index(_)) => return true,
+        _ => String::new(),
+    };
+    matches!(
+        (name, field.as_str()),
+        ("pcall" | "xpcall", _)
+            | ("coroutine", _)
+            | ("table", "sort" | "foreach" | "foreachi")
+            | ("string", "gsub")
+    )
 }
 
 fn text_of(token: &TokenReference) -> String {

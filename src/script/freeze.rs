@@ -3,6 +3,16 @@
 use mlua::{Function, Lua, Table, Value, ffi};
 use rustc_hash::FxHashSet;
 
+use crate::error::{Error, Place, Result};
+
+/// A function that rules run, and where it was declared.
+#[derive(Clone)]
+pub(crate) struct Reached {
+    pub function: Function,
+    pub name: String,
+    pub place: Option<Place>,
+}
+
 /// Tables that were writable before; they are so again when this is dropped.
 pub(crate) struct Frozen(Vec<Table>);
 
@@ -15,51 +25,65 @@ impl Drop for Frozen {
 }
 
 /// Freezes every table that `functions` can reach through their captured variables.
+///
+/// Refuses what cannot be frozen and yet remembers: coroutines, buffers, and functions of C that are not among
+/// the `stateless` ones, such as iterators.
 pub(crate) fn freeze<'a>(
     lua: &Lua,
-    functions: impl IntoIterator<Item = &'a Function>,
-) -> mlua::Result<Frozen> {
+    stateless: &FxHashSet<usize>,
+    functions: impl IntoIterator<Item = &'a Reached>,
+) -> Result<Frozen> {
+    let unexpected = |error: mlua::Error| Error::new(error.to_string());
     let mut frozen = Frozen(Vec::new());
     let mut seen = FxHashSet::default();
-    let mut queue: Vec<Value> =
-        functions.into_iter().map(|function| Value::Function(function.clone())).collect();
-    while let Some(value) = queue.pop() {
-        match value {
-            Value::Function(function) => {
-                if seen.insert(function.to_pointer() as usize) {
-                    queue.extend(captured(lua, &function)?);
+    for reached in functions {
+        let refuse = |what: &str| {
+            Err(Error::new(format!("the rule reaches {what}, which remembers from one module to the next"))
+                .help("make it inside the rule, or carry what it remembers in a parameter of a module")
+                .at(reached.place.clone())
+                .rule(&reached.name))
+        };
+        let mut queue = vec![Value::Function(reached.function.clone())];
+        while let Some(value) = queue.pop() {
+            match value {
+                Value::Function(function) => {
+                    let address = function.to_pointer() as usize;
+                    if function.info().what == "C" {
+                        if !stateless.contains(&address) {
+                            return refuse("an iterator or a coroutine");
+                        }
+                    } else if seen.insert(address) {
+                        queue.extend(captured(lua, &function).map_err(unexpected)?);
+                    }
                 }
+                Value::Table(table) => {
+                    if !seen.insert(table.to_pointer() as usize) {
+                        continue;
+                    }
+                    if let Some(metatable) = table.metatable() {
+                        queue.push(Value::Table(metatable));
+                    }
+                    for pair in table.pairs::<Value, Value>() {
+                        let (key, value) = pair.map_err(unexpected)?;
+                        queue.extend([key, value]);
+                    }
+                    if !table.is_readonly() {
+                        table.set_readonly(true);
+                        frozen.0.push(table);
+                    }
+                }
+                Value::Thread(_) => return refuse("a coroutine"),
+                Value::Buffer(_) => return refuse("a buffer"),
+                _ => {}
             }
-            Value::Table(table) => {
-                if !seen.insert(table.to_pointer() as usize) {
-                    continue;
-                }
-                if let Some(metatable) = table.metatable() {
-                    queue.push(Value::Table(metatable));
-                }
-                for pair in table.pairs::<Value, Value>() {
-                    let (key, value) = pair?;
-                    queue.extend(
-                        [key, value]
-                            .into_iter()
-                            .filter(|value| matches!(value, Value::Table(_) | Value::Function(_))),
-                    );
-                }
-                if !table.is_readonly() {
-                    table.set_readonly(true);
-                    frozen.0.push(table);
-                }
-            }
-            _ => {}
         }
     }
     Ok(frozen)
 }
 
-/// The tables and functions that a Lua function captures; none for a function of Rust.
+/// What a Lua function captures; nothing for the machine's own.
 fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
-    let info = function.info();
-    if info.what == "C" || info.source.as_deref() == Some("=burgeon") {
+    if function.info().source.as_deref() == Some("=burgeon") {
         return Ok(Vec::new());
     }
     let mut values = Vec::new();
@@ -77,8 +101,7 @@ fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
         };
         match value {
             Value::LightUserData(data) if data.0.is_null() => break,
-            Value::Table(_) | Value::Function(_) => values.push(value),
-            _ => {}
+            value => values.push(value),
         }
     }
     Ok(values)

@@ -55,6 +55,16 @@ impl UserData for ObjectHandle {
                 method => Ok(method),
             }
         });
+        methods.add_meta_method(
+            MetaMethod::NewIndex,
+            |_, this, (name, _): (LuaValue, LuaValue)| -> mlua::Result<()> {
+                let (kind, name) = (this.0.kind().name, name.to_string().unwrap_or_default());
+                Err(mlua::Error::external(
+                    Error::new(format!("{name} of a {kind} cannot be assigned"))
+                        .help(format!("its fields are given when it is made: {kind} {{ {name} = ... }}")),
+                ))
+            },
+        );
         methods.add_meta_method(MetaMethod::ToString, |_, this, ()| Ok(this.0.kind().name));
     }
 }

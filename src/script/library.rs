@@ -5,14 +5,14 @@ use std::path::{Component, Path, PathBuf};
 use std::sync::Arc;
 
 use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::analysis::Globals;
 use super::convert::{class_key, to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
 use super::machine::Machine;
 use super::param::Param;
-use super::session::Session;
+use super::session::{STANDARD, Session};
 use super::system::{SourceHandle, System, SystemHandle};
 use crate::error::{Error, Result};
 use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
@@ -56,6 +56,8 @@ pub(crate) struct Library {
     /// The files that are being required, from the main one on.
     loading: RefCell<Vec<PathBuf>>,
     loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
+    /// Functions of Rust and C that rules may reach, by address.
+    pub stateless: RefCell<FxHashSet<usize>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
@@ -77,15 +79,17 @@ impl Library {
         *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
     }
 
+    /// Refuses what belongs at the top level while rules run; the standard library is always at the top.
+    fn at_top_level(&self, what: &str) -> Result<()> {
+        self.machine()?.refuse_in_rules(what)
+    }
+
     /// Gives the machine its globals and runs the standard library.
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
-        let source = machine.session.standard(&self.globals());
-        let exports: Table = machine
-            .load(&source.name, &source.analysis.text)?
-            .call(())
-            .map_err(|error| machine.translate(error))?;
+        let exports: Table =
+            machine.load("stdlib.lua", STANDARD)?.call(()).map_err(|error| machine.translate(error))?;
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
             let (name, value) = pair.map_err(|error| machine.translate(error))?;
@@ -95,6 +99,7 @@ impl Library {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());
+        self.note_functions(&globals);
         let mut symbols = self.symbols.borrow_mut();
         symbols.end_of_standard();
         *self.modules.borrow_mut() = symbols
@@ -102,6 +107,26 @@ impl Library {
             .filter_map(|name| Some((name.to_owned(), symbols.signature(symbols.find(name).ok()?).clone())))
             .collect();
         Ok(())
+    }
+
+    /// Notes the functions of Rust and C that every script has; they remember nothing between calls.
+    fn note_functions(&self, globals: &Table) {
+        let mut known = self.stateless.borrow_mut();
+        for pair in globals.pairs::<LuaValue, LuaValue>().flatten() {
+            match pair.1 {
+                LuaValue::Function(function) => {
+                    known.insert(function.to_pointer() as usize);
+                }
+                LuaValue::Table(inner) => {
+                    for (_, value) in inner.pairs::<LuaValue, LuaValue>().flatten() {
+                        if let LuaValue::Function(function) = value {
+                            known.insert(function.to_pointer() as usize);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
     }
 
     fn note_names(&self, lua: &Lua) {
@@ -130,6 +155,9 @@ impl Library {
             let (name, value) = pair?;
             globals.raw_set(name, value)?;
         }
+        let string: Table = globals.raw_get("string")?;
+        string.raw_set("format", globals.raw_get::<LuaValue>("format")?)?;
+        globals.raw_set("format", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
         for kind in KINDS {
             install_kind(machine, &globals, kind)?;
@@ -165,18 +193,24 @@ impl Library {
         globals.raw_set(
             "module",
             lua.create_function(move |_, (name, parameters): (String, Variadic<String>)| {
+                library.at_top_level("module").map_err(mlua::Error::external)?;
                 declare(&library, &name, &parameters).map_err(mlua::Error::external)
             })?,
         )?;
-        let session = Arc::clone(&machine.session);
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
             "param",
-            lua.create_function(move |lua, (name, options): (String, Table)| {
-                let Value::Table(options) =
-                    to_value(&LuaValue::Table(options), false).map_err(mlua::Error::external)?
-                else {
-                    return Ok(LuaValue::Nil);
+            lua.create_function(move |lua, (name, options): (LuaValue, LuaValue)| {
+                library.at_top_level("param").map_err(mlua::Error::external)?;
+                let LuaValue::String(name) = name else {
+                    return Err(mlua::Error::external(
+                        Error::new("param begins with a name")
+                            .help("write param(\"height\", { default = 3 })"),
+                    ));
                 };
+                let name = name.to_string_lossy();
+                let options =
+                    named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
                 let param =
                     Param::declare(&name, &options, &session.options.set).map_err(mlua::Error::external)?;
                 let value = param.value.to_value();
@@ -188,8 +222,17 @@ impl Library {
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "lsystem",
-            lua.create_function(move |_, options: Option<Table>| {
-                SystemHandle::create(&library, options.as_ref()).map_err(mlua::Error::external)
+            lua.create_function(move |_, options: LuaValue| {
+                let create = || {
+                    library.at_top_level("lsystem")?;
+                    let options = match options {
+                        LuaValue::Nil => None,
+                        LuaValue::Table(options) => Some(options),
+                        other => return Err(no_table("lsystem", &other)),
+                    };
+                    SystemHandle::create(&library, options.as_ref())
+                };
+                create().map_err(mlua::Error::external)
             })?,
         )?;
         globals.raw_set(
@@ -201,8 +244,14 @@ impl Library {
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
             "require",
-            lua.create_function(move |_, name: String| {
-                require(&library, &session, &name).map_err(mlua::Error::external)
+            lua.create_function(move |_, name: LuaValue| {
+                let name = match name {
+                    LuaValue::String(name) => name.to_string_lossy(),
+                    _ => String::new(),
+                };
+                let required =
+                    library.at_top_level("require").and_then(|()| require(&library, &session, &name));
+                required.map_err(mlua::Error::external)
             })?,
         )
     }
@@ -223,7 +272,7 @@ fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<Funct
 }
 
 fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
-    if lua.app_data_ref::<Quiet>().is_some() {
+    if lua.app_data_ref::<Quiet>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
@@ -232,8 +281,9 @@ fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
     Ok(())
 }
 
-/// Marks a machine whose script has been run before, so that it prints nothing again.
-pub(crate) struct Quiet;
+/// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
+/// function that tells whether the top level is running.
+pub(crate) struct Quiet(pub Function);
 
 /// Makes the constructor of a type of object and its table of methods.
 fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua::Result<()> {
@@ -264,20 +314,26 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
     }
     globals.raw_set(
         kind.name,
-        lua.create_function(move |_, options: Option<Table>| {
-            let table = match options {
-                None => Arc::new(ValueTable::default()),
-                Some(options) => {
-                    match to_value(&LuaValue::Table(options), false).map_err(mlua::Error::external)? {
-                        Value::Table(table) => table,
-                        _ => Arc::default(),
-                    }
-                }
-            };
+        lua.create_function(move |_, options: LuaValue| {
+            let table = named_fields(kind.name, options).map_err(mlua::Error::external)?;
             let object = (kind.construct)(&table).map_err(mlua::Error::external)?;
             Ok(ObjectHandle(Arc::from(object)))
         })?,
     )
+}
+
+/// The one table of named fields that a constructor takes; nothing is an empty one.
+fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
+    match to_value(&options, false)? {
+        Value::Nil => Ok(Arc::default()),
+        Value::Table(table) => Ok(table),
+        _ => Err(no_table(what, &options)),
+    }
+}
+
+fn no_table(what: &str, given: &LuaValue) -> Error {
+    Error::new(format!("{what} takes a table of named fields, not a {}", given.type_name()))
+        .help(format!("write {what} {{ name = value }}"))
 }
 
 /// Runs another file of the script's folder once and gives what it returns.
@@ -304,6 +360,10 @@ fn require(library: &Library, session: &Session, name: &str) -> Result<LuaValue>
             .help("move what both need into a third file"));
     }
     let source = session.source(&path, &shown, &library.globals())?;
+    if !source.analysis.problems.is_empty() && !session.options.check {
+        machine.load(&source.name, &source.analysis.text)?;
+        return Err(Error::several(source.analysis.problems.clone()));
+    }
     library.loading.borrow_mut().push(path.clone());
     let value = machine
         .load(&source.name, &source.analysis.text)
@@ -320,7 +380,13 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
         Error::new(format!("require(\"{name}\") leads outside the script's folder"))
             .help("a script reads only files in its own folder and below it")
     };
-    let relative = Path::new(name.strip_suffix(".lua").unwrap_or(name)).with_extension("lua");
+    let bare = name.strip_suffix(".lua").unwrap_or(name);
+    if bare.is_empty() || bare.ends_with(['/', '.']) {
+        return Err(
+            Error::new("require needs the name of a file").help("write require(\"facade\") for facade.lua")
+        );
+    }
+    let relative = PathBuf::from(format!("{bare}.lua"));
     if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
         return Err(outside());
     }

@@ -100,9 +100,12 @@ impl Param {
                     .map_err(|expected| expected.refuse(&format!("param {name}"), field, value)),
             }
         };
-        let text = |field: &str| match options.get(field) {
-            Some(Value::Text(text)) => text.to_string(),
-            _ => String::new(),
+        let text = |field: &str| -> Result<String> {
+            match options.get(field) {
+                None => Ok(String::new()),
+                Some(value) => String::from_value(value.clone())
+                    .map_err(|expected| expected.refuse(&format!("param {name}"), field, value)),
+            }
         };
         let (min, max, step) = (number("min")?, number("max")?, number("step")?);
         if let (Some(min), Some(max)) = (min, max)
@@ -117,6 +120,11 @@ impl Param {
             (None, _) => {
                 return Err(Error::new(format!("param {name} has no default"))
                     .help(format!("write param(\"{name}\", {{ default = ... }})")));
+            }
+            (Some(default), Some(_)) if !matches!(default, Value::Text(_)) => {
+                return Err(Error::new(format!(
+                    "param {name}: choices are strings, so the default must be one, not {default}"
+                )));
             }
             (Some(Value::Text(default)), Some(choices)) => {
                 let choices = Vec::<String>::from_value(choices.clone())
@@ -143,8 +151,8 @@ impl Param {
             value: default.clone(),
             default,
             control,
-            unit: text("unit"),
-            text: text("text"),
+            unit: text("unit")?,
+            text: text("text")?,
         };
         param.check(&param.default).map_err(|error| {
             Error::new(format!("the default of {}", error.message())).help("change the default or its bounds")
@@ -183,17 +191,27 @@ impl Param {
         match (&self.control, setting) {
             (Control::Number { min, max, step }, Setting::Number(number)) => {
                 if min.is_some_and(|min| *number < min) || max.is_some_and(|max| *number > max) {
-                    let bound =
-                        |bound: Option<f64>| bound.map_or("any".to_owned(), |bound| bound.to_string());
-                    return Err(Error::new(format!("param {name} is {number}, out of its range"))
-                        .help(format!("it goes from {} to {}", bound(*min), bound(*max))));
+                    let range = match (min, max) {
+                        (Some(min), Some(max)) => format!("it goes from {min} to {max}"),
+                        (Some(min), None) => format!("it begins at {min}"),
+                        (None, Some(max)) => format!("it ends at {max}"),
+                        (None, None) => String::new(),
+                    };
+                    return Err(Error::new(format!("param {name} is {number}, out of its range")).help(range));
                 }
                 if let Some(step) = step {
                     let steps = (number - min.unwrap_or(0.0)) / step;
                     if (steps - steps.round()).abs() > 1e-6 {
+                        let near: Vec<String> = [steps.floor(), steps.ceil()]
+                            .iter()
+                            .map(|steps| min.unwrap_or(0.0) + steps * step)
+                            .filter(|near| max.is_none_or(|max| *near <= max))
+                            .map(|near| Value::Number(near).to_string())
+                            .collect();
                         return Err(Error::new(format!(
                             "param {name} is {number}, between two steps of {step}"
-                        )));
+                        ))
+                        .help(format!("choose {}", near.join(" or "))));
                     }
                 }
                 Ok(())

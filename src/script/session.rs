@@ -13,7 +13,7 @@ use crate::error::{Error, Result};
 use crate::rules::Values;
 
 /// The standard library, which every script has.
-const STANDARD: &str = include_str!("../../stdlib.lua");
+pub(crate) const STANDARD: &str = include_str!("../../stdlib.lua");
 
 /// How much a run may use.
 #[derive(Debug, Clone)]
@@ -141,8 +141,6 @@ impl Progress {
 pub(crate) struct Source {
     /// The name in messages, relative to where the script was called.
     pub name: String,
-    /// The file, without links.
-    pub path: PathBuf,
     /// What reading it gave.
     pub analysis: Analysis,
 }
@@ -161,7 +159,6 @@ pub struct Session {
     root: PathBuf,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
     params: Mutex<Vec<Param>>,
-    standard: Mutex<Option<Arc<Source>>>,
     randoms: AtomicBool,
     reads_this: AtomicBool,
     kept: Mutex<Vec<f64>>,
@@ -181,7 +178,6 @@ impl Session {
             root,
             sources: Mutex::default(),
             params: Mutex::default(),
-            standard: Mutex::default(),
             randoms: AtomicBool::new(false),
             reads_this: AtomicBool::new(false),
             kept: Mutex::default(),
@@ -254,15 +250,6 @@ impl Session {
         sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
     }
 
-    /// The standard library's source.
-    pub(crate) fn standard(&self, globals: &Globals) -> Arc<Source> {
-        let mut standard = self.standard.lock().unwrap_or_else(PoisonError::into_inner);
-        Arc::clone(standard.get_or_insert_with(|| {
-            let analysis = analyse("stdlib.lua", STANDARD, globals);
-            Arc::new(Source { name: "stdlib.lua".to_owned(), path: PathBuf::from("stdlib.lua"), analysis })
-        }))
-    }
-
     /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
     pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<Source>> {
         let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
@@ -274,9 +261,9 @@ impl Session {
             Error::new(format!("{name} is not a text file"))
                 .help("scripts are UTF-8 text; check the file's name")
         })?;
-        let analysis = analyse(name, &text, globals);
+        let analysis = analyse(name, text.strip_prefix('\u{feff}').unwrap_or(&text), globals);
         self.note(&analysis);
-        let source = Arc::new(Source { name: name.to_owned(), path: path.to_path_buf(), analysis });
+        let source = Arc::new(Source { name: name.to_owned(), analysis });
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
@@ -288,6 +275,9 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     match error.kind() {
         std::io::ErrorKind::NotFound => Error::new(format!("there is no script {shown}"))
             .help("check the path, or make one: burgeon new NAME"),
+        std::io::ErrorKind::IsADirectory => {
+            Error::new(format!("{shown} is a folder")).help("name a script in it")
+        }
         _ => Error::new(format!("cannot read {shown}: {error}")),
     }
 }

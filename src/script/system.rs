@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mlua::{Function, Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
 use super::convert::to_value;
-use super::freeze::{Frozen, freeze};
+use super::freeze::{Frozen, Reached, freeze};
 use super::handles::{DerivedHandle, ObjectHandle, methods_key};
 use super::library::Library;
 use super::machine::Machine;
@@ -149,6 +149,11 @@ impl SystemHandle {
     /// Runs a declaration; a mistake is kept, so that all of them can be told at once.
     fn declare(&self, lua: &Lua, declare: impl FnOnce(&mut System) -> Result<()>) {
         let place = Machine::place(lua);
+        let rules_run = self.library.machine().and_then(|machine| machine.refuse_in_rules("a declaration"));
+        if let Err(error) = rules_run {
+            self.library.problems.borrow_mut().push(error.at(place));
+            return;
+        }
         let result = declare(&mut self.library.systems.borrow_mut()[self.index]);
         if let Err(error) = result {
             self.library.problems.borrow_mut().push(error.at(place));
@@ -215,6 +220,7 @@ impl UserData for SystemHandle {
         });
         methods.add_function("derive", |lua, (this, steps): (UserDataRef<Self>, LuaValue)| {
             let machine = this.library.machine().map_err(mlua::Error::external)?;
+            machine.refuse_in_rules("derive").map_err(mlua::Error::external)?;
             let steps = match to_value(&steps, false).map_err(mlua::Error::external)? {
                 Value::Nil => None,
                 #[allow(
@@ -235,6 +241,12 @@ impl UserData for SystemHandle {
             let derived = derive(&machine, this.index, steps)
                 .map_err(|error| mlua::Error::external(error.at(Machine::place(lua))))?;
             Ok(DerivedHandle(derived))
+        });
+        methods.add_meta_function("__newindex", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            Err(mlua::Error::external(
+                Error::new(format!("a system has no field {name} to assign"))
+                    .help("its object, interpret and seed are given to lsystem"),
+            ))
         });
         methods.add_meta_function("__index", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
             let error = Error::new(format!("a system has no method called {name}"));
@@ -436,12 +448,23 @@ impl System {
     }
 
     /// Prepares `machine` for deriving this system: drivers, interpretation rules, `this`, frozen tables.
-    pub(crate) fn prepare(&self, machine: &Machine) -> mlua::Result<Declared> {
+    pub(crate) fn prepare(&self, machine: &Machine) -> Result<Declared> {
+        let mut reached = Vec::new();
+        let (drivers, guards, ignores_this) =
+            self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
+        let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
+        Ok(Declared { drivers, guards, ignores_this, _frozen: frozen })
+    }
+
+    fn prepare_functions(
+        &self,
+        machine: &Machine,
+        reached: &mut Vec<Reached>,
+    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>, bool)> {
         let prelude = machine.prelude();
         let lua = machine.lua();
         let mut drivers = Vec::new();
         let mut guards = Vec::new();
-        let mut reached: Vec<Function> = Vec::new();
         // `this` must be known before any driver runs.
         let this = match &self.object {
             Some(object) => {
@@ -461,10 +484,15 @@ impl System {
         for declared in &self.rules {
             let arity = declared.rule.arguments();
             drivers.push(prelude.driver.call((&declared.successor, arity))?);
-            reached.push(declared.successor.clone());
+            let reach = |function: &Function| Reached {
+                function: function.clone(),
+                name: declared.rule.pattern.text.clone(),
+                place: declared.rule.place.clone(),
+            };
+            reached.push(reach(&declared.successor));
             guards.push(match &declared.guard {
                 Some(guard) => {
-                    reached.push(guard.clone());
+                    reached.push(reach(guard));
                     Some(prelude.guard_driver.call((guard, arity))?)
                 }
                 None => None,
@@ -473,16 +501,18 @@ impl System {
         let rules = reached.clone();
         prelude.fresh_interpreters.call::<()>(())?;
         if self.object.is_some() {
-            for (index, (_, bound, rule, ..)) in self.interpreted(&machine.library).into_iter().enumerate() {
+            for (index, (_, bound, rule, name, place)) in
+                self.interpreted(&machine.library).into_iter().enumerate()
+            {
                 prelude.interpreter.call::<()>((index, &rule, bound))?;
-                reached.push(rule);
+                reached.push(Reached { function: rule, name, place });
             }
         }
         let mut ignores_this = !machine.session.reads_this();
         for rule in &rules {
-            ignores_this &= prelude.is_prepared.call::<bool>(rule)?;
+            ignores_this &= prelude.is_prepared.call::<bool>(&rule.function)?;
         }
-        Ok(Declared { drivers, guards, ignores_this, _frozen: freeze(lua, &reached)? })
+        Ok((drivers, guards, ignores_this))
     }
 
     /// Makes the first chains: one from modules, or one for each feature.
@@ -587,9 +617,12 @@ impl Builder<'_> {
                 ))
                 .help("write system:axiom(A(1), { B() })"));
             };
-            let is_module = table.metatable().is_some_and(|metatable| {
-                metatable.raw_get::<String>("__type").is_ok_and(|name| name == "module")
-            });
+            let is_module = self
+                .machine
+                .prelude()
+                .is_module
+                .call::<bool>(table)
+                .map_err(|error| self.machine.translate(error))?;
             if !is_module {
                 if depth > 200 {
                     return Err(Error::new(

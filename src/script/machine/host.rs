@@ -30,6 +30,13 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             }
         })?,
     )?;
+    host.set(
+        "freeze",
+        lua.create_function(|_, table: Table| {
+            table.set_readonly(true);
+            Ok(())
+        })?,
+    )?;
     let state = Rc::clone(current);
     host.set(
         "unpack",

@@ -26,6 +26,9 @@ use prelude::Prelude;
 /// The name of the machine's own Lua code in tracebacks.
 const OWN: &str = "burgeon";
 
+/// What an error says until the limit is known.
+const OUT_OF_MEMORY: &str = "out of memory";
+
 /// A virtual machine that runs a script and the rules it declares.
 pub struct Machine {
     lua: Lua,
@@ -107,7 +110,7 @@ impl Machine {
 
     /// Keeps the script from printing, since another machine runs it too.
     pub(crate) fn silence(&self) {
-        self.lua.set_app_data(Quiet);
+        self.lua.set_app_data(Quiet(self.prelude.phase.clone()));
     }
 
     /// Empties the caches of parameters if some of them have been dropped.
@@ -156,9 +159,25 @@ impl Machine {
     /// What a Lua error means: the place and the remedy taken out of its text.
     pub(crate) fn translate(&self, error: mlua::Error) -> Error {
         let translated = translate(&error);
+        let limit = self.session.options.limits.memory / 1_000_000;
         match self.session.stop.check() {
+            Err(reason) => translated.because(&reason),
+            Ok(()) if translated.message() == OUT_OF_MEMORY => {
+                translated
+                    .because(&Error::new(format!("the script needs more than {limit} MB of memory")).help(
+                    "look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES",
+                ))
+            }
             Ok(()) => translated,
-            Err(reason) => reason.at(translated.place().cloned()),
+        }
+    }
+
+    /// Refuses what belongs at the top level while rules run.
+    pub(crate) fn refuse_in_rules(&self, what: &str) -> Result<()> {
+        match self.prelude.phase.call::<u8>(()) {
+            Ok(0) => Ok(()),
+            _ => Err(Error::new(format!("{what} belongs at the top level of the script, not in a rule"))
+                .help("make it before derive, and let the rule use it")),
         }
     }
 
@@ -183,8 +202,7 @@ fn translate(error: &mlua::Error) -> Error {
             None => Error::new(inner.to_string()),
         },
         mlua::Error::WithContext { cause, .. } => translate(cause),
-        mlua::Error::MemoryError(_) => Error::new("the script needs more memory than it may use")
-            .help("raise the limit: --memory-limit MEGABYTES"),
+        mlua::Error::MemoryError(_) => Error::new(OUT_OF_MEMORY),
         mlua::Error::SyntaxError { message, .. } => parse(message),
         mlua::Error::RuntimeError(message) => parse(message),
         other => parse(&other.to_string()),
@@ -199,25 +217,29 @@ fn parse(text: &str) -> Error {
         None => (text, None),
     };
     let (place, message) = match split_place(text) {
-        Some((place, message)) => (Some(place), message),
+        Some((place, message)) => (place, message),
         None => (None, text),
     };
     if message.contains("not enough memory") {
-        return Error::new("the script needs more memory than it may use")
-            .help("raise the limit: --memory-limit MEGABYTES")
-            .at(place);
+        return Error::new(OUT_OF_MEMORY).at(place);
+    }
+    if message.starts_with("table: 0x") || message.starts_with("function: 0x") || message == "nil" {
+        return Error::new("the script raised an error that is no text")
+            .help("write error(\"what is wrong\")");
     }
     let error = Error::new(message).at(place);
     match help {
         Some(help) => error.help(help),
         None if message.contains("modify a readonly table") => error.help(
-            "while rules run, tables from outside them and those in parameters are frozen; make a new table, or use table.clone",
+            "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
         ),
+        None if message.contains("stack overflow") => error.help("look for a function that calls itself without end"),
         None => error,
     }
 }
 
-fn split_place(text: &str) -> Option<(Place, &str)> {
+/// Parts `file:line: message`; no place for the machine's own code.
+fn split_place(text: &str) -> Option<(Option<Place>, &str)> {
     let mut from = 0;
     while let Some(found) = text[from..].find(':') {
         let colon = from + found;
@@ -225,25 +247,19 @@ fn split_place(text: &str) -> Option<(Place, &str)> {
         let behind = colon + 1 + digits;
         if digits > 0 && text[behind..].starts_with(':') && !text[..colon].contains('\n') {
             let line = text[colon + 1..behind].parse().ok()?;
-            let file = text[..colon].to_owned();
-            let message = text[behind + 1..].trim_start();
-            return (file != OWN && !file.is_empty()).then_some((Place { file, line }, message)).or(None);
+            let file = &text[..colon];
+            let own = file == OWN || file.is_empty();
+            let place = (!own).then(|| Place { file: file.to_owned(), line });
+            return Some((place, text[behind + 1..].trim_start()));
         }
         from = colon + 1;
     }
     None
 }
 
+/// The innermost line of a script in a traceback, whose lines read `file:line: in function <...>`.
 fn place_in_traceback(traceback: &str) -> Option<Place> {
-    traceback.lines().find_map(|line| {
-        let line = line.trim();
-        let (file, rest) = line.rsplit_once(':').or_else(|| line.split_once(':'))?;
-        let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
-        if digits.is_empty() || file == OWN || file.starts_with('[') {
-            return None;
-        }
-        Some(Place { file: file.to_owned(), line: digits.parse().ok()? })
-    })
+    traceback.lines().find_map(|line| split_place(line.trim())?.0)
 }
 
 /// Copies a column into the beginning of a buffer, which is long enough.

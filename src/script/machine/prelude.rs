@@ -34,6 +34,10 @@ pub(crate) struct Prelude {
     pub globals: Table,
     /// `(function)`: whether it was seen when the script was read.
     pub is_prepared: Function,
+    /// What is being done: 0 nothing, 1 a rule, 2 a guard, 3 an interpretation.
+    pub phase: Function,
+    /// `(value)`: whether it is a module made outside of rules.
+    pub is_module: Function,
     input: Function,
     counts: Function,
     randoms: Function,
@@ -59,6 +63,8 @@ impl Prelude {
             forget_values: table.get("forget_values")?,
             fresh_interpreters: table.get("fresh_interpreters")?,
             globals: table.get("globals")?,
+            phase: table.get("phase")?,
+            is_module: table.get("is_module")?,
             is_prepared: table.get("is_prepared")?,
             input: table.get("input")?,
             counts: table.get("counts")?,

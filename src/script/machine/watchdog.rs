@@ -128,7 +128,21 @@ fn interrupt(state: State) {
 unsafe extern "C-unwind" fn raise(state: *mut ffi::lua_State, collecting: c_int) {
     // Luau also calls it during garbage collection, with a number from 0, where no error may be raised.
     if collecting < 0 {
-        // SAFETY: `state` is the running state that Luau passed in; the frame owns nothing to be dropped.
-        unsafe { ffi::luaL_error(state, c"stopped".as_ptr()) }
+        // SAFETY: `state` is the running state that Luau passed in; the frame owns nothing to be dropped, and
+        // luaL_where pushes one string, of which at most three are on the stack.
+        unsafe {
+            ffi::lua_checkstack(state, 4);
+            // The innermost function may be one of C, which has no line.
+            for level in 0..3 {
+                ffi::luaL_where(state, level);
+                if ffi::lua_objlen(state, -1) > 0 || level == 2 {
+                    break;
+                }
+                ffi::lua_pop(state, 1);
+            }
+            ffi::lua_pushstring(state, c"stopped".as_ptr());
+            ffi::lua_concat(state, 2);
+            ffi::lua_error(state)
+        }
     }
 }
