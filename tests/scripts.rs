@@ -1,5 +1,7 @@
 //! The shipped scripts and those in README.md: each runs, gives a sound model, and gives it again.
 
+#![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
