@@ -11,6 +11,8 @@ use crate::script::{Declared, Machine, read_column, write_column};
 const NONE: u16 = u16::MAX;
 /// Marks an application that leaves its module, in the counts that Lua writes.
 const STAY: u32 = 0x8000_0000;
+/// Marks the number of a shape, in the counts that Lua writes.
+const SHAPE: u32 = 0x4000_0000;
 
 /// A piece of the chain: from a mark up to another symbol.
 #[derive(Debug, Clone, Copy)]
@@ -61,6 +63,7 @@ struct Group {
     next: usize,
     symbol_at: usize,
     param_at: usize,
+    made: usize,
 }
 
 /// The step at hand, for one thread.
@@ -324,7 +327,7 @@ impl Batch<'_> {
         read_column(symbols, modules, &mut group.symbols).map_err(plain)?;
         read_column(params, bytes / 8, &mut group.params).map_err(plain)?;
         read_column(counts, members.len(), &mut group.ends).map_err(plain)?;
-        (group.next, group.symbol_at, group.param_at) = (0, 0, 0);
+        (group.next, group.symbol_at, group.param_at, group.made) = (0, 0, 0, 0);
         Ok(())
     }
 
@@ -374,10 +377,10 @@ impl Batch<'_> {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();
         let mut output = Output::default();
-        let made: usize =
-            scratch.groups.iter().map(|group| group.members.len().min(1) * group.symbols.len()).sum();
+        let shapes = self.machine.current.shapes.borrow();
         let out = &mut output.chain;
-        out.symbols.reserve(piece.end - piece.begin.module + made);
+        out.symbols.reserve(2 * (piece.end - piece.begin.module));
+        out.params.reserve(2 * (piece.end - piece.begin.module));
         let (mut module, mut param) = (piece.begin.module, piece.begin.param);
         let keep = |out: &mut Chain, modules: std::ops::Range<usize>, params: std::ops::Range<usize>| {
             out.symbols.extend_from_slice(&self.chain.symbols[modules.clone()]);
@@ -410,9 +413,16 @@ impl Batch<'_> {
             output.changed = true;
             let here = active.module as usize;
             keep(out, module..here, param..active.param as usize);
-            let symbols = &group.symbols[group.symbol_at..end as usize];
-            let params: usize =
-                symbols.iter().map(|symbol| usize::from(grammar.arities()[usize::from(*symbol)])).sum();
+            let (symbols, params) = if end & SHAPE != 0 {
+                let shape = &shapes[(end & !SHAPE) as usize];
+                (shape.symbols.as_slice(), shape.params)
+            } else {
+                let symbols = &group.symbols[group.symbol_at..end as usize];
+                group.symbol_at = end as usize;
+                let arity = |symbol: &Symbol| usize::from(grammar.arities()[usize::from(*symbol)]);
+                (symbols, symbols.iter().map(arity).sum())
+            };
+            group.made += symbols.len();
             out.symbols.extend_from_slice(symbols);
             out.params.extend_from_slice(&group.params[group.param_at..group.param_at + params]);
             if random {
@@ -424,7 +434,6 @@ impl Batch<'_> {
                     if *symbol > END { key } else { Key::default() }
                 }));
             }
-            group.symbol_at = end as usize;
             group.param_at += params;
             module = here + 1;
             param =
@@ -439,7 +448,7 @@ impl Batch<'_> {
         for (rule, group) in scratch.groups.iter().enumerate() {
             if !group.members.is_empty() {
                 output.ran = true;
-                output.made.push((narrow_rule(rule), group.symbols.len()));
+                output.made.push((narrow_rule(rule), group.made));
             }
         }
         output.chain.mark(self.plan.batch, grammar.arities());

@@ -1,7 +1,7 @@
 //! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
 //!
-//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes calls
-//! that write the modules where they belong, so that nothing has to be returned and taken apart; its other
+//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes one call
+//! with all parameters, since its modules and brackets, its shape, can be seen from the text; its other
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
@@ -12,12 +12,21 @@ use full_moon::ast::{
     Parameter, Prefix, Stmt, Suffix, TableConstructor, Var,
 };
 use full_moon::node::Node;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
 use full_moon::tokenizer::{TokenReference, TokenType};
 use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
 use crate::error::{Error, Place, nearest};
 use crate::rules::Signature;
+
+/// The most parameters that a prepared return can have.
+const MOST_EMITTED: usize = 16;
+
+/// Added to the number of a shape, so that it cannot be taken for a count of modules.
+const SHAPE: usize = 1 << 30;
 
 /// What a script may use without declaring it.
 #[derive(Debug, Clone, Default)]
@@ -26,6 +35,8 @@ pub(crate) struct Globals {
     pub names: Vec<String>,
     /// The modules among them.
     pub modules: FxHashMap<String, Signature>,
+    /// Counts the shapes of the run's rules.
+    pub shapes: Arc<AtomicUsize>,
 }
 
 /// What reading a script gives.
@@ -80,7 +91,8 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
     second.run(&ast);
     let Walk { mut edits, mut problems, random, reads_this, .. } = second;
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
-    edits.sort_by_key(|edit| (edit.begin, edit.order));
+    // What is put before a token comes before what replaces it.
+    edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
     let mut out = String::with_capacity(text.len() + 64 * edits.len());
     let mut at = 0;
     for edit in &edits {
@@ -99,16 +111,12 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
 #[derive(Default)]
 struct Facts {
     variables: Vec<Fact>,
-    impure: FxHashMap<usize, bool>,
-    /// Whether operators may run functions of the script.
-    metatables: bool,
 }
 
 #[derive(Default, Clone)]
 struct Fact {
     assigned: bool,
     assigned_inside: bool,
-    pure_function: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -122,11 +130,11 @@ enum Role {
 
 struct Function {
     role: Role,
-    begin: usize,
-    impure: bool,
     this: Option<String>,
     /// The rule that it belongs to, as errors name it.
     rule: Option<String>,
+    /// What its prepared returns make, as Lua tables.
+    shapes: Vec<String>,
 }
 
 struct Variable {
@@ -134,6 +142,20 @@ struct Variable {
     id: usize,
     function: usize,
     module: Option<Signature>,
+}
+
+/// What a return makes, as far as its text tells: symbols and brackets, and where the parameters stand.
+#[derive(Default)]
+struct Shape {
+    items: Vec<String>,
+    arguments: Vec<Argument>,
+}
+
+enum Argument {
+    /// From one place to another; open if it may have any number of values, of which one is taken.
+    At(usize, usize, bool),
+    /// Left out, before this place.
+    Missing(usize),
 }
 
 struct Edit {
@@ -165,7 +187,7 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { role: Role::Script, begin: 0, impure: false, this: None, rule: None }],
+            functions: vec![Function { role: Role::Script, this: None, rule: None, shapes: Vec::new() }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
@@ -271,9 +293,8 @@ impl<'a> Walk<'a> {
     }
 
     fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
-        let id = self.declare(name, end_of(statement));
-        let impure = self.function(body, Role::Other, None);
-        self.facts.variables[id].pure_function = !impure;
+        self.declare(name, end_of(statement));
+        self.function(body, Role::Other, None);
     }
 
     fn local(
@@ -391,7 +412,6 @@ impl<'a> Walk<'a> {
     fn read(&mut self, token: &TokenReference) {
         let name = text_of(token);
         self.random |= name == "random";
-        self.facts.metatables |= name == "setmetatable";
         self.reads_this |= self.functions.iter().any(|function| {
             matches!(function.role, Role::Rule | Role::Guard) && function.this.as_ref() == Some(&name)
         });
@@ -440,7 +460,6 @@ impl<'a> Walk<'a> {
             Expression::TableConstructor(table) => self.table(table),
             Expression::Var(variable) => match variable {
                 Var::Name(name) => {
-                    self.mention(name);
                     self.read(name);
                 }
                 Var::Expression(expression) => {
@@ -485,23 +504,9 @@ impl<'a> Walk<'a> {
         match prefix {
             Prefix::Expression(expression) => self.expression(expression),
             Prefix::Name(name) => {
-                self.mention(name);
                 self.read(name);
             }
             _ => {}
-        }
-    }
-
-    /// A module's constructor used as a value may end up anywhere, so its function cannot be prepared.
-    fn mention(&mut self, name: &TokenReference) {
-        if self.module(name).is_some() {
-            self.impure();
-        }
-    }
-
-    fn impure(&mut self) {
-        for function in &mut self.functions {
-            function.impure = true;
         }
     }
 
@@ -543,9 +548,6 @@ impl<'a> Walk<'a> {
         {
             self.check_arity(name, &signature, arguments);
         }
-        if !self.is_pure(call.prefix(), &suffixes) {
-            self.impure();
-        }
         match call.prefix() {
             Prefix::Name(name) => self.read(name),
             prefix => self.prefix(prefix),
@@ -558,21 +560,6 @@ impl<'a> Walk<'a> {
                     _ => self.suffix(suffix),
                 },
                 _ => self.suffix(suffix),
-            }
-        }
-    }
-
-    /// Whether a call surely makes no modules.
-    fn is_pure(&self, prefix: &Prefix, suffixes: &[&Suffix]) -> bool {
-        let Prefix::Name(name) = prefix else { return false };
-        let text = text_of(name);
-        match self.find(&text) {
-            None => !self.globals.modules.contains_key(&text) && !calls_back(&text, suffixes),
-            Some(variable) => {
-                let fact = self.fact(variable.id);
-                let is_this = self.functions.iter().any(|function| function.this.as_deref() == Some(&text));
-                (is_this && matches!(suffixes, [Suffix::Call(Call::MethodCall(_))]))
-                    || (fact.pure_function && !fact.assigned && suffixes.len() == 1)
             }
         }
     }
@@ -648,16 +635,15 @@ impl<'a> Walk<'a> {
     fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: Role) {
         if let (Some(begin), Some(end)) = (value.start_position(), value.end_position()) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
-            self.function(body, role, None);
-            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+            let shapes = self.function(body, role, None);
+            let shapes: String = shapes.iter().map(|shape| format!(", {shape}")).collect();
+            self.edit(end.bytes(), end.bytes(), format!("{shapes})"));
         }
     }
 
-    /// Walks a function; tells whether it may make modules other than by its returns.
-    fn function(&mut self, body: &FunctionBody, role: Role, this: Option<&str>) -> bool {
+    /// Walks a function; gives the shapes of its returns.
+    fn function(&mut self, body: &FunctionBody, role: Role, this: Option<&str>) -> Vec<String> {
         let outside = self.variables.len();
-        let begin =
-            body.parameters_parentheses().tokens().0.start_position().map_or(0, |position| position.bytes());
         let start = first_position(body.block(), body.end_token());
         let mut parameters = body.parameters().iter();
         let first = match body.parameters().iter().next() {
@@ -667,7 +653,7 @@ impl<'a> Walk<'a> {
         let this = this.map(str::to_owned).or(if role == Role::Other { None } else { first });
         let names_self = this.as_deref() == Some("self");
         let rule = if role == Role::Other { None } else { self.rule.clone() };
-        self.functions.push(Function { role, begin, impure: false, this, rule });
+        self.functions.push(Function { role, this, rule, shapes: Vec::new() });
         if names_self && role == Role::Other {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
@@ -685,40 +671,23 @@ impl<'a> Walk<'a> {
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        let impure = self.functions.pop().is_none_or(|function| function.impure);
-        self.facts.impure.insert(begin, impure);
-        impure
+        self.functions.pop().map(|function| function.shapes).unwrap_or_default()
     }
 
     fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
-        let here = self.functions.last().map(|function| (function.role, function.begin));
-        let Some((Role::Rule, begin)) = here else { return self.expressions(values) };
-        let ready = !self.known.metatables && !self.known.impure.get(&begin).copied().unwrap_or(true);
-        let listed = values.iter().all(|value| self.is_item(value));
-        if !values.is_empty() && listed {
-            for value in values {
-                self.item(value);
-            }
-            if ready && let Some(last) = values.iter().last().and_then(Node::end_position) {
-                self.blank(token, "");
-                for pair in values.pairs() {
-                    self.write_item(pair.value());
-                    if let Some(comma) = pair.punctuation() {
-                        self.blank(comma, ";");
-                    }
-                }
-                self.edit(last.bytes(), last.bytes(), ";return __done".to_owned());
-                return;
-            }
-        } else {
-            self.expressions(values);
+        if self.functions.last().is_none_or(|function| function.role != Role::Rule) {
+            return self.expressions(values);
         }
+        self.expressions(values);
         let (Some(begin), Some(end)) =
             (token.end_position(), values.iter().last().and_then(Node::end_position))
         else {
             return;
         };
-        if values.len() == 1
+        let mut shape = Shape::default();
+        if values.iter().all(|value| self.shape(value, &mut shape)) && shape.arguments.len() <= MOST_EMITTED {
+            self.emit(begin.bytes(), end.bytes(), values, &shape);
+        } else if values.len() == 1
             && matches!(values.iter().next(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "nil")
         {
             self.edit(begin.bytes(), end.bytes(), " __erased".to_owned());
@@ -728,66 +697,120 @@ impl<'a> Walk<'a> {
         }
     }
 
-    /// Whether `value` is a module made on the spot, or a branch of such.
-    fn is_item(&self, value: &Expression) -> bool {
+    /// Writes `return A(x), { B(y) }` as one call with the shape's number and the parameters in order.
+    fn emit(&mut self, begin: usize, end: usize, values: &Punctuated<Expression>, shape: &Shape) {
+        let number = self.globals.shapes.fetch_add(1, Ordering::Relaxed);
+        self.edit(begin, begin, format!(" __emit{}({}", shape.arguments.len(), SHAPE + number));
+        self.blank_items(values);
+        for argument in &shape.arguments {
+            match argument {
+                Argument::At(from, to, open) => {
+                    self.edit(*from, *from, if *open { ", (" } else { ", " }.to_owned());
+                    self.edit(*to, *to, if *open { ")" } else { "" }.to_owned());
+                }
+                Argument::Missing(at) => self.edit(*at, *at, ", nil".to_owned()),
+            }
+        }
+        self.edit(end, end, ")".to_owned());
+        if let Some(function) = self.functions.last_mut() {
+            function.shapes.push(format!("{{ {}, {} }}", SHAPE + number, shape.items.join(", ")));
+        }
+    }
+
+    /// Adds what `value` makes to `shape`; `false` if that cannot be seen from its text.
+    fn shape(&self, value: &Expression, shape: &mut Shape) -> bool {
         match value {
             Expression::FunctionCall(call) => {
                 let suffixes: Vec<&Suffix> = call.suffixes().collect();
-                match (call.prefix(), suffixes.as_slice()) {
-                    (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) => {
-                        matches!(**arguments, FunctionArgs::Parentheses { .. }) && self.module(name).is_some()
-                    }
-                    _ => false,
+                let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+                    (call.prefix(), suffixes.as_slice())
+                else {
+                    return false;
+                };
+                let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments else { return false };
+                let (Some(signature), Some(close)) =
+                    (self.module(name), parentheses.tokens().1.start_position())
+                else {
+                    return false;
+                };
+                // The shape is made outside of the rule's function, where the module must mean the same.
+                let inside =
+                    self.find(&text_of(name)).is_some_and(|known| known.function + 1 >= self.functions.len());
+                let given = arguments.len();
+                if inside || given < signature.required || given > signature.arity() {
+                    return false;
                 }
+                shape.items.push(text_of(name));
+                for (index, argument) in arguments.iter().enumerate() {
+                    let open = is_open(argument) && index + 1 == given;
+                    if open && given < signature.arity() {
+                        return false;
+                    }
+                    let (Some(from), Some(to)) = (argument.start_position(), argument.end_position()) else {
+                        return false;
+                    };
+                    shape.arguments.push(Argument::At(from.bytes(), to.bytes(), open));
+                }
+                shape.arguments.extend((given..signature.arity()).map(|_| Argument::Missing(close.bytes())));
+                true
             }
-            Expression::TableConstructor(table) => table.fields().iter().all(|field| match field {
-                Field::NoKey(value) => self.is_item(value),
-                _ => false,
-            }),
+            Expression::TableConstructor(table) => {
+                shape.items.push("0".to_owned());
+                let known = table.fields().iter().all(|field| match field {
+                    Field::NoKey(value) => self.shape(value, shape),
+                    _ => false,
+                });
+                shape.items.push("1".to_owned());
+                known
+            }
             _ => false,
         }
     }
 
-    /// Walks an item without counting its own constructors as mentioned.
-    fn item(&mut self, value: &Expression) {
+    /// Takes away everything of a list of items but the arguments.
+    fn blank_items(&mut self, values: &Punctuated<Expression>) {
+        for pair in values.pairs() {
+            self.blank_item(pair.value());
+            if let Some(comma) = pair.punctuation() {
+                self.blank(comma, "");
+            }
+        }
+    }
+
+    fn blank_item(&mut self, value: &Expression) {
         match value {
             Expression::FunctionCall(call) => {
+                if let Prefix::Name(name) = call.prefix() {
+                    self.blank(name, "");
+                }
                 for suffix in call.suffixes() {
-                    if let (Prefix::Name(name), Suffix::Call(Call::AnonymousCall(arguments))) =
-                        (call.prefix(), suffix)
+                    if let Suffix::Call(Call::AnonymousCall(arguments)) = suffix
+                        && let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments
                     {
-                        if let Some(signature) = self.module(name) {
-                            self.check_arity(name, &signature, arguments);
+                        let (open, close) = parentheses.tokens();
+                        self.blank(open, "");
+                        for comma in arguments.pairs().filter_map(|pair| pair.punctuation()) {
+                            self.blank(comma, "");
                         }
-                        self.arguments(arguments);
+                        self.blank(close, "");
                     }
                 }
             }
             Expression::TableConstructor(table) => {
-                for field in table.fields() {
-                    if let Field::NoKey(value) = field {
-                        self.item(value);
+                let (open, close) = table.braces().tokens();
+                self.blank(open, "");
+                for pair in table.fields().pairs() {
+                    if let Field::NoKey(value) = pair.value() {
+                        self.blank_item(value);
+                    }
+                    if let Some(separator) = pair.punctuation() {
+                        self.blank(separator, "");
                     }
                 }
+                self.blank(close, "");
             }
             _ => {}
         }
-    }
-
-    fn write_item(&mut self, value: &Expression) {
-        let Expression::TableConstructor(table) = value else { return };
-        let (open, close) = table.braces().tokens();
-        self.blank(open, "__open();");
-        let last = table.fields().len().saturating_sub(1);
-        for (index, pair) in table.fields().pairs().enumerate() {
-            if let Field::NoKey(value) = pair.value() {
-                self.write_item(value);
-            }
-            if let Some(separator) = pair.punctuation() {
-                self.blank(separator, if index == last { "" } else { ";" });
-            }
-        }
-        self.blank(close, if table.fields().is_empty() { "__close()" } else { ";__close()" });
     }
 
     /// Replaces a token by `text`.
@@ -831,20 +854,13 @@ fn instead_of(name: &str) -> Option<&'static str> {
     })
 }
 
-/// Whether a function of Luau calls functions that it is given.
-fn calls_back(name: &str, suffixes: &[&Suffix]) -> bool {
-    let field = match suffixes.first() {
-        Some(Suffix::Index(Index::Dot { name, .. })) => text_of(name),
-        Some(Suffix::Index(_)) => return true,
-        _ => String::new(),
-    };
-    matches!(
-        (name, field.as_str()),
-        ("pcall" | "xpcall", _)
-            | ("coroutine", _)
-            | ("table", "sort" | "foreach" | "foreachi")
-            | ("string", "gsub")
-    )
+/// Whether an expression may have any number of values.
+fn is_open(expression: &Expression) -> bool {
+    match expression {
+        Expression::FunctionCall(_) => true,
+        Expression::Symbol(symbol) => text_of(symbol) == "...",
+        _ => false,
+    }
 }
 
 fn text_of(token: &TokenReference) -> String {

@@ -66,7 +66,8 @@ pub(crate) struct Library {
 impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
-        Globals { names: self.names.borrow().clone(), modules: self.modules.borrow().clone() }
+        let shapes = self.machine().map(|machine| Arc::clone(&machine.session.shapes)).unwrap_or_default();
+        Globals { names: self.names.borrow().clone(), modules: self.modules.borrow().clone(), shapes }
     }
 
     /// The machine that this library belongs to, once it is complete.

@@ -159,6 +159,8 @@ pub struct Session {
     root: PathBuf,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
     params: Mutex<Vec<Param>>,
+    /// Counts the shapes of the rules' returns.
+    pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
     reads_this: AtomicBool,
     kept: Mutex<Vec<f64>>,
@@ -178,6 +180,7 @@ impl Session {
             root,
             sources: Mutex::default(),
             params: Mutex::default(),
+            shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             reads_this: AtomicBool::new(false),
             kept: Mutex::default(),

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Value};
-use crate::rules::{Key, Stream};
+use crate::rules::{Key, Stream, Symbol};
 use crate::script::handles::Objects;
 use crate::script::session::Session;
 
@@ -20,6 +20,17 @@ pub(crate) trait Flusher {
     /// The one type that implements this, for the loop that drives it.
     fn applier(&mut self) -> Option<&mut crate::interpret::Applier>;
 }
+
+/// What a prepared return makes: the symbols of its modules and brackets.
+#[derive(Default)]
+pub(crate) struct Shape {
+    pub symbols: Vec<Symbol>,
+    /// The number of all parameters.
+    pub params: usize,
+}
+
+/// Lua adds this to the number of a shape.
+const SHAPE: usize = 1 << 30;
 
 /// What is being rewritten or interpreted.
 pub(crate) struct Current {
@@ -36,6 +47,8 @@ pub(crate) struct Current {
     pub drawn: Cell<usize>,
     /// The methods of `this`, as their numbers in Lua.
     pub methods: RefCell<Vec<&'static Method>>,
+    /// The shapes of prepared returns, by number.
+    pub shapes: RefCell<Vec<Shape>>,
     /// Applies recorded calls while interpreting.
     pub flusher: RefCell<Option<Box<dyn Flusher>>>,
     /// The stream of the top level of the script.
@@ -53,9 +66,20 @@ impl Current {
             used: Cell::new(0),
             drawn: Cell::new(0),
             methods: RefCell::default(),
+            shapes: RefCell::default(),
             flusher: RefCell::default(),
             top: RefCell::new(top),
         }
+    }
+
+    pub(crate) fn add_shape(&self, number: usize, symbols: Vec<Symbol>, arities: &[u8]) {
+        let Some(number) = number.checked_sub(SHAPE) else { return };
+        let params = symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
+        let mut shapes = self.shapes.borrow_mut();
+        if shapes.len() <= number {
+            shapes.resize_with(number + 1, Shape::default);
+        }
+        shapes[number] = Shape { symbols, params };
     }
 
     /// Draws number `index` of an application's stream.

@@ -37,6 +37,14 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             Ok(())
         })?,
     )?;
+    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "shape",
+        lua.create_function(move |_, (number, symbols): (usize, Vec<u16>)| {
+            state.add_shape(number, symbols, &shelf.symbols.borrow().arities());
+            Ok(())
+        })?,
+    )?;
     let state = Rc::clone(current);
     host.set(
         "unpack",
