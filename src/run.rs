@@ -50,7 +50,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     }
     let params = session.params();
     refuse_unknown(session, &params)?;
-    let systems = machine.crew.done.borrow().clone();
+    let mut systems: Vec<Arc<Derived>> = machine.crew.done.borrow().iter().flatten().cloned().collect();
     drop(machine);
     let mut times = RunTimes::default();
     for system in &systems {
@@ -61,8 +61,11 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         begin.elapsed().saturating_sub(times.derivation.rewriting + times.derivation.interpretation);
     let begin = Instant::now();
     let mut scene = Scene::default();
-    for system in systems.iter().filter(|system| !system.is_placed()) {
-        system.add_to(&mut scene)?;
+    for system in systems.iter_mut().filter(|system| !system.is_placed()) {
+        match Arc::get_mut(system) {
+            Some(system) => system.hand_over(&mut scene)?,
+            None => system.add_to(&mut scene)?,
+        }
     }
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();

@@ -22,7 +22,7 @@ pub(crate) enum Job {
 
 enum Message {
     Work(Job),
-    Derived(Arc<Derived>),
+    Derived(Result<Arc<Derived>>),
 }
 
 struct Helper {
@@ -32,14 +32,14 @@ struct Helper {
 
 /// A machine's part in a run: the one that leads, or one that follows.
 pub(crate) struct Crew {
-    /// The systems derived so far, in order.
-    pub done: RefCell<Vec<Arc<Derived>>>,
+    /// What each call of `derive` has given so far, in order.
+    pub done: RefCell<Vec<Result<Arc<Derived>>>>,
     role: RefCell<Role>,
 }
 
 enum Role {
     Lead { helpers: Vec<Helper>, watchdog: Arc<Watchdog> },
-    Follow { inbox: Rc<Receiver<Message>>, recorded: Vec<Arc<Derived>> },
+    Follow { inbox: Rc<Receiver<Message>>, recorded: Vec<Result<Arc<Derived>>> },
 }
 
 impl Crew {
@@ -54,26 +54,28 @@ impl Crew {
         let (inbox, known) = match &*self.role.borrow() {
             Role::Lead { .. } => return Ok(None),
             Role::Follow { inbox, recorded } => {
-                (Rc::clone(inbox), recorded.get(self.done.borrow().len()).map(Arc::clone))
+                (Rc::clone(inbox), recorded.get(self.done.borrow().len()).cloned())
             }
         };
+        // What the axiom's function changes or draws is seen by what follows, in every machine.
+        machine.library.systems.borrow()[index].replay_axiom(machine)?;
         let derived = match known {
             Some(derived) => derived,
             None => serve(machine, &inbox, index)?,
         };
-        self.done.borrow_mut().push(Arc::clone(&derived));
-        Ok(Some(derived))
+        self.done.borrow_mut().push(derived.clone());
+        derived.map(Some)
     }
 
-    /// In the leading machine: tells the others what a system became.
-    pub(crate) fn finished(&self, derived: &Arc<Derived>) {
+    /// In the leading machine: tells the others what a system became, or why it did not.
+    pub(crate) fn finished(&self, derived: &Result<Arc<Derived>>) {
         if let Role::Lead { helpers, .. } = &*self.role.borrow() {
             for helper in helpers {
                 // A helper that has ended needs no news.
-                let _ = helper.outbox.send(Message::Derived(Arc::clone(derived)));
+                let _ = helper.outbox.send(Message::Derived(derived.clone()));
             }
         }
-        self.done.borrow_mut().push(Arc::clone(derived));
+        self.done.borrow_mut().push(derived.clone());
     }
 
     /// Gives a job of `pieces` pieces to as many helpers as can be of use.
@@ -120,7 +122,11 @@ impl Drop for Crew {
 }
 
 impl Helper {
-    fn start(session: &Arc<Session>, watchdog: &Arc<Watchdog>, recorded: Vec<Arc<Derived>>) -> Result<Self> {
+    fn start(
+        session: &Arc<Session>,
+        watchdog: &Arc<Watchdog>,
+        recorded: Vec<Result<Arc<Derived>>>,
+    ) -> Result<Self> {
         let (outbox, inbox) = channel();
         let (session, watchdog) = (Arc::clone(session), Arc::clone(watchdog));
         let follow = move || {
@@ -143,7 +149,7 @@ impl Helper {
 }
 
 /// Works on jobs for system `index` until the leader has derived it.
-fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Arc<Derived>> {
+fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Result<Arc<Derived>>> {
     let mut declared: Option<Declared> = None;
     let mut scratch = Scratch::default();
     loop {

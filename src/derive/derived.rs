@@ -30,7 +30,8 @@ pub struct Derived {
     pub symbols: Arc<Symbols>,
     /// The parameters that are not numbers.
     pub values: Arc<Values>,
-    /// The object of each chain; none if the system has no objects.
+    /// The object of each chain; none if the system has no objects. After a run they have given away what
+    /// they had drawn to the run's scene.
     pub objects: Vec<Arc<dyn Object>>,
     /// The id of each chain's feature.
     pub features: Vec<Option<String>>,
@@ -105,9 +106,25 @@ impl Derived {
         self.placed.load(Ordering::Relaxed)
     }
 
+    /// As [`Derived::add_to`], but the objects that nobody else holds give away what they have drawn.
+    pub(crate) fn hand_over(&mut self, scene: &mut Scene) -> Result<()> {
+        let name = self.name();
+        for (object, feature) in self.objects.iter_mut().zip(&self.features) {
+            match Arc::get_mut(object) {
+                Some(object) => object.hand_over(scene, &name, feature.as_deref())?,
+                None => object.show(scene, &name, feature.as_deref())?,
+            }
+        }
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        format!("system {}", self.system + 1)
+    }
+
     /// Adds what its objects have drawn to `scene`, in the order of the chains.
     pub fn add_to(&self, scene: &mut Scene) -> Result<()> {
-        let name = format!("system {}", self.system + 1);
+        let name = self.name();
         for (object, feature) in self.objects.iter().zip(&self.features) {
             object.show(scene, &name, feature.as_deref())?;
         }

@@ -53,9 +53,10 @@ pub(crate) fn derive(machine: &Machine, index: usize, steps: Option<usize>) -> R
     if let Some(derived) = machine.crew.follow(machine, index)? {
         return Ok(derived);
     }
-    let derived = Arc::new(lead(machine, index, steps)?);
+    let derived = lead(machine, index, steps).map(Arc::new);
+    machine.current.objects.replace(None);
     machine.crew.finished(&derived);
-    Ok(derived)
+    derived
 }
 
 fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived> {
@@ -80,10 +81,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         let declared = system.prepare(machine)?;
         (axiom, Arc::new(plan), declared)
     };
-    let last_only = {
-        let systems = machine.library.systems.borrow();
-        systems[index].last_only || (declared.ignores_this && systems[index].draws_afresh())
-    };
+    let last_only = machine.library.systems.borrow()[index].last_only;
     let settled = machine.library.systems.borrow()[index].draws_afresh();
     let limit = match (steps, options.steps) {
         (Some(a), Some(b)) => a.min(b),

@@ -100,6 +100,7 @@ impl Stepper {
         self.links.build(&chain, &self.plan.grammar);
         let pieces = pieces(&chain, self.plan.batch);
         let count = pieces.len();
+        machine.refresh();
         machine.current.objects.replace(self.plan.objects.clone());
         let rewriting = Arc::new(Rewriting {
             plan: Arc::clone(&self.plan),

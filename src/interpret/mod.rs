@@ -50,6 +50,7 @@ impl Interpreting {
             }
         }
         let count = pieces.len() - 1;
+        machine.refresh();
         machine.current.objects.replace(plan.objects.clone());
         let interpreting = Arc::new(Self {
             plan: Arc::clone(plan),

@@ -122,11 +122,11 @@ impl Drawing {
     }
 
     /// Adds the drawing to `scene` as one mesh at `origin` (m), unless it is empty.
-    pub(super) fn show(&self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
+    pub(super) fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
         let mut mesh = Mesh { name: name.to_owned(), parts: Vec::new() };
-        for part in self.parts.iter().filter(|part| !part.triangles.is_empty()) {
+        for part in self.parts.into_iter().filter(|part| !part.triangles.is_empty()) {
             let material = scene.material(&self.materials[part.material]);
-            mesh.parts.push(Part { material, ..part.clone() });
+            mesh.parts.push(Part { material, ..part });
         }
         if mesh.parts.is_empty() {
             return;

@@ -413,7 +413,12 @@ impl Object for Extruder {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing.show(scene, self.options.position.0, name, feature);
+        self.drawing.clone().show(scene, self.options.position.0, name, feature);
+        Ok(())
+    }
+
+    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        std::mem::take(&mut self.drawing).show(scene, self.options.position.0, name, feature);
         Ok(())
     }
 }

@@ -71,4 +71,9 @@ pub trait Object: Any + Send + Sync {
 
     /// Adds what it has drawn to `scene`; `name` and `feature` are for its instances.
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()>;
+
+    /// As [`Object::show`], but may give away what it has drawn, for nobody will look at the object again.
+    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        self.show(scene, name, feature)
+    }
 }

@@ -347,6 +347,17 @@ impl Turtle {
         }
     }
 
+    fn show_placed(&self, scene: &mut Scene, name: &str, feature: Option<&str>) {
+        let origin = DAffine3::from_translation(self.options.position.0);
+        for (object, transforms) in &self.placed {
+            let any: &dyn std::any::Any = &**object;
+            if let Some(model) = any.downcast_ref::<Model>() {
+                let frames: Vec<DAffine3> = transforms.iter().map(|transform| origin * *transform).collect();
+                model.place(scene, &frames, name, feature);
+            }
+        }
+    }
+
     /// Ends the branch that is being drawn.
     fn lift(&mut self) {
         if let Some((part, strand)) = self.state.strand.take() {
@@ -427,18 +438,14 @@ impl Object for Turtle {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        let origin = self.options.position.0;
-        self.drawing.show(scene, origin, name, feature);
-        for (object, transforms) in &self.placed {
-            let any: &dyn std::any::Any = &**object;
-            if let Some(model) = any.downcast_ref::<Model>() {
-                let frames: Vec<DAffine3> = transforms
-                    .iter()
-                    .map(|transform| DAffine3::from_translation(origin) * *transform)
-                    .collect();
-                model.place(scene, &frames, name, feature);
-            }
-        }
+        self.drawing.clone().show(scene, self.options.position.0, name, feature);
+        self.show_placed(scene, name, feature);
+        Ok(())
+    }
+
+    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        std::mem::take(&mut self.drawing).show(scene, self.options.position.0, name, feature);
+        self.show_placed(scene, name, feature);
         Ok(())
     }
 }

@@ -15,7 +15,7 @@ use full_moon::node::Node;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use full_moon::tokenizer::{TokenReference, TokenType};
+use full_moon::tokenizer::{Position, TokenReference, TokenType};
 use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
@@ -48,8 +48,6 @@ pub(crate) struct Analysis {
     pub problems: Vec<Error>,
     /// Whether the script names `random`.
     pub random: bool,
-    /// Whether a rule or a guard names its first parameter, the object.
-    pub reads_this: bool,
 }
 
 /// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
@@ -70,7 +68,7 @@ pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
 
 /// The analysis of a script that is not to be run.
 fn unread(text: &str, problems: Vec<Error>) -> Analysis {
-    Analysis { text: text.to_owned(), problems, random: true, reads_this: true }
+    Analysis { text: text.to_owned(), problems, random: true }
 }
 
 fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
@@ -89,7 +87,7 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, reads_this, .. } = second;
+    let Walk { mut edits, mut problems, random, .. } = second;
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     // What is put before a token comes before what replaces it.
     edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
@@ -104,7 +102,7 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
         at = edit.end;
     }
     out.push_str(&text[at..]);
-    Analysis { text: out, problems, random, reads_this }
+    Analysis { text: out, problems, random }
 }
 
 /// What the first walk learned about the variables, in the order of their declaration.
@@ -130,7 +128,6 @@ enum Role {
 
 struct Function {
     role: Role,
-    this: Option<String>,
     /// The rule that it belongs to, as errors name it.
     rule: Option<String>,
     /// What its prepared returns make, as Lua tables.
@@ -175,7 +172,6 @@ struct Walk<'a> {
     edits: Vec<Edit>,
     problems: Vec<Error>,
     random: bool,
-    reads_this: bool,
     /// The rule whose functions are being walked.
     rule: Option<String>,
 }
@@ -187,12 +183,11 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { role: Role::Script, this: None, rule: None, shapes: Vec::new() }],
+            functions: vec![Function { role: Role::Script, rule: None, shapes: Vec::new() }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
             random: false,
-            reads_this: false,
             rule: None,
         }
     }
@@ -240,8 +235,7 @@ impl<'a> Walk<'a> {
                         self.read(first.value());
                     }
                 }
-                let this = declaration.name().method_name().map(|_| "self");
-                self.function(declaration.body(), Role::Other, this);
+                self.function(declaration.body(), Role::Other, declaration.name().method_name().is_some());
             }
             Stmt::LocalFunction(function) => self.local_function(function.name(), function.body(), statement),
             Stmt::ConstFunction(function) => self.local_function(function.name(), function.body(), statement),
@@ -293,8 +287,8 @@ impl<'a> Walk<'a> {
     }
 
     fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
-        self.declare(name, end_of(statement));
-        self.function(body, Role::Other, None);
+        self.declare(name, end_of(statement).map(|end| end.bytes()));
+        self.function(body, Role::Other, false);
     }
 
     fn local(
@@ -306,7 +300,7 @@ impl<'a> Walk<'a> {
         self.expressions(values);
         let values: Vec<&Expression> = values.iter().collect();
         for (index, name) in names.iter().enumerate() {
-            let id = self.declare(name, end_of(statement));
+            let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
             let module = values.get(index).and_then(|value| declared_module(value));
             if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
                 variable.module = module;
@@ -412,9 +406,6 @@ impl<'a> Walk<'a> {
     fn read(&mut self, token: &TokenReference) {
         let name = text_of(token);
         self.random |= name == "random";
-        self.reads_this |= self.functions.iter().any(|function| {
-            matches!(function.role, Role::Rule | Role::Guard) && function.this.as_ref() == Some(&name)
-        });
         if self.find(&name).is_some() || self.globals.names.contains(&name) {
             return;
         }
@@ -448,7 +439,7 @@ impl<'a> Walk<'a> {
             | Expression::UnaryOperator { expression, .. }
             | Expression::TypeAssertion { expression, .. } => self.expression(expression),
             Expression::Function(function) => {
-                self.function(function.body(), Role::Other, None);
+                self.function(function.body(), Role::Other, false);
             }
             Expression::FunctionCall(call) => self.call(call),
             Expression::IfExpression(branches) => self.if_expression(branches),
@@ -608,7 +599,7 @@ impl<'a> Walk<'a> {
                     if role == Role::Rule {
                         self.prepared(argument, function.body(), role);
                     } else {
-                        self.function(function.body(), role, None);
+                        self.function(function.body(), role, false);
                     }
                 }
                 Expression::TableConstructor(table) if role == Role::Rule => {
@@ -633,28 +624,22 @@ impl<'a> Walk<'a> {
 
     /// Walks a function of a rule, and lets the script say that it has been seen.
     fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: Role) {
-        if let (Some(begin), Some(end)) = (value.start_position(), value.end_position()) {
+        if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
-            let shapes = self.function(body, role, None);
+            let shapes = self.function(body, role, false);
             let shapes: String = shapes.iter().map(|shape| format!(", {shape}")).collect();
             self.edit(end.bytes(), end.bytes(), format!("{shapes})"));
         }
     }
 
-    /// Walks a function; gives the shapes of its returns.
-    fn function(&mut self, body: &FunctionBody, role: Role, this: Option<&str>) -> Vec<String> {
+    /// Walks a function, which has a `self` if it `is_method`; gives the shapes of its returns.
+    fn function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Vec<String> {
         let outside = self.variables.len();
         let start = first_position(body.block(), body.end_token());
         let mut parameters = body.parameters().iter();
-        let first = match body.parameters().iter().next() {
-            Some(Parameter::Name(name)) => Some(text_of(name)),
-            _ => None,
-        };
-        let this = this.map(str::to_owned).or(if role == Role::Other { None } else { first });
-        let names_self = this.as_deref() == Some("self");
         let rule = if role == Role::Other { None } else { self.rule.clone() };
-        self.functions.push(Function { role, this, rule, shapes: Vec::new() });
-        if names_self && role == Role::Other {
+        self.functions.push(Function { role, rule, shapes: Vec::new() });
+        if is_method {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
             self.variables.push(Variable {
@@ -679,9 +664,7 @@ impl<'a> Walk<'a> {
             return self.expressions(values);
         }
         self.expressions(values);
-        let (Some(begin), Some(end)) =
-            (token.end_position(), values.iter().last().and_then(Node::end_position))
-        else {
+        let (Some(begin), Some(end)) = (token.end_position(), values.iter().last().and_then(end_of)) else {
             return;
         };
         let mut shape = Shape::default();
@@ -746,7 +729,7 @@ impl<'a> Walk<'a> {
                     if open && given < signature.arity() {
                         return false;
                     }
-                    let (Some(from), Some(to)) = (argument.start_position(), argument.end_position()) else {
+                    let (Some(from), Some(to)) = (argument.start_position(), end_of(argument)) else {
                         return false;
                     };
                     shape.arguments.push(Argument::At(from.bytes(), to.bytes(), open));
@@ -867,8 +850,9 @@ fn text_of(token: &TokenReference) -> String {
     token.token().to_string()
 }
 
-fn end_of(statement: &Stmt) -> Option<usize> {
-    statement.end_position().map(|position| position.bytes())
+/// Where a piece of the script ends. The parser's own answer is the place before a closing bracket.
+fn end_of(piece: &impl Node) -> Option<Position> {
+    piece.tokens().filter_map(|token| token.end_position()).max_by_key(|position| position.bytes())
 }
 
 fn first_position(block: &Block, end: &TokenReference) -> Option<usize> {

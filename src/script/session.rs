@@ -162,7 +162,6 @@ pub struct Session {
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
-    reads_this: AtomicBool,
     kept: Mutex<Vec<f64>>,
 }
 
@@ -182,7 +181,6 @@ impl Session {
             params: Mutex::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
-            reads_this: AtomicBool::new(false),
             kept: Mutex::default(),
         }))
     }
@@ -225,12 +223,6 @@ impl Session {
     /// Takes notice of what a piece of the script may do.
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
-        self.reads_this.fetch_or(analysis.reads_this, Ordering::AcqRel);
-    }
-
-    /// Whether any rule or guard in the files may read its object.
-    pub(crate) fn reads_this(&self) -> bool {
-        self.reads_this.load(Ordering::Acquire)
     }
 
     /// Keeps the values that `params` names for the rest of the run.

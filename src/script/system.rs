@@ -57,8 +57,6 @@ pub(crate) struct Declared {
     pub drivers: Vec<Function>,
     /// By rule: the function that asks its guard about a batch.
     pub guards: Vec<Option<Function>>,
-    /// Whether no rule or guard reads its object.
-    pub ignores_this: bool,
     /// Keeps what the rules can reach frozen.
     _frozen: Frozen,
 }
@@ -450,17 +448,17 @@ impl System {
     /// Prepares `machine` for deriving this system: drivers, interpretation rules, `this`, frozen tables.
     pub(crate) fn prepare(&self, machine: &Machine) -> Result<Declared> {
         let mut reached = Vec::new();
-        let (drivers, guards, ignores_this) =
+        let (drivers, guards) =
             self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
         let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
-        Ok(Declared { drivers, guards, ignores_this, _frozen: frozen })
+        Ok(Declared { drivers, guards, _frozen: frozen })
     }
 
     fn prepare_functions(
         &self,
         machine: &Machine,
         reached: &mut Vec<Reached>,
-    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>, bool)> {
+    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
         let prelude = machine.prelude();
         let lua = machine.lua();
         let mut drivers = Vec::new();
@@ -498,7 +496,6 @@ impl System {
                 None => None,
             });
         }
-        let rules = reached.clone();
         prelude.fresh_interpreters.call::<()>(())?;
         if self.object.is_some() {
             for (index, (_, bound, rule, name, place)) in
@@ -508,11 +505,15 @@ impl System {
                 reached.push(Reached { function: rule, name, place });
             }
         }
-        let mut ignores_this = !machine.session.reads_this();
-        for rule in &rules {
-            ignores_this &= prelude.is_prepared.call::<bool>(&rule.function)?;
+        Ok((drivers, guards))
+    }
+
+    /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes.
+    pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
+        match &self.axiom {
+            Some(DeclaredAxiom::Source(..)) => self.axiom(machine, Key::default(), false).map(|_| ()),
+            _ => Ok(()),
         }
-        Ok((drivers, guards, ignores_this))
     }
 
     /// Makes the first chains: one from modules, or one for each feature.

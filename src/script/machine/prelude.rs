@@ -32,8 +32,6 @@ pub(crate) struct Prelude {
     pub fresh_interpreters: Function,
     /// What scripts get from it.
     pub globals: Table,
-    /// `(function)`: whether it was seen when the script was read.
-    pub is_prepared: Function,
     /// What is being done: 0 nothing, 1 a rule, 2 a guard, 3 an interpretation.
     pub phase: Function,
     /// `(value)`: whether it is a module made outside of rules.
@@ -65,7 +63,6 @@ impl Prelude {
             globals: table.get("globals")?,
             phase: table.get("phase")?,
             is_module: table.get("is_module")?,
-            is_prepared: table.get("is_prepared")?,
             input: table.get("input")?,
             counts: table.get("counts")?,
             randoms: table.get("randoms")?,
