@@ -47,13 +47,9 @@
 //!
 //! # Where it takes a shorter way
 //!
-//! The meaning of a script is that of *The Algorithmic Beauty of Plants*: after each step the interpretations
-//! visit the chain. Three things are done otherwise, since they are faster or more useful:
+//! The meaning of a script is that of *The Algorithmic Beauty of Plants*. Two things are done otherwise, since that
+//! is faster or more useful:
 //!
-//! - *Passes that nobody can see are left out.* Where no rule or guard reads `this` (one that is not written in
-//!   place counts as if it did), and the object begins each pass empty
-//!   ([`Object::begins_empty`](objects::Object::begins_empty)), only the last pass is made. A mistake in an
-//!   interpretation that shows on an earlier chain alone is not found then.
 //! - *Rules are prepared.* When a script is loaded, the returns of rules that are written in place, as functions
 //!   within the call of `rule`, are rewritten: where the modules and branches of a return can be seen in its text,
 //!   it becomes one call that writes all parameters into the columns of the next chain. The results of other
