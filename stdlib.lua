@@ -111,7 +111,8 @@ local ease = {
 
 -- A number from 0 to 1 for each point of a lattice: three rounds of a 32-bit integer hash.
 local function hash(x: number, y: number, z: number, seed: number): number
-  local h = bit32.bxor(x % 4294967296, bit32.lrotate(y % 4294967296, 11), bit32.lrotate(z % 4294967296, 22), seed)
+  local h =
+    bit32.bxor(x % 4294967296, bit32.lrotate(y % 4294967296, 11), bit32.lrotate(z % 4294967296, 22), seed)
   for _ = 1, 3 do
     h = bit32.bxor(h, bit32.rshift(h, 16))
     -- The product of two 32-bit numbers does not fit a number exactly, so it is made of two halves.

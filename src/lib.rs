@@ -1,4 +1,63 @@
-//! Burgeon: procedural modelling by rewriting.
+//! Burgeon: procedural modelling by rewriting. Rules are written in Lua, geometry is made in Rust.
+//!
+//! ```text
+//! script.lua ──► script ──► rules ──────► derive ⇄ interpret ──────────► scene ──────► export | picture
+//!                (Lua VMs)  (grammar,     (parallel  (rules change       (meshes,      (glTF, OBJ, SVG,
+//!                            immutable)    rewriting) object state)       instances)    PNG)
+//!                                              ▲          ▲
+//!                                              └─ objects ┘  read-only while rewriting, mutable while
+//!                                                    ▲       interpreting
+//!                                                    └────── geometry
+//! ```
+//!
+//! Each stage is a folder, and uses only those before it:
+//!
+//! - [`error`]: what a person is told when something is wrong.
+//! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
+//! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
+//! - [`objects`]: what rules ask and interpretations change: each an [`Object`](objects::Object), listed in
+//!   [`KINDS`](objects::KINDS).
+//! - [`rules`]: a [`Grammar`](rules::Grammar) of [`Pattern`](rules::Pattern)s that match along a
+//!   [`Chain`](rules::Chain), without Lua.
+//! - [`script`]: a [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for
+//!   each thread.
+//! - [`derive`](mod@derive): rewrites chains step by step into a [`Derived`](derive::Derived) system, and has
+//!   them interpreted in between.
+//! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
+//!   ([`render`](picture::render)).
+//!
+//! [`run()`] goes the whole way, from a file to a scene:
+//!
+//! ```
+//! use std::path::Path;
+//!
+//! use burgeon::{export, picture::Picture, script::Options};
+//!
+//! # fn main() -> burgeon::Result<()> {
+//! let run = burgeon::run(Path::new("scripts/tower.lua"), Options::default())?;
+//! assert!(run.scene.triangles() > 0);
+//! # let folder = std::env::temp_dir().join(format!("burgeon-doc-{}", std::process::id()));
+//! # std::fs::create_dir_all(&folder).map_err(burgeon::Error::new)?;
+//! # let path = folder.join("tower.glb");
+//! export::write(&run.scene, &path, &Picture::default())?;
+//! # std::fs::remove_dir_all(&folder).map_err(burgeon::Error::new)?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # Where it takes a shorter way
+//!
+//! The meaning of a script is that of *The Algorithmic Beauty of Plants*. Two things are done otherwise, since that
+//! is faster or more useful:
+//!
+//! - *Rules are prepared.* When a script is loaded, the returns of rules that are written in place, as functions
+//!   within the call of `rule`, are rewritten: where the modules and branches of a return can be seen in its text,
+//!   it becomes one call that writes all parameters into the columns of the next chain. The results of other
+//!   returns, and of functions from elsewhere, are collected and taken apart: slower, with the same meaning. Line
+//!   numbers stay as they are.
+//! - *A derivation ends when nothing can change.* Not only when no rule applies: also after a step in which every
+//!   rule that ran left its module as it was, if the object begins each pass empty and nothing draws random
+//!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
 pub mod derive;

@@ -1,0 +1,136 @@
+//! The shipped scripts and those in README.md: each runs, gives a sound model, and gives it again.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use burgeon::objects::KINDS;
+use burgeon::picture::Picture;
+use burgeon::script::Options;
+use burgeon::{Run, export};
+
+const README: &str = include_str!("../README.md");
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The scripts in `scripts/`, in the order of their names.
+fn scripts() -> Vec<PathBuf> {
+    let entries = fs::read_dir(root().join("scripts")).unwrap();
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "lua"));
+    paths.sort();
+    paths
+}
+
+fn run(script: &Path, threads: usize) -> Run {
+    let options = Options { threads: Some(threads), ..Options::default() };
+    burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
+}
+
+/// The bytes of the scene as a .glb file.
+fn glb(run: &Run, folder: &Path) -> Vec<u8> {
+    let path = folder.join("model.glb");
+    export::write(&run.scene, &path, &Picture::default()).unwrap();
+    fs::read(path).unwrap()
+}
+
+/// Names in README.md that stand between `before` and `after`.
+fn named(before: &str, after: &str) -> BTreeSet<String> {
+    README.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.to_owned())).collect()
+}
+
+#[test]
+fn the_gallery_shows_every_script_and_no_other() {
+    let shipped: BTreeSet<String> =
+        scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
+    assert_eq!(shipped.len(), 10);
+    assert_eq!(named("](scripts/", ".lua)"), shipped);
+    assert_eq!(named("](docs/pictures/", ".png)"), shipped);
+    for name in &shipped {
+        assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
+    }
+}
+
+#[test]
+fn every_script_gives_a_finite_model_that_reads_back_whole() {
+    let folder = tempfile::tempdir().unwrap();
+    for script in scripts() {
+        let shown = script.display();
+        let run = run(&script, 2);
+        assert!(run.scene.triangles() > 0, "{shown} draws nothing");
+        for part in run.scene.meshes.iter().flat_map(|mesh| &mesh.parts) {
+            assert!(part.positions.iter().all(|position| position.is_finite()), "{shown}");
+            assert!(part.normals.iter().all(|normal| normal.is_finite()), "{shown}");
+        }
+        let (document, buffers, _) = gltf::import_slice(glb(&run, folder.path())).unwrap();
+        let mut triangles = 0;
+        for primitive in document.meshes().flat_map(|mesh| mesh.primitives()) {
+            let reader = primitive.reader(|buffer| buffers.get(buffer.index()).map(|data| &data.0[..]));
+            let positions = reader.read_positions().unwrap();
+            let count = positions.len();
+            assert!(positions.flatten().all(f32::is_finite), "{shown}");
+            let corners: Vec<u32> = reader.read_indices().unwrap().into_u32().collect();
+            assert!(corners.iter().all(|corner| (*corner as usize) < count), "{shown}");
+            triangles += corners.len() / 3;
+        }
+        let drawn: usize = {
+            let shown: BTreeSet<usize> = run.scene.instances.iter().map(|instance| instance.mesh).collect();
+            shown.iter().map(|mesh| run.scene.meshes[*mesh].triangles()).sum()
+        };
+        assert_eq!(triangles, drawn, "{shown}");
+    }
+}
+
+#[test]
+fn every_script_gives_the_same_bytes_for_one_thread_and_for_two() {
+    let folder = tempfile::tempdir().unwrap();
+    for script in scripts() {
+        let [one, two] = [1, 2].map(|threads| glb(&run(&script, threads), folder.path()));
+        assert!(one == two, "{} depends on the number of threads", script.display());
+    }
+}
+
+#[test]
+fn every_lua_block_of_the_readme_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for (index, rest) in README.split("\n```lua\n").skip(1).enumerate() {
+        let (block, _) = rest.split_once("\n```").unwrap();
+        let script = folder.path().join(format!("block{}.lua", index + 1));
+        fs::write(&script, block).unwrap();
+        burgeon::check(&script, Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        let run = run(&script, 2);
+        assert!(run.systems.iter().map(|system| system.modules()).sum::<usize>() > 0, "{block}");
+        count += 1;
+    }
+    assert_eq!(count, 5);
+    assert_eq!(count, README.matches("```lua").count(), "a fragment would go untested");
+}
+
+#[test]
+fn what_the_readme_says_of_a_context_is_what_comes_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let block = README.split("\n```lua\n").find(|block| block.contains("local wire")).unwrap();
+    let (block, behind) = block.split_once("\n```").unwrap();
+    let script = folder.path().join("wire.lua");
+    fs::write(&script, block).unwrap();
+    let run = run(&script, 1);
+    let [wire] = run.systems.as_slice() else { panic!("one system") };
+    let printed = format!("It prints `{}\t{}`", wire.steps, wire.chain_text().trim_end());
+    assert!(behind.contains(&printed), "{printed}");
+}
+
+#[test]
+fn the_readme_names_every_object_its_fields_and_its_methods() {
+    let words: BTreeSet<&str> = README.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+    for kind in KINDS {
+        let fields = kind.fields.iter().map(|field| field.name);
+        for name in fields.chain(kind.methods.iter().map(|method| method.name)).chain([kind.name]) {
+            assert!(words.contains(name), "{}: {name} is not in README.md", kind.name);
+        }
+    }
+}
