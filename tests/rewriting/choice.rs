@@ -45,7 +45,8 @@ fn the_first_rule_whose_guard_holds_wins() {
 
 #[test]
 fn a_rule_that_returns_no_value_keeps_later_rules_from_their_turn() {
-    let rules = "s:rule(\"A(n)\", function(_, n) if n > 2 then return X() end end) s:rule(\"A\", [[ return Y() ]])";
+    let rules =
+        "s:rule(\"A(n)\", function(_, n) if n > 2 then return X() end end) s:rule(\"A\", [[ return Y() ]])";
     assert_eq!(chosen(rules), "A(1) A(2) X X");
 }
 
@@ -90,7 +91,8 @@ fn a_rule_without_weight_loses_to_a_weighted_one_before_it() {
 
 #[test]
 fn a_weighted_rule_whose_guard_fails_is_no_candidate() {
-    let rules = "s:rule(\"A(n)\", { weight = 1000, when = function(_, n) return n == 2 end }, [[ return X() ]])
+    let rules =
+        "s:rule(\"A(n)\", { weight = 1000, when = function(_, n) return n == 2 end }, [[ return X() ]])
                  s:rule(\"A(n)\", { when = function(_, n) return n == 3 end }, [[ return Y() ]])
                  s:rule(\"A\", { weight = 0.001 }, [[ return Z() ]])";
     // For 2 the first candidate is weighted, so X and Z are drawn from; a million to one it is X.
@@ -157,20 +159,24 @@ fn derive_without_steps_ends_when_no_rule_applies() {
 
 #[test]
 fn derive_of_no_steps_is_the_axiom() {
-    let text = chain(&format!("{HEAD} s:axiom(A(1), {{ B(), {{}} }}) s:rule(\"A\", [[ return X() ]]) s:derive(0)"));
+    let text =
+        chain(&format!("{HEAD} s:axiom(A(1), {{ B(), {{}} }}) s:rule(\"A\", [[ return X() ]]) s:derive(0)"));
     assert_eq!(text, "A(1) [ B [ ] ]");
 }
 
 #[test]
 fn an_erased_chain_is_empty_and_stays_so() {
-    let text = chain(&format!("{HEAD} s:axiom(A(1), A(2)) s:rule(\"A\", function() return nil end) s:derive(3)"));
+    let text =
+        chain(&format!("{HEAD} s:axiom(A(1), A(2)) s:rule(\"A\", function() return nil end) s:derive(3)"));
     assert_eq!(text, "");
 }
 
 #[test]
 fn a_weight_is_a_positive_number() {
     for weight in ["0", "-1", "0/0", "math.huge", "\"3\"", "true"] {
-        let told = error(&format!("{HEAD} s:axiom(A(1)) s:rule(\"A\", {{ weight = {weight} }}, [[ return X() ]]) s:derive(1)"));
+        let told = error(&format!(
+            "{HEAD} s:axiom(A(1)) s:rule(\"A\", {{ weight = {weight} }}, [[ return X() ]]) s:derive(1)"
+        ));
         assert!(told.contains("weight") && told.contains("rule A"), "{weight}: {told}");
     }
 }

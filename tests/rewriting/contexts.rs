@@ -118,7 +118,10 @@ fn check_table(options: Options) {
         .iter()
         .map(|(ignored, chain, pattern)| {
             let (text, expected) = starred(chain);
-            (Case { passing: ignoring(ignored), chains: vec![text], pattern: Pattern::parse(pattern) }, expected)
+            (
+                Case { passing: ignoring(ignored), chains: vec![text], pattern: Pattern::parse(pattern) },
+                expected,
+            )
         })
         .collect();
     assert!(cases.len() >= 80, "the table has {} cases", cases.len());
@@ -220,9 +223,13 @@ fn ignore_takes_several_names_and_several_calls() {
 
 #[test]
 fn an_unknown_name_in_ignore_or_in_a_pattern_is_an_error() {
-    let told = error("local Apex = module(\"Apex\")\nlocal s = lsystem {}\ns:ignore(\"Apx\")\ns:axiom(Apex())\ns:derive(1)");
+    let told = error(
+        "local Apex = module(\"Apex\")\nlocal s = lsystem {}\ns:ignore(\"Apx\")\ns:axiom(Apex())\ns:derive(1)",
+    );
     assert!(told.contains("main.lua:3") && told.contains("Apx") && told.contains("Apex?"), "{told}");
-    let told = error("local Apex = module(\"Apex\")\nlocal s = lsystem {}\ns:axiom(Apex())\ns:rule(\"Apx < Apex\", function() return nil end)\ns:derive(1)");
+    let told = error(
+        "local Apex = module(\"Apex\")\nlocal s = lsystem {}\ns:axiom(Apex())\ns:rule(\"Apx < Apex\", function() return nil end)\ns:derive(1)",
+    );
     assert!(told.contains("main.lua:4") && told.contains("Apx") && told.contains("Apex?"), "{told}");
 }
 

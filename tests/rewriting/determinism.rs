@@ -141,9 +141,8 @@ fn many_small_chains_are_put_together_in_their_order() {
         s:interpret("B(n)", function(this, n) this:forward(n) end)
         s:derive(6)
     "#;
-    let expected: Vec<String> = (1..=300)
-        .map(|id| format!("B({id}){}", format!(" [ B({id}) ]").repeat(id % 5)))
-        .collect();
+    let expected: Vec<String> =
+        (1..=300).map(|id| format!("B({id}){}", format!(" [ B({id}) ]").repeat(id % 5))).collect();
     for (threads, batch) in [(1, 4096), (1, 1), (2, 7), (7, 50)] {
         assert_eq!(lines(&run_with(script, divided(threads, batch))), expected, "{threads} threads");
     }

@@ -158,16 +158,14 @@ fn interpret_last_runs_only_the_last_pass() {
         "#,
     );
     assert_eq!(text, "Ask(3)");
-    let run = run(
-        r#"
+    let run = run(r#"
         local F = module("F", "l"); local Ask = module("Ask", "z")
         local s = lsystem { object = turtle {}, interpret = "last" }
         s:axiom(F(3), Ask(7))
         s:rule("Ask", function(this) return Ask(this:position().z) end)
         s:interpret("F(l)", function(this, l) this:forward(l) end)
         s:derive(2)
-        "#,
-    );
+        "#);
     assert_eq!(lines(&run), ["F(3) Ask(0)"], "no pass came before the rules");
     assert!(run.scene.triangles() > 0);
 }
@@ -209,11 +207,8 @@ fn every_chain_has_an_object_of_its_own() {
         s:rule(\"Ask\", function(this) return place(this) end)
         s:derive(1)"
     );
-    let expected = [
-        "Say(0,0,11) F(1) [ F(100) ]",
-        "Say(0,0,22) F(2) [ F(100) ]",
-        "Say(0,0,33) F(3) [ F(100) ]",
-    ];
+    let expected =
+        ["Say(0,0,11) F(1) [ F(100) ]", "Say(0,0,22) F(2) [ F(100) ]", "Say(0,0,33) F(3) [ F(100) ]"];
     for (threads, batch) in [(1, 4096), (1, 1), (2, 1), (7, 2)] {
         let run = run_with(&script, divided(threads, batch));
         assert_eq!(lines(&run), expected, "{threads} threads and batches of {batch}");
@@ -250,8 +245,7 @@ fn an_interpretation_reads_its_object_in_the_middle_of_the_pass() {
 
 #[test]
 fn parameters_of_every_kind_reach_interpretations() {
-    let run = run(
-        r##"
+    let run = run(r##"
         local P = module("P", "x", "y?", "z?"); local s = lsystem { object = turtle {} }
         s:axiom(P({ 1, 2, 3 }), P(true, "text"), P("#ff0000"), P(2))
         s:interpret("P(x, y, z)", function(this, x, y, z)
@@ -264,13 +258,17 @@ fn parameters_of_every_kind_reach_interpretations() {
         local derived = s:derive()
         local p = derived.objects[1]:position()
         assert(math.abs(p.x - 3) + math.abs(p.y - 2) + math.abs(p.z - 3) < 1e-9)
-        "##,
-    );
+        "##);
     assert_eq!(run.scene.materials.len(), 1);
 }
 
 #[test]
 fn interpretations_that_call_a_changing_method_from_a_rule_are_refused() {
-    let told = error(&format!("{HEAD} s:axiom(F(1)) s:rule(\"F(l)\", function(this, l) this:forward(l) return F(l) end) s:derive(1)"));
-    assert!(told.contains("interpretation rule") && told.contains("rule F(l)") && told.contains("main.lua:"), "{told}");
+    let told = error(&format!(
+        "{HEAD} s:axiom(F(1)) s:rule(\"F(l)\", function(this, l) this:forward(l) return F(l) end) s:derive(1)"
+    ));
+    assert!(
+        told.contains("interpretation rule") && told.contains("rule F(l)") && told.contains("main.lua:"),
+        "{told}"
+    );
 }

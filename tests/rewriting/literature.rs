@@ -123,7 +123,11 @@ fn the_koch_curve_has_length_as_its_closed_form_says() {
 
 #[test]
 fn the_dragon_curve_doubles_its_edges() {
-    check_fractal("FL", "FL -> FL Plus FR Plus\nFR -> Minus FL Minus FR", &[1, 2, 4, 8, 16, 32, 64, 128, 256]);
+    check_fractal(
+        "FL",
+        "FL -> FL Plus FR Plus\nFR -> Minus FL Minus FR",
+        &[1, 2, 4, 8, 16, 32, 64, 128, 256],
+    );
     let dragon = Plain { ignore: "", axiom: "FL", rules: "FL -> FL Plus FR Plus\nFR -> Minus FL Minus FR" };
     assert_eq!(dragon.derive([2]), ["FL Plus FR Plus Plus Minus FL Minus FR Plus"]);
 }
@@ -158,12 +162,7 @@ fn penrose_tiles_rewrite_inside_branches_and_erase_old_edges() {
 #[test]
 fn a_signal_runs_along_a_chain() {
     let signal = Plain { ignore: "", axiom: "B A A A A A A A A", rules: "B < A -> B\nB -> A" };
-    let told = [
-        "A B A A A A A A A",
-        "A A B A A A A A A",
-        "A A A A A A A A B",
-        "A A A A A A A A A",
-    ];
+    let told = ["A B A A A A A A A", "A A B A A A A A A", "A A A A A A A A B", "A A A A A A A A A"];
     assert_eq!(signal.derive([1, 2, 8, 9]), told);
 }
 

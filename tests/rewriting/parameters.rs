@@ -132,8 +132,12 @@ fn a_table_that_travels_is_frozen_and_can_be_copied() {
         s:axiom(P({ 1, { 2 } }))
     "#;
     for write in ["x[1] = 5", "x[2][1] = 5", "table.insert(x, 5)", "x.new = 1"] {
-        let told = error(&format!("{head} s:rule(\"P(x)\", function(this, x) {write} return P(x) end) s:derive(1)"));
-        assert!(told.contains("readonly") && told.contains("main.lua:") && told.contains("P({1,{2}})"), "{write}: {told}");
+        let told =
+            error(&format!("{head} s:rule(\"P(x)\", function(this, x) {write} return P(x) end) s:derive(1)"));
+        assert!(
+            told.contains("readonly") && told.contains("main.lua:") && told.contains("P({1,{2}})"),
+            "{write}: {told}"
+        );
     }
     let copied = chain(&format!(
         "{head} s:rule(\"P(x)\", function(this, x) local y = table.clone(x) y[1] += 4 return P(y) end) s:derive(2)"
@@ -171,7 +175,9 @@ fn what_is_no_parameter_is_refused() {
             format!("s:axiom(P({value}))"),
             format!("s:axiom(P(1)) s:rule(\"P\", function() return P({value}) end)"),
         ] {
-            let told = error(&format!("local P = module(\"P\", \"x\"); local s = lsystem {{}}\n {place} s:derive(1)"));
+            let told = error(&format!(
+                "local P = module(\"P\", \"x\"); local s = lsystem {{}}\n {place} s:derive(1)"
+            ));
             let refused = told.contains(what) || told.contains("P has 1 parameter, not 0");
             if !refused || !told.contains("main.lua:2") {
                 wrong.push(format!("{place}: {told}"));
@@ -240,8 +246,7 @@ fn strings_survive_while_thousands_of_others_come_and_go() {
 
 #[test]
 fn a_derived_system_is_an_object_that_travels() {
-    let run = run(
-        r#"
+    let run = run(r#"
         local Leaf = module("Leaf"); local Place = module("Place", "what")
         local leaf = lsystem { object = extruder {} }
         leaf:axiom(Leaf())
@@ -256,8 +261,7 @@ fn a_derived_system_is_an_object_that_travels() {
           if type(what) == "table" then this:advance(3):place(what[1]) end
         end)
         tree:derive(1)
-        "#,
-    );
+        "#);
     assert_eq!(lines(&run), ["Place({model}) Place({model})"]);
     assert_eq!(run.scene.instances.len(), 2);
     let (low, high) = run.scene.bounds().expect("something is drawn");

@@ -11,27 +11,37 @@ const NAMES: [&str; 4] = ["A", "B", "C", "X"];
 
 fn name() -> impl Strategy<Value = String> {
     // A few common names, so that patterns match often.
-    prop_oneof![6 => Just(0), 3 => Just(1), 1 => Just(2), 2 => Just(3)].prop_map(|index: usize| NAMES[index].to_owned())
+    prop_oneof![6 => Just(0), 3 => Just(1), 1 => Just(2), 2 => Just(3)]
+        .prop_map(|index: usize| NAMES[index].to_owned())
 }
 
 fn items(depth: u32, length: usize) -> impl Strategy<Value = Vec<Item>> {
-    let item = name().prop_map(Item::Module).prop_recursive(depth, 40, 5, |inner| {
-        prop_oneof![1 => name().prop_map(Item::Module), 1 => vec(inner, 0..5).prop_map(Item::Branch)]
-    });
+    let item = name().prop_map(Item::Module).prop_recursive(
+        depth,
+        40,
+        5,
+        |inner| prop_oneof![1 => name().prop_map(Item::Module), 1 => vec(inner, 0..5).prop_map(Item::Branch)],
+    );
     vec(item, 0..length)
 }
 
 /// A right context: no branch of it is empty.
 fn context() -> impl Strategy<Value = Vec<Item>> {
-    let item = name().prop_map(Item::Module).prop_recursive(2, 6, 2, |inner| {
-        prop_oneof![2 => name().prop_map(Item::Module), 2 => vec(inner, 1..2).prop_map(Item::Branch)]
-    });
+    let item = name().prop_map(Item::Module).prop_recursive(
+        2,
+        6,
+        2,
+        |inner| prop_oneof![2 => name().prop_map(Item::Module), 2 => vec(inner, 1..2).prop_map(Item::Branch)],
+    );
     vec(item, 0..3)
 }
 
 fn pattern() -> impl Strategy<Value = Pattern> {
-    (vec(name(), 0..3), name(), context())
-        .prop_map(|(left, predecessor, right)| Pattern { left, predecessor, right })
+    (vec(name(), 0..3), name(), context()).prop_map(|(left, predecessor, right)| Pattern {
+        left,
+        predecessor,
+        right,
+    })
 }
 
 fn division() -> impl Strategy<Value = Options> {
@@ -48,7 +58,9 @@ fn expected(chains: &[Vec<Item>], pattern: &Pattern, ignored: &str) -> Vec<usize
     let mut found = Vec::new();
     let mut before = 0;
     for chain in chains {
-        found.extend(naive::matches(chain, pattern, &words(ignored)).into_iter().map(|number| number + before));
+        found.extend(
+            naive::matches(chain, pattern, &words(ignored)).into_iter().map(|number| number + before),
+        );
         before += words(&naive::write(chain)).iter().filter(|word| *word != "[" && *word != "]").count();
     }
     found
@@ -96,5 +108,8 @@ fn random_patterns_match_often_enough_to_tell_something() {
             with_branches += found;
         }
     }
-    assert!(with_contexts > 200 && with_branches > 20, "{with_contexts} matches, {with_branches} of named branches");
+    assert!(
+        with_contexts > 200 && with_branches > 20,
+        "{with_contexts} matches, {with_branches} of named branches"
+    );
 }

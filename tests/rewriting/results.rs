@@ -92,7 +92,10 @@ fn the_three_kinds_of_result_hold_however_the_successor_is_written() {
         ("local t = { B(1) } return (t[1])", "C B(1) C"),
         ("local t = { 1 } return B(t[1])", "C B(1) C"),
         ("local t = { 1 } return { B(t[1]) }", "C [ B(1) ] C"),
-        ("return --[[ why ]] B(1) --[[ not ]], --[[ so ]] { C() --[[ here ]] } --[[ there ]]", "C B(1) [ C ] C"),
+        (
+            "return --[[ why ]] B(1) --[[ not ]], --[[ so ]] { C() --[[ here ]] } --[[ there ]]",
+            "C B(1) [ C ] C",
+        ),
         ("return {}", "C [ ] C"),
         ("return {}, {}", "C [ ] [ ] C"),
         ("return { {} }", "C [ [ ] ] C"),
@@ -125,7 +128,8 @@ fn anything_else_is_an_error_that_names_the_rule() {
     ];
     for (index, (body, what)) in table.into_iter().enumerate() {
         // The first in every form, the others in turn.
-        for rule in bodies(body).into_iter().enumerate().filter(|(form, _)| index == 0 || index % 3 == *form) {
+        for rule in bodies(body).into_iter().enumerate().filter(|(form, _)| index == 0 || index % 3 == *form)
+        {
             let rule = rule.1;
             let told = error(&script(&rule));
             assert!(told.contains("rule A: "), "{rule}: {told}");
@@ -166,13 +170,16 @@ fn modules_may_come_from_helper_functions() {
 
 #[test]
 fn modules_may_be_kept_and_used_more_than_once() {
-    check_all(&[
-        "s:rule(\"A\", function() local b = B(1) return b, C(), b end)",
-        "local b = B(1) s:rule(\"A\", function() return b, C(), b end)",
-        "local list = { B(1), C(), B(1) } s:rule(\"A\", function() return table.unpack(list) end)",
-        "local b = B(1) s:rule(\"A\", function() local c = C() return b, c, B(1) end)",
-        "local kept = { [1] = B(1), c = C() } s:rule(\"A\", function() return kept[1], kept.c, kept[1] end)",
-    ], "C B(1) C B(1) C");
+    check_all(
+        &[
+            "s:rule(\"A\", function() local b = B(1) return b, C(), b end)",
+            "local b = B(1) s:rule(\"A\", function() return b, C(), b end)",
+            "local list = { B(1), C(), B(1) } s:rule(\"A\", function() return table.unpack(list) end)",
+            "local b = B(1) s:rule(\"A\", function() local c = C() return b, c, B(1) end)",
+            "local kept = { [1] = B(1), c = C() } s:rule(\"A\", function() return kept[1], kept.c, kept[1] end)",
+        ],
+        "C B(1) C B(1) C",
+    );
     assert_eq!(
         after("local twig = { B(1), { C() } } s:rule(\"A\", function() return twig, twig end)"),
         "C [ B(1) [ C ] ] [ B(1) [ C ] ] C"
@@ -181,13 +188,16 @@ fn modules_may_be_kept_and_used_more_than_once() {
 
 #[test]
 fn modules_stand_as_they_were_returned_not_as_they_were_made() {
-    check_all(&[
-        "s:rule(\"A\", function() local one, two = B(1), B(2) return two, one end)",
-        "s:rule(\"A\", function() local one = B(1) local two = B(2) local three = B(3) return two, one end)",
-        "s:rule(\"A\", function() B(7) local one = B(1) B(8) return B(2), one end)",
-        "local one = B(1) s:rule(\"A\", function() return B(2), one end)",
-        "s:rule(\"A\", function() local t = { B(1), B(2) } return t[2], t[1] end)",
-    ], "C B(2) B(1) C");
+    check_all(
+        &[
+            "s:rule(\"A\", function() local one, two = B(1), B(2) return two, one end)",
+            "s:rule(\"A\", function() local one = B(1) local two = B(2) local three = B(3) return two, one end)",
+            "s:rule(\"A\", function() B(7) local one = B(1) B(8) return B(2), one end)",
+            "local one = B(1) s:rule(\"A\", function() return B(2), one end)",
+            "s:rule(\"A\", function() local t = { B(1), B(2) } return t[2], t[1] end)",
+        ],
+        "C B(2) B(1) C",
+    );
     assert_eq!(
         after("s:rule(\"A\", function() local a, b, c = D(1), B(2), D(3, 4) return { c, { a } }, b end)"),
         "C [ D(3,4) [ D(1) ] ] B(2) C"
@@ -196,41 +206,44 @@ fn modules_stand_as_they_were_returned_not_as_they_were_made() {
 
 #[test]
 fn modules_that_were_made_but_not_returned_do_not_appear() {
-    check_all(&[
-        "s:rule(\"A\", function() B(7) return B(1) end)",
-        "s:rule(\"A\", function() local waste = { B(7), B(8) } return B(1) end)",
-        "local function waste() B(7) return 1 end s:rule(\"A\", function() return B(waste()) end)",
-        "local function waste() B(7) return 1 end s:rule(\"A\", function() waste() return B(1) end)",
-        "local waste waste = function() B(7) return 1 end s:rule(\"A\", function() return B(waste()) end)",
-        "local t = { waste = function() B(7) return 1 end } s:rule(\"A\", function() return B(t.waste()) end)",
-        "local t = setmetatable({}, { __index = function() B(7) return 1 end })
+    check_all(
+        &[
+            "s:rule(\"A\", function() B(7) return B(1) end)",
+            "s:rule(\"A\", function() local waste = { B(7), B(8) } return B(1) end)",
+            "local function waste() B(7) return 1 end s:rule(\"A\", function() return B(waste()) end)",
+            "local function waste() B(7) return 1 end s:rule(\"A\", function() waste() return B(1) end)",
+            "local waste waste = function() B(7) return 1 end s:rule(\"A\", function() return B(waste()) end)",
+            "local t = { waste = function() B(7) return 1 end } s:rule(\"A\", function() return B(t.waste()) end)",
+            "local t = setmetatable({}, { __index = function() B(7) return 1 end })
          s:rule(\"A\", function() return B(t.x) end)",
-        "local t = setmetatable({}, { __add = function() B(7) return 1 end })
+            "local t = setmetatable({}, { __add = function() B(7) return 1 end })
          s:rule(\"A\", function() return B(t + 1) end)",
-        "local t = setmetatable({}, { __len = function() B(7) return 1 end })
+            "local t = setmetatable({}, { __len = function() B(7) return 1 end })
          s:rule(\"A\", function() return B(#t) end)",
-        "local t = setmetatable({}, { __concat = function() B(7) return \"1\" end })
+            "local t = setmetatable({}, { __concat = function() B(7) return \"1\" end })
          s:rule(\"A\", function() return B(tonumber(t .. \"1\")) end)",
-        "local t = setmetatable({}, { __lt = function() B(7) return true end })
+            "local t = setmetatable({}, { __lt = function() B(7) return true end })
          s:rule(\"A\", function() if t < t then return B(1) end return C() end)",
-        "local function once(_, i) if not i then B(7) return 1 end end
+            "local function once(_, i) if not i then B(7) return 1 end end
          s:rule(\"A\", function() for i in once do local x = i end return B(1) end)",
-        "local function once(_, i) if not i then B(7) return 1 end end
+            "local function once(_, i) if not i then B(7) return 1 end end
          s:rule(\"A\", function() for i in once do return B(i) end end)",
-        "local t = setmetatable({}, { __iter = function() B(7) return next, { 1 } end })
+            "local t = setmetatable({}, { __iter = function() B(7) return next, { 1 } end })
          s:rule(\"A\", function() for i in t do return B(i) end end)",
-        "s:rule(\"A\", function() pcall(function() B(7) error(\"no\") end) return B(1) end)",
-        "s:rule(\"A\", function() return B((function() B(7) return 1 end)()) end)",
-        "s:rule(\"A\", function() return B(#{ B(7) }) end)",
-        "s:rule(\"A\", function() return B(if B(7) then 1 else 2) end)",
-        "s:rule(\"A\", function() return B(tonumber(`{if B(7) then 1 else 2}`)) end)",
-        "s:rule(\"A\", function() local x = string.gsub(\"a\", \"a\", function() B(7) return \"1\" end) return B(tonumber(x)) end)",
-        "s:rule(\"A\", function() local x = (\"a\"):gsub(\"a\", function() B(7) return \"1\" end) return B(tonumber(x)) end)",
-        "s:rule(\"A\", function() local t = { 2, 1 } table.sort(t, function(a, b) B(7) return a < b end) return B(t[1]) end)",
-        "local first = function(a, b) B(7) return a < b end
+            "s:rule(\"A\", function() pcall(function() B(7) error(\"no\") end) return B(1) end)",
+            "s:rule(\"A\", function() return B((function() B(7) return 1 end)()) end)",
+            "s:rule(\"A\", function() return B(#{ B(7) }) end)",
+            "s:rule(\"A\", function() return B(if B(7) then 1 else 2) end)",
+            "s:rule(\"A\", function() return B(tonumber(`{if B(7) then 1 else 2}`)) end)",
+            "s:rule(\"A\", function() local x = string.gsub(\"a\", \"a\", function() B(7) return \"1\" end) return B(tonumber(x)) end)",
+            "s:rule(\"A\", function() local x = (\"a\"):gsub(\"a\", function() B(7) return \"1\" end) return B(tonumber(x)) end)",
+            "s:rule(\"A\", function() local t = { 2, 1 } table.sort(t, function(a, b) B(7) return a < b end) return B(t[1]) end)",
+            "local first = function(a, b) B(7) return a < b end
          s:rule(\"A\", function() local t = { 2, 1 } table.sort(t, first) return B(t[1]) end)",
-        "s:rule(\"A\", { when = function() B(7) return true end }, function() return B(1) end)",
-    ], "C B(1) C");
+            "s:rule(\"A\", { when = function() B(7) return true end }, function() return B(1) end)",
+        ],
+        "C B(1) C",
+    );
     assert_eq!(after("s:rule(\"A\", function() B(7) end)"), "C A C");
     assert_eq!(after("s:rule(\"A\", function() B(7) return nil end)"), "C C");
     assert_eq!(after("s:rule(\"A\", function() B(7) return {} end)"), "C [ ] C");
@@ -293,7 +306,9 @@ fn a_rule_with_contexts_may_take_more_than_eight_parameters() {
 
 #[test]
 fn optional_parameters_may_be_left_out_and_read_as_nil() {
-    let text = after("s:axiom(D(), D(1), D(1, 2), D(nil, 3)) s:rule(\"D(l, w)\", function(this, l, w) return D(w, l) end)");
+    let text = after(
+        "s:axiom(D(), D(1), D(1, 2), D(nil, 3)) s:rule(\"D(l, w)\", function(this, l, w) return D(w, l) end)",
+    );
     assert_eq!(text, "D D(nil,1) D(2,1) D(3)");
     let text = after(
         "s:axiom(D(), D(0)) s:rule(\"D(l, w)\", function(this, l, w) return B(if l == nil then -1 else l), D() end)",

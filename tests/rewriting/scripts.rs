@@ -218,7 +218,8 @@ impl Case<'_> {
                 format!("s:axiom(source {{ {features} }}, function(chain) return table.unpack(chain) end)")
             }
         };
-        let numbered = Pattern { predecessor: format!("{}(n)", self.pattern.predecessor), ..self.pattern.clone() };
+        let numbered =
+            Pattern { predecessor: format!("{}(n)", self.pattern.predecessor), ..self.pattern.clone() };
         let pattern = numbered.text();
         format!(
             "do local s = lsystem {{}} {passing} {axiom}

@@ -54,13 +54,15 @@ fn check_frequencies(rules: &str, shares: &[(&str, f64)]) {
 
 #[test]
 fn a_weight_of_three_to_one_is_drawn_three_times_in_four() {
-    let rules = "s:rule(\"Bud\", { weight = 3 }, [[ return P() ]]) s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])";
+    let rules =
+        "s:rule(\"Bud\", { weight = 3 }, [[ return P() ]]) s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])";
     check_frequencies(rules, &[("P", 3.0), ("Q", 1.0)]);
 }
 
 #[test]
 fn equal_weights_are_drawn_equally() {
-    let rules = "for _, make in { P, Q, R } do s:rule(\"Bud\", { weight = 0.2 }, function() return make() end) end";
+    let rules =
+        "for _, make in { P, Q, R } do s:rule(\"Bud\", { weight = 0.2 }, function() return make() end) end";
     check_frequencies(rules, &[("P", 1.0), ("Q", 1.0), ("R", 1.0)]);
 }
 
@@ -95,7 +97,8 @@ fn contexts_limit_which_weights_are_drawn_from() {
 
 #[test]
 fn random_is_uniform_in_a_rule_and_within_its_bounds() {
-    let script = buds("s:rule(\"Bud\", function() local u = random() return Bud(random(-2, 3)), Bud(u * 10) end)");
+    let script =
+        buds("s:rule(\"Bud\", function() local u = random() return Bud(random(-2, 3)), Bud(u * 10) end)");
     let text = lines(&run_with(&script, Options::default())).concat();
     let values: Vec<f64> = words(&text)
         .iter()
@@ -152,7 +155,8 @@ fn siblings_and_generations_draw_independently() {
 
 #[test]
 fn guards_draw_no_random_numbers() {
-    let told = error(&buds("s:rule(\"Bud\", { when = function() return random() < 0.5 end }, [[ return P() ]])"));
+    let told =
+        error(&buds("s:rule(\"Bud\", { when = function() return random() < 0.5 end }, [[ return P() ]])"));
     assert!(told.contains("a guard draws no random numbers") && told.contains("rule Bud"), "{told}");
 }
 
@@ -170,7 +174,8 @@ fn draws(rules: &str, axiom: &str, steps: usize, seed: u64) -> Vec<String> {
     words(&lines(&run_with(&script, Options { seed, ..Options::default() })).concat())
 }
 
-const WAITING: &str = "s:rule(\"W(n)\", { when = function(_, n) return n == 0 end }, function() return U(random()) end)
+const WAITING: &str =
+    "s:rule(\"W(n)\", { when = function(_, n) return n == 0 end }, function() return U(random()) end)
                        s:rule(\"W(n)\", function(_, n) return W(n - 1) end)";
 
 #[test]
@@ -206,7 +211,10 @@ fn a_rule_that_ran_and_returned_no_value_advances_the_stream_of_its_module() {
     let axiom = vec!["W(0)"; 50].join(", ");
     let ended = |steps| draws(rules, &axiom, steps, 3).iter().filter(|word| word.starts_with("U(")).count();
     let counts: Vec<usize> = [1, 2, 4, 8, 16].into_iter().map(ended).collect();
-    assert!(counts.windows(2).all(|pair| pair[0] < pair[1]), "ever more have drawn below a tenth: {counts:?}");
+    assert!(
+        counts.windows(2).all(|pair| pair[0] < pair[1]),
+        "ever more have drawn below a tenth: {counts:?}"
+    );
 }
 
 #[test]
@@ -231,7 +239,10 @@ fn a_rule_that_did_not_match_leaves_the_stream() {
     assert_eq!(draw(1, guarded), "U(8)");
     let waiting = "s:rule(\"W > T\", function() end) s:rule(\"W > U\", function() return U(random()) end)";
     let waited = draw(1, waiting);
-    assert!(waited.starts_with("U(0.") && waited != at_once, "a rule that ran advances: {waited} and {at_once}");
+    assert!(
+        waited.starts_with("U(0.") && waited != at_once,
+        "a rule that ran advances: {waited} and {at_once}"
+    );
 }
 
 #[test]
