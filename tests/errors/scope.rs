@@ -291,7 +291,7 @@ fn declarations_belong_at_the_top_level() {
         ] {
             let script = format!("{HEAD}local other = lsystem() other:axiom(B())\n{place}\ns:derive(1)\n");
             let folder = Folder::new().with("s.lua", script).with("late.lua", "return 1\n");
-            let said = folder.refuses(&["run", "s.lua"]);
+            let said = folder.burgeon(&["run", "s.lua"]).failed();
             assert!(
                 said.starts_with("error: s.lua:5: ") && said.contains("top level of the script"),
                 "{call}: {said}"
