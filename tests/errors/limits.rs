@@ -81,12 +81,13 @@ fn an_endless_loop_in_a_guard_is_stopped() {
 
 #[test]
 fn an_endless_loop_in_an_interpretation_is_stopped() {
-    assert_snapshot!(endless("s:interpret(\"A(x)\", function(this, x)\n  while true do\n    this:turn(1)\n  end\nend)"), @r#"
-    error: s.lua:3: rule A(x) (interpretation): the run took longer than 1 s
-      | s:interpret("A(x)", function(this, x)
-      module: A(1), step 0
-      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
-    "#);
+    let said = endless("s:interpret(\"A(x)\", function(this, x)\n  while true do this:turn(1) end\nend)");
+    // Which of the loop and the call within it is met is chance; they are on one line.
+    assert!(
+        said.starts_with("error: s.lua:4: rule A(x) (interpretation): the run took longer than 1 s\n"),
+        "{said}"
+    );
+    assert!(said.contains("module: A(1), step 0\n") && said.contains("--time-limit"), "{said}");
 }
 
 #[test]

@@ -100,7 +100,7 @@ fn nothing_that_scripts_share_can_be_written() {
         .iter()
         .flat_map(|target| {
             writes.iter().map(move |write| {
-                format!("print(pcall(function()\n  local t: any = {target}\n  {write}\nend), [[{target}: {write}]])\n")
+                format!("print((pcall(function()\n  local t: any = {target}\n  {write}\nend)), [[{target}: {write}]])\n")
             })
         })
         .collect();
@@ -110,9 +110,9 @@ fn nothing_that_scripts_share_can_be_written() {
         assert!(line.starts_with("false\t"), "{line}");
     }
     let lines = printed(
-        "print(pcall(function() local t: any = turtle() t.x = 1 end))\nprint(pcall(function() local t: any = lsystem() t.rule = 1 end))",
+        "print((pcall(function() local t: any = turtle() t.x = 1 end)))\nprint((pcall(function() local t: any = lsystem() t.rule = 1 end)))",
     );
-    assert!(lines.iter().all(|line| line.starts_with("false\t")), "{lines:?}");
+    assert_eq!(lines, ["false", "false"]);
 }
 
 #[test]
@@ -128,7 +128,6 @@ fn a_rule_leaves_no_trace_for_another_in_what_the_language_shares() {
         "table.insert(this, x)",
         "getmetatable(A(1)).trace = x",
         "getmetatable(vec(1, 2, 3)).trace = x",
-        "vec(1, 2, 3).__index = x",
     ] {
         let said = refused_rules(&format!(
             "s:rule(\"A(x)\", function(this: any, x)\n  {write}\n  return A(x)\nend)"

@@ -317,7 +317,10 @@ fn an_error_that_a_script_raises_keeps_its_text() {
     two
       | error("one\ntwo")
     "#);
-    assert_snapshot!(refused("error(\"no place\", 0)\n"), @"error: no place");
+    assert_snapshot!(refused("error(\"no place\", 0)\n"), @r#"
+    error: s.lua:1: no place
+      | error("no place", 0)
+    "#);
     for value in ["{}", "nil", "print"] {
         let once = refused(&format!("local a = 1\nerror({value})\n"));
         assert!(once.starts_with("error: "), "{once}");
