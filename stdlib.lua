@@ -220,4 +220,5 @@ names.noise = noise
 names.hsv = hsv
 names.rgb = rgb
 names.mix = mix
+table.freeze(Vec)
 return names
