@@ -13,7 +13,7 @@ local Apex, Branch = module("Apex", "l", "w"), module("Branch", "l", "w")
 local tree = lsystem({ object = turtle({ sides = 5 }), interpret = "last" })
 tree:axiom(Apex(1, 0.2))
 tree:rule("Apex(l, w)", function(this, l, w)
-  return Branch(l, w), { Turn(30), Apex(l * 0.8, w * 0.7) }, Roll(137.5), { Turn(-35), Apex(l * 0.75, w * 0.6) }
+  return Branch(l, w), { Turn(45), Apex(l * 0.7, w * 0.6) }, Roll(137.5), Apex(l * 0.9, w * 0.8)
 end)
 tree:interpret("Branch(l, w)", function(this, l, w)
   this:width(w):forward(l)

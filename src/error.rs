@@ -105,6 +105,11 @@ impl Error {
         &self.0.message
     }
 
+    /// What to do about it, if known.
+    pub fn remedy(&self) -> Option<&str> {
+        self.0.help.as_deref()
+    }
+
     /// Where, if known.
     pub fn place(&self) -> Option<&Place> {
         self.0.place.as_ref()
@@ -189,7 +194,7 @@ pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Opti
     // Every name of one letter is one letter away from every other.
     let limit = match name.chars().count() {
         0 | 1 => 0,
-        length => length.div_ceil(3),
+        length => (length / 3).max(1),
     };
     known
         .into_iter()
@@ -245,6 +250,7 @@ mod tests {
         assert_eq!(nearest("smoth", ["sides", "smooth"]), Some("smooth"));
         assert_eq!(nearest("window", ["sides", "smooth"]), None);
         assert_eq!(nearest("m", ["n", "max"]), None);
+        assert_eq!(nearest("nothing", ["string"]), None);
         assert_eq!(nearest("a", ["A"]), Some("A"));
     }
 }

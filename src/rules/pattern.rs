@@ -271,7 +271,7 @@ impl Reader<'_> {
         let name = self.name("a module's name")?;
         let symbol = self.symbols.find(&name).map_err(|error| {
             let text = format!("{} in the pattern \"{}\"", error.message(), self.text.trim());
-            match error.to_json().get("help").and_then(|help| help.as_str()) {
+            match error.remedy() {
                 Some(help) => Error::new(text).help(help),
                 None => Error::new(text),
             }

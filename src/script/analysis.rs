@@ -5,6 +5,9 @@
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
 use full_moon::ast::luau::{ElseIfExpression, IfExpression};
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{
@@ -53,17 +56,28 @@ pub(crate) struct Analysis {
 /// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
 const STACK: usize = 256 << 20;
 
+/// How long reading a script may take. The parser's time doubles with each level of nested strings.
+const PATIENCE: Duration = Duration::from_secs(30);
+
 /// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
 pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
     // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
     if Compiler::new().compile(text).is_err() {
         return unread(text, Vec::new());
     }
-    let read = || analyse_compiled(file, text, globals);
-    let read = std::thread::scope(|scope| {
-        std::thread::Builder::new().stack_size(STACK).spawn_scoped(scope, read).ok()?.join().ok()
-    });
-    read.unwrap_or_else(|| unread(text, vec![Error::new(format!("{file} could not be read"))]))
+    let (sender, receiver) = channel();
+    let (name, source, known) = (file.to_owned(), text.to_owned(), globals.clone());
+    // The receiver may have given up.
+    let read = move || drop(sender.send(analyse_compiled(&name, &source, &known)));
+    let started = std::thread::Builder::new().stack_size(STACK).spawn(read).is_ok();
+    match receiver.recv_timeout(PATIENCE) {
+        Ok(analysis) if started => analysis,
+        _ => {
+            let error = Error::new(format!("reading {file} takes too long"))
+                .help("nest strings such as `a {`b`}` less deeply, or divide the file");
+            unread(text, vec![error])
+        }
+    }
 }
 
 /// The analysis of a script that is not to be run.

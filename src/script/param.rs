@@ -155,7 +155,8 @@ impl Param {
             text: text("text")?,
         };
         param.check(&param.default).map_err(|error| {
-            Error::new(format!("the default of {}", error.message())).help("change the default or its bounds")
+            Error::new(format!("the default of {}", error.message()))
+                .help(error.remedy().unwrap_or("change the default or its bounds"))
         })?;
         if let Some((_, given)) = set.iter().rev().find(|(known, _)| known == name) {
             param.value = param.read(given)?;
@@ -190,6 +191,7 @@ impl Param {
         let name = &self.name;
         match (&self.control, setting) {
             (Control::Number { min, max, step }, Setting::Number(number)) => {
+                let shown = Value::Number(*number);
                 if min.is_some_and(|min| *number < min) || max.is_some_and(|max| *number > max) {
                     let range = match (min, max) {
                         (Some(min), Some(max)) => format!("it goes from {min} to {max}"),
@@ -197,7 +199,7 @@ impl Param {
                         (None, Some(max)) => format!("it ends at {max}"),
                         (None, None) => String::new(),
                     };
-                    return Err(Error::new(format!("param {name} is {number}, out of its range")).help(range));
+                    return Err(Error::new(format!("param {name} is {shown}, out of its range")).help(range));
                 }
                 if let Some(step) = step {
                     let steps = (number - min.unwrap_or(0.0)) / step;
@@ -209,7 +211,7 @@ impl Param {
                             .map(|near| Value::Number(near).to_string())
                             .collect();
                         return Err(Error::new(format!(
-                            "param {name} is {number}, between two steps of {step}"
+                            "param {name} is {shown}, between two steps of {step}"
                         ))
                         .help(format!("choose {}", near.join(" or "))));
                     }

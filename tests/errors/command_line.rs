@@ -1,0 +1,327 @@
+//! The commands and their flags.
+
+use insta::assert_snapshot;
+
+use crate::support::{Folder, HEAD, assert_decent};
+
+const SCRIPT: &str = r#"s:rule("A(x)", function(this, x) return A(x + random()), A(x) end)
+s:interpret("A(x)", function(this, x) this:forward(x):turn(30) end)
+s:derive(3)
+"#;
+
+fn folder() -> Folder {
+    Folder::new().with("s.lua", format!("{HEAD}{SCRIPT}"))
+}
+
+/// What a wrong command line is told.
+fn wrong(arguments: &[&str]) -> String {
+    let folder = folder();
+    let before = folder.files();
+    let said = folder.burgeon(arguments);
+    assert_eq!((said.status, said.stdout.as_str()), (2, ""), "{}", said.stderr);
+    assert_decent(&said.stderr);
+    assert_eq!(folder.files(), before);
+    let machine = folder.burgeon(&[arguments, &["--json"]].concat());
+    assert_eq!((machine.status, machine.stderr.as_str()), (2, ""));
+    assert_eq!(machine.json()["ok"], false);
+    said.stderr
+}
+
+#[test]
+fn run_writes_every_format_and_the_chain() {
+    let folder = folder();
+    let said = folder
+        .burgeon(&[
+            "run", "s.lua", "-o", "a.glb", "-o", "a.gltf", "-o", "a.obj", "-o", "a.svg", "-o", "a.png",
+            "--size", "64x48", "--chain", "a.txt",
+        ])
+        .done();
+    assert_eq!(said.stdout, "");
+    assert!(said.stderr.starts_with("8 modules in 1 chain, 3 steps\n"), "{}", said.stderr);
+    let files: Vec<String> = folder.files().into_keys().collect();
+    assert_eq!(files, ["a.bin", "a.glb", "a.gltf", "a.mtl", "a.obj", "a.png", "a.svg", "a.txt", "s.lua"]);
+    assert_eq!(folder.read("a.txt").matches("A(").count(), 8);
+    let before = folder.files();
+    folder.burgeon(&["run", "s.lua", "-o", "a.glb", "--chain", "a.txt"]).done();
+    assert_eq!(folder.files(), before);
+}
+
+#[test]
+fn the_chain_goes_to_standard_output_alone() {
+    let said = folder().burgeon(&["run", "s.lua", "--chain", "-"]).done();
+    assert_eq!(said.stdout.lines().count(), 1);
+    assert!(said.stdout.ends_with(" A(1)\n") && said.stderr.starts_with("8 modules"), "{}", said.stdout);
+}
+
+#[test]
+fn json_is_one_document_with_the_chain_in_it_where_asked() {
+    let document = folder().burgeon(&["run", "s.lua", "--json", "--chain", "-", "-o", "a.glb"]).done();
+    assert_eq!(document.stderr, "");
+    let document = document.json();
+    assert_eq!(
+        (&document["ok"], &document["modules"], &document["chains"]),
+        (&true.into(), &8.into(), &1.into())
+    );
+    assert_eq!(document["steps"].to_string(), "[3]");
+    assert!(
+        document["triangles"].as_u64().unwrap() > 0 && document["seconds"]["total"].as_f64().unwrap() > 0.0
+    );
+    assert_eq!(document["chain"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn steps_are_at_most_as_many_as_asked() {
+    let modules = |steps: &str| {
+        folder().burgeon(&["run", "s.lua", "--json", "--steps", steps]).done().json()["modules"].as_u64()
+    };
+    assert_eq!([modules("0"), modules("2"), modules("9")], [Some(1), Some(4), Some(8)]);
+}
+
+#[test]
+fn the_seed_decides_and_threads_do_not() {
+    let text =
+        |flags: &[&str]| folder().burgeon(&[&["run", "s.lua", "--chain", "-"], flags].concat()).done().stdout;
+    let plain = text(&[]);
+    assert_eq!(text(&["--seed", "0"]), plain);
+    assert_ne!(text(&["--seed", "1"]), plain);
+    for threads in ["1", "2", "7"] {
+        assert_eq!(text(&["--threads", threads, "--batch", "2"]), plain);
+    }
+}
+
+#[test]
+fn check_lists_the_parameters_and_derives_nothing() {
+    let folder = Folder::new().with(
+        "s.lua",
+        format!("local n = param(\"n\", {{ default = 3, unit = \"m\", text = \"how far\" }})\n{HEAD}s:rule(\"A(x)\", function(this, x) error(\"ran\") end)\ns:derive(n)\n"),
+    );
+    let said = folder.burgeon(&["check", "s.lua"]).done();
+    assert_snapshot!(said.stderr, @r"
+    s.lua is fine
+      n = 3 m  how far
+    ");
+    let document = folder.burgeon(&["check", "s.lua", "--json", "--set", "n=4"]).done().json();
+    assert_eq!(
+        document.to_string(),
+        r#"{"ok":true,"params":[{"name":"n","value":4.0,"unit":"m","text":"how far"}]}"#
+    );
+    assert_eq!(folder.files().len(), 1);
+}
+
+#[test]
+fn new_makes_a_script_that_runs_and_never_overwrites_one() {
+    let folder = Folder::new();
+    let said = folder.burgeon(&["new", "tree"]).done();
+    assert_eq!(said.stderr, "made tree.lua; now: burgeon run tree.lua -o model.glb\n");
+    folder.burgeon(&["check", "tree.lua"]).done();
+    folder.burgeon(&["run", "tree.lua", "-o", "model.glb"]).done();
+    assert!(folder.files()["model.glb"] > 10_000);
+    assert_snapshot!(folder.refuses(&["new", "tree"]), @r"
+    error: tree.lua exists already
+      help: choose another name
+    ");
+    assert_snapshot!(folder.refuses(&["new", "tree.lua"]), @r"
+    error: tree.lua exists already
+      help: choose another name
+    ");
+    assert_snapshot!(folder.refuses(&["new", "no/tree"]), @r"
+    error: cannot make no/tree.lua: there is no folder no
+      help: make the folder first
+    ");
+    let said = folder.burgeon(&["new", "--json", "bush.lua"]).done();
+    assert_eq!(said.stdout, "{\"ok\":true,\"path\":\"bush.lua\"}\n");
+}
+
+#[test]
+fn completions_are_scripts_for_the_shell() {
+    for shell in ["bash", "zsh", "fish"] {
+        let said = Folder::new().burgeon(&["completions", shell]).done();
+        assert_eq!(said.stderr, "");
+        for word in ["completions", "memory-limit", "chain"] {
+            assert!(said.stdout.contains(word), "{shell} lacks {word}");
+        }
+    }
+}
+
+#[test]
+fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
+    assert_snapshot!(wrong(&["run"]), @r"
+    error: the following required arguments were not provided:
+      <SCRIPT>
+
+    Usage: burgeon run <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["rnu", "s.lua"]), @r"
+    error: unrecognized subcommand 'rnu'
+
+    Usage: burgeon <COMMAND>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--thread", "2"]), @r"
+    error: unexpected argument '--thread' found
+
+      tip: a similar argument exists: '--threads'
+
+    Usage: burgeon run --threads <N> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--threads", "0"]), @r"
+    error: invalid value '0' for '--threads <N>': write a whole number from 1 to 1024
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--steps", "-1"]), @r"
+    error: invalid value '-1' for '--steps <N>': write a whole number from 0
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--seed", "1.5"]), @r"
+    error: invalid value '1.5' for '--seed <N>': write a whole number from 0
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--set", "n"]), @r"
+    error: invalid value 'n' for '--set <NAME=VALUE>': write NAME=VALUE
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--time-limit", "0"]), @r"
+    error: invalid value '0' for '--time-limit <SECONDS>': write a number of seconds above 0
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--memory-limit", "1"]), @r"
+    error: invalid value '1' for '--memory-limit <MEGABYTES>': write a whole number of megabytes from 16
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "--size", "3"]), @r"
+    error: invalid value '3' for '--size <WIDTHxHEIGHT>': write WIDTHxHEIGHT, such as 1280x960, each from 1 to 16384
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.xyz"]), @r"
+    error: invalid value 'model.xyz' for '--output <FILE>': cannot write model.xyz: .xyz is not a format
+      help: the formats are .glb, .gltf, .obj, .png and .svg
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.gtlf"]), @r"
+    error: invalid value 'model.gtlf' for '--output <FILE>': cannot write model.gtlf: .gtlf is not a format
+      help: did you mean .gltf? the formats are .glb, .gltf, .obj, .png and .svg
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["run", "s.lua", "-o", "model"]), @r"
+    error: invalid value 'model' for '--output <FILE>': cannot write model: its name does not end in a format
+      help: the formats are .glb, .gltf, .obj, .png and .svg
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["completions", "tcsh"]), @r"
+    error: invalid value 'tcsh' for '<SHELL>'
+      [possible values: bash, elvish, fish, powershell, zsh]
+
+      tip: a similar value exists: 'zsh'
+
+    For more information, try '--help'.
+    ");
+}
+
+#[test]
+fn help_reads_well() {
+    assert_snapshot!(Folder::new().burgeon(&["--help"]).done().stdout, @r"
+    Procedural modelling by rewriting: rules in Lua, geometry in Rust.
+
+    Usage: burgeon <COMMAND>
+
+    Commands:
+      run          Runs a script and writes what it makes
+      check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
+      new          Makes a script to start from
+      completions  Prints a script that completes the command line in a shell
+      help         Print this message or the help of the given subcommand(s)
+
+    Options:
+      -h, --help     Print help
+      -V, --version  Print version
+
+    To begin:
+      burgeon new tree
+      burgeon run tree.lua -o tree.glb
+    ");
+    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r"
+    Runs a script and writes what it makes
+
+    Usage: burgeon run [OPTIONS] <SCRIPT>
+
+    Arguments:
+      <SCRIPT>  The script, a Lua file
+
+    Options:
+          --set <NAME=VALUE>  Sets a parameter of the script
+          --seed <N>          The seed of all random numbers [default: 0]
+          --steps <N>         Derives at most N steps
+          --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]
+          --json              Prints one JSON document, for machines, in place of text for people
+      -o, --output <FILE>     Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
+          --chain <FILE>      Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
+      -h, --help              Print help (see more with '--help')
+
+    Limits:
+          --time-limit <SECONDS>      Stops after this time [default: 300]
+          --memory-limit <MEGABYTES>  Memory that each thread's script may use [default: 2048]
+          --module-limit <N>          Modules that a system's chains may have [default: 50000000]
+          --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
+
+    Pictures:
+          --size <WIDTHxHEIGHT>      Width and height of a picture in pixels [default: 1280x960]
+          --azimuth <DEGREES>        Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
+          --elevation <DEGREES>      How high the camera stands above the horizon (degrees) [default: by the model]
+          --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
+    ");
+    assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
+    Loads a script and everything it requires, compiles every rule, and reports all problems at once
+
+    Usage: burgeon check [OPTIONS] <SCRIPT>
+
+    Arguments:
+      <SCRIPT>  The script, a Lua file
+
+    Options:
+          --set <NAME=VALUE>  Sets a parameter of the script
+          --seed <N>          The seed of all random numbers [default: 0]
+          --steps <N>         Derives at most N steps
+          --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]
+          --json              Prints one JSON document, for machines, in place of text for people
+      -h, --help              Print help
+
+    Limits:
+          --time-limit <SECONDS>      Stops after this time [default: 300]
+          --memory-limit <MEGABYTES>  Memory that each thread's script may use [default: 2048]
+          --module-limit <N>          Modules that a system's chains may have [default: 50000000]
+          --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
+    ");
+    let said = Folder::new().burgeon(&[]);
+    assert_eq!((said.status, said.stdout.as_str()), (2, ""));
+    let version = Folder::new().burgeon(&["--version"]).done().stdout;
+    assert_eq!(version, format!("burgeon {}\n", env!("CARGO_PKG_VERSION")));
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_error() {
+    let script = format!("{HEAD}s:axiom(table.create(200000, A(1)))\ns:derive(0)\n");
+    let folder = Folder::new().with("s.lua", script);
+    let binary = env!("CARGO_BIN_EXE_burgeon");
+    let out = std::process::Command::new("sh")
+        .args(["-c", &format!("'{binary}' run s.lua --chain - | head -c 5")])
+        .current_dir(folder.path())
+        .output()
+        .unwrap();
+    assert_eq!(out.stdout, b"[ A(1");
+    assert!(!String::from_utf8_lossy(&out.stderr).contains("error"));
+}

@@ -1,0 +1,98 @@
+//! Which of several errors is told does not depend on threads, batches or addresses.
+
+use crate::support::{Folder, HEAD, chain};
+
+/// A thousand modules, of which several fail, the first of them by the last rule.
+fn big(body: &str) -> Folder {
+    let script = format!(
+        r#"{HEAD}local list = {{}}
+for i = 1, 20000 do table.insert(list, if i % 3000 == 2999 then A(i) else B()) end
+s:axiom(list)
+s:rule("B", function() return B(), B() end)
+{body}
+s:derive(2)
+"#
+    );
+    Folder::new().with("s.lua", script).with("model.glb", "old")
+}
+
+#[test]
+fn an_error_in_any_thread_names_the_first_module_of_the_chain() {
+    let bodies = [
+        "s:rule(\"A(x)\", function(this, x) error(\"bad\") end)",
+        "s:rule(\"A(x)\", { when = function(this, x) error(\"bad\") end }, function() return B() end)",
+        "s:rule(\"A(x)\", function(this, x) if x > 8000 then return A(x + 1) end return x end)",
+        "s:interpret(\"A(x)\", function(this, x) error(\"bad\") end)",
+        "s:interpret(\"A(x)\", function(this, x) this:forward(0 / 0) end)",
+        "s:interpret(\"A(x)\", function(this, x) this:forward(0 / 0) print(this:position()) end)",
+    ];
+    for body in bodies {
+        let folder = big(body);
+        let mut said = Vec::new();
+        for threads in ["1", "2", "5"] {
+            for batch in ["100", "4096"] {
+                said.push(
+                    folder
+                        .burgeon(&["run", "s.lua", "-o", "model.glb", "--threads", threads, "--batch", batch])
+                        .failed(),
+                );
+            }
+        }
+        assert!(said.iter().all(|other| *other == said[0]), "{body}: {said:#?}");
+        assert!(
+            said[0].starts_with("error: s.lua:7: rule A(x)") && said[0].contains("module: A(2999), step "),
+            "{}",
+            said[0]
+        );
+        assert_eq!(folder.read("model.glb"), "old");
+    }
+}
+
+#[test]
+fn of_two_rules_that_fail_the_one_whose_module_comes_first_is_told() {
+    let rules = [
+        "s:rule(\"A(x)\", function(this, x) error(\"first in the chain\") end)",
+        "s:rule(\"C\", function(this) error(\"later in the chain\") end)",
+    ];
+    for order in [[0, 1], [1, 0]] {
+        let script = format!(
+            "{HEAD}local C = module(\"C\")\ns:axiom(B(), A(1), C(), A(2))\n{}\n{}\ns:derive(1)\n",
+            rules[order[0]], rules[order[1]]
+        );
+        let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--batch", "1"]).failed();
+        assert!(said.contains("first in the chain\n") && said.contains("module: A(1), step 1\n"), "{said}");
+    }
+}
+
+#[test]
+fn an_error_in_the_second_step_names_that_step() {
+    let script = format!(
+        "{HEAD}s:rule(\"A(x)\", function(this, x) if x == 3 then error(\"bad\") end return A(x + 1) end)\ns:derive()\n"
+    );
+    let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).failed();
+    assert!(said.contains("rule A(x): bad\n") && said.contains("module: A(3), step 3\n"), "{said}");
+}
+
+#[test]
+fn a_script_prints_once_however_many_threads_run_it() {
+    let script = format!(
+        "{HEAD}print(\"top\")\nlocal list = table.create(20000, A(1))\ns:axiom(list)\ns:rule(\"A(x)\", function(this, x) return A(x + 1) end)\ns:derive(2)\nprint(\"end\")\n"
+    );
+    let said =
+        Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--threads", "2", "--json"]).done();
+    assert_eq!(said.stderr, "top\nend\n");
+}
+
+#[test]
+fn addresses_are_not_seen_by_scripts() {
+    for value in
+        ["{}", "print", "turtle()", "function() end", "coroutine.create(function() end)", "buffer.create(1)"]
+    {
+        let script = format!(
+            "{HEAD}s:axiom(A(tostring({value})), A(string.format(\"%s %*\", {value}, {value})))\ns:derive(0)\n"
+        );
+        let once = chain(&script, &[]);
+        assert!(!once.contains("0x"), "{once}");
+        assert_eq!(chain(&script, &[]), once);
+    }
+}

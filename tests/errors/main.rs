@@ -1,0 +1,15 @@
+//! What happens when something is wrong: with the script, its data, its resources or the command line.
+
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod command_line;
+mod determinism;
+mod files;
+mod limits;
+mod params;
+mod patterns;
+mod sandbox;
+mod scope;
+mod successors;
+mod support;
+mod syntax;

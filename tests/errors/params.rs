@@ -1,0 +1,164 @@
+//! `param` and `--set`.
+
+use insta::assert_snapshot;
+
+use crate::support::{Folder, refused};
+
+const PARAMS: &str = r##"local n = param("n", { default = 3, min = 0, max = 10, step = 2.5, unit = "m" })
+local mode = param("mode", { default = "day", choices = { "day", "night" } })
+local on = param("on", { default = true, text = "whether it shines" })
+local hue = param("hue", { default = "#ff0000" })
+print(n, mode, on, hue)
+"##;
+
+fn set(values: &[&str]) -> String {
+    let silent = PARAMS.replace("default = 3", "default = 5").replace("print(", "tostring(");
+    let folder = Folder::new().with("s.lua", silent);
+    let flags: Vec<&str> = values.iter().flat_map(|value| ["--set", *value]).collect();
+    folder.refuses(&[&["run", "s.lua"][..], &flags].concat())
+}
+
+#[test]
+fn an_unknown_parameter_is_told_with_the_nearest_one() {
+    assert_snapshot!(set(&["moed=day"]), @r"
+    error: s.lua has no parameter called moed
+      help: did you mean mode?
+    ");
+    assert_snapshot!(set(&["height=3"]), @r"
+    error: s.lua has no parameter called height
+      help: it has n, mode, on, hue
+    ");
+    assert_snapshot!(Folder::new().with("s.lua", "local x = 1\n").refuses(&["run", "s.lua", "--set", "x=1"]), @r"
+    error: s.lua has no parameter called x
+      help: it declares none
+    ");
+    assert_snapshot!(Folder::new().with("s.lua", "local x = 1\n").refuses(&["check", "s.lua", "--set", "x=1"]), @r"
+    error: s.lua has no parameter called x
+      help: it declares none
+    ");
+}
+
+#[test]
+fn a_value_out_of_range_or_between_steps_is_told_with_what_is_allowed() {
+    assert_snapshot!(set(&["n=11"]), @r#"
+    error: s.lua:1: param n is 11, out of its range
+      | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
+      help: it goes from 0 to 10
+    "#);
+    assert_snapshot!(set(&["n=-1e300"]), @r#"
+    error: s.lua:1: param n is -1000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000, out of its range
+      | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
+      help: it goes from 0 to 10
+    "#);
+    assert_snapshot!(set(&["n=3"]), @r#"
+    error: s.lua:1: param n is 3, between two steps of 2.5
+      | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
+      help: choose 2.5 or 5
+    "#);
+}
+
+#[test]
+fn a_value_of_the_wrong_type_is_told_with_the_default() {
+    for value in ["n=many", "n=", "n=nan", "n=inf", "n=0x10", "n=1,5"] {
+        let said = set(&[value]);
+        assert!(said.starts_with("error: s.lua:1: param n must be a number, not "), "{value}: {said}");
+    }
+    assert_snapshot!(set(&["n=many"]), @r#"
+    error: s.lua:1: param n must be a number, not "many"
+      | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
+      help: its default is 5
+    "#);
+    assert_snapshot!(set(&["mode=dusk"]), @r#"
+    error: s.lua:2: param mode is "dusk", which is no choice
+      | local mode = param("mode", { default = "day", choices = { "day", "night" } })
+      help: choose one of day, night
+    "#);
+    assert_snapshot!(set(&["on=maybe"]), @r#"
+    error: s.lua:3: param on must be true or false, not "maybe"
+      | local on = param("on", { default = true, text = "whether it shines" })
+      help: its default is true
+    "#);
+    assert_snapshot!(set(&["hue=red"]), @r##"
+    error: s.lua:4: param hue must be a colour, #rrggbb, not "red"
+      | local hue = param("hue", { default = "#ff0000" })
+      help: its default is #ff0000
+    "##);
+}
+
+#[test]
+fn the_last_value_set_counts() {
+    let folder = Folder::new().with("s.lua", PARAMS.replace("default = 3", "default = 5"));
+    let said = folder
+        .burgeon(&[
+            "run",
+            "s.lua",
+            "--json",
+            "--set",
+            "n=0",
+            "--set",
+            " n = 7.5 ",
+            "--set",
+            "on=off",
+            "--set",
+            "mode=night",
+            "--set",
+            "hue=#00ff00",
+        ])
+        .done();
+    assert_eq!(said.stderr, "7.5\tnight\tfalse\t#00ff00\n");
+    let params = &said.json()["params"];
+    assert_eq!(params.to_string(), r##"{"n":7.5,"mode":"night","on":false,"hue":"#00ff00"}"##);
+}
+
+#[test]
+fn a_declaration_is_checked() {
+    assert_snapshot!(refused(PARAMS), @r#"
+    error: s.lua:1: the default of param n is 3, between two steps of 2.5
+      | local n = param("n", { default = 3, min = 0, max = 10, step = 2.5, unit = "m" })
+      help: change the default or its bounds
+    "#);
+    assert_snapshot!(refused("param(\"a\", { defualt = 3 })\n"), @r#"
+    error: s.lua:1: param a has no field called defualt
+      | param("a", { defualt = 3 })
+      help: did you mean default?
+    "#);
+    assert_snapshot!(refused("param(\"a\", {})\n"), @r#"
+    error: s.lua:1: param a has no default
+      | param("a", {})
+      help: write param("a", { default = ... })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = 3, min = \"low\" })\n"), @r#"
+    error: s.lua:1: param a: min must be a number, not "low"
+      | param("a", { default = 3, min = "low" })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = 3, min = 5, max = 1 })\n"), @r#"
+    error: s.lua:1: param a: min 5 is above max 1
+      | param("a", { default = 3, min = 5, max = 1 })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = 3, step = 0 })\n"), @r#"
+    error: s.lua:1: param a: step must be above 0
+      | param("a", { default = 3, step = 0 })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = {} })\n"), @r#"
+    error: s.lua:1: param a: default must be a number, a boolean or a string, not a table
+      | param("a", { default = {} })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = 30, max = 10 })\n"), @r#"
+    error: s.lua:1: the default of param a is 30, out of its range
+      | param("a", { default = 30, max = 10 })
+      help: change the default or its bounds
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = 3, unit = 4 })\n"), @r#"
+    error: s.lua:1: param a: unit must be a string, not 4
+      | param("a", { default = 3, unit = 4 })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = 3, choices = { \"b\" } })\n"), @r#"
+    error: s.lua:1: param a: choices are strings, so the default must be one, not 3
+      | param("a", { default = 3, choices = { "b" } })
+    "#);
+    assert_snapshot!(refused("param(\"a\", { default = \"c\", choices = { \"b\" } })\n"), @r#"
+    error: s.lua:1: the default of param a is "c", which is no choice
+      | param("a", { default = "c", choices = { "b" } })
+      help: change the default or its bounds
+    "#);
+}

@@ -1,0 +1,357 @@
+//! Patterns, arities and what else a rule is declared with.
+
+use insta::assert_snapshot;
+
+use crate::support::{HEAD, refused, refused_rules};
+
+fn pattern(pattern: &str) -> String {
+    refused_rules(&format!("s:rule(\"{pattern}\", function() return B() end)"))
+}
+
+#[test]
+fn an_unknown_symbol_is_told_with_the_nearest_one() {
+    assert_snapshot!(pattern("Aa(x)"), @r#"
+    error: s.lua:3: unknown symbol Aa in the pattern "Aa(x)"
+      | s:rule("Aa(x)", function() return B() end)
+      help: did you mean A?
+    "#);
+    assert_snapshot!(pattern("B < A(x) > Window"), @r#"
+    error: s.lua:3: unknown symbol Window in the pattern "B < A(x) > Window"
+      | s:rule("B < A(x) > Window", function() return B() end)
+      help: declare it: local Window = module("Window")
+    "#);
+    assert_snapshot!(refused_rules("s:ignore(\"Trun\")"), @r#"
+    error: s.lua:3: unknown symbol Trun
+      | s:ignore("Trun")
+      help: did you mean Turn?
+    "#);
+}
+
+#[test]
+fn a_wrong_arity_is_told_with_the_declaration() {
+    assert_snapshot!(pattern("A(x, y)"), @r#"
+    error: s.lua:3: malformed pattern "A(x, y)": A has 1 parameter, not 2
+      | s:rule("A(x, y)", function() return B() end)
+      help: it was declared as A(x); write all parameters or no brackets
+    "#);
+    assert_snapshot!(pattern("A()"), @r#"
+    error: s.lua:3: malformed pattern "A()": A has 1 parameter, not 0
+      | s:rule("A()", function() return B() end)
+      help: it was declared as A(x); write all parameters or no brackets
+    "#);
+    assert_snapshot!(pattern("B(x)"), @r#"
+    error: s.lua:3: malformed pattern "B(x)": B has no parameters, not 1
+      | s:rule("B(x)", function() return B() end)
+      help: it was declared as B; write all parameters or no brackets
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) return A(1, 2) end)"), @r#"
+    error: s.lua:3: rule A(x): A has 1 parameter, not 2
+      | s:rule("A(x)", function(this, x) return A(1, 2) end)
+      help: it was declared as A(x)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) return A() end)"), @r#"
+    error: s.lua:3: rule A(x): A has 1 parameter, not 0
+      | s:rule("A(x)", function(this, x) return A() end)
+      help: it was declared as A(x)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x) return A(nil) end)"), @r#"
+    error: s.lua:3: rule A(x): A has 1 parameter; x is missing
+      | s:rule("A(x)", function(this, x) return A(nil) end)
+      module: A(1), step 1
+      help: it was declared as A(x)
+    "#);
+    assert_snapshot!(refused_rules("s:axiom(A(1), B(2))"), @r"
+    error: s.lua:3: B has no parameters, not 1
+      | s:axiom(A(1), B(2))
+      help: it was declared as B
+    ");
+}
+
+#[test]
+fn an_arity_that_only_running_shows_is_told_with_the_module_and_the_step() {
+    assert_snapshot!(
+        refused_rules("local function make(...) return A(...) end\ns:rule(\"A(x)\", function(this, x) return make(x, 2) end)"),
+        @r"
+        error: s.lua:3: rule A(x): A has 1 parameter, not 2
+          | local function make(...) return A(...) end
+          module: A(1), step 1
+          help: it was declared as A(x)
+        "
+    );
+    assert_snapshot!(
+        refused_rules("local function make(...) return A(...) end\ns:rule(\"A(x)\", function(this, x) return make() end)"),
+        @r"
+        error: s.lua:3: rule A(x): A has 1 parameter; x is missing
+          | local function make(...) return A(...) end
+          module: A(1), step 1
+          help: it was declared as A(x)
+        "
+    );
+    assert_snapshot!(refused_rules("local make = A\nmake()"), @r"
+    error: s.lua:4: A has 1 parameter, not 0
+      | make()
+      help: it was declared as A(x)
+    ");
+}
+
+#[test]
+fn a_function_with_more_parameters_than_the_pattern_gives_is_refused() {
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", function(this, x, y) return B() end)"), @r#"
+    error: s.lua:3: rule A(x): the successor takes 3 parameters, but the pattern gives 2
+      | s:rule("A(x)", function(this, x, y) return B() end)
+      help: write function(this, x)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A\", { when = function(this, x) return true end }, function() return B() end)"), @r#"
+    error: s.lua:3: rule A: the guard takes 2 parameters, but the pattern gives 1
+      | s:rule("A", { when = function(this, x) return true end }, function() return B() end)
+      help: write function(this)
+    "#);
+    assert_snapshot!(refused_rules("s:interpret(\"B\", function(this, x) end)"), @r#"
+    error: s.lua:3: rule B: the interpretation takes 2 parameters, but the pattern gives 1
+      | s:interpret("B", function(this, x) end)
+      help: write function(this)
+    "#);
+}
+
+#[test]
+fn a_malformed_pattern_shows_the_place() {
+    assert_snapshot!(pattern("A((x)"), @r#"
+    error: s.lua:3: malformed pattern: unexpected '(' at character 3
+        A((x)
+          ^
+      | s:rule("A((x)", function() return B() end)
+      help: a parameter's name belongs here
+    "#);
+    assert_snapshot!(pattern("A(x) > B [ B"), @r#"
+    error: s.lua:3: malformed pattern: unexpected '[' at character 10
+        A(x) > B [ B
+                 ^
+      | s:rule("A(x) > B [ B", function() return B() end)
+      help: this branch is not closed
+    "#);
+    assert_snapshot!(pattern("A(x) > B > B"), @r#"
+    error: s.lua:3: malformed pattern: unexpected '>' at character 10
+        A(x) > B > B
+                 ^
+      | s:rule("A(x) > B > B", function() return B() end)
+      help: a pattern is: left context < predecessor > right context
+    "#);
+    assert_snapshot!(pattern("A(x) > []"), @r#"
+    error: s.lua:3: malformed pattern: unexpected '[' at character 8
+        A(x) > []
+               ^
+      | s:rule("A(x) > []", function() return B() end)
+      help: a branch in a context names at least one module
+    "#);
+    assert_snapshot!(pattern("A(x, x)"), @r#"
+    error: s.lua:3: malformed pattern: unexpected 'x' at character 6
+        A(x, x)
+             ^
+      | s:rule("A(x, x)", function() return B() end)
+      help: two parameters are called x; rename one
+    "#);
+    assert_snapshot!(pattern("A(1)"), @r#"
+    error: s.lua:3: malformed pattern: unexpected '1' at character 3
+        A(1)
+          ^
+      | s:rule("A(1)", function() return B() end)
+      help: a parameter's name belongs here
+    "#);
+    assert_snapshot!(pattern("B < A(x) é"), @r#"
+    error: s.lua:3: malformed pattern: unexpected 'é' at character 10
+        B < A(x) é
+                 ^
+      | s:rule("B < A(x) é", function() return B() end)
+      help: a module's name belongs here
+    "#);
+}
+
+#[test]
+fn a_pattern_has_one_predecessor_and_no_empty_context() {
+    assert_snapshot!(pattern(""), @r#"
+    error: s.lua:3: malformed pattern "": there is no predecessor
+      | s:rule("", function() return B() end)
+      help: name the module to be rewritten
+    "#);
+    assert_snapshot!(pattern("A(x) B"), @r#"
+    error: s.lua:3: malformed pattern "A(x) B": there is more than one predecessor
+      | s:rule("A(x) B", function() return B() end)
+      help: a rule rewrites one module; put the others into a context: A < B > C
+    "#);
+    assert_snapshot!(pattern("< A(x)"), @r#"
+    error: s.lua:3: malformed pattern "< A(x)": the context beside < is empty
+      | s:rule("< A(x)", function() return B() end)
+      help: name a module there, or leave it out
+    "#);
+    assert_snapshot!(pattern("B <"), @r#"
+    error: s.lua:3: malformed pattern "B <": there is no predecessor
+      | s:rule("B <", function() return B() end)
+      help: name the module to be rewritten
+    "#);
+    assert_snapshot!(pattern("[B] < A(x)"), @r#"
+    error: s.lua:3: malformed pattern "[B] < A(x)": a left context has no branches
+      | s:rule("[B] < A(x)", function() return B() end)
+      help: it is the path towards the axiom; name only the modules on it
+    "#);
+    assert_snapshot!(pattern("[B]"), @r#"
+    error: s.lua:3: malformed pattern "[B]": there is more than one predecessor
+      | s:rule("[B]", function() return B() end)
+      help: a rule rewrites one module; put the others into a context: A < B > C
+    "#);
+}
+
+#[test]
+fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\")"), @r#"
+    error: s.lua:3: rule A(x): rule takes 2 or 3 arguments, not 1
+      | s:rule("A(x)")
+      help: write system:rule("A(x)", function(this, x) return ... end)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(function() end)"), @r#"
+    error: s.lua:3: a rule begins with a pattern
+      | s:rule(function() end)
+      help: write system:rule("A(x)", function(this, x) return ... end)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", 3)"), @r#"
+    error: s.lua:3: rule A(x): the successor must be a function or a string, not integer
+      | s:rule("A(x)", 3)
+      help: write system:rule("A(x)", function(this, x) return ... end)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", 3, function() end)"), @r#"
+    error: s.lua:3: rule A(x): the options of a rule are a table
+      | s:rule("A(x)", 3, function() end)
+      help: write { weight = 2 }
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", { wieght = 3 }, function() end)"), @r#"
+    error: s.lua:3: rule A(x): a rule has no option called wieght
+      | s:rule("A(x)", { wieght = 3 }, function() end)
+      help: did you mean weight?
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", { weight = -3 }, function() end)"), @r#"
+    error: s.lua:3: rule A(x): weight must be a number above 0, not -3
+      | s:rule("A(x)", { weight = -3 }, function() end)
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", { when = true }, function() end)"), @r#"
+    error: s.lua:3: rule A(x): when must be a function, not a boolean
+      | s:rule("A(x)", { when = true }, function() end)
+      help: write { when = function(this, x) return x > 0 end }
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", function() end, function() end, 3)"), @r#"
+    error: s.lua:3: rule A(x): rule takes 2 or 3 arguments, not 4
+      | s:rule("A(x)", function() end, function() end, 3)
+      help: write system:rule("A(x)", function(this, x) return ... end)
+    "#);
+}
+
+#[test]
+fn an_interpretation_has_no_context_and_a_module_has_one() {
+    assert_snapshot!(refused_rules("s:interpret(\"B < A(x)\", function(this, x) end)"), @r#"
+    error: s.lua:3: rule B < A(x): an interpretation has no contexts
+      | s:interpret("B < A(x)", function(this, x) end)
+      help: contexts are for rules; carry what is needed in a parameter of the module
+    "#);
+    assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x) end)\ns:interpret(\"A(y)\", function(this, y) end)"), @r#"
+    error: s.lua:4: rule A(y): A(y) is interpreted already in line 3
+      | s:interpret("A(y)", function(this, y) end)
+      help: a module has one interpretation; join the two functions
+    "#);
+    assert_snapshot!(refused_rules("s:interpret(\"A(x)\", 3)"), @r#"
+    error: s.lua:3: rule A(x): an interpretation needs a function
+      | s:interpret("A(x)", 3)
+      help: write system:interpret("A(x)", function(this, x) ... end)
+    "#);
+}
+
+#[test]
+fn a_successor_given_as_text_tells_its_mistakes_with_its_rule() {
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[ return A(x ]])"), @r"
+    error: s.lua:4: rule A(x): Expected ')' (to close '(' at line 3), got 'end'
+      | s:derive(1)
+    ");
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[ return A(y) ]])"), @r#"
+    error: s.lua:3: rule A(x): unknown name y
+      | s:rule("A(x)", [[ return A(y) ]])
+      help: declare it: local y = ...
+    "#);
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[\n  if x > 0 then\n    return A(1, 2)\n  end ]])"), @r"
+    error: s.lua:4: rule A(x): A has 1 parameter, not 2
+      | if x > 0 then
+      help: it was declared as A(x)
+    ");
+    assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[ return x.y ]])"), @r#"
+    error: s.lua:3: rule A(x): attempt to index number with 'y'
+      | s:rule("A(x)", [[ return x.y ]])
+      module: A(1), step 1
+    "#);
+}
+
+#[test]
+fn a_module_is_declared_once_and_with_names() {
+    assert_snapshot!(refused("local A = module(\"A\", \"x\")\nlocal B = module(\"A\", \"y\")\n"), @r#"
+    error: s.lua:2: module A(x) is declared already
+      | local B = module("A", "y")
+      help: declare it once, or give the other module another name
+    "#);
+    assert_snapshot!(refused("local A = module(\"3A\")\n"), @r#"
+    error: s.lua:1: "3A" cannot be a module's name
+      | local A = module("3A")
+      help: a name is a letter followed by letters, digits and underscores
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\", \"x\", \"x\")\n"), @r#"
+    error: s.lua:1: module A has two parameters called x
+      | local A = module("A", "x", "x")
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\", \"x?\", \"y\")\n"), @r#"
+    error: s.lua:1: module A: y follows an optional parameter, so it must be optional too
+      | local A = module("A", "x?", "y")
+      help: write "y?"
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\", \"a b\")\n"), @r#"
+    error: s.lua:1: "a b" cannot be the name of a parameter of A
+      | local A = module("A", "a b")
+      help: a name is a letter followed by letters, digits and underscores
+    "#);
+}
+
+#[test]
+fn a_system_tells_what_it_takes() {
+    assert_snapshot!(refused("local s = lsystem({ objekt = turtle() })\n"), @r"
+    error: s.lua:1: lsystem has no field called objekt
+      | local s = lsystem({ objekt = turtle() })
+      help: did you mean object?
+    ");
+    assert_snapshot!(refused("local s = lsystem({ object = 3 })\n"), @r"
+    error: s.lua:1: lsystem: object must be an object
+      | local s = lsystem({ object = 3 })
+      help: write object = turtle()
+    ");
+    assert_snapshot!(refused("local s = lsystem({ interpret = \"first\" })\n"), @r#"
+    error: s.lua:1: lsystem: interpret must be "last"
+      | local s = lsystem({ interpret = "first" })
+      help: leave it out to interpret after every step
+    "#);
+    assert_snapshot!(refused("local s = lsystem({ seed = -1 })\n"), @r"
+    error: s.lua:1: lsystem: seed must be a whole number from 0
+      | local s = lsystem({ seed = -1 })
+    ");
+    assert_snapshot!(refused_rules("s:derives()"), @"");
+    assert_snapshot!(refused("lsystem():derive(1)\n"), @"");
+    assert_snapshot!(refused_rules("s:axiom(3)"), @"");
+    assert_snapshot!(refused_rules("print(s:derive(0).chain)"), @"");
+}
+
+#[test]
+fn derive_takes_a_whole_number_of_steps_from_0() {
+    for steps in ["-1", "2.5", "0/0", "1/0", "true", "\"many\"", "{}"] {
+        let said = refused(&format!("{HEAD}s:derive({steps})\n"));
+        assert!(
+            said.starts_with("error: s.lua:3: derive takes a whole number of steps from 0, not "),
+            "{said}"
+        );
+    }
+    assert_snapshot!(refused(&format!("{HEAD}s:derive(-1)\n")), @r"
+    error: s.lua:3: derive takes a whole number of steps from 0, not -1
+      | s:derive(-1)
+      help: leave it out to derive until no rule applies
+    ");
+}

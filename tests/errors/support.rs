@@ -1,0 +1,180 @@
+//! Runs the real binary in a folder of its own, and looks at what it says and leaves behind.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
+
+use serde_json::Value;
+
+/// Two modules and a system, in two lines, for scripts that go wrong later.
+pub(crate) const HEAD: &str = r#"local A, B = module("A", "x"), module("B")
+local s = lsystem({ object = turtle() }) s:axiom(A(1))
+"#;
+
+/// What the binary said.
+pub(crate) struct Said {
+    pub status: i32,
+    pub stdout: String,
+    pub stderr: String,
+}
+
+impl Said {
+    /// Standard output as the one JSON document that it must be.
+    pub(crate) fn json(&self) -> Value {
+        serde_json::from_str(&self.stdout).unwrap_or_else(|error| panic!("{error}: {}", self.stdout))
+    }
+
+    /// Standard error of a run that must have succeeded.
+    pub(crate) fn done(self) -> Self {
+        assert_eq!(self.status, 0, "{}", self.stderr);
+        self
+    }
+
+    /// Standard error of a run that must have failed decently.
+    pub(crate) fn failed(self) -> String {
+        assert_eq!(self.status, 1, "{}\n{}", self.stdout, self.stderr);
+        assert_eq!(self.stdout, "");
+        assert_decent(&self.stderr);
+        self.stderr
+    }
+}
+
+/// A person is told of the script, not of the program that runs it.
+pub(crate) fn assert_decent(text: &str) {
+    let indecent = [
+        "panicked",
+        "RUST_BACKTRACE",
+        "backtrace",
+        "traceback",
+        "burgeon:",
+        "[C]",
+        "\u{1}",
+        "0x0000",
+        "0x55",
+        "0x56",
+        "0x7f",
+        "mlua",
+        "Handle",
+        "C stack",
+    ];
+    for word in indecent {
+        assert!(!text.contains(word), "{word:?} in: {text}");
+    }
+}
+
+/// A folder that is gone when the test is over; its path is never shown.
+pub(crate) struct Folder(tempfile::TempDir);
+
+impl Folder {
+    pub(crate) fn new() -> Self {
+        Self(tempfile::tempdir().unwrap())
+    }
+
+    pub(crate) fn with(self, name: &str, content: impl AsRef<[u8]>) -> Self {
+        let path = self.0.path().join(name);
+        std::fs::create_dir_all(path.parent().unwrap()).unwrap();
+        std::fs::write(path, content).unwrap();
+        self
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        self.0.path()
+    }
+
+    pub(crate) fn read(&self, name: &str) -> String {
+        std::fs::read_to_string(self.0.path().join(name)).unwrap()
+    }
+
+    /// The names and sizes of all files, those in folders included.
+    pub(crate) fn files(&self) -> BTreeMap<String, u64> {
+        let mut files = BTreeMap::new();
+        let mut folders = vec![self.0.path().to_path_buf()];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let path = entry.unwrap().path();
+                let known = path.symlink_metadata().unwrap();
+                if known.is_dir() {
+                    folders.push(path);
+                } else {
+                    let name = path.strip_prefix(self.0.path()).unwrap().display().to_string();
+                    files.insert(name, known.len());
+                }
+            }
+        }
+        files
+    }
+
+    /// Runs `burgeon` here with these arguments.
+    pub(crate) fn burgeon(&self, arguments: &[&str]) -> Said {
+        let out = Command::new(env!("CARGO_BIN_EXE_burgeon"))
+            .args(arguments)
+            .current_dir(self.0.path())
+            .stdin(Stdio::null())
+            .env("RUST_BACKTRACE", "1")
+            .output()
+            .unwrap();
+        let here = self.0.path().display().to_string();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap().replace(&here, "FOLDER");
+        Said { status: out.status.code().unwrap_or(-1), stdout: text(out.stdout), stderr: text(out.stderr) }
+    }
+
+    /// Runs `burgeon`, which must fail, say the same in JSON, and leave every file as it was.
+    pub(crate) fn refuses(&self, arguments: &[&str]) -> String {
+        let before = self.files();
+        let text = self.burgeon(arguments).failed();
+        let machine = self.burgeon(&[arguments, &["--json"]].concat());
+        assert_eq!((machine.status, machine.stderr.as_str()), (1, ""));
+        let document = machine.json();
+        assert_eq!(document["ok"], false);
+        let errors = document["errors"].as_array().unwrap();
+        assert_eq!(errors.len(), text.matches("error: ").count(), "{text}\n{document}");
+        for error in errors {
+            for part in ["message", "file", "rule", "module", "help"] {
+                let part = error[part].as_str().unwrap_or_default();
+                assert!(text.contains(part), "{part:?} is not in: {text}");
+            }
+        }
+        assert_eq!(self.files(), before);
+        text
+    }
+}
+
+/// What a script that fails is told, with an older model in the place of the new one.
+pub(crate) fn refused(script: &str) -> String {
+    refused_with(script, &[])
+}
+
+pub(crate) fn refused_with(script: &str, flags: &[&str]) -> String {
+    let folder = Folder::new().with("s.lua", script).with("model.glb", "old");
+    folder.refuses(&[&["run", "s.lua", "-o", "model.glb"], flags].concat())
+}
+
+/// As [`refused`], for rules of the system in [`HEAD`], derived by one step; they begin in line 3.
+pub(crate) fn refused_rules(rules: &str) -> String {
+    refused(&format!("{HEAD}{rules}\ns:derive(1)\n"))
+}
+
+/// What a script is told that has to be stopped: once, and soon.
+pub(crate) fn stopped(script: &str, flags: &[&str]) -> String {
+    let folder = Folder::new().with("s.lua", script).with("model.glb", "old");
+    let before = folder.files();
+    let begin = Instant::now();
+    let text = folder.burgeon(&[&["run", "s.lua", "-o", "model.glb"], flags].concat()).failed();
+    assert!(begin.elapsed() < Duration::from_secs(10), "{:?}: {text}", begin.elapsed());
+    assert_eq!(folder.files(), before);
+    text
+}
+
+/// What a script that succeeds prints, line by line.
+pub(crate) fn printed(script: &str) -> Vec<String> {
+    let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--json"]).done();
+    assert_eq!(said.json()["ok"], true);
+    said.stderr.lines().map(str::to_owned).collect()
+}
+
+/// The final chain of a script that succeeds.
+pub(crate) fn chain(script: &str, flags: &[&str]) -> String {
+    let folder = Folder::new().with("s.lua", script);
+    folder.burgeon(&[&["run", "s.lua", "--chain", "-"], flags].concat()).done().stdout
+}

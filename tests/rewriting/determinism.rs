@@ -1,0 +1,149 @@
+//! The same bytes for any number of threads and any division into batches: the design's laws 8 and 9.
+
+use burgeon::Run;
+use burgeon::script::Options;
+
+use super::scripts::{all_chains, divided, lines, run_with, words};
+
+/// Stochastic, contextual, branching, with strings, tables and an object that rules read.
+const TREE: &str = r##"
+    local Apex = module("Apex", "age", "kind"); local Stem = module("Stem", "l", "w"); local Leaf = module("Leaf", "shade")
+    local Turn = module("Turn", "a"); local Roll = module("Roll", "a"); local Signal = module("Signal", "tag")
+    local kinds = { "oak", "ash", "elm" }
+    local tree = lsystem { object = turtle { width = 0.05, sides = 5 } }
+    tree:ignore("Turn Roll")
+    tree:axiom(source { { id = "a", n = 2 }, { id = "b", n = 1 }, { id = "c", n = 3 } }, function(feature)
+      local list = { Signal({ feature.id, { depth = 0 } }), Stem(2, 0.2) }
+      for i = 1, feature.n do table.insert(list, { Turn(30 * i), Stem(1, 0.1), Apex(0, kinds[i]) }) end
+      return turtle { position = { feature.n * 10, 0, 0 }, width = 0.05, sides = 5 }, table.unpack(list)
+    end)
+    tree:rule("Apex(age, kind)", { weight = 3, when = function(this, age) return age < 6 end }, function(this, age, kind)
+      local a = random(20, 40)
+      return Stem(random(), 0.1), { Turn(a), Apex(age + 1, kind .. age) }, Roll(137.5), Apex(age + 1, kind)
+    end)
+    tree:rule("Apex(age, kind)", { weight = 1 }, function(this, age, kind)
+      if random() < 0.2 then return Leaf(random()) end
+      if random() < 0.2 then return nil end
+    end)
+    tree:rule("Signal(tag) < Stem(l, w)", function(this, tag, l, w)
+      return Stem(l * 1.01, w), Signal({ tag[1], { depth = tag[2].depth + 1 } })
+    end)
+    tree:rule("Signal", function() return nil end)
+    tree:rule("Stem(l, w) > [Apex(a, first)] Apex(b, second)", { weight = 1 }, function(this, l, w, a, first, b, second)
+      return Stem(l + a / 10, w), Leaf(`{first}:{second}`)
+    end)
+    tree:rule("Stem(l, w) > [Apex(a, _)]", { weight = 2 }, function(this, l, w, a) return Stem(l + a / 100, w) end)
+    tree:rule("Leaf(shade)", { when = function(this, shade) return this:position().z > 0 end }, function(this, shade)
+      return Leaf({ shade, math.floor(this:position().z * 100) })
+    end)
+    tree:interpret("Stem(l, w)", function(this, l, w) this:width(w):forward(l) end)
+    tree:interpret("Turn(a)", function(this, a) this:turn(a + random()) end)
+    tree:interpret("Roll(a)", function(this, a) this:roll(a) end)
+    tree:interpret("Leaf(shade)", function(this, shade)
+      if type(shade) == "string" then this:color("#336633") end
+      this:sphere(0.1)
+    end)
+    tree:derive(8)
+"##;
+
+fn bytes(run: &Run) -> (String, Vec<u8>) {
+    let file = burgeon::export::gltf::glb(&run.scene).expect("a glTF file");
+    (all_chains(run), file)
+}
+
+#[test]
+fn threads_and_batches_change_no_byte() {
+    let (chains, file) = bytes(&run_with(TREE, divided(1, 4096)));
+    assert_eq!(chains.lines().count(), 3);
+    assert!(chains.contains("[") && chains.contains("Leaf({\"") && chains.contains("oak0"), "{chains}");
+    assert!(words(&chains).len() > 500, "{} modules", words(&chains).len());
+    for threads in [1, 2, 7] {
+        for batch in [1, 2, 7, 4096] {
+            let (others, other) = bytes(&run_with(TREE, divided(threads, batch)));
+            assert!(chains == others, "other chains with {threads} threads and batches of {batch}");
+            assert!(file == other, "another file with {threads} threads and batches of {batch}");
+        }
+    }
+}
+
+#[test]
+fn seeds_give_different_trees() {
+    let of = |seed| bytes(&run_with(TREE, Options { seed, ..Options::default() }));
+    assert!(of(1) == of(1));
+    assert_ne!(of(1).0, of(2).0);
+    assert!(of(1).1 != of(2).1);
+}
+
+/// A street of houses, one for each id.
+fn street(ids: &[&str]) -> Vec<(String, String)> {
+    let features: Vec<String> = ids.iter().map(|id| format!("{{ id = \"{id}\" }}")).collect();
+    let script = format!(
+        r#"
+        local House = module("House", "n"); local Window = module("Window", "u"); local Door = module("Door", "u")
+        local s = lsystem {{}}
+        s:axiom(source {{ {} }}, function(feature) return House(3), Door(0) end)
+        s:rule("House(n)", {{ weight = 1 }}, function(this, n) return Window(random()), {{ House(n - 1) }} end)
+        s:rule("House(n)", {{ weight = 1 }}, function(this, n) return House(n - 1), Window(random()) end)
+        s:rule("Door(u)", function() return Door(random()) end)
+        s:derive(3)
+        "#,
+        features.join(", ")
+    );
+    let run = run_with(&script, divided(2, 3));
+    let system = run.systems.last().expect("a system");
+    let ids = system.features.iter().map(|id| id.clone().expect("an id"));
+    ids.zip(lines(&run)).collect()
+}
+
+#[test]
+fn a_feature_more_changes_no_other_features_chain() {
+    let before = street(&["a", "b", "c"]);
+    assert_eq!(before.len(), 3);
+    assert!(before[0].1 != before[1].1 && before[1].1 != before[2].1, "features differ: {before:?}");
+    for ids in [&["a", "b", "c", "d"][..], &["d", "a", "b", "c"], &["c", "x", "b", "y", "a"], &["b"]] {
+        let after = street(ids);
+        assert_eq!(after.len(), ids.len());
+        for (id, chain) in &after {
+            if let Some((_, old)) = before.iter().find(|(known, _)| known == id) {
+                assert_eq!(chain, old, "the chain of {id} among {ids:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_random_number_of_the_top_level_is_the_same_every_time() {
+    let script = r#"
+        local A = module("A", "u"); local s = lsystem {}
+        s:axiom(A(random()), A(random(5, 6)))
+        s:derive(0)
+    "#;
+    let first = lines(&run_with(script, divided(1, 1)));
+    assert_eq!(first, lines(&run_with(script, divided(7, 1))));
+    let words = words(&first[0]);
+    assert_ne!(words[0], words[1]);
+    assert!(words[1].starts_with("A(5."), "{first:?}");
+    assert_ne!(first, lines(&run_with(script, Options { seed: 1, ..Options::default() })));
+}
+
+#[test]
+fn many_small_chains_are_put_together_in_their_order() {
+    let script = r#"
+        local A = module("A", "n"); local B = module("B", "n")
+        local features = {}
+        for i = 1, 300 do features[i] = { id = i } end
+        local s = lsystem { object = turtle {} }
+        s:axiom(source(features), function(feature) return turtle { position = { feature.id, 0, 0 } }, A(feature.id % 5) end)
+        s:rule("A(n)", function(this, n)
+          if n == 0 then return B(this:position().x) end
+          return A(n - 1), { B(this:position().x) }
+        end)
+        s:interpret("B(n)", function(this, n) this:forward(n) end)
+        s:derive(6)
+    "#;
+    let expected: Vec<String> =
+        (1..=300).map(|id| format!("B({id}){}", format!(" [ B({id}) ]").repeat(id % 5))).collect();
+    for (threads, batch) in [(1, 4096), (1, 1), (2, 7), (7, 50)] {
+        assert_eq!(lines(&run_with(script, divided(threads, batch))), expected, "{threads} threads");
+    }
+}

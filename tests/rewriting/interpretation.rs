@@ -1,0 +1,274 @@
+//! Interpretation passes: the design's law 6, and what rules read from the objects.
+
+use super::scripts::{chain, divided, error, lines, run, run_with};
+
+const HEAD: &str = r#"
+    local F = module("F", "l"); local T = module("T", "a"); local Ask = module("Ask"); local Say = module("Say", "x", "y", "z")
+    local Wait = module("Wait", "n")
+    local s = lsystem { object = turtle { angle = 90, width = 0.01 } }
+    s:interpret("F(l)", function(this, l) this:forward(l) end)
+    s:interpret("T(a)", function(this, a) this:turn(a) end)
+    local function place(this)
+      local p = this:position()
+      local function round(x) return math.round(x * 1000) / 1000 + 0 end
+      return Say(round(p.x), round(p.y), round(p.z))
+    end
+"#;
+
+#[test]
+fn a_rule_reads_its_object_as_the_pass_before_left_it() {
+    let text = chain(&format!(
+        "{HEAD}
+        s:axiom(Ask(), F(1), F(2))
+        s:rule(\"Ask\", function(this) return place(this) end)
+        s:rule(\"F(l)\", function(this, l) return F(l * 10) end)
+        s:derive(1)"
+    ));
+    // The axiom was interpreted before the first step, and the whole chain, not only what stands before the module.
+    assert_eq!(text, "Say(0,0,3) F(10) F(20)");
+}
+
+#[test]
+fn each_step_sees_the_pass_over_the_chain_of_the_step_before() {
+    let text = chain(&format!(
+        "{HEAD}
+        s:axiom(Wait(3), F(1))
+        s:rule(\"Wait(n)\", function(this, n) if n > 0 then return place(this), Wait(n - 1) end end)
+        s:rule(\"F(l)\", function(this, l) return F(l * 2) end)
+        s:derive(3)"
+    ));
+    assert_eq!(text, "Say(0,0,1) Say(0,0,2) Say(0,0,4) Wait(0) F(8)");
+}
+
+#[test]
+fn guards_read_the_object_too() {
+    let text = chain(&format!(
+        "{HEAD}
+        s:axiom(Ask(), F(1))
+        s:rule(\"Ask\", {{ when = function(this) return this:position().z >= 4 end }}, function(this) return place(this) end)
+        s:rule(\"F(l)\", {{ when = function(this, l) return this:position().z < 6 end }}, function(this, l) return F(l * 2) end)
+        s:derive(10)"
+    ));
+    assert_eq!(text, "Say(0,0,4) F(8)");
+}
+
+#[test]
+fn however_a_rule_gets_at_its_object_it_sees_the_pass_before() {
+    let mut wrong = Vec::new();
+    for rule in [
+        "s:rule(\"Ask\", function(this) return place(this) end)",
+        "s:rule(\"Ask\", function(...) return place(...) end)",
+        "s:rule(\"Ask\", function(...) local object = select(1, ...) return place(object) end)",
+        "local function f(this) return place(this) end s:rule(\"Ask\", f)",
+        "s:rule(\"Ask\", place)",
+        "s:rule(\"Ask\", function(o) local p = o:position() return Say(0, 0, p.z) end)",
+        "s:rule(\"Ask\", [[ return Say(0, 0, this:position().z) ]])",
+        "s:rule(\"Ask\", function(this) local function inner() return this:position().z end return Say(0, 0, inner()) end)",
+        "s:rule(\"Ask\", { when = place }, function(this) return place(this) end)",
+        "s:rule(\"Ask\", { when = function(...) return (...):position().z == 3 end }, function() return Say(0, 0, 3) end)",
+    ] {
+        let text = chain(&format!("{HEAD} s:axiom(Ask(), F(3)) {rule} s:derive(1)"));
+        if text != "Say(0,0,3) F(3)" {
+            wrong.push(format!("{rule}: {text}"));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn modules_are_interpreted_in_the_order_of_the_chain() {
+    for (axiom, expected) in [
+        ("F(1), T(90), F(2)", "Say(2,0,1)"),
+        ("T(90), F(1), F(2)", "Say(3,0,0)"),
+        ("F(1), F(2), T(90)", "Say(0,0,3)"),
+        ("F(1), T(180), F(3)", "Say(0,0,-2)"),
+    ] {
+        let text = chain(&format!(
+            "{HEAD} s:axiom({axiom}, Ask()) s:rule(\"Ask\", function(this)
+               local p = this:position() return Say(math.abs(math.round(p.x)), math.round(p.y), math.round(p.z))
+             end) s:derive(1)"
+        ));
+        let last = text.rsplit_once("Say").map(|(_, last)| format!("Say{last}")).unwrap_or_default();
+        assert_eq!(last.replace("-0", "0"), expected, "{axiom}");
+    }
+}
+
+#[test]
+fn a_branch_pushes_and_pops_the_frame() {
+    for (axiom, expected) in [
+        ("F(1), { F(5) }, F(2)", 3),
+        ("{ F(5) }, F(1)", 1),
+        ("F(1), { F(1), { F(1), { F(1) } }, F(9) }, { T(90), F(4) }, F(1)", 2),
+        ("F(2), {}, { {} }", 2),
+        ("{ T(180) }, F(3)", 3),
+    ] {
+        let text = chain(&format!(
+            "{HEAD} s:axiom(Ask(), {axiom}) s:rule(\"Ask\", function(this) return place(this) end) s:derive(1)"
+        ));
+        assert!(text.starts_with(&format!("Say(0,0,{expected}) ")), "{axiom}: {text}");
+    }
+}
+
+#[test]
+fn a_drawing_object_begins_each_pass_empty() {
+    let draw = |steps: usize| {
+        let run = run(&format!(
+            "{HEAD}
+            s:axiom(F(1), Ask())
+            s:rule(\"Ask\", function(this) return F(this:position().z - this:position().z + 1), Ask() end)
+            s:derive({steps})"
+        ));
+        run.scene.triangles()
+    };
+    let cold = |count: usize| {
+        let list = vec!["F(1)"; count].join(", ");
+        run(&format!("{HEAD} s:axiom({list}) s:derive(0)")).scene.triangles()
+    };
+    assert!(cold(3) > 0);
+    assert_eq!(draw(2), cold(3));
+    assert_eq!(draw(6), cold(7));
+}
+
+#[test]
+fn the_scene_is_the_interpretation_of_the_last_chain() {
+    let run = run(&format!(
+        "{HEAD}
+        s:axiom(F(100), {{ F(50) }})
+        s:rule(\"F(l)\", function(this, l) return F(l / 10) end)
+        s:derive(2)"
+    ));
+    let (low, high) = run.scene.bounds().expect("something is drawn");
+    assert!((high.z - low.z - 1.5).abs() < 1e-6, "{low} {high}");
+}
+
+#[test]
+fn interpret_last_runs_only_the_last_pass() {
+    let text = chain(
+        r#"
+        local F = module("F", "l"); local Ask = module("Ask", "z")
+        local s = lsystem { object = turtle {}, interpret = "last" }
+        s:axiom(F(3), Ask(0))
+        s:rule("Ask", function(this) return Ask(this:position().z) end)
+        s:interpret("F(l)", function(this, l) this:forward(l) end)
+        local derived = s:derive(2)
+        local p = derived.objects[1]:position().z
+        local t = lsystem {}
+        t:axiom(Ask(p))
+        t:derive(0)
+        "#,
+    );
+    assert_eq!(text, "Ask(3)");
+    let run = run(r#"
+        local F = module("F", "l"); local Ask = module("Ask", "z")
+        local s = lsystem { object = turtle {}, interpret = "last" }
+        s:axiom(F(3), Ask(7))
+        s:rule("Ask", function(this) return Ask(this:position().z) end)
+        s:interpret("F(l)", function(this, l) this:forward(l) end)
+        s:derive(2)
+        "#);
+    assert_eq!(lines(&run), ["F(3) Ask(0)"], "no pass came before the rules");
+    assert!(run.scene.triangles() > 0);
+}
+
+#[test]
+fn the_axiom_is_interpreted_even_without_a_step() {
+    let run = run(&format!("{HEAD} s:axiom(F(2)) s:derive(0)"));
+    let (_, high) = run.scene.bounds().expect("something is drawn");
+    assert!((high.z - 2.0).abs() < 1e-9);
+}
+
+#[test]
+fn an_interpretation_that_fails_in_an_early_pass_fails() {
+    for steps in [1, 2] {
+        let told = error(&format!(
+            "{HEAD}
+            s:axiom(Wait(1))
+            s:rule(\"Wait(n)\", function(this, n) return F(n) end)
+            s:interpret(\"Wait(n)\", function(this, n) error(\"too early\") end)
+            s:derive({steps})"
+        ));
+        assert!(told.contains("too early") && told.contains("Wait(1), step 0"), "{told}");
+    }
+}
+
+#[test]
+fn interpretation_leaves_the_chain_as_it_is() {
+    let text = chain(&format!("{HEAD} s:axiom(F(1), {{ T(30), F(2) }}, Ask()) s:derive(3)"));
+    assert_eq!(text, "F(1) [ T(30) F(2) ] Ask");
+}
+
+#[test]
+fn every_chain_has_an_object_of_its_own() {
+    let script = format!(
+        "{HEAD}
+        s:axiom(source {{ {{ z = 10 }}, {{ z = 20 }}, {{ z = 30 }} }}, function(feature)
+          return turtle {{ position = {{ 0, 0, feature.z }}, width = 0.01 }}, Ask(), F(feature.z / 10), {{ F(100) }}
+        end)
+        s:rule(\"Ask\", function(this) return place(this) end)
+        s:derive(1)"
+    );
+    let expected =
+        ["Say(0,0,11) F(1) [ F(100) ]", "Say(0,0,22) F(2) [ F(100) ]", "Say(0,0,33) F(3) [ F(100) ]"];
+    for (threads, batch) in [(1, 4096), (1, 1), (2, 1), (7, 2)] {
+        let run = run_with(&script, divided(threads, batch));
+        assert_eq!(lines(&run), expected, "{threads} threads and batches of {batch}");
+        assert_eq!(run.systems[0].objects.len(), 3);
+    }
+}
+
+#[test]
+fn a_chain_without_its_own_object_gets_a_copy_of_the_systems() {
+    let text = lines(&run(&format!(
+        "{HEAD}
+        s:axiom(source {{ {{ n = 1 }}, {{ n = 2 }} }}, function(feature) return Ask(), F(feature.n) end)
+        s:rule(\"Ask\", function(this) return place(this) end)
+        s:derive(1)"
+    )));
+    assert_eq!(text, ["Say(0,0,1) F(1)", "Say(0,0,2) F(2)"]);
+}
+
+#[test]
+fn an_interpretation_reads_its_object_in_the_middle_of_the_pass() {
+    // Calls are recorded and applied later; a question in between must see those before it.
+    let script = r#"
+        local F = module("F", "l"); local Mirror = module("Mirror"); local Ask = module("Ask", "z")
+        local s = lsystem { object = turtle {} }
+        s:axiom(F(1), Mirror(), F(0.5), { F(2), Mirror() }, Mirror(), Ask(0))
+        s:interpret("F(l)", function(this, l) this:forward(l) end)
+        s:interpret("Mirror", function(this) local z = this:position().z this:advance(z) this:advance(this:position().z) end)
+        s:rule("Ask", function(this) return Ask(this:position().z) end)
+        s:derive(1)
+    "#;
+    // 1, doubled twice 4, 4.5, a branch, doubled twice 18.
+    assert!(chain(script).ends_with("Ask(18)"), "{}", chain(script));
+}
+
+#[test]
+fn parameters_of_every_kind_reach_interpretations() {
+    let run = run(r##"
+        local P = module("P", "x", "y?", "z?"); local s = lsystem { object = turtle {} }
+        s:axiom(P({ 1, 2, 3 }), P(true, "text"), P("#ff0000"), P(2))
+        s:interpret("P(x, y, z)", function(this, x, y, z)
+          assert(z == nil)
+          if type(x) == "table" then assert(table.isfrozen(x)) this:jump(x)
+          elseif x == true then assert(y == "text") this:face({ 1, 0, 0 })
+          elseif type(x) == "string" then assert(y == nil) this:color(x)
+          else this:forward(x) end
+        end)
+        local derived = s:derive()
+        local p = derived.objects[1]:position()
+        assert(math.abs(p.x - 3) + math.abs(p.y - 2) + math.abs(p.z - 3) < 1e-9)
+        "##);
+    assert_eq!(run.scene.materials.len(), 1);
+}
+
+#[test]
+fn interpretations_that_call_a_changing_method_from_a_rule_are_refused() {
+    let told = error(&format!(
+        "{HEAD} s:axiom(F(1)) s:rule(\"F(l)\", function(this, l) this:forward(l) return F(l) end) s:derive(1)"
+    ));
+    assert!(
+        told.contains("interpretation rule") && told.contains("rule F(l)") && told.contains("main.lua:"),
+        "{told}"
+    );
+}

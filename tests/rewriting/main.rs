@@ -1,0 +1,14 @@
+//! Rewriting, from a script's text to its chains: what the laws of the design and the literature say of it.
+
+mod choice;
+mod contexts;
+mod determinism;
+mod interpretation;
+mod literature;
+mod meaning;
+mod naive;
+mod parameters;
+mod properties;
+mod results;
+mod scripts;
+mod stochastic;
