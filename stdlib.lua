@@ -170,91 +170,47 @@ end
 
 local names: { [string]: any } = {}
 
-local function turtle_module(name: string, parameter: string?, draw)
+--- Declares a module that calls a method of the turtle with its parameter.
+local function turtle_module(name: string, method: string, parameter: string?)
   names[name] = if parameter then module(name, parameter) else module(name)
-  __interpretation("turtle", if parameter then `{name}({string.gsub(parameter, "%?", "")})` else name, draw)
+  __interpretation("turtle", name, method)
 end
 
 -- F draws and G, the literature's f, only moves.
-turtle_module("F", "length?", function(this, length)
-  this:forward(length)
-end)
-turtle_module("G", "length?", function(this, length)
-  this:advance(length)
-end)
--- + and - turn, & and ^ pitch, \ and / roll; with a sign of its own, a turn needs only one module.
-turtle_module("Turn", "angle?", function(this, angle)
-  this:turn(angle)
-end)
-turtle_module("Left", "angle?", function(this, angle)
-  this:turn(angle)
-end)
-turtle_module("Right", "angle?", function(this, angle)
-  this:turn_right(angle)
-end)
-turtle_module("Pitch", "angle?", function(this, angle)
-  this:pitch(angle)
-end)
-turtle_module("Down", "angle?", function(this, angle)
-  this:pitch(angle)
-end)
-turtle_module("Up", "angle?", function(this, angle)
-  this:pitch_up(angle)
-end)
-turtle_module("Roll", "angle?", function(this, angle)
-  this:roll(angle)
-end)
-turtle_module("RollLeft", "angle?", function(this, angle)
-  this:roll(angle)
-end)
-turtle_module("RollRight", "angle?", function(this, angle)
-  this:roll_back(angle)
-end)
+turtle_module("F", "forward", "length?")
+turtle_module("G", "advance", "length?")
+-- + and -: to the left and to the right; Turn is + with a sign.
+turtle_module("Turn", "turn", "angle?")
+turtle_module("Left", "turn", "angle?")
+turtle_module("Right", "turn_right", "angle?")
+-- & and ^: down and up; Pitch is & with a sign.
+turtle_module("Pitch", "pitch", "angle?")
+turtle_module("Down", "pitch", "angle?")
+turtle_module("Up", "pitch_up", "angle?")
+-- \ and /; Roll is \ with a sign.
+turtle_module("Roll", "roll", "angle?")
+turtle_module("RollLeft", "roll", "angle?")
+turtle_module("RollRight", "roll_back", "angle?")
 -- |
-turtle_module("TurnAround", nil, function(this)
-  this:turn_around()
-end)
+turtle_module("TurnAround", "turn_around")
 -- $
-turtle_module("Level", nil, function(this)
-  this:level()
-end)
--- !
-turtle_module("Width", "width", function(this, width)
-  this:width(width)
-end)
--- ;
-turtle_module("Paint", "number", function(this, number)
-  this:paint(number)
-end)
-turtle_module("Color", "color", function(this, color)
-  this:color(color)
-end)
-turtle_module("Material", "material", function(this, material)
-  this:material(material)
-end)
+turtle_module("Level", "level")
+-- ! and ;
+turtle_module("Width", "width", "width")
+turtle_module("Paint", "paint", "number")
+turtle_module("Color", "color", "color")
+turtle_module("Material", "material", "material")
 -- { . }
-turtle_module("BeginPolygon", nil, function(this)
-  this:begin_polygon()
-end)
-turtle_module("Point", nil, function(this)
-  this:point()
-end)
-turtle_module("EndPolygon", nil, function(this)
-  this:end_polygon()
-end)
+turtle_module("BeginPolygon", "begin_polygon")
+turtle_module("Point", "point")
+turtle_module("EndPolygon", "end_polygon")
 -- @O
-turtle_module("Sphere", "radius", function(this, radius)
-  this:sphere(radius)
-end)
+turtle_module("Sphere", "sphere", "radius")
+-- Bends towards the tropism with each step.
+turtle_module("Elasticity", "elasticity", "elasticity")
 -- ~
 names.Place = module("Place", "model", "scale?")
-__interpretation("turtle", "Place(model, scale)", function(this, model, scale)
-  this:place(model, scale)
-end)
--- _
-turtle_module("Elasticity", "elasticity", function(this, elasticity)
-  this:elasticity(elasticity)
-end)
+__interpretation("turtle", "Place", "place")
 
 names.vec = vec
 names.lerp = lerp
@@ -264,4 +220,5 @@ names.noise = noise
 names.hsv = hsv
 names.rgb = rgb
 names.mix = mix
+table.freeze(Vec)
 return names

@@ -80,6 +80,21 @@ impl Section {
         self
     }
 
+    /// The same shape, shaded as round except where its outline turns by more than `angle` (radians).
+    #[must_use]
+    pub fn creased(mut self, angle: f64) -> Self {
+        for ring in &mut self.rings {
+            let places: Vec<DVec2> = ring.iter().map(|knot| knot.at).collect();
+            let count = places.len();
+            for (index, knot) in ring.iter_mut().enumerate() {
+                let before = knot.at - places[(index + count - 1) % count];
+                let after = places[(index + 1) % count] - knot.at;
+                knot.smooth = before.angle_to(after).abs() <= angle;
+            }
+        }
+        self
+    }
+
     /// The same shape with its edges divided evenly, so that there are at least `around` points in the first
     /// ring and points as dense as there in the holes. The shading stays as it is.
     pub fn resampled(&self, around: usize) -> Result<Self> {

@@ -6,7 +6,7 @@ use mlua::Buffer;
 
 use super::Interpreting;
 use crate::error::{Error, Result};
-use crate::objects::{Call, Method, Object};
+use crate::objects::{Call, Method, Object, Value};
 use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_text};
 use crate::script::{Flusher, Machine, Objects, read_column};
 
@@ -20,6 +20,8 @@ pub(crate) struct Applier {
     buffers: [Buffer; 3],
     /// The next symbol to be applied.
     position: usize,
+    /// Where its parameters begin.
+    param: usize,
     /// Its chain.
     chain: usize,
     /// Whether the chain's object has begun its pass.
@@ -49,6 +51,7 @@ impl Applier {
             methods,
             buffers: [calls, numbers, counts],
             position: begin.module,
+            param: begin.param,
             chain: begin.chain,
             begun: false,
             counted: 0,
@@ -79,33 +82,45 @@ impl Applier {
         self.count()
     }
 
-    /// Applies brackets and ends before the symbol `until`.
+    /// Applies everything before the symbol `until` that no rule interprets: brackets, ends and the modules of
+    /// the standard library.
     fn walk(&mut self, until: usize) -> Result<()> {
+        let pass = Arc::clone(&self.pass);
+        let objects = Arc::clone(&self.objects);
+        let arities = pass.plan.grammar.arities();
+        let methods = &pass.plan.interpretations.methods;
         while self.position < until {
-            let pass = Arc::clone(&self.pass);
-            let objects = Arc::clone(&self.objects);
+            let mut ended = false;
             // One lock for all symbols of a chain.
-            objects.write(self.chain, |object| {
+            let walked = objects.write(self.chain, |object| {
                 if !self.begun {
                     object.begin();
                     self.begun = true;
                 }
-                while self.position < until {
+                while self.position < until && !ended {
                     let symbol = pass.chain.symbols[self.position];
-                    self.position += 1;
+                    let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
                     match symbol {
                         OPEN => object.push(),
                         CLOSE => object.pop()?,
                         END => {
                             object.end()?;
-                            break;
+                            ended = true;
                         }
-                        _ => {}
+                        symbol => {
+                            let method = methods[usize::from(symbol)];
+                            if method != u16::MAX {
+                                self.call(object, method, &pass.chain.params[params.clone()])?;
+                            }
+                        }
                     }
+                    self.position += 1;
+                    self.param = params.end;
                 }
                 Ok(())
-            })?;
-            if self.position > 0 && pass.chain.symbols[self.position - 1] == END {
+            });
+            walked.map_err(|error| self.blame_at(error, self.position, self.param))?;
+            if ended {
                 self.count()?;
                 self.chain += 1;
                 self.begun = false;
@@ -128,21 +143,41 @@ impl Applier {
     fn call(&self, object: &mut dyn Object, method: u16, numbers: &[f64]) -> Result<()> {
         match self.methods.get(usize::from(method)).map(|method| &method.call) {
             Some(Call::Write { numbers: Some(call), .. }) => call(object, numbers),
+            Some(Call::Write { values: call, .. }) => {
+                let mut values: Vec<Value> =
+                    numbers.iter().map(|number| self.values.unpack(*number)).collect();
+                while matches!(values.last(), Some(Value::Nil)) {
+                    values.pop();
+                }
+                call(object, &values).map(|_| ())
+            }
             _ => Err(Error::new("this method cannot be recorded")),
         }
     }
 
     fn blame(&self, error: Error, entry: usize) -> Error {
-        let Some((module, param)) = self.entries.get(entry) else { return error };
+        match self.entries.get(entry) {
+            Some((module, param)) => self.blame_at(error, *module, *param),
+            None => error,
+        }
+    }
+
+    /// An error with the module where it happened, and how that is interpreted.
+    fn blame_at(&self, error: Error, module: usize, param: usize) -> Error {
         let plan = &self.pass.plan;
-        let symbol = self.pass.chain.symbols[*module];
+        let symbol = self.pass.chain.symbols[module];
+        if symbol <= END {
+            return error;
+        }
         let arity = usize::from(plan.grammar.arities()[usize::from(symbol)]);
-        let params = &self.pass.chain.params[*param..*param + arity];
+        let params = &self.pass.chain.params[param..param + arity];
         let text = module_text(plan.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
-        let (_, name, place) =
-            &interpretations.list[usize::from(interpretations.by_symbol[usize::from(symbol)])];
-        error.at(place.clone()).rule(format!("{name} (interpretation)")).module(text, self.pass.step)
+        match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
+            Some((_, name, place)) => error.at(place.clone()).rule(format!("{name} (interpretation)")),
+            None => error,
+        }
+        .module(text, self.pass.step)
     }
 }
 

@@ -25,6 +25,8 @@ impl Boxed {
     /// The f64 to store.
     pub fn pack(self) -> f64 {
         match self {
+            // One NaN for all, since the others mean something else.
+            Self::Number(value) if value.is_nan() => f64::NAN,
             Self::Number(value) => value,
             Self::Nil => f64::from_bits(NIL),
             Self::Boolean(value) => f64::from_bits(BOOLEAN | u64::from(value)),

@@ -319,7 +319,8 @@ impl<'a> Numbers<'a> {
         let value = match Boxed::unpack(number) {
             Boxed::Number(number) => Value::Number(number),
             Boxed::Boolean(value) => Value::Boolean(value),
-            _ => Value::Nil,
+            Boxed::Nil => Value::Nil,
+            Boxed::Handle(_) => Value::Table(std::sync::Arc::default()),
         };
         T::from_value(value.clone())
             .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))

@@ -106,6 +106,11 @@ impl Drawing {
         self.materials.len() - 1
     }
 
+    /// The material of the part with this number.
+    pub(super) fn material_of(&self, index: usize) -> Material {
+        self.materials.get(index).cloned().unwrap_or_default()
+    }
+
     /// The part with this number, as [`Drawing::material`] gave it.
     #[inline]
     pub(super) fn part(&mut self, index: usize) -> &mut Part {

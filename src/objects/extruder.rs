@@ -15,7 +15,7 @@ fields! {
         pub sides: u32 = 16,
         /// Points of the cross-section, as { { x, y }, ... }, in place of `sides`.
         pub shape: Vec<Vector> = Vec::new(),
-        /// Whether surfaces are shaded as round.
+        /// Whether surfaces are shaded as round; corners of the cross-section above 40 degrees stay edges.
         pub smooth: bool = true,
         /// Number of pieces of a segment; with 0, a piece for every 10 degrees that it bends or twists.
         pub along: u32 = 0,
@@ -35,6 +35,9 @@ fields! {
         pub heading: Vector = Vector(DVec3::Z),
     }
 }
+
+/// Corners of a cross-section that turn by more than this (degrees) are edges also on smooth surfaces.
+const CREASE: f64 = 40.0;
 
 /// An extruder as in the ML-System paper: a cross-section swept along segments, each with its own length,
 /// curvature, twist and scale.
@@ -104,7 +107,7 @@ methods! {
         pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
             let flat = |ring: &[Vector]| ring.iter().map(|point| point.0.truncate()).collect::<Vec<DVec2>>();
             let holes: Vec<Vec<DVec2>> = holes.unwrap_or_default().iter().map(|ring| flat(ring)).collect();
-            self.state.section = Section::polygon(&flat(&outer), &holes)?.marked(self.state.smooth);
+            self.state.section = shaded(Section::polygon(&flat(&outer), &holes)?, self.state.smooth);
             Ok(())
         }
 
@@ -226,6 +229,11 @@ methods! {
     }
 }
 
+/// The section with its corners marked for shading.
+fn shaded(section: Section, smooth: bool) -> Section {
+    if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
+}
+
 fn check_resolution(along: u32, around: u32) -> Result<()> {
     for (name, count) in [("along", along), ("around", around)] {
         if count > 4096 {
@@ -255,7 +263,7 @@ impl Extruder {
             Section::regular(options.sides as usize)?
         } else {
             let points: Vec<DVec2> = options.shape.iter().map(|point| point.0.truncate()).collect();
-            Section::polygon(&points, &[])?.marked(options.smooth)
+            shaded(Section::polygon(&points, &[])?, options.smooth)
         };
         let state = State::begin(&options, &section);
         Ok(Self {

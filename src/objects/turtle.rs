@@ -57,8 +57,8 @@ pub struct Turtle {
 struct State {
     frame: Frame,
     width: f64,
-    part: Option<usize>,
-    material: Material,
+    /// The part of the drawing, and so the material.
+    part: usize,
     tropism: DVec3,
     elasticity: f64,
     /// The branch that is being drawn.
@@ -150,8 +150,7 @@ methods! {
 
         /// Sets the colour of what is drawn.
         pub fn color(&mut self, color: Color) {
-            self.state.material.base_color = color.0;
-            self.state.part = None;
+            self.paint_with(color);
         }
 
         /// Chooses a colour of the palette, the first being number 1.
@@ -161,15 +160,13 @@ methods! {
                 return Err(Error::new(format!("turtle:paint: the palette has no colour number {number}"))
                     .help(format!("it has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}", self.options.palette.len())));
             };
-            self.state.material.base_color = color.0;
-            self.state.part = None;
+            self.paint_with(*color);
             Ok(())
         }
 
         /// Sets the whole material of what is drawn.
         pub fn material(&mut self, material: Surface) -> Result<()> {
-            self.state.material = material.material()?;
-            self.state.part = None;
+            self.state.part = self.drawing.material(&material.material()?);
             Ok(())
         }
 
@@ -203,16 +200,15 @@ methods! {
         /// Fills the polygon that was begun last; it is seen from both sides.
         pub fn end_polygon(&mut self) -> Result<()> {
             let Some(corners) = self.polygons.pop() else { return Err(no_polygon("end_polygon")) };
-            let material = Material { double_sided: true, ..self.state.material.clone() };
+            let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
             let part = self.drawing.material(&material);
             face(self.drawing.part(part), &corners)
         }
 
         /// Draws a ball with `radius` (m) around the turtle's place.
         pub fn sphere(&mut self, radius: f64) -> Result<()> {
-            let part = self.part();
             let sides = self.options.sides.max(6);
-            sphere(self.drawing.part(part), self.state.frame.position, radius, sides)
+            sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
         }
 
         /// Places what another system has drawn at the turtle's frame, scaled.
@@ -285,12 +281,13 @@ impl Turtle {
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::new("turtle: heading has no length"));
         }
-        let state = State::begin(&options);
+        let mut drawing = Drawing::default();
+        let state = State::begin(&options, &mut drawing);
         Ok(Self {
             options,
             state,
             stack: Vec::new(),
-            drawing: Drawing::default(),
+            drawing,
             placed: Vec::new(),
             placed_triangles: 0,
             polygons: Vec::new(),
@@ -301,20 +298,14 @@ impl Turtle {
         angle.unwrap_or(self.options.angle).to_radians()
     }
 
-    fn part(&mut self) -> usize {
-        match self.state.part {
-            Some(part) => part,
-            None => {
-                let part = self.drawing.material(&self.state.material);
-                self.state.part = Some(part);
-                part
-            }
-        }
+    fn paint_with(&mut self, color: Color) {
+        let material = self.drawing.material_of(self.state.part);
+        self.state.part = self.drawing.material(&Material { base_color: color.0, ..material });
     }
 
     fn draw(&mut self, length: f64) -> Result<()> {
         if self.polygons.is_empty() && self.state.width > 0.0 {
-            let part = self.part();
+            let part = self.state.part;
             if self.state.strand.as_ref().is_none_or(|(of, _)| *of != part) {
                 self.lift();
                 let frame = &self.state.frame;
@@ -367,7 +358,7 @@ impl Turtle {
 }
 
 impl State {
-    fn begin(options: &Options) -> Self {
+    fn begin(options: &Options, drawing: &mut Drawing) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
         #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
@@ -380,8 +371,7 @@ impl State {
         Self {
             frame,
             width: options.width,
-            part: None,
-            material,
+            part: drawing.material(&material),
             tropism: options.tropism.0.normalize_or_zero(),
             elasticity: options.elasticity,
             strand: None,
@@ -399,9 +389,9 @@ impl Object for Turtle {
     }
 
     fn begin(&mut self) {
-        self.state = State::begin(&self.options);
         self.stack.clear();
         self.drawing.clear();
+        self.state = State::begin(&self.options, &mut self.drawing);
         self.placed.clear();
         self.placed_triangles = 0;
         self.polygons.clear();

@@ -50,6 +50,12 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
             }
             entries.sort_by(|a, b| a.0.cmp(&b.0));
             let class = match table.metatable() {
+                Some(metatable)
+                    if metatable.raw_get::<Option<String>>("__type").ok().flatten().as_deref()
+                        == Some("module") =>
+                {
+                    return Err(no_module());
+                }
                 Some(metatable) => match metatable.raw_get::<Option<String>>(CLASS) {
                     Ok(Some(class)) => Some(class.into()),
                     _ => return Err(Error::new("a table with a metatable cannot be passed on")),
@@ -70,11 +76,17 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
                 return Err(Error::new("this object cannot be passed on"));
             }
         }
+        LuaValue::Vector(_) => return Err(no_module()),
         other => {
             return Err(Error::new(format!("a {} cannot be passed on", other.type_name()))
                 .help("pass numbers, booleans, strings, tables of these, or objects"));
         }
     })
+}
+
+fn no_module() -> Error {
+    Error::new("a module cannot be passed on")
+        .help("pass its parameters on, and make the module where it belongs into the chain")
 }
 
 /// Makes the Lua value; tables are frozen if `freeze`.

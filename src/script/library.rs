@@ -16,7 +16,7 @@ use super::session::{STANDARD, Session};
 use super::system::{SourceHandle, System, SystemHandle};
 use crate::error::{Error, Result};
 use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
-use crate::rules::{Pattern, Signature, Symbol, Symbols};
+use crate::rules::{Signature, Symbol, Symbols};
 
 /// Names that would make a script's meaning depend on more than itself, or would slow it down.
 const LOCKED: [&str; 14] = [
@@ -40,8 +40,8 @@ const LOCKED: [&str; 14] = [
 pub(crate) struct Standard {
     pub kind: String,
     pub symbol: Symbol,
-    pub bound: usize,
-    pub rule: Function,
+    /// The place of a method among those of the type, called with the module's parameters.
+    pub method: usize,
 }
 
 /// What a machine knows of its script.
@@ -166,16 +166,14 @@ impl Library {
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "__interpretation",
-            lua.create_function(move |_, (kind, pattern, rule): (String, String, Function)| {
-                let pattern =
-                    Pattern::parse(&pattern, &library.symbols.borrow()).map_err(mlua::Error::external)?;
-                let item = pattern.predecessor;
-                library.standard.borrow_mut().push(Standard {
-                    kind,
-                    symbol: item.symbol,
-                    bound: item.bound,
-                    rule,
-                });
+            lua.create_function(move |_, (kind, module, method): (String, String, String)| {
+                let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
+                let known = KINDS.iter().find(|known| known.name == kind);
+                let method =
+                    known.and_then(|known| known.methods.iter().position(|known| known.name == method));
+                let method = method
+                    .ok_or_else(|| mlua::Error::external(Error::new(format!("{kind} has no such method"))))?;
+                library.standard.borrow_mut().push(Standard { kind, symbol, method });
                 Ok(())
             })?,
         )?;

@@ -64,8 +64,10 @@ pub(crate) struct Declared {
 /// How modules are interpreted: the same in every machine.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Interpretations {
-    /// By symbol: the number of its interpretation, from 0, or `u16::MAX`.
+    /// By symbol: the number of its interpretation rule, from 0, or `u16::MAX`.
     pub by_symbol: Vec<u16>,
+    /// By symbol: the method that the standard library gives it, or `u16::MAX`.
+    pub methods: Vec<u16>,
     /// By interpretation: how many parameters it takes, its name and its place.
     pub list: Vec<(usize, String, Option<crate::error::Place>)>,
 }
@@ -409,40 +411,23 @@ impl System {
         Grammar::new(symbols, rules, &ignored, random)
     }
 
-    fn interpreted<'a>(
-        &'a self,
-        library: &'a Library,
-    ) -> Vec<(Symbol, usize, Function, String, Option<crate::error::Place>)> {
-        let mut list: Vec<_> = self
-            .interpretations
-            .iter()
-            .map(|known| {
-                (known.symbol, known.bound, known.rule.clone(), known.name.clone(), known.place.clone())
-            })
-            .collect();
-        let kind = self.object.as_ref().map(|object| object.kind().name);
-        for standard in
-            library.standard.borrow().iter().filter(|standard| Some(standard.kind.as_str()) == kind)
-        {
-            if !list.iter().any(|(symbol, ..)| *symbol == standard.symbol) {
-                let name = library.symbols.borrow().signature(standard.symbol).usage();
-                list.push((standard.symbol, standard.bound, standard.rule.clone(), name, None));
-            }
-        }
-        list
-    }
-
     /// How modules are interpreted.
     pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
-        let mut by_symbol = vec![u16::MAX; library.symbols.borrow().arities().len()];
+        let symbols = library.symbols.borrow().arities().len();
+        let (mut by_symbol, mut methods) = (vec![u16::MAX; symbols], vec![u16::MAX; symbols]);
         let mut list = Vec::new();
-        if self.object.is_some() {
-            for (index, (symbol, bound, _, name, place)) in (0u16..).zip(self.interpreted(library)) {
-                by_symbol[usize::from(symbol)] = index;
-                list.push((bound, name, place));
+        if let Some(object) = &self.object {
+            for standard in library.standard.borrow().iter().filter(|known| known.kind == object.kind().name)
+            {
+                methods[usize::from(standard.symbol)] = u16::try_from(standard.method).unwrap_or(u16::MAX);
+            }
+            for (index, known) in (0u16..).zip(&self.interpretations) {
+                by_symbol[usize::from(known.symbol)] = index;
+                methods[usize::from(known.symbol)] = u16::MAX;
+                list.push((known.bound, known.name.clone(), known.place.clone()));
             }
         }
-        Interpretations { by_symbol, list }
+        Interpretations { by_symbol, methods, list }
     }
 
     /// Prepares `machine` for deriving this system: drivers, interpretation rules, `this`, frozen tables.
@@ -498,11 +483,13 @@ impl System {
         }
         prelude.fresh_interpreters.call::<()>(())?;
         if self.object.is_some() {
-            for (index, (_, bound, rule, name, place)) in
-                self.interpreted(&machine.library).into_iter().enumerate()
-            {
-                prelude.interpreter.call::<()>((index, &rule, bound))?;
-                reached.push(Reached { function: rule, name, place });
+            for (index, known) in self.interpretations.iter().enumerate() {
+                prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
+                reached.push(Reached {
+                    function: known.rule.clone(),
+                    name: known.name.clone(),
+                    place: known.place.clone(),
+                });
             }
         }
         Ok((drivers, guards))

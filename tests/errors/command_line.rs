@@ -70,6 +70,28 @@ fn json_is_one_document_with_the_chain_in_it_where_asked() {
 }
 
 #[test]
+fn json_tells_a_failure_as_the_text_does() {
+    for rules in [
+        "local x = = 3",
+        "print(flors, B)\nn = 1",
+        "s:rule(\"A((x)\", function() end)\ns:rule(\"C\", function() end)",
+        "s:rule(\"A(x)\", function(this, x) return x end)",
+        "s:rule(\"A(x)\", function(this, x) error(\"two\\nlines\") end)",
+        "s:interpret(\"A(x)\", function(this, x) this:forward(0 / 0) end)",
+        "local t = turtle({ wdth = 3 })",
+        "s:derive(-1)",
+        "error({})",
+    ] {
+        Folder::new().with("s.lua", format!("{HEAD}{rules}\ns:derive(1)\n")).refuses(&["run", "s.lua"]);
+    }
+    let folder =
+        Folder::new().with("s.lua", format!("{HEAD}s:rule(\"A(x)\", function() return 3 end) s:derive(1)"));
+    let error = &folder.burgeon(&["run", "s.lua", "--json"]).json()["errors"][0];
+    let parts = ["file", "line", "rule", "module", "step"].map(|name| error[name].to_string());
+    assert_eq!(parts, ["\"s.lua\"", "3", "\"A(x)\"", "\"A(1)\"", "1"]);
+}
+
+#[test]
 fn steps_are_at_most_as_many_as_asked() {
     let modules = |steps: &str| {
         folder().burgeon(&["run", "s.lua", "--json", "--steps", steps]).done().json()["modules"].as_u64()

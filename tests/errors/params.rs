@@ -46,7 +46,7 @@ fn a_value_out_of_range_or_between_steps_is_told_with_what_is_allowed() {
       help: it goes from 0 to 10
     "#);
     assert_snapshot!(set(&["n=-1e300"]), @r#"
-    error: s.lua:1: param n is -1000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000000, out of its range
+    error: s.lua:1: param n is -1e300, out of its range
       | local n = param("n", { default = 5, min = 0, max = 10, step = 2.5, unit = "m" })
       help: it goes from 0 to 10
     "#);
@@ -115,7 +115,7 @@ fn a_declaration_is_checked() {
     assert_snapshot!(refused(PARAMS), @r#"
     error: s.lua:1: the default of param n is 3, between two steps of 2.5
       | local n = param("n", { default = 3, min = 0, max = 10, step = 2.5, unit = "m" })
-      help: change the default or its bounds
+      help: choose 2.5 or 5
     "#);
     assert_snapshot!(refused("param(\"a\", { defualt = 3 })\n"), @r#"
     error: s.lua:1: param a has no field called defualt
@@ -146,7 +146,7 @@ fn a_declaration_is_checked() {
     assert_snapshot!(refused("param(\"a\", { default = 30, max = 10 })\n"), @r#"
     error: s.lua:1: the default of param a is 30, out of its range
       | param("a", { default = 30, max = 10 })
-      help: change the default or its bounds
+      help: it ends at 10
     "#);
     assert_snapshot!(refused("param(\"a\", { default = 3, unit = 4 })\n"), @r#"
     error: s.lua:1: param a: unit must be a string, not 4
@@ -159,6 +159,6 @@ fn a_declaration_is_checked() {
     assert_snapshot!(refused("param(\"a\", { default = \"c\", choices = { \"b\" } })\n"), @r#"
     error: s.lua:1: the default of param a is "c", which is no choice
       | param("a", { default = "c", choices = { "b" } })
-      help: change the default or its bounds
+      help: choose one of b
     "#);
 }

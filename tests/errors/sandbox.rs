@@ -4,7 +4,7 @@ use crate::support::{Folder, HEAD, chain, printed, refused, refused_rules};
 
 #[test]
 fn the_system_is_out_of_reach_by_name() {
-    for name in [
+    let names = [
         "os",
         "io",
         "loadstring",
@@ -23,12 +23,13 @@ fn the_system_is_out_of_reach_by_name() {
         "vector",
         "_ENV",
         "arg",
-        "module.x.y.z and ffi",
+        "ffi",
         "math.random",
         "math.randomseed",
-    ] {
-        let said = refused(&format!("local a = 1\nprint({name})\n"));
-        assert!(said.starts_with("error: s.lua:2: unknown name "), "{name}: {said}");
+    ];
+    let said = refused(&names.map(|name| format!("print({name})\n")).concat());
+    for (line, name) in (1..).zip(names) {
+        assert!(said.contains(&format!("error: s.lua:{line}: unknown name {name}\n")), "{said}");
     }
 }
 
@@ -95,19 +96,23 @@ fn nothing_that_scripts_share_can_be_written() {
         "table.insert(t, 1)",
         "table.clear(t)",
     ];
-    for target in targets {
-        let tries: String = writes
-            .iter()
-            .map(|write| format!("print(pcall(function()\n  local t: any = {target}\n  {write}\nend))\n"))
-            .collect();
-        for line in printed(&tries) {
-            assert!(line.starts_with("false\t"), "{target}: {line}");
-        }
+    let tries: String = targets
+        .iter()
+        .flat_map(|target| {
+            writes.iter().map(move |write| {
+                format!("print((pcall(function()\n  local t: any = {target}\n  {write}\nend)), [[{target}: {write}]])\n")
+            })
+        })
+        .collect();
+    let lines = printed(&tries);
+    assert_eq!(lines.len(), targets.len() * writes.len());
+    for line in lines {
+        assert!(line.starts_with("false\t"), "{line}");
     }
     let lines = printed(
-        "print(pcall(function() local t: any = turtle() t.x = 1 end))\nprint(pcall(function() local t: any = lsystem() t.rule = 1 end))",
+        "print((pcall(function() local t: any = turtle() t.x = 1 end)))\nprint((pcall(function() local t: any = lsystem() t.rule = 1 end)))",
     );
-    assert!(lines.iter().all(|line| line.starts_with("false\t")), "{lines:?}");
+    assert_eq!(lines, ["false", "false"]);
 }
 
 #[test]
@@ -123,7 +128,6 @@ fn a_rule_leaves_no_trace_for_another_in_what_the_language_shares() {
         "table.insert(this, x)",
         "getmetatable(A(1)).trace = x",
         "getmetatable(vec(1, 2, 3)).trace = x",
-        "vec(1, 2, 3).__index = x",
     ] {
         let said = refused_rules(&format!(
             "s:rule(\"A(x)\", function(this: any, x)\n  {write}\n  return A(x)\nend)"
@@ -150,8 +154,8 @@ fn forged_modules_are_refused() {
         "{ \"A\", {} }, getmetatable(B())",
         "{ 1, 0 }, { __metatable = getmetatable(B()) }",
     ];
-    for forgery in forgeries {
-        for (place, script) in [
+    for (index, forgery) in forgeries.into_iter().enumerate() {
+        let scripts = [
             (
                 "axiom",
                 format!("{HEAD}local fake: any = setmetatable({forgery})\ns:axiom(fake)\ns:derive(1)\n"),
@@ -175,7 +179,9 @@ fn forged_modules_are_refused() {
                 ),
             ),
             ("parameter", format!("{HEAD}s:axiom(A(setmetatable({forgery})))\ns:derive(1)\n")),
-        ] {
+        ];
+        // In the axiom, and in one of the other places, by turns.
+        for (place, script) in [&scripts[0], &scripts[1 + index % 4]] {
             let folder = Folder::new().with("s.lua", script);
             let said = folder.burgeon(&["run", "s.lua"]);
             // setmetatable may refuse the forgery itself; a table without a metatable in the end is a branch.
@@ -187,13 +193,14 @@ fn forged_modules_are_refused() {
 
 #[test]
 fn a_forged_module_cannot_be_shown() {
-    for contents in ["{ 900, 3 }", "{ 0, 0 }", "{ 3, 1e9 }", "{ -1, -1 }", "{}"] {
-        let script = format!(
-            "{HEAD}print(pcall(function() return tostring(setmetatable({contents}, getmetatable(B() :: any))) end))\nprint(\"alive\")\n"
-        );
-        let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).done();
-        assert!(said.stderr.contains("alive\n"), "{contents}: {}", said.stderr);
-    }
+    let contents = ["{ 900, 3 }", "{ 0, 0 }", "{ 3, 1e9 }", "{ -1, -1 }", "{}"];
+    let show = |contents| {
+        format!(
+            "print(pcall(function() return tostring(setmetatable({contents}, getmetatable(B() :: any))) end))\n"
+        )
+    };
+    let lines = printed(&format!("{HEAD}{}print(\"alive\")\n", contents.map(show).concat()));
+    assert_eq!(lines.last().map(String::as_str), Some("alive"), "{lines:?}");
 }
 
 #[test]

@@ -291,7 +291,7 @@ fn declarations_belong_at_the_top_level() {
         ] {
             let script = format!("{HEAD}local other = lsystem() other:axiom(B())\n{place}\ns:derive(1)\n");
             let folder = Folder::new().with("s.lua", script).with("late.lua", "return 1\n");
-            let said = folder.refuses(&["run", "s.lua"]);
+            let said = folder.burgeon(&["run", "s.lua"]).failed();
             assert!(
                 said.starts_with("error: s.lua:5: ") && said.contains("top level of the script"),
                 "{call}: {said}"
@@ -317,7 +317,10 @@ fn an_error_that_a_script_raises_keeps_its_text() {
     two
       | error("one\ntwo")
     "#);
-    assert_snapshot!(refused("error(\"no place\", 0)\n"), @"error: no place");
+    assert_snapshot!(refused("error(\"no place\", 0)\n"), @r#"
+    error: s.lua:1: no place
+      | error("no place", 0)
+    "#);
     for value in ["{}", "nil", "print"] {
         let once = refused(&format!("local a = 1\nerror({value})\n"));
         assert!(once.starts_with("error: "), "{once}");

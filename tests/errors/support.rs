@@ -147,7 +147,10 @@ pub(crate) fn refused(script: &str) -> String {
 
 pub(crate) fn refused_with(script: &str, flags: &[&str]) -> String {
     let folder = Folder::new().with("s.lua", script).with("model.glb", "old");
-    folder.refuses(&[&["run", "s.lua", "-o", "model.glb"], flags].concat())
+    let before = folder.files();
+    let text = folder.burgeon(&[&["run", "s.lua", "-o", "model.glb"], flags].concat()).failed();
+    assert_eq!((folder.files(), folder.read("model.glb").as_str()), (before, "old"));
+    text
 }
 
 /// As [`refused`], for rules of the system in [`HEAD`], derived by one step; they begin in line 3.

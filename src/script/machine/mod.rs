@@ -211,7 +211,8 @@ fn translate(error: &mlua::Error) -> Error {
 
 /// Takes `file:line: message`, a remedy behind the character 1 and a traceback apart.
 fn parse(text: &str) -> Error {
-    let text = text.split("\nstack traceback:").next().unwrap_or(text).trim_end();
+    let (text, traceback) = text.split_once("\nstack traceback:").unwrap_or((text, ""));
+    let text = text.trim_end();
     let (text, help) = match text.split_once('\u{1}') {
         Some((text, help)) => (text, Some(help)),
         None => (text, None),
@@ -227,7 +228,8 @@ fn parse(text: &str) -> Error {
         return Error::new("the script raised an error that is no text")
             .help("write error(\"what is wrong\")");
     }
-    let error = Error::new(message).at(place);
+    // What a function of Luau's library refuses has no place of its own.
+    let error = Error::new(message).at(place).at(place_in_traceback(traceback));
     match help {
         Some(help) => error.help(help),
         None if message.contains("modify a readonly table") => error.help(
@@ -248,7 +250,7 @@ fn split_place(text: &str) -> Option<(Option<Place>, &str)> {
         if digits > 0 && text[behind..].starts_with(':') && !text[..colon].contains('\n') {
             let line = text[colon + 1..behind].parse().ok()?;
             let file = &text[..colon];
-            let own = file == OWN || file.is_empty();
+            let own = file == OWN || file.is_empty() || file.starts_with("__mlua");
             let place = (!own).then(|| Place { file: file.to_owned(), line });
             return Some((place, text[behind + 1..].trim_start()));
         }
