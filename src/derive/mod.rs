@@ -118,7 +118,6 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         done += 1;
         session.progress.note(done, limit, chain.symbols.len());
         session.forget_unused(&chain.params);
-        machine.refresh();
         if interprets && !last_only {
             chain = interpret(chain, done, &mut times)?;
         }

@@ -26,7 +26,7 @@ use crate::error::{Error, Place, nearest};
 use crate::rules::Signature;
 
 /// The most parameters that a prepared return can have.
-const MOST_EMITTED: usize = 16;
+const MOST_EMITTED: usize = 64;
 
 /// Added to the number of a shape, so that it cannot be taken for a count of modules.
 const SHAPE: usize = 1 << 30;

@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::path::{Component, Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
@@ -10,13 +10,16 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::analysis::Globals;
 use super::convert::{class_key, to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
-use super::machine::Machine;
+use super::machine::{Machine, compile};
 use super::param::Param;
-use super::session::{STANDARD, Session};
+use super::session::Session;
 use super::system::{SourceHandle, System, SystemHandle};
 use crate::error::{Error, Result};
 use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
 use crate::rules::{Signature, Symbol, Symbols};
+
+/// The standard library, which every script has, compiled once for all machines.
+static STANDARD_COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| compile(include_str!("../../stdlib.lua")));
 
 /// Names that would make a script's meaning depend on more than itself, or would slow it down.
 const LOCKED: [&str; 14] = [
@@ -89,8 +92,10 @@ impl Library {
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
-        let exports: Table =
-            machine.load("stdlib.lua", STANDARD)?.call(()).map_err(|error| machine.translate(error))?;
+        let exports: Table = machine
+            .load_compiled("stdlib.lua", &STANDARD_COMPILED)?
+            .call(())
+            .map_err(|error| machine.translate(error))?;
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
             let (name, value) = pair.map_err(|error| machine.translate(error))?;
@@ -291,7 +296,7 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
     for (index, method) in kind.methods.iter().enumerate() {
         let name = format!("{}:{}", kind.name, method.name);
         let function: Function = match &method.call {
-            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 6 => {
+            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
                 machine.prelude().recorder.call((index, name, method.arguments.len()))?
             }
             Call::Write { .. } => machine.prelude().direct.call((index, name, true))?,

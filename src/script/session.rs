@@ -12,9 +12,6 @@ use super::param::Param;
 use crate::error::{Error, Result};
 use crate::rules::Values;
 
-/// The standard library, which every script has.
-pub(crate) const STANDARD: &str = include_str!("../../stdlib.lua");
-
 /// How much a run may use.
 #[derive(Debug, Clone)]
 pub struct Limits {

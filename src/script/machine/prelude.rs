@@ -1,8 +1,14 @@
 //! Loads the Lua side of the hot path.
 
+use std::sync::LazyLock;
+
+use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Table};
 
 const TEMPLATE: &str = include_str!("prelude.luau");
+
+/// The template written out and compiled, once for all machines.
+static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(TEMPLATE)));
 
 /// The functions of `prelude.luau` that Rust calls.
 pub(crate) struct Prelude {
@@ -46,7 +52,8 @@ pub(crate) struct Prelude {
 
 impl Prelude {
     pub(crate) fn load(lua: &Lua, host: Table) -> mlua::Result<Self> {
-        let table: Table = lua.load(expand(TEMPLATE)).set_name("=burgeon").call(host)?;
+        let table: Table =
+            lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary).call(host)?;
         Ok(Self {
             constructor: table.get("constructor")?,
             driver: table.get("driver")?,
