@@ -123,7 +123,10 @@ pub(crate) fn matches(items: &[Item], pattern: &Pattern, ignored: &[String]) -> 
     found
 }
 
-fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a str>, see: &mut dyn FnMut(&[&'a str], &[Item], usize)) {
+/// Sees the path to an item, the items around it and its place among them.
+type See<'a> = dyn FnMut(&[&'a str], &[Item], usize) + 'a;
+
+fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a str>, see: &mut See<'a>) {
     let depth = path.len();
     for (position, item) in items.iter().enumerate() {
         match item {
