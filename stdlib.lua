@@ -1,7 +1,7 @@
 --!strict
 -- Burgeon's standard library: what every script has besides Luau itself. It returns the names it gives.
 
--- Vectors ---------------------------------------------------------------------------------------------------
+-- Vectors.
 -- Immutable, three numbers x, y and z in metres; they may travel in modules.
 
 local Vec = {}
@@ -73,7 +73,7 @@ end
 
 __class("vec", Vec)
 
--- Numbers ---------------------------------------------------------------------------------------------------
+-- Numbers.
 
 --- From `a` to `b` as `t` goes from 0 to 1.
 local function lerp(a: number, b: number, t: number): number
@@ -107,7 +107,7 @@ local ease = {
   end,
 }
 
--- Noise -----------------------------------------------------------------------------------------------------
+-- Noise.
 
 -- A number from 0 to 1 for each point of a lattice: three rounds of a 32-bit integer hash.
 local function hash(x: number, y: number, z: number, seed: number): number
@@ -135,7 +135,7 @@ local function noise(x: number, y: number?, z: number?, seed: number?): number
   return 2 * lerp(low, high, fz) - 1
 end
 
--- Colours ---------------------------------------------------------------------------------------------------
+-- Colours.
 -- As objects take them: { red, green, blue } from 0 to 1, sRGB.
 
 --- A colour from hue (degrees), saturation and value (0 to 1).

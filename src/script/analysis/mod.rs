@@ -1,0 +1,110 @@
+//! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
+//!
+//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes one call
+//! with all parameters, since its modules and brackets, its shape, can be seen from the text; its other
+//! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
+//! outside it is preceded by a check that no rule is running.
+
+mod prepare;
+mod syntax;
+mod walk;
+
+use std::sync::Arc;
+use std::sync::atomic::AtomicUsize;
+use std::sync::mpsc::channel;
+use std::time::Duration;
+
+use mlua::chunk::Compiler;
+use rustc_hash::FxHashMap;
+
+use crate::error::{Error, Place};
+use crate::rules::Signature;
+use walk::{Facts, Walk};
+
+/// What a script may use without declaring it.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Globals {
+    /// The names of values.
+    pub names: Vec<String>,
+    /// The modules among them.
+    pub modules: FxHashMap<String, Signature>,
+    /// Counts the shapes of the run's rules.
+    pub shapes: Arc<AtomicUsize>,
+}
+
+/// What reading a script gives.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Analysis {
+    /// The text to run, with as many lines as the script.
+    pub text: String,
+    /// What is wrong, by line.
+    pub problems: Vec<Error>,
+    /// Whether the script names `random`.
+    pub random: bool,
+}
+
+/// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.
+const STACK: usize = 256 << 20;
+
+/// How long reading a script may take. The parser's time doubles with each level of nested strings.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
+pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
+    // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
+    if Compiler::new().compile(text).is_err() {
+        return unread(text, Vec::new());
+    }
+    let (sender, receiver) = channel();
+    let (name, source, known) = (file.to_owned(), text.to_owned(), globals.clone());
+    // The receiver may have given up.
+    let read = move || drop(sender.send(analyse_compiled(&name, &source, &known)));
+    let started = std::thread::Builder::new().stack_size(STACK).spawn(read).is_ok();
+    match receiver.recv_timeout(PATIENCE) {
+        Ok(analysis) if started => analysis,
+        _ => {
+            let error = Error::new(format!("reading {file} takes too long"))
+                .help("nest strings such as `a {`b`}` less deeply, or divide the file");
+            unread(text, vec![error])
+        }
+    }
+}
+
+/// The analysis of a script that is not to be run.
+fn unread(text: &str, problems: Vec<Error>) -> Analysis {
+    Analysis { text: text.to_owned(), problems, random: true }
+}
+
+fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
+    let refuse = |line: usize| {
+        let place = Place { file: file.to_owned(), line };
+        let error = Error::new("this part of Luau's syntax is not known to Burgeon")
+            .help("write it in another way; attributes in brackets, such as @[native], are not needed");
+        unread(text, vec![error.at(Some(place))])
+    };
+    let ast = match full_moon::parse(text) {
+        Ok(ast) => ast,
+        Err(errors) => return refuse(errors.first().map_or(1, |error| error.range().0.line())),
+    };
+    // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
+    let mut first = Walk::new(file, globals, Facts::default());
+    first.run(&ast);
+    let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
+    second.run(&ast);
+    let Walk { mut edits, mut problems, random, .. } = second;
+    problems.sort_by(|a, b| a.place().cmp(&b.place()));
+    // What is put before a token comes before what replaces it.
+    edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
+    let mut out = String::with_capacity(text.len() + 64 * edits.len());
+    let mut at = 0;
+    for edit in &edits {
+        if edit.begin < at {
+            return refuse(text[..edit.begin].matches('\n').count() + 1);
+        }
+        out.push_str(&text[at..edit.begin]);
+        out.push_str(&edit.text);
+        at = edit.end;
+    }
+    out.push_str(&text[at..]);
+    Analysis { text: out, problems, random }
+}

@@ -1,0 +1,498 @@
+//! Walks a script: variables and their scopes, names, and the checks that need no running.
+
+use full_moon::ast::luau::{ElseIfExpression, IfExpression};
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{
+    Ast, Block, Call, Expression, Field, FunctionArgs, FunctionBody, FunctionCall, Index, LastStmt, Prefix,
+    Stmt, Suffix, TableConstructor, Var,
+};
+use full_moon::node::Node;
+use full_moon::tokenizer::TokenReference;
+
+use super::Globals;
+use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
+use crate::error::{Error, Place, nearest};
+use crate::rules::Signature;
+
+/// What the first walk learned about the variables, in the order of their declaration.
+#[derive(Default)]
+pub(super) struct Facts {
+    pub(super) variables: Vec<Fact>,
+}
+
+#[derive(Default, Clone)]
+pub(super) struct Fact {
+    pub(super) assigned: bool,
+    pub(super) assigned_inside: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    Script,
+    Rule,
+    Guard,
+    Interpretation,
+    Other,
+}
+
+pub(super) struct Function {
+    pub(super) role: Role,
+    /// The rule that it belongs to, as errors name it.
+    pub(super) rule: Option<String>,
+    /// What its prepared returns make, as Lua tables.
+    pub(super) shapes: Vec<String>,
+}
+
+pub(super) struct Variable {
+    pub(super) name: String,
+    pub(super) id: usize,
+    pub(super) function: usize,
+    pub(super) module: Option<Signature>,
+}
+
+pub(super) struct Edit {
+    pub(super) begin: usize,
+    pub(super) end: usize,
+    pub(super) text: String,
+    pub(super) order: usize,
+}
+
+pub(super) struct Walk<'a> {
+    pub(super) file: &'a str,
+    pub(super) globals: &'a Globals,
+    pub(super) known: Facts,
+    pub(super) facts: Facts,
+    pub(super) functions: Vec<Function>,
+    pub(super) variables: Vec<Variable>,
+    pub(super) edits: Vec<Edit>,
+    pub(super) problems: Vec<Error>,
+    pub(super) random: bool,
+    /// The rule whose functions are being walked.
+    pub(super) rule: Option<String>,
+}
+
+impl<'a> Walk<'a> {
+    pub(super) fn new(file: &'a str, globals: &'a Globals, known: Facts) -> Self {
+        Self {
+            file,
+            globals,
+            known,
+            facts: Facts::default(),
+            functions: vec![Function { role: Role::Script, rule: None, shapes: Vec::new() }],
+            variables: Vec::new(),
+            edits: Vec::new(),
+            problems: Vec::new(),
+            random: false,
+            rule: None,
+        }
+    }
+
+    pub(super) fn run(&mut self, ast: &Ast) {
+        self.block(ast.nodes());
+    }
+
+    pub(super) fn block(&mut self, block: &Block) {
+        let outside = self.variables.len();
+        self.open_block(block);
+        self.variables.truncate(outside);
+    }
+
+    /// Walks a block and leaves its variables in scope.
+    pub(super) fn open_block(&mut self, block: &Block) {
+        for statement in block.stmts() {
+            self.statement(statement);
+        }
+        if let Some(LastStmt::Return(statement)) = block.last_stmt() {
+            self.returns(statement.token(), statement.returns());
+        }
+    }
+
+    pub(super) fn statement(&mut self, statement: &Stmt) {
+        match statement {
+            Stmt::Assignment(assignment) => {
+                self.expressions(assignment.expressions());
+                for variable in assignment.variables() {
+                    self.assign(variable, statement);
+                }
+            }
+            Stmt::CompoundAssignment(assignment) => {
+                self.expression(assignment.rhs());
+                self.assign(assignment.lhs(), statement);
+            }
+            Stmt::Do(inner) => self.block(inner.block()),
+            Stmt::FunctionCall(call) => self.call(call),
+            Stmt::FunctionDeclaration(declaration) => {
+                let names = declaration.name().names();
+                if let Some(first) = names.first() {
+                    if names.len() == 1 && declaration.name().method_name().is_none() {
+                        self.assign_name(first.value(), statement);
+                    } else {
+                        self.read(first.value());
+                    }
+                }
+                self.function(declaration.body(), Role::Other, declaration.name().method_name().is_some());
+            }
+            Stmt::LocalFunction(function) => self.local_function(function.name(), function.body(), statement),
+            Stmt::ConstFunction(function) => self.local_function(function.name(), function.body(), statement),
+            Stmt::LocalAssignment(local) => self.local(local.names(), local.expressions(), statement),
+            Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions(), statement),
+            Stmt::GenericFor(generic) => {
+                self.expressions(generic.expressions());
+                let outside = self.variables.len();
+                for name in generic.names() {
+                    self.declare(name, first_position(generic.block(), generic.end_token()));
+                }
+                self.block(generic.block());
+                self.variables.truncate(outside);
+            }
+            Stmt::NumericFor(numeric) => {
+                self.expression(numeric.start());
+                self.expression(numeric.end());
+                if let Some(step) = numeric.step() {
+                    self.expression(step);
+                }
+                let outside = self.variables.len();
+                self.declare(numeric.index_variable(), first_position(numeric.block(), numeric.end_token()));
+                self.block(numeric.block());
+                self.variables.truncate(outside);
+            }
+            Stmt::If(branches) => {
+                self.expression(branches.condition());
+                self.block(branches.block());
+                for branch in branches.else_if().into_iter().flatten() {
+                    self.expression(branch.condition());
+                    self.block(branch.block());
+                }
+                if let Some(block) = branches.else_block() {
+                    self.block(block);
+                }
+            }
+            Stmt::Repeat(repeat) => {
+                let outside = self.variables.len();
+                self.open_block(repeat.block());
+                self.expression(repeat.until());
+                self.variables.truncate(outside);
+            }
+            Stmt::While(repeat) => {
+                self.expression(repeat.condition());
+                self.block(repeat.block());
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
+        self.declare(name, end_of(statement).map(|end| end.bytes()));
+        self.function(body, Role::Other, false);
+    }
+
+    pub(super) fn local(
+        &mut self,
+        names: &Punctuated<TokenReference>,
+        values: &Punctuated<Expression>,
+        statement: &Stmt,
+    ) {
+        self.expressions(values);
+        let values: Vec<&Expression> = values.iter().collect();
+        for (index, name) in names.iter().enumerate() {
+            let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
+            let module = values.get(index).and_then(|value| declared_module(value));
+            if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
+                variable.module = module;
+            }
+        }
+    }
+
+    /// Puts a variable into scope. `behind` is where a statement may follow its declaration.
+    pub(super) fn declare(&mut self, name: &TokenReference, behind: Option<usize>) -> usize {
+        let id = self.facts.variables.len();
+        self.facts.variables.push(Fact::default());
+        let function = self.functions.len() - 1;
+        let text = text_of(name);
+        if text.starts_with("__") {
+            let error = Error::new(format!("a variable cannot be called {text}"));
+            self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
+        }
+        self.variables.push(Variable { name: text, id, function, module: None });
+        if function > 0
+            && self.fact(id).assigned_inside
+            && let Some(at) = behind
+        {
+            self.edit(at, at, format!(" local __epoch_{id} = __epoch();"));
+        }
+        id
+    }
+
+    pub(super) fn fact(&self, id: usize) -> Fact {
+        self.known.variables.get(id).cloned().unwrap_or_default()
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().rev().find(|variable| variable.name == name)
+    }
+
+    pub(super) fn assign(&mut self, variable: &Var, statement: &Stmt) {
+        match variable {
+            Var::Name(name) => self.assign_name(name, statement),
+            Var::Expression(expression) => {
+                self.prefix(expression.prefix());
+                for suffix in expression.suffixes() {
+                    self.suffix(suffix);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn assign_name(&mut self, token: &TokenReference, statement: &Stmt) {
+        let name = text_of(token);
+        let here = self.functions.len() - 1;
+        let rule = self
+            .functions
+            .iter()
+            .rposition(|function| matches!(function.role, Role::Rule | Role::Guard | Role::Interpretation));
+        let found = self.find(&name).map(|variable| (variable.id, variable.function));
+        let Some((id, owner)) = found else {
+            if self.globals.names.contains(&name) {
+                let error = Error::new(format!("{name} is Burgeon's own and cannot be assigned"));
+                self.problem(token, error.help("choose another name: local ..."));
+                return;
+            }
+            let error = Error::new(format!("{name} is assigned, but it is no local variable"));
+            self.problem(token, match rule {
+                Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
+                None => error.help(format!("scripts have no globals of their own; write: local {name} = ...")),
+            });
+            return;
+        };
+        let fact = &mut self.facts.variables[id];
+        fact.assigned = true;
+        fact.assigned_inside |= owner < here;
+        if let Some(rule) = rule {
+            if owner < rule {
+                let what = match self.functions[rule].role {
+                    Role::Guard => "a guard",
+                    Role::Interpretation => "an interpretation rule",
+                    _ => "a rule",
+                };
+                let help = match self.functions[rule].role {
+                    Role::Interpretation => {
+                        "it changes only this; keep what must be remembered in a parameter of a module"
+                    }
+                    _ => {
+                        "carry it in a parameter of a module; to change the object, use an interpretation rule"
+                    }
+                };
+                self.problem(
+                    token,
+                    Error::new(format!("{what} assigns {name}, a variable from outside it")).help(help),
+                );
+            }
+            return;
+        }
+        if owner < here
+            && let Some(begin) = statement.start_position()
+        {
+            let epoch = if owner == 0 { "0".to_owned() } else { format!("__epoch_{id}") };
+            self.edit(begin.bytes(), begin.bytes(), format!("__guard(\"{name}\", {epoch}); "));
+        }
+    }
+
+    pub(super) fn read(&mut self, token: &TokenReference) {
+        let name = text_of(token);
+        self.random |= name == "random";
+        if self.find(&name).is_some() || self.globals.names.contains(&name) {
+            return;
+        }
+        let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
+        let near = nearest(&name, locals.chain(self.globals.names.iter().map(String::as_str)));
+        let error = Error::new(format!("unknown name {name}"));
+        if let Some(instead) = instead_of(&name) {
+            return self.problem(token, error.help(instead));
+        }
+        let error = match (near, name.starts_with(|c: char| c.is_ascii_uppercase())) {
+            (Some(near), _) => error.help(format!("did you mean {near}?")),
+            (None, true) => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
+            (None, false) => error.help(format!("declare it: local {name} = ...")),
+        };
+        self.problem(token, error);
+    }
+
+    pub(super) fn expressions(&mut self, expressions: &Punctuated<Expression>) {
+        for expression in expressions {
+            self.expression(expression);
+        }
+    }
+
+    pub(super) fn expression(&mut self, expression: &Expression) {
+        match expression {
+            Expression::BinaryOperator { lhs, rhs, .. } => {
+                self.expression(lhs);
+                self.expression(rhs);
+            }
+            Expression::Parentheses { expression, .. }
+            | Expression::UnaryOperator { expression, .. }
+            | Expression::TypeAssertion { expression, .. } => self.expression(expression),
+            Expression::Function(function) => {
+                self.function(function.body(), Role::Other, false);
+            }
+            Expression::FunctionCall(call) => self.call(call),
+            Expression::IfExpression(branches) => self.if_expression(branches),
+            Expression::InterpolatedString(string) => {
+                for inner in string.expressions() {
+                    self.expression(inner);
+                }
+            }
+            Expression::TableConstructor(table) => self.table(table),
+            Expression::Var(variable) => match variable {
+                Var::Name(name) => {
+                    self.read(name);
+                }
+                Var::Expression(expression) => {
+                    self.library_field(expression.prefix(), expression.suffixes().next());
+                    self.prefix(expression.prefix());
+                    for suffix in expression.suffixes() {
+                        self.suffix(suffix);
+                    }
+                }
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+
+    pub(super) fn if_expression(&mut self, branches: &IfExpression) {
+        self.expression(branches.condition());
+        self.expression(branches.if_expression());
+        for branch in branches.else_if_expressions().into_iter().flatten() {
+            let branch: &ElseIfExpression = branch;
+            self.expression(branch.condition());
+            self.expression(branch.expression());
+        }
+        self.expression(branches.else_expression());
+    }
+
+    pub(super) fn table(&mut self, table: &TableConstructor) {
+        for field in table.fields() {
+            match field {
+                Field::ExpressionKey { key, value, .. } => {
+                    self.expression(key);
+                    self.expression(value);
+                }
+                Field::NameKey { value, .. } => self.expression(value),
+                Field::NoKey(value) => self.expression(value),
+                _ => {}
+            }
+        }
+    }
+
+    pub(super) fn prefix(&mut self, prefix: &Prefix) {
+        match prefix {
+            Prefix::Expression(expression) => self.expression(expression),
+            Prefix::Name(name) => {
+                self.read(name);
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn suffix(&mut self, suffix: &Suffix) {
+        match suffix {
+            Suffix::Call(Call::AnonymousCall(arguments)) => self.arguments(arguments),
+            Suffix::Call(Call::MethodCall(method)) => self.arguments(method.args()),
+            Suffix::Index(Index::Brackets { expression, .. }) => self.expression(expression),
+            _ => {}
+        }
+    }
+
+    pub(super) fn arguments(&mut self, arguments: &FunctionArgs) {
+        match arguments {
+            FunctionArgs::Parentheses { arguments, .. } => self.expressions(arguments),
+            FunctionArgs::TableConstructor(table) => self.table(table),
+            _ => {}
+        }
+    }
+
+    /// Refuses the fields of Luau's tables that scripts do not have.
+    pub(super) fn library_field(&mut self, prefix: &Prefix, suffix: Option<&Suffix>) {
+        if let (Prefix::Name(table), Some(Suffix::Index(Index::Dot { name, .. }))) = (prefix, suffix)
+            && self.find(&text_of(table)).is_none()
+        {
+            let name = format!("{}.{}", text_of(table), text_of(name));
+            if let Some(instead) = instead_of(&name) {
+                self.problem(table, Error::new(format!("unknown name {name}")).help(instead));
+            }
+        }
+    }
+
+    pub(super) fn call(&mut self, call: &FunctionCall) {
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        self.library_field(call.prefix(), suffixes.first().copied());
+        if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+            (call.prefix(), suffixes.as_slice())
+            && let Some(signature) = self.module(name)
+        {
+            self.check_arity(name, &signature, arguments);
+        }
+        match call.prefix() {
+            Prefix::Name(name) => self.read(name),
+            prefix => self.prefix(prefix),
+        }
+        for suffix in suffixes {
+            match suffix {
+                Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
+                    "rule" => self.rule(method.args(), Role::Rule),
+                    "interpret" => self.rule(method.args(), Role::Interpretation),
+                    _ => self.suffix(suffix),
+                },
+                _ => self.suffix(suffix),
+            }
+        }
+    }
+
+    pub(super) fn check_arity(
+        &mut self,
+        name: &TokenReference,
+        signature: &Signature,
+        arguments: &FunctionArgs,
+    ) {
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return };
+        let open = matches!(arguments.iter().last(), Some(Expression::FunctionCall(_)))
+            || matches!(arguments.iter().last(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "...");
+        let given = arguments.len();
+        let few = given < signature.required && !open;
+        let many = given > signature.arity() + usize::from(open);
+        if few || many {
+            self.problem(
+                name,
+                Error::new(format!("{} has {}, not {given}", signature.name, signature.count()))
+                    .help(format!("it was declared as {}", signature.usage())),
+            );
+        }
+    }
+
+    /// The signature of the module whose constructor `name` is.
+    pub(super) fn module(&self, name: &TokenReference) -> Option<Signature> {
+        let text = text_of(name);
+        match self.find(&text) {
+            Some(variable) if self.fact(variable.id).assigned => None,
+            Some(variable) => variable.module.clone(),
+            None => self.globals.modules.get(&text).cloned(),
+        }
+    }
+
+    pub(super) fn edit(&mut self, begin: usize, end: usize, text: String) {
+        let order = self.edits.len();
+        self.edits.push(Edit { begin, end, text, order });
+    }
+
+    pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
+        let line = token.start_position().map_or(1, |position| position.line());
+        let error = error.at(Some(Place { file: self.file.to_owned(), line }));
+        let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
+        self.problems.push(match rule {
+            Some(rule) => error.rule(rule),
+            None => error,
+        });
+    }
+}

@@ -1,0 +1,171 @@
+//! Makes the first chains of a system.
+
+use std::sync::Arc;
+
+use mlua::{Function, MultiValue, Value as LuaValue};
+
+use crate::derive::Axiom;
+use crate::error::{Error, Result};
+use crate::rules::{CLOSE, Chain, END, Key, OPEN, Symbol};
+use crate::script::convert::to_value;
+use crate::script::handles::ObjectHandle;
+use crate::script::machine::Machine;
+
+use super::{DeclaredAxiom, SourceHandle, System};
+
+impl System {
+    /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes.
+    pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
+        match &self.axiom {
+            Some(DeclaredAxiom::Source(..)) => self.axiom(machine, Key::default(), false).map(|_| ()),
+            _ => Ok(()),
+        }
+    }
+
+    /// Makes the first chains: one from modules, or one for each feature.
+    pub(crate) fn axiom(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
+        let mut axiom = Axiom::default();
+        let mut builder = Builder { machine, chain: &mut axiom.chain, random };
+        match &self.axiom {
+            None => return Err(Error::new("the system has no axiom").help("write system:axiom(A(1))")),
+            Some(DeclaredAxiom::Modules(modules)) => {
+                builder.list(modules, key)?;
+                builder.push(END, &[], key);
+                axiom.objects.extend(self.object.as_ref().map(|object| object.boxed()));
+                axiom.features.push(None);
+            }
+            Some(DeclaredAxiom::Source(source, function)) => {
+                self.features(machine, source, function, key, random, &mut axiom)?
+            }
+        }
+        Ok(axiom)
+    }
+
+    fn features(
+        &self,
+        machine: &Machine,
+        source: &LuaValue,
+        function: &Function,
+        key: Key,
+        random: bool,
+        axiom: &mut Axiom,
+    ) -> Result<()> {
+        let LuaValue::UserData(data) = source else { return Ok(()) };
+        let handle = data.borrow::<SourceHandle>().map_err(|error| machine.translate(error))?;
+        let LuaValue::Table(features) = &handle.0 else { return Ok(()) };
+        for (index, feature) in features.sequence_values::<LuaValue>().enumerate() {
+            let feature = feature.map_err(|error| machine.translate(error))?;
+            let id = match &feature {
+                LuaValue::Table(feature) => match feature.raw_get::<LuaValue>("id") {
+                    Ok(LuaValue::Nil) | Err(_) => (index + 1).to_string(),
+                    Ok(id) => id.to_string().unwrap_or_default(),
+                },
+                _ => (index + 1).to_string(),
+            };
+            let key = key.feature(&id);
+            let made: MultiValue = function.call(feature).map_err(|error| machine.translate(error))?;
+            let mut made: Vec<LuaValue> = made.into_iter().collect();
+            let own = match made.first() {
+                Some(LuaValue::UserData(data)) => {
+                    data.borrow::<ObjectHandle>().ok().map(|handle| Arc::clone(&handle.0))
+                }
+                _ => None,
+            };
+            if own.is_some() {
+                made.remove(0);
+            }
+            let object = own.or_else(|| self.object.clone());
+            if let (Some(object), Some(expected)) = (&object, &self.object)
+                && object.kind().name != expected.kind().name
+            {
+                return Err(Error::new(format!(
+                    "feature {id} got a {} where the system's object is a {}",
+                    object.kind().name,
+                    expected.kind().name
+                )));
+            }
+            axiom.objects.extend(object.map(|object| object.boxed()));
+            axiom.features.push(Some(id));
+            let mut builder = Builder { machine, chain: &mut axiom.chain, random };
+            builder.list(&made, key)?;
+            builder.push(END, &[], key);
+        }
+        Ok(())
+    }
+}
+
+/// Writes modules that were made outside of rules into a chain.
+struct Builder<'a> {
+    machine: &'a Machine,
+    chain: &'a mut Chain,
+    random: bool,
+}
+
+impl Builder<'_> {
+    fn push(&mut self, symbol: Symbol, params: &[f64], key: Key) {
+        self.chain.symbols.push(symbol);
+        self.chain.params.extend_from_slice(params);
+        if self.random {
+            self.chain.keys.push(key);
+        }
+    }
+
+    fn list(&mut self, items: &[LuaValue], key: Key) -> Result<()> {
+        let mut ordinal = 0;
+        self.items(items, key, &mut ordinal, 0)
+    }
+
+    fn items(&mut self, items: &[LuaValue], key: Key, ordinal: &mut usize, depth: usize) -> Result<()> {
+        for item in items {
+            let LuaValue::Table(table) = item else {
+                return Err(Error::new(format!(
+                    "an axiom is made of modules, but one item is a {}",
+                    item.type_name()
+                ))
+                .help("write system:axiom(A(1), { B() })"));
+            };
+            let is_module = self
+                .machine
+                .prelude()
+                .is_module
+                .call::<bool>(table)
+                .map_err(|error| self.machine.translate(error))?;
+            if !is_module {
+                if depth > 200 {
+                    return Err(Error::new(
+                        "branches are nested more than 200 deep, or a branch contains itself",
+                    ));
+                }
+                let inner: Vec<LuaValue> = table
+                    .sequence_values()
+                    .collect::<mlua::Result<_>>()
+                    .map_err(|error| self.machine.translate(error))?;
+                self.push(OPEN, &[], key);
+                self.items(&inner, key, ordinal, depth + 1)?;
+                self.push(CLOSE, &[], key);
+                continue;
+            }
+            let read = |index: usize| {
+                table.raw_get::<LuaValue>(index).map_err(|error| self.machine.translate(error))
+            };
+            let symbol = match read(1)? {
+                LuaValue::Integer(symbol) => Symbol::try_from(symbol).unwrap_or(END),
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "written by the prelude"
+                )]
+                LuaValue::Number(symbol) => symbol as Symbol,
+                _ => END,
+            };
+            let arity = self.machine.library.symbols.borrow().signature(symbol).arity();
+            let mut params = Vec::with_capacity(arity);
+            for index in 0..arity {
+                params.push(self.machine.session.values.pack(to_value(&read(index + 3)?, true)?));
+            }
+            self.push(symbol, &params, key.child(*ordinal));
+            *ordinal += 1;
+        }
+        Ok(())
+    }
+}

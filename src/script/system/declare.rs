@@ -1,0 +1,219 @@
+//! What `axiom`, `rule` and `interpret` add to a system, and what they refuse.
+
+use mlua::{Function, Lua, Table, Value as LuaValue};
+
+use crate::error::{Error, Result, nearest};
+use crate::objects::Value;
+use crate::rules::{FIRST_SYMBOL, Pattern, Rule, Symbol};
+use crate::script::convert::to_value;
+use crate::script::library::Library;
+use crate::script::machine::Machine;
+
+use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, System};
+
+impl System {
+    pub(super) fn set_axiom(&mut self, mut arguments: Vec<LuaValue>) -> Result<()> {
+        let is_source =
+            matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
+        if is_source {
+            let (Some(LuaValue::Function(function)), 2) = (arguments.get(1).cloned(), arguments.len()) else {
+                return Err(Error::new(
+                    "axiom(source, function) takes a function that makes each feature's chain",
+                ));
+            };
+            self.axiom = Some(DeclaredAxiom::Source(arguments.swap_remove(0), function));
+        } else {
+            self.axiom = Some(DeclaredAxiom::Modules(arguments));
+        }
+        Ok(())
+    }
+
+    pub(super) fn add_rule(
+        &mut self,
+        library: &Library,
+        lua: &Lua,
+        mut arguments: Vec<LuaValue>,
+    ) -> Result<()> {
+        let usage = "write system:rule(\"A(x)\", function(this, x) return ... end)";
+        let Some(LuaValue::String(text)) = arguments.first().cloned() else {
+            return Err(Error::new("a rule begins with a pattern").help(usage));
+        };
+        let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
+        let name = pattern.text.clone();
+        let named = |error: Error| error.rule(&name);
+        let options = match (arguments.len(), arguments.get(1)) {
+            (3, Some(LuaValue::Table(options))) => Some(options.clone()),
+            (3, _) => {
+                return Err(named(
+                    Error::new("the options of a rule are a table").help("write { weight = 2 }"),
+                ));
+            }
+            (2, _) => None,
+            (count, _) => {
+                return Err(named(
+                    Error::new(format!("rule takes 2 or 3 arguments, not {count}")).help(usage),
+                ));
+            }
+        };
+        let (weight, guard) = match options {
+            Some(options) => rule_options(&options, pattern.formals.len()).map_err(named)?,
+            None => (None, None),
+        };
+        let place = Machine::place(lua);
+        let successor = match arguments.pop() {
+            Some(LuaValue::Function(function)) => {
+                check_parameters(&function, &pattern, "the successor").map_err(named)?;
+                function
+            }
+            Some(LuaValue::String(body)) => {
+                compile_successor(library, &pattern, &body.to_string_lossy(), place.as_ref())
+                    .map_err(named)?
+            }
+            other => {
+                let what = other.map_or("nothing", |value| value.type_name());
+                return Err(named(
+                    Error::new(format!("the successor must be a function or a string, not {what}"))
+                        .help(usage),
+                ));
+            }
+        };
+        if let Some(guard) = &guard {
+            check_parameters(guard, &pattern, "the guard").map_err(named)?;
+        }
+        let rule = Rule::new(pattern, weight, guard.is_some(), place);
+        self.rules.push(DeclaredRule { rule, guard, successor });
+        Ok(())
+    }
+
+    pub(super) fn add_interpretation(
+        &mut self,
+        library: &Library,
+        lua: &Lua,
+        pattern: &LuaValue,
+        rule: LuaValue,
+    ) -> Result<()> {
+        let usage = "write system:interpret(\"A(x)\", function(this, x) ... end)";
+        let LuaValue::String(text) = pattern else {
+            return Err(Error::new("an interpretation begins with a pattern").help(usage));
+        };
+        let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
+        let name = pattern.text.clone();
+        if !pattern.left.is_empty() || !pattern.right.is_empty() {
+            return Err(Error::new("an interpretation has no contexts")
+                .rule(&name)
+                .help("contexts are for rules; carry what is needed in a parameter of the module"));
+        }
+        let LuaValue::Function(rule) = rule else {
+            return Err(Error::new("an interpretation needs a function").rule(&name).help(usage));
+        };
+        check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
+        let item = pattern.predecessor;
+        if let Some(known) = self.interpretations.iter().find(|known| known.symbol == item.symbol) {
+            let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
+            return Err(Error::new(format!("{name} is interpreted already{line}"))
+                .rule(&name)
+                .help("a module has one interpretation; join the two functions"));
+        }
+        self.interpretations.push(DeclaredInterpretation {
+            symbol: item.symbol,
+            bound: item.bound,
+            rule,
+            name,
+            place: Machine::place(lua),
+        });
+        Ok(())
+    }
+}
+
+fn rule_options(options: &Table, _arity: usize) -> Result<(Option<f64>, Option<Function>)> {
+    let (mut weight, mut guard) = (None, None);
+    for pair in options.pairs::<LuaValue, LuaValue>() {
+        let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
+        let key = key.to_string().unwrap_or_default();
+        match (key.as_str(), value) {
+            ("weight", value) => match to_value(&value, false)? {
+                Value::Number(number) if number > 0.0 && number.is_finite() => weight = Some(number),
+                other => {
+                    return Err(Error::new(format!("weight must be a number above 0, not {other}")));
+                }
+            },
+            ("when", LuaValue::Function(function)) => guard = Some(function),
+            ("when", other) => {
+                return Err(Error::new(format!("when must be a function, not a {}", other.type_name()))
+                    .help("write { when = function(this, x) return x > 0 end }"));
+            }
+            (other, _) => {
+                let error = Error::new(format!("a rule has no option called {other}"));
+                return Err(match nearest(other, ["weight", "when"]) {
+                    Some(near) => error.help(format!("did you mean {near}?")),
+                    None => error.help("it has weight and when"),
+                });
+            }
+        }
+    }
+    Ok((weight, guard))
+}
+
+/// Refuses a function that takes more parameters than the pattern gives.
+fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Result<()> {
+    let info = function.info();
+    let given = pattern.formals.len() + 1;
+    let taken = usize::from(info.num_params);
+    if taken > given {
+        let formals = std::iter::once("this").chain(pattern.formals.iter().map(String::as_str));
+        let formals: Vec<&str> = formals.collect();
+        return Err(Error::new(format!("{what} takes {taken} parameters, but the pattern gives {given}"))
+            .help(format!("write function({})", formals.join(", "))));
+    }
+    Ok(())
+}
+
+/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in scope.
+fn compile_successor(
+    library: &Library,
+    pattern: &Pattern,
+    body: &str,
+    place: Option<&crate::error::Place>,
+) -> Result<Function> {
+    let machine = library.machine()?;
+    let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
+    let symbols = library.symbols.borrow();
+    let mentioned: Vec<(Symbol, &str)> = (FIRST_SYMBOL..)
+        .zip(symbols.names())
+        .filter(|(symbol, name)| {
+            symbols.find(name).is_ok_and(|known| known == *symbol) && mentions(body, name)
+        })
+        .collect();
+    let mut text = "\n".repeat(line.saturating_sub(1));
+    for (symbol, name) in mentioned {
+        let signature = symbols.signature(symbol);
+        let parameters: String = signature
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(index, name)| format!(", \"{name}{}\"", if index < signature.required { "" } else { "?" }))
+            .collect();
+        // The analysis learns the signature from this call; it declares the same module again.
+        text.push_str(&format!("local {name} = module(\"{name}\"{parameters}) "));
+    }
+    let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
+    text.push_str(&format!("local __system = nil; __system:rule(\"\", function(this{formals}) {body}\nend)"));
+    drop(symbols);
+    let analysis = crate::script::analysis::analyse(file, &text, &library.globals());
+    machine.session.note(&analysis);
+    let problems: Vec<Error> =
+        analysis.problems.into_iter().filter(|problem| !problem.message().contains("__system")).collect();
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    let text = analysis.text.replacen("local __system = nil; __system:rule(\"\", ", "return (", 1);
+    let chunk = machine.load(file, &text)?;
+    chunk.call(()).map_err(|error| machine.translate(error))
+}
+
+/// Whether `name` stands in `text` as a whole word.
+fn mentions(text: &str, name: &str) -> bool {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.match_indices(name)
+        .any(|(at, _)| !text[..at].ends_with(is_word) && !text[at + name.len()..].starts_with(is_word))
+}
