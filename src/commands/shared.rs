@@ -71,7 +71,7 @@ impl ScriptFlags {
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
             },
-            check: false,
+            ..Options::default()
         }
     }
 }

@@ -52,11 +52,11 @@ pub struct Argument {
 }
 
 /// Calls a method by itself.
-pub(crate) type Read = fn(&dyn Object, &[Value]) -> Result<Value>;
+pub type Read = fn(&dyn Object, &[Value]) -> Result<Value>;
 /// Calls a method that changes the object.
-pub(crate) type Write = fn(&mut dyn Object, &[Value]) -> Result<Value>;
+pub type Write = fn(&mut dyn Object, &[Value]) -> Result<Value>;
 /// Calls a method that changes the object and takes only numbers.
-pub(crate) type WriteNumbers = fn(&mut dyn Object, &[f64]) -> Result<()>;
+pub type WriteNumbers = fn(&mut dyn Object, &[f64]) -> Result<()>;
 
 /// How a method is called.
 pub enum Call {
@@ -69,6 +69,12 @@ pub enum Call {
         /// With numbers only, where all its arguments are numbers: the fast way.
         numbers: Option<WriteNumbers>,
     },
+}
+
+impl std::fmt::Debug for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Kind").field(&self.name).finish()
+    }
 }
 
 impl Kind {
@@ -91,7 +97,7 @@ impl Kind {
 }
 
 /// Refuses entries of `table` that `fields` does not name.
-pub(crate) fn refuse_unknown(kind: &str, fields: &[Field], table: &Table) -> Result<()> {
+pub fn refuse_unknown(kind: &str, fields: &[Field], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
         let super::Key::Name(name) = key else {
             return Err(Error::new(format!(
@@ -116,6 +122,7 @@ pub(crate) fn refuse_unknown(kind: &str, fields: &[Field], table: &Table) -> Res
 /// Declares the table that a constructor takes: a struct with documented, defaulted fields.
 ///
 /// Gives the struct, its `Default`, `FIELDS` and `from_table`, which refuses unknown names and wrong types.
+#[macro_export]
 macro_rules! fields {
     (
         $(#[doc = $doc:literal])+
@@ -169,9 +176,10 @@ macro_rules! fields {
 ///
 /// Gives the methods and `METHODS`. `&self` methods may be called while rewriting, `&mut self` ones while
 /// interpreting.
+#[macro_export]
 macro_rules! methods {
     ($object:ident = $kind:literal { $($body:tt)* }) => {
-        methods!(@next $object $kind [] $($body)*);
+        $crate::methods!(@next $object $kind [] $($body)*);
     };
     (@next $object:ident $kind:literal [$($info:expr,)*]) => {
         impl $object {
@@ -189,7 +197,7 @@ macro_rules! methods {
             $(#[doc = $doc])+
             pub fn $method(&mut $this $(, $argument: $type)*) $(-> $answer)? $body
         }
-        methods!(@next $object $kind [$($info,)* $crate::objects::Method {
+        $crate::methods!(@next $object $kind [$($info,)* $crate::objects::Method {
             name: stringify!($method),
             doc: concat!($($doc, "\n"),+),
             arguments: &[$(
@@ -198,7 +206,7 @@ macro_rules! methods {
                     luau: <$type as $crate::objects::Parameter>::luau,
                 },
             )*],
-            returns: <methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
+            returns: <$crate::methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
             call: $crate::objects::Call::Write {
                 values: |object, arguments| {
                     let object = $crate::objects::declare::downcast_mut::<$object>(object)?;
@@ -233,7 +241,7 @@ macro_rules! methods {
             $(#[doc = $doc])+
             pub fn $method(&$this $(, $argument: $type)*) $(-> $answer)? $body
         }
-        methods!(@next $object $kind [$($info,)* $crate::objects::Method {
+        $crate::methods!(@next $object $kind [$($info,)* $crate::objects::Method {
             name: stringify!($method),
             doc: concat!($($doc, "\n"),+),
             arguments: &[$(
@@ -242,7 +250,7 @@ macro_rules! methods {
                     luau: <$type as $crate::objects::Parameter>::luau,
                 },
             )*],
-            returns: <methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
+            returns: <$crate::methods!(@answer $($answer)?) as $crate::objects::Answer>::luau,
             call: $crate::objects::Call::Read(|object, arguments| {
                 let object = $crate::objects::declare::downcast_ref::<$object>(object)?;
                 #[allow(unused_mut, reason = "a method may take no arguments")]
@@ -257,8 +265,8 @@ macro_rules! methods {
     (@answer $answer:ty) => { $answer };
 }
 
-/// The arguments of a call, taken one after the other.
-pub(crate) struct Arguments<'a> {
+/// The arguments of a call, taken one after the other. For [`methods!`](crate::methods).
+pub struct Arguments<'a> {
     kind: &'static str,
     method: &'static str,
     values: &'a [Value],
@@ -266,18 +274,18 @@ pub(crate) struct Arguments<'a> {
 }
 
 impl<'a> Arguments<'a> {
-    pub(crate) fn new(kind: &'static str, method: &'static str, values: &'a [Value]) -> Self {
+    pub fn new(kind: &'static str, method: &'static str, values: &'a [Value]) -> Self {
         Self { kind, method, values, taken: 0 }
     }
 
-    pub(crate) fn next<T: super::Parameter>(&mut self, name: &str) -> Result<T> {
+    pub fn next<T: super::Parameter>(&mut self, name: &str) -> Result<T> {
         let value = self.values.get(self.taken).cloned().unwrap_or(Value::Nil);
         self.taken += 1;
         T::from_value(value.clone())
             .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
     }
 
-    pub(crate) fn end(&self) -> Result<()> {
+    pub fn end(&self) -> Result<()> {
         if self.values.len() > self.taken {
             return Err(Error::new(format!(
                 "{}:{} takes {} arguments, not {}",
@@ -292,7 +300,7 @@ impl<'a> Arguments<'a> {
 }
 
 /// The arguments of a call that takes only numbers.
-pub(crate) struct Numbers<'a> {
+pub struct Numbers<'a> {
     kind: &'static str,
     method: &'static str,
     numbers: &'a [f64],
@@ -300,12 +308,12 @@ pub(crate) struct Numbers<'a> {
 }
 
 impl<'a> Numbers<'a> {
-    pub(crate) fn new(kind: &'static str, method: &'static str, numbers: &'a [f64]) -> Self {
+    pub fn new(kind: &'static str, method: &'static str, numbers: &'a [f64]) -> Self {
         Self { kind, method, numbers, taken: 0 }
     }
 
     #[inline]
-    pub(crate) fn next<T: super::Parameter>(&mut self, name: &str) -> Result<T> {
+    pub fn next<T: super::Parameter>(&mut self, name: &str) -> Result<T> {
         let number = self.numbers.get(self.taken).copied().unwrap_or(f64::NAN);
         self.taken += 1;
         match T::from_number(number) {
@@ -328,16 +336,16 @@ impl<'a> Numbers<'a> {
 
     /// Ends the reading of arguments; their number was checked before.
     #[allow(clippy::unused_self, reason = "mirrors Arguments::end")]
-    pub(crate) fn end(&self) {}
+    pub fn end(&self) {}
 }
 
-pub(crate) fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
+pub fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
     let any: &dyn std::any::Any = object;
     any.downcast_ref().ok_or_else(wrong_type)
 }
 
 #[inline]
-pub(crate) fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
+pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
     let any: &mut dyn std::any::Any = object;
     any.downcast_mut().ok_or_else(wrong_type)
 }

@@ -50,7 +50,7 @@ impl Parameter for Surface {
 
 impl Surface {
     /// The material for the scene.
-    pub(super) fn material(&self) -> Result<Material> {
+    pub fn material(&self) -> Result<Material> {
         for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
             if !(0.0..=1.0).contains(&factor) {
                 return Err(Error::new(format!("material: {name} must be from 0 to 1, not {factor}")));
@@ -84,20 +84,20 @@ impl Surface {
 
 /// The faces that an object has drawn, by material.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Drawing {
+pub struct Drawing {
     materials: Vec<Material>,
     parts: Vec<Part>,
 }
 
 impl Drawing {
     /// Forgets all faces.
-    pub(super) fn clear(&mut self) {
+    pub fn clear(&mut self) {
         self.materials.clear();
         self.parts.clear();
     }
 
     /// The number of the part with this material.
-    pub(super) fn material(&mut self, material: &Material) -> usize {
+    pub fn material(&mut self, material: &Material) -> usize {
         if let Some(index) = self.materials.iter().position(|known| known == material) {
             return index;
         }
@@ -107,27 +107,28 @@ impl Drawing {
     }
 
     /// The material of the part with this number.
-    pub(super) fn material_of(&self, index: usize) -> Material {
+    pub fn material_of(&self, index: usize) -> Material {
         self.materials.get(index).cloned().unwrap_or_default()
     }
 
     /// The part with this number, as [`Drawing::material`] gave it.
     #[inline]
-    pub(super) fn part(&mut self, index: usize) -> &mut Part {
+    pub fn part(&mut self, index: usize) -> &mut Part {
         &mut self.parts[index]
     }
 
     /// The parts, in the order of the first use of their materials.
-    pub(super) fn parts(&self) -> &[Part] {
+    pub fn parts(&self) -> &[Part] {
         &self.parts
     }
 
-    pub(super) fn triangles(&self) -> usize {
+    /// The number of triangles.
+    pub fn triangles(&self) -> usize {
         self.parts.iter().map(|part| part.triangles.len()).sum()
     }
 
     /// Adds the drawing to `scene` as one mesh at `origin` (m), unless it is empty.
-    pub(super) fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
+    pub fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
         let mut mesh = Mesh { name: name.to_owned(), parts: Vec::new() };
         for part in self.parts.into_iter().filter(|part| !part.triangles.is_empty()) {
             let material = scene.material(&self.materials[part.material]);

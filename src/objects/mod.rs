@@ -6,8 +6,9 @@
 //! `methods!` for what scripts may call, and an implementation of [`Object`].
 
 mod boxed;
+#[doc(hidden)]
 #[macro_use]
-mod declare;
+pub mod declare;
 mod distance;
 mod drawing;
 mod extruder;
@@ -18,10 +19,10 @@ mod value;
 
 pub use boxed::Boxed;
 pub use declare::{Argument, Call, Field, Kind, Method};
-pub use drawing::Surface;
+pub use drawing::{Drawing, Surface};
 pub use extruder::Extruder;
 pub use model::Model;
-pub use parameter::{Answer, Color, Parameter, Vector};
+pub use parameter::{Answer, Color, Expected, Parameter, Vector};
 pub use turtle::Turtle;
 pub use value::{Key, Table, Value};
 

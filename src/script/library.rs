@@ -165,7 +165,8 @@ impl Library {
         string.raw_set("format", globals.raw_get::<LuaValue>("format")?)?;
         globals.raw_set("format", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
-        for kind in KINDS.iter().copied().chain([&crate::objects::Model::KIND]) {
+        let own = machine.session.options.kinds.clone();
+        for kind in KINDS.iter().copied().chain([&crate::objects::Model::KIND]).chain(own) {
             install_kind(machine, &globals, kind)?;
         }
         let library = std::rc::Rc::clone(&machine.library);

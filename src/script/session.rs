@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 use super::analysis::{Analysis, Globals, analyse};
 use super::param::Param;
 use crate::error::{Error, Result};
+use crate::objects::Kind;
 use crate::rules::Values;
 
 /// How much a run may use.
@@ -48,6 +49,8 @@ pub struct Options {
     pub limits: Limits,
     /// Whether to stop before deriving, after all declarations have been read.
     pub check: bool,
+    /// Types of objects that scripts can construct besides the built-in ones.
+    pub kinds: Vec<&'static Kind>,
 }
 
 impl Default for Options {
@@ -60,6 +63,7 @@ impl Default for Options {
             batch: 4096,
             limits: Limits::default(),
             check: false,
+            kinds: Vec::new(),
         }
     }
 }

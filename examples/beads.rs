@@ -1,0 +1,118 @@
+//! A type of object made outside of Burgeon: beads, balls on top of one another. The program registers it, runs
+//! a script that uses it, and writes the model to `beads.glb` and a picture of it to `beads.png`, or to the folder
+//! that it is given.
+
+use std::path::PathBuf;
+
+use burgeon::geometry::sphere;
+use burgeon::objects::{Color, Drawing, Kind, Object, Table};
+use burgeon::picture::Picture;
+use burgeon::scene::{Material, Scene};
+use burgeon::script::Options as RunOptions;
+use burgeon::{Result, export};
+use glam::DVec3;
+
+burgeon::fields! {
+    /// What `beads { ... }` takes.
+    pub struct Options for "beads" {
+        /// Radius of a bead (m).
+        pub radius: f64 = 0.5,
+        /// Colour of the beads.
+        pub color: Color = Color([0.6, 0.1, 0.1, 1.0]),
+    }
+}
+
+/// Balls on top of one another.
+#[derive(Clone)]
+pub struct Beads {
+    options: Options,
+    height: f64,
+    drawing: Drawing,
+}
+
+burgeon::methods! {
+    Beads = "beads" {
+        /// Adds a bead on top.
+        pub fn add(&mut self) -> Result<()> {
+            let radius = self.options.radius;
+            let material = Material { base_color: self.options.color.0, ..Material::default() };
+            let part = self.drawing.material(&material);
+            sphere(self.drawing.part(part), DVec3::Z * (self.height + radius), radius, 16)?;
+            self.height += 2.0 * radius;
+            Ok(())
+        }
+
+        /// Height of the beads (m).
+        pub fn height(&self) -> f64 {
+            self.height
+        }
+    }
+}
+
+impl Beads {
+    /// The type, as scripts see it.
+    pub const KIND: Kind = Kind {
+        name: "beads",
+        doc: "Balls on top of one another.",
+        fields: Options::FIELDS,
+        methods: Self::METHODS,
+        construct: |table: &Table| {
+            let options = Options::from_table(table)?;
+            Ok(Box::new(Self { options, height: 0.0, drawing: Drawing::default() }))
+        },
+    };
+}
+
+impl Object for Beads {
+    fn kind(&self) -> &'static Kind {
+        const { &Self::KIND }
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self) {
+        self.height = 0.0;
+        self.drawing.clear();
+    }
+
+    fn begins_empty(&self) -> bool {
+        true
+    }
+
+    fn triangles(&self) -> usize {
+        self.drawing.triangles()
+    }
+
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        self.drawing.clone().show(scene, DVec3::ZERO, name, feature);
+        Ok(())
+    }
+}
+
+fn main() -> Result<()> {
+    let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("."), PathBuf::from);
+    let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/beads.lua");
+    let run = burgeon::run(&script, RunOptions { kinds: vec![&Beads::KIND], ..RunOptions::default() })?;
+    for name in ["beads.glb", "beads.png"] {
+        export::write(&run.scene, &folder.join(name), &Picture::default())?;
+    }
+    eprintln!("{} triangles in {}", run.scene.triangles(), folder.display());
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_registered_type_is_like_a_built_in_one() {
+        let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/beads.lua");
+        let run = |kinds| burgeon::run(&script, RunOptions { kinds, ..RunOptions::default() });
+        let made = run(vec![&Beads::KIND]).expect("the script runs");
+        let (low, high) = made.scene.bounds().expect("there are beads");
+        assert!(low.z.abs() < 1e-6 && (high.z - 12.0 * 0.6).abs() < 1e-5, "{low} {high}");
+        assert!(run(Vec::new()).is_err(), "beads are unknown without the registration");
+    }
+}
