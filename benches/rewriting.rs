@@ -1,5 +1,5 @@
 //! Six rewriting workloads, beside the crate `symbios` in one process: CPU time of one thread, wall time of two,
-//! and the memory at the peak. `cargo bench --bench rewriting [-- WORKLOAD...]`.
+//! once both are running, and the memory at the peak. `cargo bench --bench rewriting [-- WORKLOAD...]`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -173,10 +173,13 @@ fn directive(system: &mut symbios::System, directive: &str) {
     system.add_directive(directive).expect("the workload's directive is valid");
 }
 
-fn write_script(workload: &Workload, steps: usize) -> PathBuf {
+/// The workload's script, run `times` times: from the second time on, every thread's machine stands ready.
+fn write_script(workload: &Workload, steps: usize, times: usize) -> PathBuf {
     let path = std::env::temp_dir().join(format!("burgeon bench {} {steps}.lua", std::process::id()));
     let mut file = std::fs::File::create(&path).expect("the temporary folder can be written to");
-    write!(file, "{}\ns:derive({steps})\n", workload.script).expect("the disk is not full");
+    for _ in 0..times {
+        write!(file, "do\n{}\ns:derive({steps})\nend\n", workload.script).expect("the disk is not full");
+    }
     path
 }
 
@@ -187,14 +190,14 @@ struct Measure {
     modules: usize,
 }
 
-fn ours(workload: &Workload, threads: usize, steps: usize) -> Measure {
-    let path = write_script(workload, steps);
+fn ours(workload: &Workload, threads: usize, steps: usize, times: usize) -> Measure {
+    let path = write_script(workload, steps, times);
     let cpu = ThreadTime::now();
     let run = burgeon::run(&path, Options { threads: Some(threads), seed: 7, ..Options::default() });
     let run = run.expect("the workload runs");
     let cpu = cpu.elapsed();
     std::fs::remove_file(path).ok();
-    let system = &run.systems[0];
+    let system = &run.systems[times - 1];
     Measure {
         cpu,
         wall: system.times.rewriting,
@@ -254,7 +257,7 @@ fn main() {
         && command == "memory"
     {
         let workload = WORKLOADS.iter().find(|workload| workload.name == name).expect("a known workload");
-        let measure = ours(workload, 1, steps.parse().expect("a number of steps"));
+        let measure = ours(workload, 1, steps.parse().expect("a number of steps"), 1);
         println!("{} {}", peak(), measure.modules);
         return;
     }
@@ -267,16 +270,16 @@ fn main() {
         if !arguments.is_empty() && !arguments.iter().any(|name| workload.name.starts_with(name.as_str())) {
             continue;
         }
-        let start = (0..5).map(|_| ours(workload, 1, 0).cpu).min().unwrap_or_default();
+        let start = (0..5).map(|_| ours(workload, 1, 0, 1).cpu).min().unwrap_or_default();
         let (mut one, mut other) = (0.0f64, 0.0f64);
         let (mut wall_one, mut read) = (Duration::MAX, 0);
         let mut wall_two = Duration::MAX;
         for _ in 0..5 {
-            let measure = ours(workload, 1, workload.steps);
+            let measure = ours(workload, 1, workload.steps, 1);
             one = one.max(rate(measure.read, measure.cpu.saturating_sub(start)));
-            wall_one = wall_one.min(measure.wall);
             read = measure.read;
-            let measure = ours(workload, 2, workload.steps);
+            wall_one = wall_one.min(ours(workload, 1, workload.steps, 2).wall);
+            let measure = ours(workload, 2, workload.steps, 2);
             wall_two = wall_two.min(measure.wall);
             let measure = theirs(workload);
             other = other.max(rate(measure.read, measure.cpu));

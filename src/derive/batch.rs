@@ -33,6 +33,15 @@ pub(crate) struct Output {
     pub made: Vec<(u16, usize)>,
 }
 
+impl Output {
+    /// Empties it but keeps its memory.
+    pub(crate) fn clear(&mut self) {
+        self.chain.clear();
+        self.made.clear();
+        (self.ran, self.changed) = (false, false);
+    }
+}
+
 /// What a thread keeps from batch to batch.
 #[derive(Default)]
 pub(crate) struct Scratch {
@@ -77,14 +86,14 @@ pub(crate) struct Batch<'a> {
 }
 
 impl Batch<'_> {
-    /// Rewrites `piece`.
-    pub(crate) fn rewrite(&self, piece: Piece, scratch: &mut Scratch) -> Result<Output> {
+    /// Rewrites `piece`; `spare` is an emptied output whose memory is used again.
+    pub(crate) fn rewrite(&self, piece: Piece, scratch: &mut Scratch, spare: Output) -> Result<Output> {
         let rules = self.plan.grammar.rules().len();
         scratch.groups.resize_with(rules, Group::default);
         scratch.draws.resize(rules, 0);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
-        Ok(self.splice(piece, scratch))
+        Ok(self.splice(piece, scratch, spare))
     }
 
     fn choose(&self, piece: Piece, scratch: &mut Scratch) -> Result<()> {
@@ -373,10 +382,9 @@ impl Batch<'_> {
         (index, error)
     }
 
-    fn splice(&self, piece: Piece, scratch: &mut Scratch) -> Output {
+    fn splice(&self, piece: Piece, scratch: &mut Scratch, mut output: Output) -> Output {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();
-        let mut output = Output::default();
         let shapes = self.machine.current.shapes.borrow();
         let out = &mut output.chain;
         out.symbols.reserve(2 * (piece.end - piece.begin.module));

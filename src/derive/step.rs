@@ -21,6 +21,8 @@ pub(crate) struct Rewriting {
     /// The first piece that failed; later ones are not begun.
     failed: AtomicUsize,
     results: Mutex<Vec<Option<Result<Output>>>>,
+    /// Emptied outputs, whose memory is used again: fresh pages cost more than the rewriting itself.
+    spare: Mutex<Vec<Output>>,
     ready: Condvar,
 }
 
@@ -39,7 +41,9 @@ impl Rewriting {
             links: &self.links,
             step: self.step,
         };
-        let result = machine.session.stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch));
+        let spare = self.spare.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        let result =
+            machine.session.stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch, spare));
         if result.is_err() {
             self.failed.fetch_min(index, Ordering::Relaxed);
         }
@@ -82,11 +86,18 @@ pub(crate) struct Stepper {
     spare: Chain,
     links: Links,
     scratch: Scratch,
+    outputs: Vec<Output>,
 }
 
 impl Stepper {
     pub(crate) fn new(plan: Arc<Plan>) -> Self {
-        Self { plan, spare: Chain::default(), links: Links::default(), scratch: Scratch::default() }
+        Self {
+            plan,
+            spare: Chain::default(),
+            links: Links::default(),
+            scratch: Scratch::default(),
+            outputs: Vec::new(),
+        }
     }
 
     /// Makes step number `step` on `chain`.
@@ -110,6 +121,7 @@ impl Stepper {
             pieces,
             next: AtomicUsize::new(0),
             failed: AtomicUsize::new(usize::MAX),
+            spare: Mutex::new(std::mem::take(&mut self.outputs)),
             results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
             ready: Condvar::new(),
         });
@@ -121,6 +133,7 @@ impl Stepper {
         let rewriting = machine.crew.reclaim(rewriting);
         let (ran, changed) = result?;
         self.links = rewriting.links;
+        self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
         let made = std::mem::replace(&mut self.spare, rewriting.chain);
         Ok(Outcome { chain: made, ran, changed })
     }
@@ -139,7 +152,7 @@ impl Stepper {
         let (mut ran, mut changed) = (false, false);
         let mut chain = 0;
         for index in 0..rewriting.pieces.len() {
-            let output = loop {
+            let mut output = loop {
                 if let Some(output) = rewriting.take(index) {
                     break output?;
                 }
@@ -162,9 +175,11 @@ impl Stepper {
             }
             ran |= output.ran;
             changed |= output.changed;
-            for (rule, count) in output.made {
-                growth[usize::from(rule)] += count;
+            for (rule, count) in &output.made {
+                growth[usize::from(*rule)] += count;
             }
+            output.clear();
+            rewriting.spare.lock().unwrap_or_else(PoisonError::into_inner).push(output);
             if made.symbols.len() > limit {
                 return Err(self.runaway(&growth, limit, rewriting.step));
             }
