@@ -98,7 +98,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let mut done = 0;
     let interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
         let begin = Instant::now();
-        let chain = Interpreting::pass(machine, &plan, &declared, chain, step)?;
+        let chain = Interpreting::pass(machine, &plan, chain, step)?;
         times.interpretation += begin.elapsed();
         Ok(chain)
     };

@@ -218,7 +218,7 @@ impl Flusher for Applier {
         Ok(())
     }
 
-    fn chain(&self, _entry: usize) -> usize {
+    fn chain(&self) -> usize {
         self.chain
     }
 

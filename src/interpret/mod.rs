@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use crate::derive::{Job, Plan};
 use crate::error::{Error, Result};
 use crate::rules::{Chain, END, Mark};
-use crate::script::{Declared, Machine, write_column};
+use crate::script::{Machine, write_column};
 pub(crate) use apply::Applier;
 
 /// Entries that one call into Lua interprets.
@@ -34,13 +34,7 @@ pub(crate) struct Interpreting {
 
 impl Interpreting {
     /// Interprets `chain` as it stands after `step` steps, and gives it back.
-    pub(crate) fn pass(
-        machine: &Machine,
-        plan: &Arc<Plan>,
-        _declared: &Declared,
-        chain: Chain,
-        step: usize,
-    ) -> Result<Chain> {
+    pub(crate) fn pass(machine: &Machine, plan: &Arc<Plan>, chain: Chain, step: usize) -> Result<Chain> {
         let starts = chain.starts(plan.grammar.arities());
         let mut pieces = vec![Mark::default()];
         for start in &starts[1..] {

@@ -14,8 +14,8 @@ pub(crate) trait Flusher {
     /// Applies all calls recorded so far: those of the entries before `entry` and the first `called` of it.
     fn flush(&mut self, entry: usize, called: usize) -> Result<()>;
 
-    /// The chain of the entry.
-    fn chain(&self, entry: usize) -> usize;
+    /// The chain that is being interpreted.
+    fn chain(&self) -> usize;
 
     /// The one type that implements this, for the loop that drives it.
     fn applier(&mut self) -> Option<&mut crate::interpret::Applier>;
@@ -99,7 +99,7 @@ impl Current {
         let methods = self.methods.borrow();
         let method = methods.get(method).ok_or_else(|| Error::new("there is no such method"))?;
         let chain = match self.flusher.borrow().as_ref() {
-            Some(flusher) => flusher.chain(application),
+            Some(flusher) => flusher.chain(),
             None => self.chains.borrow().get(application).copied().unwrap_or(0) as usize,
         };
         let objects = self.objects.borrow();

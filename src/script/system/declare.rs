@@ -56,7 +56,7 @@ impl System {
             }
         };
         let (weight, guard) = match options {
-            Some(options) => rule_options(&options, pattern.formals.len()).map_err(named)?,
+            Some(options) => rule_options(&options).map_err(named)?,
             None => (None, None),
         };
         let place = Machine::place(lua);
@@ -125,7 +125,7 @@ impl System {
     }
 }
 
-fn rule_options(options: &Table, _arity: usize) -> Result<(Option<f64>, Option<Function>)> {
+fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
     let (mut weight, mut guard) = (None, None);
     for pair in options.pairs::<LuaValue, LuaValue>() {
         let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
