@@ -65,6 +65,7 @@ pub mod error;
 pub mod export;
 pub mod geometry;
 mod interpret;
+mod memory;
 pub mod objects;
 pub mod picture;
 pub mod rules;
