@@ -23,6 +23,7 @@
 //!   each thread.
 //! - [`derive`](mod@derive): rewrites chains step by step into a [`Derived`](derive::Derived) system, and has
 //!   them interpreted in between.
+//! - [`trace`](mod@trace): which module made what, and which rules led to it.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
 //!
@@ -72,6 +73,7 @@ pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
+pub mod trace;
 
 pub use error::{Error, Result};
 pub use run::{Run, RunTimes, check, run, run_session};

@@ -9,6 +9,7 @@ use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, analyse};
 use super::param::Param;
+use crate::derive::{Trace, Traced};
 use crate::error::{Error, Result};
 use crate::objects::Kind;
 use crate::rules::Values;
@@ -51,6 +52,10 @@ pub struct Options {
     pub check: bool,
     /// Types of objects that scripts can construct besides the built-in ones.
     pub kinds: Vec<&'static Kind>,
+    /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
+    pub profile: bool,
+    /// The chains to note the lineage of; see [`trace`](crate::trace).
+    pub trace: Option<Traced>,
 }
 
 impl Default for Options {
@@ -64,6 +69,8 @@ impl Default for Options {
             limits: Limits::default(),
             check: false,
             kinds: Vec::new(),
+            profile: false,
+            trace: None,
         }
     }
 }
@@ -164,6 +171,8 @@ pub struct Session {
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
     kept: Mutex<Vec<f64>>,
+    /// The lineage that was asked for, once it is known.
+    pub(crate) traced: Mutex<Option<Trace>>,
 }
 
 impl Session {
@@ -183,6 +192,7 @@ impl Session {
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             kept: Mutex::default(),
+            traced: Mutex::default(),
         }))
     }
 
