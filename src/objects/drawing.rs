@@ -1,9 +1,10 @@
 //! What drawing objects share: faces by material, placed models, and which module made them.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3};
 
+use super::distance::Nearest;
 use super::makers::Makers;
 use super::{Model, Object};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
@@ -19,11 +20,14 @@ pub struct Drawing {
     /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
     spare: Vec<Part>,
     makers: Option<Makers>,
+    /// The triangles by place, from the first question about them to the next change.
+    nearest: OnceLock<Arc<Nearest>>,
 }
 
 impl Drawing {
     /// Forgets all faces and models.
     pub fn clear(&mut self) {
+        self.nearest.take();
         self.materials.clear();
         self.placed.clear();
         self.placed_triangles = 0;
@@ -55,12 +59,18 @@ impl Drawing {
     /// The part with this number, as [`Drawing::material`] gave it.
     #[inline]
     pub fn part(&mut self, index: usize) -> &mut Part {
+        self.nearest.take();
         &mut self.parts[index]
     }
 
     /// The parts, in the order of the first use of their materials.
     pub fn parts(&self) -> &[Part] {
         &self.parts
+    }
+
+    /// Distance (m) from `place` to the nearest point of the faces; infinite without any. Models are not asked.
+    pub fn distance(&self, place: DVec3) -> f64 {
+        self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
     }
 
     /// Places `model` at `frame`; the same model many times is one mesh with many instances.
@@ -93,6 +103,7 @@ impl Drawing {
     /// Draws into part `index` for the symbol `maker`, which may have come before the present one.
     #[inline]
     pub fn draw_for<T>(&mut self, maker: u32, index: usize, draw: impl FnOnce(&mut Part) -> T) -> T {
+        self.nearest.take();
         let Some(makers) = &mut self.makers else { return draw(&mut self.parts[index]) };
         let part = &mut self.parts[index];
         makers.settle(index, part.triangles.len(), makers.present());

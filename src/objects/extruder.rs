@@ -221,7 +221,7 @@ methods! {
 
         /// Distance (m) from a place to the nearest point of what it has drawn.
         pub fn distance(&self, place: Vector) -> f64 {
-            super::distance::to_parts(self.drawing.parts(), place.0 - self.options.position.0)
+            self.drawing.distance(place.0 - self.options.position.0)
         }
 
         /// The number of edges left open by missing caps and open sections.
