@@ -65,12 +65,15 @@ pub mod error;
 pub mod export;
 pub mod geometry;
 mod interpret;
+#[cfg(feature = "live")]
+pub mod live;
 pub mod objects;
 pub mod picture;
 pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
+pub mod watch;
 
 pub use error::{Error, Result};
 pub use run::{Run, RunTimes, check, run, run_session};

@@ -103,11 +103,14 @@ fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
             let script = session.script().display();
             let error = Error::new(format!("{script} has no parameter called {name}"));
             let names = params.iter().map(|param| param.name.as_str());
-            return Err(match crate::error::nearest(name, names.clone()) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None if params.is_empty() => error.help("it declares none"),
-                None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
-            });
+            session.forgive(
+                name,
+                match crate::error::nearest(name, names.clone()) {
+                    Some(near) => error.help(format!("did you mean {near}?")),
+                    None if params.is_empty() => error.help("it declares none"),
+                    None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
+                },
+            )?;
         }
     }
     Ok(())
@@ -117,7 +120,9 @@ fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     for texture in scene.materials.iter_mut().filter_map(|material| material.texture.as_mut()) {
         let shown = texture.path.display().to_string();
-        let path = session.root().join(&texture.path).canonicalize().map_err(|_| {
+        let path = session.root().join(&texture.path);
+        session.seek(&path);
+        let path = path.canonicalize().map_err(|_| {
             Error::new(format!("there is no texture {shown}")).help("textures are files beside the script")
         })?;
         if !path.starts_with(session.root()) {

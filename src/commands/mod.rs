@@ -5,6 +5,8 @@
 
 mod check;
 mod completions;
+#[cfg(feature = "live")]
+mod live;
 mod new;
 mod progress;
 mod report;
@@ -21,7 +23,7 @@ use clap::{Parser, Subcommand};
     name = "burgeon",
     version,
     about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
-    after_help = "To begin:\n  burgeon new tree\n  burgeon run tree.lua -o tree.glb"
+    after_help = "To begin:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -31,6 +33,8 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Run),
+    #[cfg(feature = "live")]
+    Live(live::Serve),
     Check(check::Check),
     New(new::New),
     Completions(completions::Completions),
@@ -44,6 +48,8 @@ pub(crate) fn main() -> ExitCode {
     };
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
+        #[cfg(feature = "live")]
+        Command::Live(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),

@@ -52,6 +52,10 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "N", default_value_t = 4096, hide = true)]
     batch: u32,
 
+    /// Reads this file in the place of the built-in standard library
+    #[arg(long, value_name = "FILE")]
+    stdlib: Option<PathBuf>,
+
     /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
     pub json: bool,
@@ -71,6 +75,7 @@ impl ScriptFlags {
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
             },
+            stdlib: self.stdlib.clone(),
             ..Options::default()
         }
     }

@@ -92,13 +92,21 @@ impl Library {
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
-        let exports: Table = machine
-            .load_compiled("stdlib.lua", &STANDARD_COMPILED)?
-            .call(())
-            .map_err(|error| machine.translate(error))?;
+        let (name, standard) = match machine.session.stdlib() {
+            None => ("stdlib.lua", machine.load_compiled("stdlib.lua", &STANDARD_COMPILED)?),
+            Some((name, text)) => (name, machine.load(name, text)?),
+        };
+        let exports: LuaValue = standard.call(()).map_err(|error| machine.translate(error))?;
+        let LuaValue::Table(exports) = exports else {
+            return Err(Error::new(format!("{name} returns no table"))
+                .help("end it with: return { name = value, ... }, the names that scripts get"));
+        };
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
-            let (name, value) = pair.map_err(|error| machine.translate(error))?;
+            let (name, value) = pair.map_err(|_| {
+                Error::new(format!("{name} returns a table with keys that are no names"))
+                    .help("return { name = value, ... }")
+            })?;
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         for name in ["__interpretation", "__class"] {
@@ -216,8 +224,13 @@ impl Library {
                 let name = name.to_string_lossy();
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
-                let param =
-                    Param::declare(&name, &options, &session.options.set).map_err(mlua::Error::external)?;
+                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
+                if let Some((_, given)) = session.options.set.iter().rev().find(|(set, _)| *set == name) {
+                    match param.accept(given) {
+                        Ok(value) => param.value = value,
+                        Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
+                    }
+                }
                 let value = param.value.to_value();
                 session.add_param(param);
                 to_lua(lua, &value, false)
@@ -413,6 +426,7 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
         if !path.starts_with(session.root()) {
             return Err(outside());
         }
+        session.seek(&path);
         if let Ok(path) = path.canonicalize() {
             if !path.starts_with(session.root()) {
                 return Err(outside());

@@ -77,8 +77,8 @@ impl Setting {
 const FIELDS: [&str; 7] = ["default", "min", "max", "step", "choices", "unit", "text"];
 
 impl Param {
-    /// Reads `param(name, { default = ..., ... })`; `set` holds the values given from outside.
-    pub fn declare(name: &str, options: &Table, set: &[(String, String)]) -> Result<Self> {
+    /// Reads `param(name, { default = ..., ... })`; its value is the default.
+    pub fn declare(name: &str, options: &Table) -> Result<Self> {
         for (key, _) in &options.entries {
             let key = match key {
                 crate::objects::Key::Name(name) => name.to_string(),
@@ -146,7 +146,7 @@ impl Param {
                 )));
             }
         };
-        let mut param = Self {
+        let param = Self {
             name: name.to_owned(),
             value: default.clone(),
             default,
@@ -158,11 +158,14 @@ impl Param {
             Error::new(format!("the default of {}", error.message()))
                 .help(error.remedy().unwrap_or("change the default or its bounds"))
         })?;
-        if let Some((_, given)) = set.iter().rev().find(|(known, _)| known == name) {
-            param.value = param.read(given)?;
-            param.check(&param.value)?;
-        }
         Ok(param)
+    }
+
+    /// The value that `given` means. Fails if it is of another type or none of the values that it may have.
+    pub fn accept(&self, given: &str) -> Result<Setting> {
+        let setting = self.read(given)?;
+        self.check(&setting)?;
+        Ok(setting)
     }
 
     fn read(&self, given: &str) -> Result<Setting> {

@@ -1,5 +1,6 @@
 //! What all virtual machines of one run share: options, limits, source files, parameters.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -51,6 +52,11 @@ pub struct Options {
     pub check: bool,
     /// Types of objects that scripts can construct besides the built-in ones.
     pub kinds: Vec<&'static Kind>,
+    /// A file in the place of the built-in standard library.
+    pub stdlib: Option<PathBuf>,
+    /// Whether values in `set` that the script does not take are left out, and not an error;
+    /// [`Session::left_out`] tells which.
+    pub forgiving: bool,
 }
 
 impl Default for Options {
@@ -64,6 +70,8 @@ impl Default for Options {
             limits: Limits::default(),
             check: false,
             kinds: Vec::new(),
+            stdlib: None,
+            forgiving: false,
         }
     }
 }
@@ -116,6 +124,13 @@ impl Progress {
         self.total.fetch_add(modules, Ordering::Relaxed);
     }
 
+    /// The last step that is done, the greatest number of steps if there is one, and the modules of the chain.
+    pub fn counts(&self) -> (usize, Option<usize>, usize) {
+        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
+        let steps = load(&self.steps);
+        (load(&self.step), (steps != usize::MAX && steps > 0).then_some(steps), load(&self.modules))
+    }
+
     /// Says it in words, with the rate and an estimate of the time left.
     pub fn message(&self, elapsed: Duration) -> String {
         let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
@@ -158,8 +173,11 @@ pub struct Session {
     pub(crate) values: Arc<Values>,
     script: PathBuf,
     root: PathBuf,
+    stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    sought: Mutex<BTreeSet<PathBuf>>,
     params: Mutex<Vec<Param>>,
+    left_out: Mutex<Vec<(String, Error)>>,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
@@ -171,6 +189,7 @@ impl Session {
     pub fn new(script: &Path, options: Options) -> Result<Arc<Self>> {
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
         Ok(Arc::new(Self {
             options,
             stop: Arc::default(),
@@ -178,8 +197,11 @@ impl Session {
             values: Arc::default(),
             script: script.to_path_buf(),
             root,
+            stdlib,
             sources: Mutex::default(),
+            sought: Mutex::default(),
             params: Mutex::default(),
+            left_out: Mutex::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             kept: Mutex::default(),
@@ -202,6 +224,43 @@ impl Session {
             self.sources.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect();
         files.sort();
         files
+    }
+
+    /// Every file that decides what the run makes, there or not: the script, the standard library's
+    /// replacement, and all that was read or looked for, in the order of their paths.
+    pub fn sought(&self) -> Vec<PathBuf> {
+        let mut files = self.sought.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        files.extend(self.files());
+        files.insert(self.script.clone());
+        files.extend(self.options.stdlib.clone());
+        files.into_iter().collect()
+    }
+
+    /// Takes notice of a file that is about to be looked for.
+    pub(crate) fn seek(&self, path: &Path) {
+        self.sought.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf());
+    }
+
+    /// The name and the text of the file in the place of the standard library, if there is one.
+    pub(crate) fn stdlib(&self) -> Option<(&str, &str)> {
+        self.stdlib.as_ref().map(|(name, text)| (name.as_str(), text.as_str()))
+    }
+
+    /// The values that a forgiving run did not use: the parameter's name and what is wrong.
+    pub fn left_out(&self) -> Vec<(String, Error)> {
+        self.left_out.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Passes `error` on, or notes it if the run forgives that a value of `name` cannot be used.
+    pub(crate) fn forgive(&self, name: &str, error: Error) -> Result<()> {
+        if !self.options.forgiving {
+            return Err(error);
+        }
+        let mut left_out = self.left_out.lock().unwrap_or_else(PoisonError::into_inner);
+        if !left_out.iter().any(|(known, _)| known == name) {
+            left_out.push((name.to_owned(), error));
+        }
+        Ok(())
     }
 
     /// The parameters that the script declared, in order.
@@ -263,6 +322,18 @@ impl Session {
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
+}
+
+/// The name and the text of a file in the place of the standard library.
+fn read_stdlib(path: &Path) -> Result<(String, String)> {
+    let name = path.display().to_string();
+    let remedy = "--stdlib names a Lua file; without it the built-in one is used";
+    let bytes = std::fs::read(path)
+        .map_err(|error| Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy))?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| Error::new(format!("the standard library {name} is not a text file")).help(remedy))?;
+    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+    Ok((name, text))
 }
 
 /// The error for a script that cannot be read.
