@@ -3,12 +3,12 @@
 use std::sync::mpsc::channel;
 
 use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
-use burgeon::{Error, Result};
+use burgeon::Result;
 use clap::Args;
 use serde_json::json;
 
 use super::report;
-use super::shared::ScriptFlags;
+use super::shared::{ScriptFlags, on_interrupt};
 
 /// Shows what a script makes in the browser, and shows it anew on every save
 #[derive(Args)]
@@ -44,11 +44,10 @@ impl Serve {
 
     pub(crate) fn run(&self) -> Result<()> {
         let (interrupt, interrupted) = channel();
-        ctrlc::set_handler(move || {
+        on_interrupt(move || {
             // The other end waits for one interrupt only.
             let _ = interrupt.send(());
-        })
-        .map_err(|error| Error::new(format!("cannot wait for an interrupt: {error}")))?;
+        })?;
         let token = self.token.clone().map_or_else(Token::random, Ok)?;
         let live = Live::start(Settings {
             script: self.script.script.clone(),

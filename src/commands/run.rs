@@ -2,6 +2,7 @@
 
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon::derive::Derived;
@@ -14,6 +15,8 @@ use clap::{Args, ValueEnum};
 use super::progress::Progress;
 use super::report;
 use super::shared::ScriptFlags;
+
+mod watch;
 
 /// Runs a script and writes what it makes
 #[derive(Args)]
@@ -28,6 +31,10 @@ pub(crate) struct Run {
     /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
     #[arg(long, value_name = "FILE")]
     chain: Option<PathBuf>,
+
+    /// Runs and writes again whenever a file of the script changes, until interrupted
+    #[arg(long)]
+    watch: bool,
 
     /// Width and height of a picture in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "1280x960", help_heading = "Pictures")]
@@ -60,12 +67,28 @@ impl Run {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let begin = Instant::now();
         self.check_files()?;
-        let session = Session::new(&self.script.script, self.script.options())?;
+        if self.watch {
+            return watch::again_and_again(self);
+        }
+        let begin = Instant::now();
+        let session = self.session()?;
+        self.make(&session, begin, &|| false)
+    }
+
+    /// The script as it was named, and how it is run.
+    fn session(&self) -> Result<Arc<Session>> {
+        Session::new(&self.script.script, self.script.options())
+    }
+
+    /// Runs `session`, writes everything, and says what came of it, unless it is `stale` before anything is written.
+    fn make(&self, session: &Arc<Session>, begin: Instant, stale: &dyn Fn() -> bool) -> Result<()> {
         let (run, writing) = {
-            let _progress = Progress::show(&session, !self.script.json);
-            let run = burgeon::run_session(&session)?;
+            let _progress = Progress::show(session, !self.script.json);
+            let run = burgeon::run_session(session)?;
+            if stale() {
+                return Ok(());
+            }
             if run.systems.is_empty() && !self.output.is_empty() {
                 let script = self.script.script.display();
                 return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
@@ -144,7 +167,7 @@ impl Run {
 }
 
 /// Writes the chains of all systems, in the order in which they were derived.
-fn write_chains(path: &Path, systems: &[std::sync::Arc<Derived>]) -> Result<()> {
+fn write_chains(path: &Path, systems: &[Arc<Derived>]) -> Result<()> {
     let failed = |error: std::io::Error| {
         Error::new(format!("cannot write the chains to {}: {error}", path.display()))
             .help("check that the folder exists and may be written to")

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use burgeon::Error;
 use burgeon::script::{Limits, Options};
 use clap::Args;
 
@@ -62,6 +63,11 @@ pub(crate) struct ScriptFlags {
 }
 
 impl ScriptFlags {
+    /// The files that decide what is made even if the script cannot be read.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        std::iter::once(&self.script).chain(&self.stdlib).cloned().collect()
+    }
+
     pub(crate) fn options(&self) -> Options {
         Options {
             set: self.set.clone(),
@@ -79,6 +85,16 @@ impl ScriptFlags {
             ..Options::default()
         }
     }
+}
+
+/// Calls `ended` when the user interrupts; if the program is still there soon after, it ends as it is.
+pub(crate) fn on_interrupt(ended: impl Fn() + Send + 'static) -> Result<(), Error> {
+    ctrlc::set_handler(move || {
+        ended();
+        std::thread::sleep(Duration::from_millis(500));
+        std::process::exit(0);
+    })
+    .map_err(|error| Error::new(format!("cannot wait for an interrupt: {error}")))
 }
 
 fn setting(text: &str) -> Result<(String, String), String> {

@@ -9,7 +9,7 @@ use std::time::{Duration, SystemTime};
 const LARGE: u64 = 64 << 20;
 
 /// How coarse the times of files may be.
-const GRAIN: Duration = Duration::from_millis(20);
+const GRAIN: Duration = Duration::from_millis(10);
 
 /// Watched files with what they held when last seen.
 #[derive(Default)]
@@ -64,16 +64,33 @@ impl Found {
     }
 }
 
+impl Seen {
+    /// Where a regular file lies.
+    fn place(&self) -> Option<&PathBuf> {
+        match &self.content {
+            Content::File { place, .. } | Content::Large { place, .. } => Some(place),
+            _ => None,
+        }
+    }
+}
+
 impl Files {
     /// Watches `files` from now on. Returns whether one that is new was changed after `since`.
     pub(super) fn follow(&mut self, files: Vec<PathBuf>, since: Option<SystemTime>) -> bool {
         let mut late = false;
         let mut known = BTreeMap::new();
+        // The same file by another name is no new one.
+        let places: BTreeMap<PathBuf, Seen> =
+            self.known.values().filter_map(|seen| Some((seen.place()?.clone(), seen.clone()))).collect();
         for path in files {
             let seen = match self.known.remove(&path) {
                 Some(seen) => seen,
                 None => {
                     let mut seen = look(&path);
+                    if let Some(same) = seen.place().and_then(|place| places.get(place)) {
+                        known.insert(path, same.clone());
+                        continue;
+                    }
                     let modified = seen.stamp.and_then(|stamp| stamp.modified);
                     if let (Some(since), Some(modified)) = (since, modified)
                         && modified + GRAIN > since

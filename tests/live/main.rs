@@ -1,0 +1,8 @@
+//! The live page's server, as the real binary: requests, saves, wishes, exports; and `run --watch`.
+#![cfg(feature = "live")]
+
+mod requests;
+mod saves;
+mod support;
+mod watching;
+mod wishes;
