@@ -67,6 +67,7 @@ pub mod geometry;
 mod interpret;
 #[cfg(feature = "live")]
 pub mod live;
+mod memory;
 pub mod objects;
 pub mod picture;
 pub mod rules;

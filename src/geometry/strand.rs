@@ -109,6 +109,8 @@ impl Strand {
             return Err(Error::new(format!("a mesh holds no more than {} vertices", u32::MAX))
                 .help("draw fewer branches or fewer sides, or begin another mesh"));
         }
+        // For the most that one place and the end can add: two rings and two caps.
+        part.make_room(4 * self.circle.len(), 6 * self.circle.len());
         let direction = way / length;
         let slope = (self.radius - radius) / length;
         let (ring, tip) = match self.last {

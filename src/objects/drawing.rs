@@ -87,13 +87,18 @@ impl Surface {
 pub struct Drawing {
     materials: Vec<Material>,
     parts: Vec<Part>,
+    /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
+    spare: Vec<Part>,
 }
 
 impl Drawing {
     /// Forgets all faces.
     pub fn clear(&mut self) {
         self.materials.clear();
-        self.parts.clear();
+        for mut part in self.parts.drain(..).rev() {
+            part.clear();
+            self.spare.push(part);
+        }
     }
 
     /// The number of the part with this material.
@@ -102,7 +107,8 @@ impl Drawing {
             return index;
         }
         self.materials.push(material.clone());
-        self.parts.push(Part { material: self.materials.len() - 1, ..Part::default() });
+        let spare = self.spare.pop().unwrap_or_default();
+        self.parts.push(Part { material: self.materials.len() - 1, ..spare });
         self.materials.len() - 1
     }
 

@@ -2,6 +2,8 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
+use crate::memory::make_room;
+
 /// A shape: parts that share one coordinate system, one part for each material.
 ///
 /// Vertices are f32, since that is what every format and graphics card takes; objects compute in f64 and
@@ -29,6 +31,25 @@ pub struct Part {
     pub uvs: Vec<Vec2>,
     /// Indices of corners.
     pub triangles: Vec<[u32; 3]>,
+}
+
+impl Part {
+    /// Removes all vertices and triangles but keeps their memory.
+    pub fn clear(&mut self) {
+        self.positions.clear();
+        self.normals.clear();
+        self.uvs.clear();
+        self.triangles.clear();
+    }
+
+    /// Makes room for more vertices and triangles, on huge pages where they are many.
+    #[inline]
+    pub fn make_room(&mut self, vertices: usize, triangles: usize) {
+        make_room(&mut self.positions, vertices);
+        make_room(&mut self.normals, vertices);
+        make_room(&mut self.uvs, vertices);
+        make_room(&mut self.triangles, triangles);
+    }
 }
 
 impl Mesh {

@@ -10,7 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::analysis::Globals;
 use super::convert::{class_key, to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
-use super::machine::{Machine, compile};
+use super::machine::{Machine, compile, native};
 use super::param::Param;
 use super::session::Session;
 use super::system::{SourceHandle, System, SystemHandle};
@@ -61,6 +61,9 @@ pub(crate) struct Library {
     loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
     /// Functions of Rust and C that rules may reach, by address.
     pub stateless: RefCell<FxHashSet<usize>>,
+    /// The functions of the standard library, and the whole of it until it is made native code.
+    functions: RefCell<Vec<String>>,
+    standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
@@ -92,11 +95,11 @@ impl Library {
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
-        let (name, standard) = match machine.session.stdlib() {
+        let (name, chunk) = match machine.session.stdlib() {
             None => ("stdlib.lua", machine.load_compiled("stdlib.lua", &STANDARD_COMPILED)?),
             Some((name, text)) => (name, machine.load(name, text)?),
         };
-        let exports: LuaValue = standard.call(()).map_err(|error| machine.translate(error))?;
+        let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
         let LuaValue::Table(exports) = exports else {
             return Err(Error::new(format!("{name} returns no table"))
                 .help("end it with: return { name = value, ... }, the names that scripts get"));
@@ -107,8 +110,12 @@ impl Library {
                 Error::new(format!("{name} returns a table with keys that are no names"))
                     .help("return { name = value, ... }")
             })?;
+            if name.starts_with(char::is_lowercase) {
+                self.functions.borrow_mut().push(name.clone());
+            }
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
+        self.standard_chunk.replace(Some(chunk));
         for name in ["__interpretation", "__class"] {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
@@ -120,6 +127,16 @@ impl Library {
             .names()
             .filter_map(|name| Some((name.to_owned(), symbols.signature(symbols.find(name).ok()?).clone())))
             .collect();
+        Ok(())
+    }
+
+    /// Makes native code of the standard library once a script that names one of its functions is loaded.
+    pub(crate) fn prepare_functions(&self, lua: &Lua, text: &str) -> mlua::Result<()> {
+        if self.functions.borrow().iter().any(|name| text.contains(name))
+            && let Some(chunk) = self.standard_chunk.take()
+        {
+            native(lua, &chunk)?;
+        }
         Ok(())
     }
 

@@ -31,6 +31,13 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         })?,
     )?;
     host.set(
+        "native",
+        lua.create_function(|lua, function: mlua::Function| {
+            native(lua, &function)?;
+            Ok(function)
+        })?,
+    )?;
+    host.set(
         "freeze",
         lua.create_function(|_, table: Table| {
             table.set_readonly(true);
@@ -138,6 +145,21 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         })?,
     )?;
     Ok(host)
+}
+
+/// Makes native code of a Lua function and of those within it, unless it has been made.
+pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
+    #[allow(unsafe_code, reason = "mlua makes native code of whole files only")]
+    // SAFETY: luau_codegen_compile takes the index of a Lua function and leaves the stack as it was; mlua has set up
+    // code generation for this state, which it has done wherever it made native code itself.
+    unsafe {
+        lua.exec_raw::<()>(function, |state| {
+            if mlua::ffi::luau_codegen_supported() != 0 {
+                mlua::ffi::luau_codegen_compile(state, -1);
+            }
+            mlua::ffi::lua_settop(state, 0);
+        })
+    }
 }
 
 fn values(arguments: &MultiValue) -> mlua::Result<Vec<Value>> {

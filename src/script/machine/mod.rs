@@ -6,6 +6,7 @@ mod prelude;
 mod watchdog;
 
 pub(crate) use current::{Current, Flusher};
+pub(crate) use host::native;
 pub use watchdog::Watchdog;
 
 use std::cell::Cell;
@@ -130,6 +131,7 @@ impl Machine {
 
     /// Compiles `text`; errors name the file `name`.
     pub(crate) fn load(&self, name: &str, text: &str) -> Result<Function> {
+        self.library.prepare_functions(&self.lua, text).map_err(|error| self.translate(error))?;
         self.lua
             .load(text)
             .set_name(format!("@{name}"))
@@ -138,10 +140,13 @@ impl Machine {
             .map_err(|error| self.translate(error))
     }
 
-    /// A function from what [`compile`] gave; errors name the file `name`.
+    /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; errors name the file `name`.
     pub(crate) fn load_compiled(&self, name: &str, code: &[u8]) -> Result<Function> {
+        self.lua.enable_jit(false);
         let chunk = self.lua.load(code).set_name(format!("@{name}")).set_mode(ChunkMode::Binary);
-        chunk.into_function().map_err(|error| self.translate(error))
+        let function = chunk.into_function();
+        self.lua.enable_jit(true);
+        function.map_err(|error| self.translate(error))
     }
 
     /// A module's constructor.

@@ -52,8 +52,11 @@ pub(crate) struct Prelude {
 
 impl Prelude {
     pub(crate) fn load(lua: &Lua, host: Table) -> mlua::Result<Self> {
-        let table: Table =
-            lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary).call(host)?;
+        lua.enable_jit(false);
+        let chunk = lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary);
+        let chunk = chunk.into_function();
+        lua.enable_jit(true);
+        let table: Table = chunk?.call(host)?;
         Ok(Self {
             constructor: table.get("constructor")?,
             driver: table.get("driver")?,
