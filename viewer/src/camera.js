@@ -7,7 +7,8 @@ import { Matrix4, OrthographicCamera, PerspectiveCamera, Vector3 } from 'three';
 
 const DEGREE = Math.PI / 180;
 const FIELD = 32 * DEGREE;
-const MARGIN = 0.86;
+const MARGIN = 0.88;
+const BARS = 120; // pixels above and below that the tools cover
 const TURN_TIME = 260;
 
 /** Azimuth and elevation (degrees) by name, in the order of the keys 1 to 7. */
@@ -31,6 +32,8 @@ export class Camera {
   distance = 24;
   flat = false;
   aspect = 1;
+  /** The picture's height in pixels. */
+  height = 800;
   right = new Vector3();
   up = new Vector3();
   back = new Vector3();
@@ -85,7 +88,8 @@ export class Camera {
     const [kept, keptUp] = [this.azimuth, this.elevation];
     [this.azimuth, this.elevation] = [azimuth, elevation];
     this.orient();
-    const slope = Math.tan(FIELD / 2) * MARGIN;
+    const slope = Math.tan(FIELD / 2);
+    const tall = Math.max(Math.min(MARGIN, 1 - BARS / this.height), 0.5);
     let distance = 1e-3;
     for (let corner = 0; corner < 8; corner++) {
       const at = new Vector3(
@@ -94,7 +98,7 @@ export class Camera {
         corner & 4 ? box.max.z : box.min.z,
       ).sub(center);
       const near = this.flat ? 0 : at.dot(this.back);
-      const across = Math.max(Math.abs(at.dot(this.right)) / this.aspect, Math.abs(at.dot(this.up)));
+      const across = Math.max(Math.abs(at.dot(this.right)) / this.aspect / MARGIN, Math.abs(at.dot(this.up)) / tall);
       distance = Math.max(distance, across / slope + near);
     }
     [this.azimuth, this.elevation] = [kept, keptUp];

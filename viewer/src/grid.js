@@ -21,21 +21,21 @@ float lines(vec2 p, float size, float width) {
   vec2 d = abs(fract(q - 0.5) - 0.5);
   vec2 line = 1.0 - smoothstep(w * 0.5, w * 1.5, d);
   // Where cells are smaller than pixels only their mean is left.
-  line *= 1.0 - smoothstep(0.25, 0.6, w);
+  line *= 1.0 - smoothstep(0.12, 0.45, w);
   return max(line.x, line.y);
 }
 
 void main() {
   vec2 p = at * radius + origin;
-  float fade = 1.0 - smoothstep(0.25, 1.0, length(at));
-  float fine = lines(p, cell, 0.9) * 0.35 * (1.0 - blend);
-  float coarse = lines(p, cell * 10.0, 1.0) * mix(0.8, 0.35, blend);
-  float coarsest = lines(p, cell * 100.0, 1.1) * 0.8 * blend;
+  float fade = 1.0 - smoothstep(0.08, 0.85, length(at));
+  float fine = lines(p, cell, 0.8) * 0.28 * (1.0 - blend);
+  float coarse = lines(p, cell * 10.0, 1.0) * mix(0.62, 0.28, blend);
+  float coarsest = lines(p, cell * 100.0, 1.0) * 0.62 * blend;
   float a = max(max(fine, coarse), coarsest);
   vec2 w = fwidth(p) * 1.2;
   vec2 axis = 1.0 - smoothstep(w * 0.5, w * 1.6, abs(p));
   vec3 c = mix(mix(color, east, axis.y), north, axis.x);
-  a = max(a, max(axis.x, axis.y) * 1.6);
+  a = max(a, max(axis.x, axis.y) * 1.3);
   gl_FragColor = vec4(c, a * fade * opacity);
   #include <colorspace_fragment>
 }`;

@@ -2,6 +2,7 @@
 
 import { find, make, say } from './dom.js';
 import { count, many, milliseconds } from './format.js';
+import { icon } from './icons.js';
 
 const COLUMNS = { applied: 'applied', made: 'made', ms: 'time' };
 const MOST = 12; // symbols shown of each system before the rest is folded
@@ -80,7 +81,7 @@ export class Profile {
       } })));
     const sorted = [...rules].sort((a, b) => (b[this.#by] ?? 0) - (a[this.#by] ?? 0));
     const body = sorted.map((rule) => make('tr', {},
-      make('th', { scope: 'row' }, make('code', { text: rule.text, title: rule.text }), make('span', { class: 'by' }, rule.file ? this.places.show(rule.file, rule.line) : null, rule.kind === 'interpretation' ? ' drawing' : '')),
+      make('th', { scope: 'row' }, make('code', { text: rule.text, title: rule.text }), make('span', { class: 'by' }, rule.file ? this.places.show(rule.file, rule.line) : null, rule.kind === 'interpretation' ? make('span', { title: 'Interpretation: it draws', 'aria-label': 'interpretation' }, icon('draw')) : null)),
       ...Object.keys(COLUMNS).map((key) => {
         const bar = make('i', { class: 'bar' });
         bar.style.width = `${((rule[key] ?? 0) / most[key]) * 100}%`;

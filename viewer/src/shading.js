@@ -11,9 +11,9 @@ export class Shading {
   mode = 'lit';
   #wires = [];
   #under = new MeshLambertMaterial({ color: 0x9aa2aa, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-  #line = new MeshBasicMaterial({ wireframe: true, toneMapped: false });
-  #normals = insideOut(new MeshNormalMaterial({ side: DoubleSide }));
-  #normalsBoth = new MeshNormalMaterial({ side: DoubleSide });
+  #line = new MeshBasicMaterial({ wireframe: true, toneMapped: false, transparent: true, opacity: 0.5 });
+  #normals = byNormal(true);
+  #normalsBoth = byNormal(false);
   #checker = new MeshLambertMaterial({ side: DoubleSide });
   #bare = new MeshLambertMaterial({ color: 0x8d949b, side: DoubleSide });
 
@@ -55,15 +55,17 @@ export class Shading {
   }
 }
 
-/** Paints what is seen from its back red: a face that looks the wrong way. */
-function insideOut(material) {
+/** Colours by the normal in the scene (x red, y green, z blue); with `inside` red where a face is seen from its back. */
+function byNormal(inside) {
+  const material = new MeshNormalMaterial({ side: DoubleSide });
   material.onBeforeCompile = (shader) => {
-    const end = '}';
-    const at = shader.fragmentShader.lastIndexOf(end);
-    const paint = '  if (!gl_FrontFacing) gl_FragColor = vec4(0.9, 0.08, 0.2, 1.0);\n';
-    shader.fragmentShader = shader.fragmentShader.slice(0, at) + paint + shader.fragmentShader.slice(at);
+    const color = 'vec3 n = normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );\n  vec3 shown = vec3( n.x, -n.z, n.y ) * 0.5 + 0.5;\n';
+    const back = inside ? '  if ( ! gl_FrontFacing ) shown = vec3( 0.9, 0.08, 0.2 );\n' : '';
+    shader.fragmentShader = shader.fragmentShader
+      .replace('gl_FragColor = ', `${color}${back}  gl_FragColor = `)
+      .replace('normalize( normal ) * 0.5 + 0.5', 'shown');
   };
-  material.customProgramCacheKey = () => 'inside out';
+  material.customProgramCacheKey = () => `by normal ${inside}`;
   return material;
 }
 

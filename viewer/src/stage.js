@@ -17,7 +17,7 @@ import { nearest } from './ray.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
 const SLOW = 40; // ms for a frame above which moving frames are plainer
-const FINE = 450; // ms that the finer frame may take
+const FINE = 450; // ms that the finer frame may take, about
 
 export class Stage {
   model = new Model();
@@ -146,9 +146,8 @@ export class Stage {
 
   /** Pixels of the drawing for each of the page's; without a graphics card edges are smoothed only at rest. */
   #scale(still) {
-    const screen = Math.min(devicePixelRatio, 2);
-    const room = FINE / Math.max(this.#cost, 1);
-    const ratio = !this.slow ? screen : still && room > 4 ? Math.max(screen, 2) : this.#cost > 150 && !still ? 0.66 : 1;
+    let ratio = Math.min(devicePixelRatio, 2);
+    if (this.slow) ratio = !still ? (this.#cost > 2 * SLOW ? 0.6 : 1) : this.#cost < FINE / 5 ? 2 : 1;
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
   }
 
@@ -158,6 +157,7 @@ export class Stage {
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
+    this.camera.height = clientHeight;
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
     this.#draw(this.#cost < SLOW && !this.#shadowDue);
