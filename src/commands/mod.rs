@@ -10,6 +10,7 @@ mod progress;
 mod report;
 mod run;
 mod shared;
+mod variations;
 
 use std::process::ExitCode;
 
@@ -32,6 +33,7 @@ struct Cli {
 enum Command {
     Run(run::Run),
     Check(check::Check),
+    Variations(Box<variations::Variations>),
     New(new::New),
     Completions(completions::Completions),
 }
@@ -45,6 +47,7 @@ pub(crate) fn main() -> ExitCode {
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
+        Command::Variations(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),
     };

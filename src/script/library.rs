@@ -216,14 +216,21 @@ impl Library {
                 let name = name.to_string_lossy();
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
-                let param =
-                    Param::declare(&name, &options, &session.options.set).map_err(mlua::Error::external)?;
+                let given = &session.options;
+                let param = Param::declare(&name, &options, &given.set, given.preset.as_ref())
+                    .map_err(mlua::Error::external)?;
                 let value = param.value.to_value();
                 session.add_param(param);
                 to_lua(lua, &value, false)
             })?,
         )?;
-        globals.raw_set("print", lua.create_function(|lua, values: MultiValue| print(lua, &values))?)?;
+        let quiet = machine.session.options.quiet;
+        globals.raw_set(
+            "print",
+            lua.create_function(
+                move |lua, values: MultiValue| if quiet { Ok(()) } else { print(lua, &values) },
+            )?,
+        )?;
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "lsystem",

@@ -1,5 +1,6 @@
 //! `param`: the values of a script that a person may change without editing it.
 
+use super::preset::Preset;
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Color, Parameter, Table, Value};
 
@@ -64,6 +65,15 @@ impl std::fmt::Display for Setting {
 }
 
 impl Setting {
+    /// The value as text that reads back as the same value.
+    pub fn plain(&self) -> String {
+        match self {
+            Self::Number(number) => number.to_string(),
+            Self::Boolean(value) => value.to_string(),
+            Self::Text(text) => text.clone(),
+        }
+    }
+
     /// The value for the script.
     pub fn to_value(&self) -> Value {
         match self {
@@ -77,8 +87,14 @@ impl Setting {
 const FIELDS: [&str; 7] = ["default", "min", "max", "step", "choices", "unit", "text"];
 
 impl Param {
-    /// Reads `param(name, { default = ..., ... })`; `set` holds the values given from outside.
-    pub fn declare(name: &str, options: &Table, set: &[(String, String)]) -> Result<Self> {
+    /// Reads `param(name, { default = ..., ... })`. `set` holds the values given from outside; they win over those
+    /// of `preset`.
+    pub fn declare(
+        name: &str,
+        options: &Table,
+        set: &[(String, String)],
+        preset: Option<&Preset>,
+    ) -> Result<Self> {
         for (key, _) in &options.entries {
             let key = match key {
                 crate::objects::Key::Name(name) => name.to_string(),
@@ -159,10 +175,21 @@ impl Param {
                 .help(error.remedy().unwrap_or("change the default or its bounds"))
         })?;
         if let Some((_, given)) = set.iter().rev().find(|(known, _)| known == name) {
-            param.value = param.read(given)?;
-            param.check(&param.value)?;
+            param.value = param.accept(given)?;
+        } else if let Some(preset) = preset
+            && let Some((_, given)) = preset.params.iter().find(|(known, _)| known == name)
+        {
+            let accepted = param.accept(&given.plain());
+            param.value = accepted.map_err(|error| preset.refused(name, &error))?;
         }
         Ok(param)
+    }
+
+    /// The value that the text `given` stands for. Fails if the parameter cannot have it.
+    pub fn accept(&self, given: &str) -> Result<Setting> {
+        let setting = self.read(given)?;
+        self.check(&setting)?;
+        Ok(setting)
     }
 
     fn read(&self, given: &str) -> Result<Setting> {
