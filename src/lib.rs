@@ -25,6 +25,8 @@
 //!   them interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`presets`]: values of parameters under names, in a file beside the script.
+//! - [`variations`]: many runs of a script, as thumbnails to choose from.
 //!
 //! [`run()`] goes the whole way, from a file to a scene:
 //!
@@ -70,10 +72,12 @@ pub mod live;
 mod memory;
 pub mod objects;
 pub mod picture;
+pub mod presets;
 pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
+pub mod variations;
 pub mod watch;
 
 pub use error::{Error, Result};

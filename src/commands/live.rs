@@ -51,7 +51,7 @@ impl Serve {
         let token = self.token.clone().map_or_else(Token::random, Ok)?;
         let live = Live::start(Settings {
             script: self.script.script.clone(),
-            options: self.script.options(),
+            options: self.script.options()?,
             port: self.port,
             token: token.clone(),
             editor: self.editor.clone(),

@@ -12,6 +12,7 @@ mod progress;
 mod report;
 mod run;
 mod shared;
+mod variations;
 
 use std::process::ExitCode;
 
@@ -36,6 +37,7 @@ enum Command {
     #[cfg(feature = "live")]
     Live(live::Serve),
     Check(check::Check),
+    Variations(Box<variations::Variations>),
     New(new::New),
     Completions(completions::Completions),
 }
@@ -51,6 +53,7 @@ pub(crate) fn main() -> ExitCode {
         #[cfg(feature = "live")]
         Command::Live(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
+        Command::Variations(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),
     };

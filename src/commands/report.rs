@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use burgeon::script::Setting;
+use burgeon::script::{Param, Setting};
 use burgeon::{Error, Run};
 use serde_json::json;
 
@@ -70,8 +70,6 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration) -> String {
 /// The summary of a run for machines.
 pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> serde_json::Value {
     let seconds = |duration: Duration| duration.as_secs_f64();
-    let params: serde_json::Map<String, serde_json::Value> =
-        run.params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect();
     json!({
         "ok": true,
         "modules": run.systems.iter().map(|system| system.modules()).sum::<usize>(),
@@ -80,7 +78,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "triangles": run.scene.triangles(),
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
-        "params": params,
+        "params": params_json(&run.params),
         "seconds": {
             "total": seconds(total),
             "script": seconds(run.times.script),
@@ -91,6 +89,11 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         },
         "peak_memory_mb": peak_memory(),
     })
+}
+
+/// The parameters' values by their names, for machines.
+pub(crate) fn params_json(params: &[Param]) -> serde_json::Value {
+    params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect()
 }
 
 /// A parameter's value for machines.

@@ -1,7 +1,11 @@
 //! What pages ask for: each message changes the wish and has a run made, or is answered.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
+
+use axum::extract::ws::Utf8Bytes;
+use tokio::sync::mpsc::Sender;
 
 use super::message::{self, Ask, Cause, Say};
 use super::state::{Due, Inner, State};
@@ -10,8 +14,9 @@ use super::{tools, trace};
 use crate::error::{Error, Result};
 
 impl State {
-    /// Does what `text`, a page's message, asks for. Returns what that page alone is answered.
-    pub(super) fn ask(&self, text: &str) -> Option<Say> {
+    /// Does what `text`, a page's message, asks for. Returns what that page alone is answered; what takes longer
+    /// comes through `page`.
+    pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Say> {
         let refused = |id: Option<u64>, error: &Error| Some(Say::Refused { id, text: error.to_string() });
         match message::read(text) {
             Err(refused) => Some(refused),
@@ -19,7 +24,7 @@ impl State {
             Ok(Ask::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
             Ok(Ask::Chain { id, system, chain, module }) => Some(trace::chain(self, id, system, chain, module)),
             Ok(Ask::Variations { id, seeds, param, values }) => {
-                tools::variations(self, id, seeds.as_deref(), param.as_deref(), values.as_deref())
+                tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
             }
             Ok(Ask::Preset { action, name }) => tools::preset(self, &action, &name),
             Ok(Ask::Open { file, line }) => {

@@ -4,6 +4,8 @@
 //! asked. Whole numbers of 64 bits travel as text. Times are in milliseconds, lengths in metres with z up; the
 //! model itself is glTF, y up.
 
+use std::collections::BTreeMap;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -59,6 +61,30 @@ pub enum Say {
     Cancelled {
         /// The run's number.
         run: u64,
+    },
+    /// The names of the presets have changed.
+    Presets {
+        /// All names, in the order of their file.
+        names: Vec<String>,
+    },
+    /// A small picture of other values.
+    Variation {
+        /// The question's id.
+        id: u64,
+        /// Its number, from 0.
+        index: usize,
+        /// How many there will be.
+        of: usize,
+        /// What it is, for people.
+        label: String,
+        /// Its seed.
+        seed: String,
+        /// All values.
+        params: BTreeMap<String, Value>,
+        /// Where the picture is; nowhere if the script failed.
+        url: Option<String>,
+        /// Why it failed.
+        error: Option<String>,
     },
     /// A message that could not be done.
     Refused {
@@ -320,7 +346,7 @@ pub enum Ask {
         /// The preset's name.
         name: String,
     },
-    /// Draws small pictures of other values.
+    /// Asks for small pictures of other values.
     Variations {
         /// Comes back with the answers.
         id: u64,

@@ -87,7 +87,8 @@ async fn route(site: &Arc<Site>, request: Request) -> Response {
         Some("viewer.css") => file(STYLE, "text/css; charset=utf-8"),
         Some("socket") => open_socket(site, request).await,
         Some(inner) => match inner.split_once('/') {
-            Some(("model", name)) => model(site, name),
+            Some(("model", name)) => kept(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash)),
+            Some(("picture", name)) => kept(name, ".png", "image/png", |hash| site.state.picture(hash)),
             Some(("export", name)) if !name.contains('/') => {
                 let query = request.uri().query().unwrap_or("").to_owned();
                 save(site, name, &query).await
@@ -118,12 +119,14 @@ async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
     }
 }
 
-fn model(site: &Site, name: &str) -> Response {
-    let Some(bytes) = name.strip_suffix(".glb").and_then(|hash| site.state.model(hash)) else {
-        return missing();
-    };
-    let headers = [(header::CONTENT_TYPE, "model/gltf-binary"), (header::CACHE_CONTROL, FOR_EVER)];
-    (headers, bytes).into_response()
+/// A file that is named by its content.
+fn kept(name: &str, ending: &str, kind: &'static str, find: impl Fn(&str) -> Option<Bytes>) -> Response {
+    match name.strip_suffix(ending).and_then(find) {
+        Some(bytes) => {
+            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
+        }
+        None => missing(),
+    }
 }
 
 async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {

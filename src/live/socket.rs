@@ -6,6 +6,7 @@ use std::time::Duration;
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket, WebSocketUpgrade};
 use tokio::sync::broadcast::Receiver;
 use tokio::sync::broadcast::error::RecvError;
+use tokio::sync::mpsc::{Sender, channel};
 use tokio::time::timeout;
 
 use super::message::Say;
@@ -16,6 +17,9 @@ const LARGEST: usize = 64 << 10;
 
 /// How long a page may take to receive a message before it is given up.
 const PATIENCE: Duration = Duration::from_secs(30);
+
+/// Answers that wait for a page at most.
+const ANSWERS: usize = 16;
 
 /// How often a silent page is asked whether it is still there.
 const HEARTBEAT: Duration = Duration::from_secs(30);
@@ -28,6 +32,7 @@ pub(super) fn limited(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
 /// Talks to a page until one side ends it.
 pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
     let Some(mut said) = greet(&mut socket, &state).await else { return };
+    let (later, mut answers) = channel(ANSWERS);
     let mut heartbeat = tokio::time::interval(HEARTBEAT);
     loop {
         let going = tokio::select! {
@@ -40,8 +45,9 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
                 },
                 Err(RecvError::Closed) => false,
             },
+            Some(text) = answers.recv() => send(&mut socket, text).await,
             message = socket.recv() => match message {
-                Some(Ok(Message::Text(text))) => answer(&mut socket, &state, text).await,
+                Some(Ok(Message::Text(text))) => answer(&mut socket, &state, &later, text).await,
                 Some(Ok(Message::Binary(_))) => {
                     let refused = Say::Refused { id: None, text: "a message is text".into() };
                     send(&mut socket, refused.to_text().into()).await
@@ -68,10 +74,15 @@ async fn greet(socket: &mut WebSocket, state: &State) -> Option<Receiver<Utf8Byt
     Some(said)
 }
 
-async fn answer(socket: &mut WebSocket, state: &Arc<State>, text: Utf8Bytes) -> bool {
-    let state = Arc::clone(state);
+async fn answer(
+    socket: &mut WebSocket,
+    state: &Arc<State>,
+    later: &Sender<Utf8Bytes>,
+    text: Utf8Bytes,
+) -> bool {
+    let (state, later) = (Arc::clone(state), later.clone());
     // Some answers take a while, and other pages are not to wait for them.
-    let answer = tokio::task::spawn_blocking(move || state.ask(&text)).await;
+    let answer = tokio::task::spawn_blocking(move || state.ask(&text, &later)).await;
     match answer {
         Ok(Some(say)) => send(socket, say.to_text().into()).await,
         Ok(None) => true,

@@ -17,7 +17,7 @@ use super::{Settings, Told};
 use crate::error::Error;
 use crate::export::Format;
 use crate::run::Run;
-use crate::script::{Options, Param, Session};
+use crate::script::{Options, Param, Session, Stop};
 use crate::watch::Change;
 
 /// Messages that wait for a page at most; a page that is slower gets the present state instead.
@@ -26,6 +26,9 @@ const QUEUE: usize = 64;
 /// Models that are kept at most, and their size (bytes) beyond which only the present one is.
 const KEPT: usize = 3;
 const KEPT_BYTES: usize = 256 << 20;
+
+/// Small pictures that are kept at most.
+const PICTURES: usize = 512;
 
 /// A run that is likely to take less is not stopped for a newer value, so that a page sees pictures while a
 /// slider moves.
@@ -41,6 +44,8 @@ pub(super) struct State {
     /// Wakes the worker and whoever tells of progress.
     pub wake: Condvar,
     pages: broadcast::Sender<Utf8Bytes>,
+    /// Ends the variations that are being made.
+    pub variations: Mutex<Option<Arc<Stop>>>,
 }
 
 pub(super) struct Inner {
@@ -60,6 +65,7 @@ pub(super) struct Inner {
     /// The parameters of the script as it is; unknown while it has an error.
     pub params: Option<Vec<Param>>,
     models: VecDeque<(String, Bytes)>,
+    pictures: VecDeque<(String, Bytes)>,
     /// For these inputs, but for their limit, the number of steps to the end.
     pub last_step: Option<(Inputs, usize)>,
     /// Values that could not be used, as far as that has been told.
@@ -97,8 +103,10 @@ pub(super) struct Shown {
 }
 
 impl State {
-    pub(super) fn new(settings: Settings) -> Self {
+    pub(super) fn new(mut settings: Settings) -> Self {
         let wish = Wish::new(&settings.options);
+        // Its values are a part of the wish from now on.
+        settings.options.preset = None;
         let inner = Inner {
             wish,
             due: None,
@@ -111,6 +119,7 @@ impl State {
             runs: 0,
             params: None,
             models: VecDeque::new(),
+            pictures: VecDeque::new(),
             last_step: None,
             left_out: BTreeSet::new(),
             files: Vec::new(),
@@ -124,6 +133,7 @@ impl State {
             inner: Mutex::new(inner),
             wake: Condvar::new(),
             pages: broadcast::channel(QUEUE).0,
+            variations: Mutex::default(),
         }
     }
 
@@ -184,13 +194,49 @@ impl State {
         inner.unwrap_or(path).display().to_string()
     }
 
+    /// An error whose file is named as pages name it.
+    pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
+        let mut object = error.to_json();
+        if let Some(file) = error.place().map(|place| Path::new(&place.file)) {
+            let folder = self.script.parent().filter(|folder| !folder.as_os_str().is_empty());
+            let inner = folder.and_then(|folder| file.strip_prefix(folder).ok());
+            object["file"] = inner.map_or_else(|| self.name(file), |inner| inner.display().to_string()).into();
+        }
+        object
+    }
+
     /// The model of that name, if it is kept.
     pub(super) fn model(&self, hash: &str) -> Option<Bytes> {
         self.lock().models.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
     }
 
+    /// The small picture of that name, if it is kept.
+    pub(super) fn picture(&self, hash: &str) -> Option<Bytes> {
+        self.lock().pictures.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
+    }
+
+    /// Keeps a small picture. Returns where pages find it.
+    pub(super) fn keep_picture(&self, png: Vec<u8>) -> String {
+        let hash = blake3::hash(&png).to_hex()[..32].to_owned();
+        let mut inner = self.lock();
+        inner.pictures.retain(|(known, _)| *known != hash);
+        inner.pictures.push_back((hash.clone(), png.into()));
+        if inner.pictures.len() > PICTURES {
+            inner.pictures.pop_front();
+        }
+        format!("picture/{hash}.png")
+    }
+
+    /// Ends the variations that are being made, for they are of no use any more.
+    fn stop_variations(&self, why: &str) {
+        if let Some(stop) = self.variations.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            stop.stop(Error::new(why));
+        }
+    }
+
     /// Takes notice of changed files.
     pub(super) fn changed(&self, change: &Change) {
+        self.stop_variations("the script has changed");
         let files = change.files.iter().map(|path| self.name(path)).collect();
         let mut inner = self.lock();
         inner.generation += 1;
@@ -200,6 +246,7 @@ impl State {
 
     /// Ends the worker, and the run that is under way.
     pub(super) fn end(&self) {
+        self.stop_variations("the server ends");
         let mut inner = self.lock();
         inner.over = true;
         inner.stop("the server ends");

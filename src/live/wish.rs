@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use super::message::Knob;
 use crate::error::{Error, Result, nearest};
-use crate::script::{Options, Param, Setting};
+use crate::script::{Options, Param, Preset, Setting};
 
 /// What pages have wished.
 #[derive(Debug, Clone, Default)]
@@ -41,7 +41,8 @@ impl Wish {
     /// What the command line wishes.
     pub(super) fn new(options: &Options) -> Self {
         let given = |text: &String| Given { text: text.clone(), default: None };
-        let values = options.set.iter().map(|(name, text)| (name.clone(), given(text))).collect();
+        let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
+        let values = preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
         Self { values, seed: options.seed, steps: options.steps }
     }
 
@@ -95,6 +96,22 @@ impl Wish {
     /// Puts all defaults back.
     pub(super) fn reset(&mut self) {
         self.values.clear();
+    }
+
+    /// Takes the values of a preset in the place of all others, and its seed if it has one.
+    pub(super) fn load(&mut self, preset: &Preset) {
+        let given = |(name, text)| (name, Given { text, default: None });
+        self.values = preset.set().into_iter().map(given).collect();
+        self.seed = preset.seed.unwrap_or(self.seed);
+    }
+
+    /// The values that are set and that `params` take.
+    pub(super) fn used(&self, params: &[Param]) -> Vec<(String, Setting)> {
+        let used = params.iter().filter_map(|param| {
+            let given = self.values.get(&param.name)?;
+            Some((param.name.clone(), param.accept(&given.text).ok()?))
+        });
+        used.collect()
     }
 
     /// The parameters of a run as pages show them. Notes the defaults of values whose default was not known.

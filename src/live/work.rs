@@ -218,7 +218,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             told.push(Told::Waiting(text));
         }
         Outcome::Failed(error) => {
-            let errors = error.problems().map(Error::to_json).collect();
+            let errors = error.problems().map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
             inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors });
             told.push(Told::Failed(error));

@@ -242,18 +242,22 @@ impl Library {
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
-                if let Some((_, given)) = session.options.set.iter().rev().find(|(set, _)| *set == name) {
-                    match param.accept(given) {
-                        Ok(value) => param.value = value,
-                        Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
-                    }
+                match param.given(&session.options.set, session.options.preset.as_ref()) {
+                    Ok(value) => param.value = value,
+                    Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
                 }
                 let value = param.value.to_value();
                 session.add_param(param);
                 to_lua(lua, &value, false)
             })?,
         )?;
-        globals.raw_set("print", lua.create_function(|lua, values: MultiValue| print(lua, &values))?)?;
+        let quiet = machine.session.options.quiet;
+        globals.raw_set(
+            "print",
+            lua.create_function(
+                move |lua, values: MultiValue| if quiet { Ok(()) } else { print(lua, &values) },
+            )?,
+        )?;
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "lsystem",

@@ -1,5 +1,6 @@
 //! `param`: the values of a script that a person may change without editing it.
 
+use super::preset::Preset;
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Color, Parameter, Table, Value};
 
@@ -64,6 +65,15 @@ impl std::fmt::Display for Setting {
 }
 
 impl Setting {
+    /// The value as text that reads back as the same value.
+    pub fn plain(&self) -> String {
+        match self {
+            Self::Number(number) => number.to_string(),
+            Self::Boolean(value) => value.to_string(),
+            Self::Text(text) => text.clone(),
+        }
+    }
+
     /// The value for the script.
     pub fn to_value(&self) -> Value {
         match self {
@@ -161,7 +171,20 @@ impl Param {
         Ok(param)
     }
 
-    /// The value that `given` means. Fails if it is of another type or none of the values that it may have.
+    /// Its value where `set` holds those given from outside, which win over those of `preset`.
+    pub(crate) fn given(&self, set: &[(String, String)], preset: Option<&Preset>) -> Result<Setting> {
+        if let Some((_, given)) = set.iter().rev().find(|(known, _)| *known == self.name) {
+            return self.accept(given);
+        }
+        match preset.and_then(|preset| Some((preset, preset.params.iter().find(|(known, _)| *known == self.name)?))) {
+            Some((preset, (_, given))) => {
+                self.accept(&given.plain()).map_err(|error| preset.refused(&self.name, &error))
+            }
+            None => Ok(self.default.clone()),
+        }
+    }
+
+    /// The value that the text `given` stands for. Fails if the parameter cannot have it.
     pub fn accept(&self, given: &str) -> Result<Setting> {
         let setting = self.read(given)?;
         self.check(&setting)?;

@@ -10,6 +10,7 @@ use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, analyse};
 use super::param::Param;
+use super::preset::Preset;
 use crate::error::{Error, Result};
 use crate::objects::Kind;
 use crate::rules::Values;
@@ -38,6 +39,8 @@ impl Default for Limits {
 pub struct Options {
     /// Values for `param` declarations, by name, as text.
     pub set: Vec<(String, String)>,
+    /// Values for `param` declarations that are not in `set`. Its seed does not count: `seed` does.
+    pub preset: Option<Preset>,
     /// The seed of all random numbers.
     pub seed: u64,
     /// The greatest number of derivation steps of each system; as the script says if `None`.
@@ -50,6 +53,10 @@ pub struct Options {
     pub limits: Limits,
     /// Whether to stop before deriving, after all declarations have been read.
     pub check: bool,
+    /// Whether `print` says nothing.
+    pub quiet: bool,
+    /// Ends this run, too, when it is stopped.
+    pub stop: Option<Arc<Stop>>,
     /// Types of objects that scripts can construct besides the built-in ones.
     pub kinds: Vec<&'static Kind>,
     /// A file in the place of the built-in standard library.
@@ -63,12 +70,15 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             set: Vec::new(),
+            preset: None,
             seed: 0,
             steps: None,
             threads: None,
             batch: 4096,
             limits: Limits::default(),
             check: false,
+            quiet: false,
+            stop: None,
             kinds: Vec::new(),
             stdlib: None,
             forgiving: false,
@@ -79,11 +89,17 @@ impl Default for Options {
 /// Tells everything that works on a run to stop, and why.
 #[derive(Debug, Default)]
 pub struct Stop {
+    parent: Option<Arc<Stop>>,
     stopped: AtomicBool,
     reason: Mutex<Option<Error>>,
 }
 
 impl Stop {
+    /// Stops whenever `parent` does, too.
+    fn under(parent: Option<Arc<Self>>) -> Self {
+        Self { parent, ..Self::default() }
+    }
+
     /// Asks for a stop; the first reason is kept.
     pub fn stop(&self, reason: Error) {
         self.reason.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
@@ -93,13 +109,16 @@ impl Stop {
     /// Whether a stop was asked for.
     #[inline]
     pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Acquire)
+        self.stopped.load(Ordering::Acquire) || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
     }
 
     /// The reason as an error, if a stop was asked for.
     pub fn check(&self) -> Result<()> {
         if !self.is_stopped() {
             return Ok(());
+        }
+        if let Some(parent) = self.parent.as_ref().filter(|_| !self.stopped.load(Ordering::Acquire)) {
+            return parent.check();
         }
         let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Err(reason.unwrap_or_else(|| Error::new("stopped")))
@@ -191,8 +210,8 @@ impl Session {
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
         Ok(Arc::new(Self {
+            stop: Arc::new(Stop::under(options.stop.clone())),
             options,
-            stop: Arc::default(),
             progress: Progress::default(),
             values: Arc::default(),
             script: script.to_path_buf(),

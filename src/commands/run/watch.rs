@@ -67,7 +67,8 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
             Err(error) => Err(error.clone()),
         };
         now.session.lock().unwrap_or_else(PoisonError::into_inner).take();
-        let sought = session.map_or_else(|_| command.script.files(), |session| session.sought());
+        let mut sought = session.map(|session| session.sought()).unwrap_or_default();
+        sought.extend(command.script.files());
         let stale = now.is_stale();
         // A run that was stopped has not come to all of its files.
         if stale {
