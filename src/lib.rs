@@ -1,11 +1,11 @@
 //! Burgeon: procedural modelling by rewriting. Rules are written in Lua, geometry is made in Rust.
 //!
 //! ```text
-//! script.lua ──► script ──► rules ──────► derive ⇄ interpret ──────────► scene ──────► export | picture
-//!                (Lua VMs)  (grammar,     (parallel  (rules change       (meshes,      (glTF, OBJ, SVG,
-//!                            immutable)    rewriting) object state)       instances)    PNG)
-//!                                              ▲          ▲
-//!                                              └─ objects ┘  read-only while rewriting, mutable while
+//! script.lua ──► script ──► rules ──────► derive ⇄ interpret ──────────► scene ──────► export | picture | live
+//!     ▲          (Lua VMs)  (grammar,     (parallel  (rules change       (meshes,      (glTF, OBJ, SVG, PNG,
+//!   watch                    immutable)    rewriting) object state)       instances)    a page in the browser)
+//!  (on a save,                                 ▲          ▲
+//!   again)                                     └─ objects ┘  read-only while rewriting, mutable while
 //!                                                    ▲       interpreting
 //!                                                    └────── geometry
 //! ```
@@ -27,6 +27,9 @@
 //!   ([`render`](picture::render)).
 //! - [`presets`]: values of parameters under names, in a file beside the script.
 //! - [`variations`]: many runs of a script, as thumbnails to choose from.
+//! - [`watch`]: tells when the files of a script have changed.
+//! - [`live`]: a [`Live`](live::Live) server shows the scene on a page in the browser, and shows it anew on every
+//!   save. It is behind the feature `live`, which is on unless turned off.
 //!
 //! [`run()`] goes the whole way, from a file to a scene:
 //!

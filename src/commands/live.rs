@@ -2,8 +2,8 @@
 
 use std::sync::mpsc::channel;
 
-use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
 use burgeon::Result;
+use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
 use clap::Args;
 use serde_json::json;
 
@@ -59,7 +59,10 @@ impl Serve {
         })?;
         let (port, address) = (live.port(), live.address());
         if self.script.json {
-            report::print(&format!("{}\n", json!({ "address": address, "port": port, "token": token.as_str() })));
+            report::print(&format!(
+                "{}\n",
+                json!({ "address": address, "port": port, "token": token.as_str() })
+            ));
         } else {
             report::print(&format!("{address}\n"));
             report::eprint("the address is secret, for whoever has it can set parameters; Ctrl-C ends\n");

@@ -62,13 +62,16 @@ pub(super) fn admits(host: Option<&str>, origin: Option<&str>) -> bool {
 /// Whether `host` is a name of this machine alone, with any port, since a tunnel may lead to it.
 fn is_this_machine(host: &str) -> bool {
     let (name, port) = match host.strip_prefix('[').and_then(|rest| rest.split_once(']')) {
-        Some((inner, rest)) => (format!("[{inner}]"), rest.strip_prefix(':').or(rest.is_empty().then_some("0"))),
+        Some((inner, rest)) => {
+            (format!("[{inner}]"), rest.strip_prefix(':').or(rest.is_empty().then_some("0")))
+        }
         None => match host.split_once(':') {
             Some((name, port)) => (name.to_owned(), Some(port)),
             None => (host.to_owned(), Some("0")),
         },
     };
-    let number = port.is_some_and(|port| port.bytes().all(|it| it.is_ascii_digit()) && port.parse::<u16>().is_ok());
+    let number =
+        port.is_some_and(|port| port.bytes().all(|it| it.is_ascii_digit()) && port.parse::<u16>().is_ok());
     number && ["127.0.0.1", "localhost", "[::1]"].iter().any(|known| name.eq_ignore_ascii_case(known))
 }
 
@@ -96,9 +99,21 @@ mod tests {
             assert!(admits(Some(host), Some(&format!("http://{host}"))), "{host}");
         }
         let foreign = [
-            "example.org", "example.org:4747", "127.0.0.1.example.org", "localhost.example.org:4747", "0.0.0.0:4747",
-            "127.0.0.1:99999", "127.0.0.1:", "127.0.0.1:4747:1", "[::1", "[::1]x", "::1", "", " localhost",
-            "localhost:+1", "user@localhost",
+            "example.org",
+            "example.org:4747",
+            "127.0.0.1.example.org",
+            "localhost.example.org:4747",
+            "0.0.0.0:4747",
+            "127.0.0.1:99999",
+            "127.0.0.1:",
+            "127.0.0.1:4747:1",
+            "[::1",
+            "[::1]x",
+            "::1",
+            "",
+            " localhost",
+            "localhost:+1",
+            "user@localhost",
         ];
         for host in foreign {
             assert!(!admits(Some(host), None), "{host}");
@@ -109,7 +124,9 @@ mod tests {
     #[test]
     fn a_page_of_another_origin_is_refused() {
         let host = Some("127.0.0.1:4747");
-        for origin in ["http://localhost:4747", "http://127.0.0.1:80", "https://127.0.0.1:4747", "null", "", "file://"] {
+        for origin in
+            ["http://localhost:4747", "http://127.0.0.1:80", "https://127.0.0.1:4747", "null", "", "file://"]
+        {
             assert!(!admits(host, Some(origin)), "{origin}");
         }
     }

@@ -19,10 +19,12 @@ impl State {
     pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Say> {
         let refused = |id: Option<u64>, error: &Error| Some(Say::Refused { id, text: error.to_string() });
         match message::read(text) {
-            Err(refused) => Some(refused),
+            Err(refused) => Some(*refused),
             Ok(Ask::Pick(pick)) => Some(trace::pick(self, &pick)),
             Ok(Ask::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
-            Ok(Ask::Chain { id, system, chain, module }) => Some(trace::chain(self, id, system, chain, module)),
+            Ok(Ask::Chain { id, system, chain, module }) => {
+                Some(trace::chain(self, id, system, chain, module))
+            }
             Ok(Ask::Variations { id, seeds, param, values }) => {
                 tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
             }
@@ -39,9 +41,9 @@ impl State {
                 }
                 refused(None, &Error::new("nothing is running"))
             }
-            Ok(Ask::Set { params }) => self.change(Cause::Parameters, |inner| {
-                inner.wish.set(&params, inner.params.as_deref())
-            }),
+            Ok(Ask::Set { params }) => {
+                self.change(Cause::Parameters, |inner| inner.wish.set(&params, inner.params.as_deref()))
+            }
             Ok(Ask::Reset {}) => self.change(Cause::Parameters, |inner| {
                 inner.wish.reset();
                 Ok(())
@@ -85,11 +87,17 @@ impl State {
     /// The script's file that errors, or the list of files, name so.
     pub(super) fn own_file(&self, name: &str) -> Result<PathBuf> {
         let mut own: Vec<PathBuf> = self.lock().files.clone();
-        own.extend([&self.script].into_iter().chain(&self.options.stdlib).filter_map(|path| path.canonicalize().ok()));
+        own.extend(
+            [&self.script]
+                .into_iter()
+                .chain(&self.options.stdlib)
+                .filter_map(|path| path.canonicalize().ok()),
+        );
         let script = self.script.canonicalize().unwrap_or_else(|_| self.script.clone());
         let root = script.parent().unwrap_or(Path::new("."));
         let candidates = [PathBuf::from(name), root.join(name)];
-        let found = candidates.iter().filter_map(|path| path.canonicalize().ok()).find(|path| own.contains(path));
+        let found =
+            candidates.iter().filter_map(|path| path.canonicalize().ok()).find(|path| own.contains(path));
         match found {
             Some(path) => Ok(path),
             // The name of a link to the script is not that of the file it leads to.

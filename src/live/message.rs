@@ -378,8 +378,8 @@ pub struct Pick {
 }
 
 /// Reads a page's message. Fails with what is to be told to the page.
-pub fn read(text: &str) -> Result<Ask, Say> {
-    let refuse = |id: Option<u64>, text: String| Err(Say::Refused { id, text });
+pub fn read(text: &str) -> Result<Ask, Box<Say>> {
+    let refuse = |id: Option<u64>, text: String| Err(Box::new(Say::Refused { id, text }));
     let value: Value = match serde_json::from_str(text) {
         Ok(value @ Value::Object(_)) => value,
         Ok(_) => return refuse(None, "a message is a JSON object with a type".into()),
@@ -446,13 +446,24 @@ mod tests {
             Ok(Ask::Pick(_))
         ));
         let wrong = [
-            "", "7", "[]", "null", "{}", r#"{"type":7}"#, r#"{"type":"fly"}"#, r#"{"type":"set"}"#,
-            r#"{"type":"steps","steps":-1}"#, r#"{"type":"open","file":1}"#, "\u{0}", r#"{"type":"set","params":[]}"#,
+            "",
+            "7",
+            "[]",
+            "null",
+            "{}",
+            r#"{"type":7}"#,
+            r#"{"type":"fly"}"#,
+            r#"{"type":"set"}"#,
+            r#"{"type":"steps","steps":-1}"#,
+            r#"{"type":"open","file":1}"#,
+            "\u{0}",
+            r#"{"type":"set","params":[]}"#,
         ];
         for text in wrong {
-            assert!(matches!(read(text), Err(Say::Refused { id: None, .. })), "{text}");
+            let refused = read(text).unwrap_err();
+            assert!(matches!(*refused, Say::Refused { id: None, .. }), "{text}");
         }
-        let Err(Say::Refused { id, text }) = read(r#"{"type":"pick","id":9}"#) else { panic!() };
+        let Say::Refused { id, text } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else { panic!() };
         assert_eq!(id, Some(9));
         assert!(text.contains("mesh"), "{text}");
         assert!(read(&"[".repeat(100_000)).is_err());

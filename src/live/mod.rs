@@ -133,8 +133,7 @@ impl Live {
             let _inside = runtime.enter();
             tokio::net::TcpListener::from_std(listener).map_err(failed)?
         };
-        let site =
-            Site { state: Arc::clone(&state), token: token.clone(), exports: Semaphore::new(1) };
+        let site = Site { state: Arc::clone(&state), token: token.clone(), exports: Semaphore::new(1) };
         runtime.spawn(server::serve(listener, Arc::new(site)));
         Ok(Self { state, port, token, runtime: Some(runtime), threads })
     }
@@ -179,7 +178,8 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
     match (port, next) {
         (None, Some(listener)) => Ok(listener),
         (_, next) => {
-            let free = next.and_then(|listener| listener.local_addr().ok()).map_or(0, |address| address.port());
+            let free =
+                next.and_then(|listener| listener.local_addr().ok()).map_or(0, |address| address.port());
             Err(Error::new(format!("port {first} is in use"))
                 .help(format!("another server may be running; to use another port: --port {free}")))
         }

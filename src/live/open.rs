@@ -44,7 +44,9 @@ impl Editor {
                 .help("write the command as for a shell, such as --editor 'code -g {file}:{line}'"));
         }
         if words.first().is_none_or(|program| program.is_empty()) {
-            return Err(Error::new("--editor names no program").help("such as --editor 'code -g {file}:{line}'"));
+            return Err(
+                Error::new("--editor names no program").help("such as --editor 'code -g {file}:{line}'")
+            );
         }
         if !words.iter().any(|word| word.contains("{file}")) {
             words.push("{file}".to_owned());
@@ -100,8 +102,9 @@ pub fn browse(address: &str) -> Result<()> {
     } else {
         Command::new("xdg-open")
     };
-    start(command.arg(address))
-        .map_err(|error| Error::new(format!("cannot open a browser: {error}")).help("open the address yourself"))
+    start(command.arg(address)).map_err(|error| {
+        Error::new(format!("cannot open a browser: {error}")).help("open the address yourself")
+    })
 }
 
 #[cfg(test)]
@@ -116,7 +119,10 @@ mod tests {
     fn a_command_is_split_like_a_shell_and_nothing_in_it_is_run_by_one() {
         assert_eq!(words("code -g {file}:{line}"), ["code", "-g", "/a b/{line}.lua:7"]);
         assert_eq!(words("  vim  +{line} "), ["vim", "+7", "/a b/{line}.lua"]);
-        assert_eq!(words("'my editor' \"a 'b'\" c''d \"\" {file}"), ["my editor", "a 'b'", "cd", "", "/a b/{line}.lua"]);
+        assert_eq!(
+            words("'my editor' \"a 'b'\" c''d \"\" {file}"),
+            ["my editor", "a 'b'", "cd", "", "/a b/{line}.lua"]
+        );
         assert_eq!(words("e; rm $(x) `y` {file}"), ["e;", "rm", "$(x)", "`y`", "/a b/{line}.lua"]);
         for wrong in ["", "   ", "''", "code 'x"] {
             assert!(Editor::from_text(wrong).is_err(), "{wrong}");

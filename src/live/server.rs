@@ -64,7 +64,10 @@ async fn answer(Extract(site): Extract<Arc<Site>>, request: Request) -> Response
 
 async fn route(site: &Arc<Site>, request: Request) -> Response {
     let headers = request.headers();
-    if !admits(only(headers, &header::HOST).unwrap_or(None), only(headers, &header::ORIGIN).unwrap_or(Some(""))) {
+    if !admits(
+        only(headers, &header::HOST).unwrap_or(None),
+        only(headers, &header::ORIGIN).unwrap_or(Some("")),
+    ) {
         return plain(StatusCode::FORBIDDEN, "this server answers only pages of its own");
     }
     let path = request.uri().path().to_owned();
@@ -73,7 +76,10 @@ async fn route(site: &Arc<Site>, request: Request) -> Response {
         None => (path.strip_prefix('/').unwrap_or(""), None),
     };
     if !site.token.is(token) {
-        return plain(StatusCode::FORBIDDEN, "open the address that burgeon live printed: it ends with a token");
+        return plain(
+            StatusCode::FORBIDDEN,
+            "open the address that burgeon live printed: it ends with a token",
+        );
     }
     if request.method() != Method::GET {
         let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered");
@@ -157,7 +163,9 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
             (headers, download.bytes).into_response()
         }
         Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
-        None => plain(StatusCode::INTERNAL_SERVER_ERROR, "the export ended early: this is a mistake in Burgeon"),
+        None => {
+            plain(StatusCode::INTERNAL_SERVER_ERROR, "the export ended early: this is a mistake in Burgeon")
+        }
     }
 }
 
@@ -182,7 +190,8 @@ fn decoded(name: &str) -> Option<String> {
 
 /// Has a browser keep a file under `name`.
 fn disposition(name: &str) -> HeaderValue {
-    let plain: String = name.chars().map(|it| if it.is_ascii_graphic() && it != '"' { it } else { '_' }).collect();
+    let plain: String =
+        name.chars().map(|it| if it.is_ascii_graphic() && it != '"' { it } else { '_' }).collect();
     let escaped: String = name
         .bytes()
         .map(|byte| match byte {
@@ -217,7 +226,9 @@ mod tests {
     #[test]
     fn escaped_names_are_read_and_those_that_lead_away_are_not() {
         assert_eq!(decoded("my%20t%C3%B6wer.glb").as_deref(), Some("my t\u{f6}wer.glb"));
-        for wrong in ["%2e%2e%2fx.glb", "..%2Fx.glb", "a%5Cb.glb", "%", "%2", "%zz", "%ff.glb", "a%00.glb", "%+1.glb"] {
+        for wrong in
+            ["%2e%2e%2fx.glb", "..%2Fx.glb", "a%5Cb.glb", "%", "%2", "%zz", "%ff.glb", "a%00.glb", "%+1.glb"]
+        {
             assert_eq!(decoded(wrong), None, "{wrong}");
         }
     }

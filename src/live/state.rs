@@ -200,7 +200,8 @@ impl State {
         if let Some(file) = error.place().map(|place| Path::new(&place.file)) {
             let folder = self.script.parent().filter(|folder| !folder.as_os_str().is_empty());
             let inner = folder.and_then(|folder| file.strip_prefix(folder).ok());
-            object["file"] = inner.map_or_else(|| self.name(file), |inner| inner.display().to_string()).into();
+            object["file"] =
+                inner.map_or_else(|| self.name(file), |inner| inner.display().to_string()).into();
         }
         object
     }
@@ -285,7 +286,8 @@ impl Inner {
         self.models.retain(|(known, _)| *known != hash);
         self.models.push_back((hash, bytes));
         let mut gone = VecDeque::new();
-        let size = |models: &VecDeque<(String, Bytes)>| models.iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
+        let size =
+            |models: &VecDeque<(String, Bytes)>| models.iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
         while self.models.len() > 1 && (self.models.len() > KEPT || size(&self.models) > KEPT_BYTES) {
             gone.extend(self.models.pop_front());
         }

@@ -31,21 +31,22 @@ fn names(presets: &Presets) -> Vec<String> {
 
 /// Saves, loads or deletes a preset. Returns what the page that asked is answered.
 pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
-    let done = match action {
-        "save" => save(state, name).map(Some),
-        "delete" => Presets::remove(&state.script, name).map(Some),
-        "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
-            Ok(preset) => {
-                return state.change(Cause::Preset, |inner| {
-                    inner.wish.load(&preset);
-                    Ok(())
-                });
-            }
-            Err(error) => Err(error),
-        },
-        _ => Err(Error::new(format!("{action:?} cannot be done with a preset"))
-            .help("save, load or delete it")),
-    };
+    let done =
+        match action {
+            "save" => save(state, name).map(Some),
+            "delete" => Presets::remove(&state.script, name).map(Some),
+            "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
+                Ok(preset) => {
+                    return state.change(Cause::Preset, |inner| {
+                        inner.wish.load(&preset);
+                        Ok(())
+                    });
+                }
+                Err(error) => Err(error),
+            },
+            _ => Err(Error::new(format!("{action:?} cannot be done with a preset"))
+                .help("save, load or delete it")),
+        };
     match done {
         Ok(presets) => {
             let _order = state.lock();
@@ -103,8 +104,7 @@ pub(super) fn variations(
         Err(error) => return Some(Say::Refused { id: Some(id), text: error.to_string() }),
     };
     let stop = Arc::clone(&variations.stop);
-    let before =
-        state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
+    let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
     if let Some(before) = before {
         before.stop(Error::new("others are made"));
     }
@@ -128,7 +128,8 @@ pub(super) fn variations(
             && !stop.is_stopped()
         {
             // The page may have gone.
-            let _ = page.blocking_send(Say::Refused { id: Some(id), text: error.to_string() }.to_text().into());
+            let _ =
+                page.blocking_send(Say::Refused { id: Some(id), text: error.to_string() }.to_text().into());
         }
     };
     match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
@@ -150,11 +151,24 @@ fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Say {
         Ok(png) => (Some(state.keep_picture(png)), None),
         Err(error) => (None, Some(error.to_string())),
     };
-    Say::Variation { id, index: cell.index, of, label: cell.label, seed: cell.seed.to_string(), params, url, error }
+    Say::Variation {
+        id,
+        index: cell.index,
+        of,
+        label: cell.label,
+        seed: cell.seed.to_string(),
+        params,
+        url,
+        error,
+    }
 }
 
 /// What a page wants other values of: seeds, or a parameter.
-pub(super) fn over(seeds: Option<&[String]>, param: Option<String>, values: Option<Vec<String>>) -> Result<Over> {
+pub(super) fn over(
+    seeds: Option<&[String]>,
+    param: Option<String>,
+    values: Option<Vec<String>>,
+) -> Result<Over> {
     match (seeds, param, values) {
         (Some(seeds), None, None) => {
             let seeds = seeds.iter().map(|text| seed(&text.as_str().into()));

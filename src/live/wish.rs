@@ -42,7 +42,8 @@ impl Wish {
     pub(super) fn new(options: &Options) -> Self {
         let given = |text: &String| Given { text: text.clone(), default: None };
         let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
-        let values = preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
+        let values =
+            preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
         Self { values, seed: options.seed, steps: options.steps }
     }
 
@@ -62,7 +63,11 @@ impl Wish {
                 Value::Null => None,
                 Value::String(text) => Some(text.clone()),
                 Value::Number(_) | Value::Bool(_) => Some(value.to_string()),
-                _ => return Err(Error::new(format!("the value of {name} must be text, a number or a switch"))),
+                _ => {
+                    return Err(Error::new(format!(
+                        "the value of {name} must be text, a number or a switch"
+                    )));
+                }
             };
             let param = params.and_then(|params| params.iter().find(|param| param.name == *name));
             match (&text, param, params) {
@@ -189,7 +194,8 @@ mod tests {
         assert_eq!(old(&mut wish, 5.0, 6.0), None);
         set(&mut wish, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
         assert_eq!(old(&mut wish, 5.0, 10.0), None);
-        let mut early = Wish::new(&Options { set: vec![("floors".into(), "7".into())], ..Options::default() });
+        let mut early =
+            Wish::new(&Options { set: vec![("floors".into(), "7".into())], ..Options::default() });
         assert_eq!(old(&mut early, 4.0, 10.0), None);
         assert_eq!(old(&mut early, 5.0, 10.0), Some(json!(4.0)));
     }
@@ -198,7 +204,9 @@ mod tests {
     fn a_seed_is_a_whole_number_of_64_bits() {
         assert_eq!(seed(&json!("18446744073709551615")).unwrap(), u64::MAX);
         assert_eq!(seed(&json!(7)).unwrap(), 7);
-        for wrong in [json!("-1"), json!("1.5"), json!(""), json!(null), json!("18446744073709551616"), json!(-3)] {
+        for wrong in
+            [json!("-1"), json!("1.5"), json!(""), json!(null), json!("18446744073709551616"), json!(-3)]
+        {
             assert!(seed(&wrong).is_err(), "{wrong}");
         }
     }

@@ -265,8 +265,10 @@ impl Inner {
 
     /// Tells of values that the script does not take any more, once each.
     fn tell_left_out(&mut self, state: &State, left_out: &[(String, Error)]) -> Vec<Told> {
-        let texts: Vec<String> =
-            left_out.iter().map(|(name, error)| format!("the value of {name} is not used: {error}")).collect();
+        let texts: Vec<String> = left_out
+            .iter()
+            .map(|(name, error)| format!("the value of {name} is not used: {error}"))
+            .collect();
         let mut told = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
             state.say(&Say::Refused { id: None, text: text.clone() });

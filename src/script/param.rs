@@ -176,7 +176,9 @@ impl Param {
         if let Some((_, given)) = set.iter().rev().find(|(known, _)| *known == self.name) {
             return self.accept(given);
         }
-        match preset.and_then(|preset| Some((preset, preset.params.iter().find(|(known, _)| *known == self.name)?))) {
+        match preset
+            .and_then(|preset| Some((preset, preset.params.iter().find(|(known, _)| *known == self.name)?)))
+        {
             Some((preset, (_, given))) => {
                 self.accept(&given.plain()).map_err(|error| preset.refused(&self.name, &error))
             }

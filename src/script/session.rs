@@ -347,8 +347,9 @@ impl Session {
 fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
     let remedy = "--stdlib names a Lua file; without it the built-in one is used";
-    let bytes = std::fs::read(path)
-        .map_err(|error| Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy))?;
+    let bytes = std::fs::read(path).map_err(|error| {
+        Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy)
+    })?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Error::new(format!("the standard library {name} is not a text file")).help(remedy))?;
     let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);

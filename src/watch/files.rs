@@ -58,8 +58,10 @@ pub(super) struct Found {
 impl Found {
     /// Whether it has become missing or empty, as in the middle of a save.
     pub(super) fn looks_unfinished(&self) -> bool {
-        let nothing =
-            matches!(self.now.content, Content::Missing | Content::File { empty: true, .. } | Content::NoFile);
+        let nothing = matches!(
+            self.now.content,
+            Content::Missing | Content::File { empty: true, .. } | Content::NoFile
+        );
         self.was_there && nothing
     }
 }

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, Metadata};
 use std::path::{Path, PathBuf};
 
-use notify::event::{AccessKind, AccessMode};
+use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
 use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 
 use super::files::Files;
@@ -18,14 +18,18 @@ pub(super) struct Folders {
 }
 
 impl Folders {
-    /// Watches no folder yet. `seen` gets the paths that something has happened to, none if any may be meant.
-    pub(super) fn new(seen: impl Fn(Vec<PathBuf>) + Send + 'static) -> Self {
+    /// Watches no folder yet. `seen` gets the paths that something has happened to, none if any may be meant, and
+    /// whether it is what comes at the end of a save.
+    pub(super) fn new(seen: impl Fn(Vec<PathBuf>, bool) + Send + 'static) -> Self {
         let handle = move |event: notify::Result<Event>| match event {
-            Ok(event) if event.need_rescan() => seen(Vec::new()),
-            Ok(event) if matters(event.kind) && !event.paths.is_empty() => seen(event.paths),
+            Ok(event) if event.need_rescan() => seen(Vec::new(), false),
+            Ok(event) if matters(event.kind) && !event.paths.is_empty() => {
+                let settled = ends_a_save(event.kind);
+                seen(event.paths, settled);
+            }
             Ok(_) => {}
             // Something was lost.
-            Err(_) => seen(Vec::new()),
+            Err(_) => seen(Vec::new(), false),
         };
         let watcher = notify::recommended_watcher(handle).map_err(|error| error.to_string());
         let failure = watcher.as_ref().err().cloned();
@@ -74,6 +78,15 @@ fn matters(kind: EventKind) -> bool {
         EventKind::Access(kind) => kind == AccessKind::Close(AccessMode::Write),
         _ => true,
     }
+}
+
+/// Whether this comes when a file has been written: it is closed, or gets its name.
+fn ends_a_save(kind: EventKind) -> bool {
+    matches!(
+        kind,
+        EventKind::Access(AccessKind::Close(AccessMode::Write))
+            | EventKind::Modify(ModifyKind::Name(RenameMode::To | RenameMode::Both))
+    )
 }
 
 /// The folder of the file at `path` and the one above it, or the nearest one that is there.

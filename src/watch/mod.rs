@@ -21,6 +21,9 @@ use folders::Folders;
 /// How long it must be quiet after an event until files are compared: editors save in several steps.
 const QUIET: Duration = Duration::from_millis(10);
 
+/// The same after an event that comes at the end of a save.
+const SETTLED: Duration = Duration::from_millis(2);
+
 /// The longest time from an event to a comparison, however busy the folder is.
 const LONGEST: Duration = Duration::from_millis(100);
 
@@ -51,8 +54,8 @@ pub struct Watch {
 
 /// What the thread waits for.
 enum Signal {
-    /// Something happened to these paths; none if the system lost count.
-    Event(Vec<PathBuf>, Instant),
+    /// Something happened to these paths; none if the system lost count. And whether a save ends so.
+    Event(Vec<PathBuf>, Instant, bool),
     Follow(Vec<PathBuf>, SystemTime),
     Over,
 }
@@ -75,9 +78,9 @@ impl Watch {
         let events = signals.clone();
         let mut watcher = Watcher {
             files: Files::default(),
-            folders: Folders::new(move |paths| {
+            folders: Folders::new(move |paths, settled| {
                 // The watcher may be over already.
-                let _ = events.send(Signal::Event(paths, Instant::now()));
+                let _ = events.send(Signal::Event(paths, Instant::now(), settled));
             }),
             first: None,
         };
@@ -121,10 +124,11 @@ impl Watcher {
             let round = if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
             let wait = due.map_or(round, |due| due.saturating_duration_since(Instant::now()));
             match inbox.recv_timeout(wait) {
-                Ok(Signal::Event(paths, at)) => {
+                Ok(Signal::Event(paths, at, settled)) => {
                     if self.files.concerned_by(&paths) {
                         let first = *self.first.get_or_insert(at);
-                        due = Some((Instant::now() + QUIET).min(first + LONGEST));
+                        let quiet = if settled { SETTLED } else { QUIET };
+                        due = Some((Instant::now() + quiet).min(first + LONGEST));
                     }
                 }
                 Ok(Signal::Follow(files, since)) => {

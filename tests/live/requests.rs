@@ -17,8 +17,11 @@ fn the_page_and_its_parts_are_served_with_headers_that_lock_it_in() {
         let answer = server.get(path);
         assert_eq!(answer.status, 200, "{path}");
         for header in [
-            &format!("content-type: {kind}"), "content-security-policy: default-src 'none'", "cache-control: no-store",
-            "x-content-type-options: nosniff", "referrer-policy: no-referrer",
+            &format!("content-type: {kind}"),
+            "content-security-policy: default-src 'none'",
+            "cache-control: no-store",
+            "x-content-type-options: nosniff",
+            "referrer-policy: no-referrer",
         ] {
             assert!(answer.head.contains(header), "{header}: {}", answer.head);
         }
@@ -51,8 +54,10 @@ fn strangers_are_refused() {
         format!("GET /{token}/ HTTP/1.1\r\n{host}Origin: http://example.org\r\n"),
         format!("GET /{token}/ HTTP/1.1\r\n{host}Origin: null\r\n"),
         format!("GET /{token}/ HTTP/1.1\r\n{host}Origin: https://127.0.0.1:{port}\r\n"),
-        format!("GET /{token}/socket HTTP/1.1\r\n{host}Origin: http://evil.example\r\nUpgrade: websocket\r\n\
-                 Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"),
+        format!(
+            "GET /{token}/socket HTTP/1.1\r\n{host}Origin: http://evil.example\r\nUpgrade: websocket\r\n\
+                 Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
+        ),
     ];
     for head in &strangers {
         assert_eq!(server.request(head).status, 403, "{head}");
@@ -75,10 +80,34 @@ fn nothing_is_served_but_what_is_listed() {
     let server = Server::new(Some(&script(3)));
     server.page().until("model");
     let paths = [
-        "s.lua", "../s.lua", "../../../../etc/passwd", "%2e%2e/s.lua", "..%2fs.lua", "%2e%2e%2fs.lua", "/etc/passwd",
-        "//etc/passwd", "./", "index.html", "viewer.js/", "model/", "model/x.glb", "model/../viewer.js", "model",
-        "model/%2e%2e%2f%2e%2e%2fs.lua", "export/", "export/s.lua", "export/../s.lua", "export/..%2f..%2fx.glb",
-        "export/a/b.glb", "export/%00.glb", "export/%ff.glb", "export/glb", "picture/x.png", "socket/", "%", "..",
+        "s.lua",
+        "../s.lua",
+        "../../../../etc/passwd",
+        "%2e%2e/s.lua",
+        "..%2fs.lua",
+        "%2e%2e%2fs.lua",
+        "/etc/passwd",
+        "//etc/passwd",
+        "./",
+        "index.html",
+        "viewer.js/",
+        "model/",
+        "model/x.glb",
+        "model/../viewer.js",
+        "model",
+        "model/%2e%2e%2f%2e%2e%2fs.lua",
+        "export/",
+        "export/s.lua",
+        "export/../s.lua",
+        "export/..%2f..%2fx.glb",
+        "export/a/b.glb",
+        "export/%00.glb",
+        "export/%ff.glb",
+        "export/glb",
+        "picture/x.png",
+        "socket/",
+        "%",
+        "..",
     ];
     for path in paths {
         assert_eq!(server.get(path).status, 404, "{path}");
@@ -95,11 +124,18 @@ fn the_model_is_a_glb_that_never_changes_under_its_name() {
     let url = model["url"].as_str().unwrap().to_owned();
     let answer = server.get(&url);
     assert_eq!(answer.status, 200);
-    assert!(answer.head.contains("immutable") && answer.head.contains("model/gltf-binary"), "{}", answer.head);
+    assert!(
+        answer.head.contains("immutable") && answer.head.contains("model/gltf-binary"),
+        "{}",
+        answer.head
+    );
     assert_eq!(answer.body.len() as u64, model["bytes"].as_u64().unwrap());
     let (document, ..) = gltf::import_slice(&answer.body).unwrap();
     assert!(document.meshes().len() > 0);
-    assert_eq!((&model["triangles"], &model["cause"], &model["seed"]), (&json!(triangles(3)), &json!("start"), &json!("0")));
+    assert_eq!(
+        (&model["triangles"], &model["cause"], &model["seed"]),
+        (&json!(triangles(3)), &json!("start"), &json!("0"))
+    );
     assert_eq!(model["bounds"]["high"].as_array().unwrap().len(), 3);
     assert_eq!(model["files"], json!(["s.lua"]));
     let urls: Vec<String> = (2..6)
@@ -146,10 +182,19 @@ fn messages_that_mean_nothing_are_refused_and_the_server_goes_on() {
     let mut page = server.page();
     page.next("model");
     let wrong = [
-        "", "nonsense", "[]", "7", "{\"type\":\"fly\"}", "{\"type\":\"set\",\"params\":{\"length\":{}}}",
-        "{\"type\":\"set\",\"params\":{\"lenght\":\"2\"}}", "{\"type\":\"set\",\"params\":{\"length\":\"90\"}}",
-        "{\"type\":\"seed\",\"seed\":\"-1\"}", "{\"type\":\"steps\",\"steps\":1.5}", "{\"type\":\"cancel\"}",
-        "{\"type\":\"open\",\"file\":\"/etc/passwd\",\"line\":1}", "{\"type\":\"pick\",\"id\":3}",
+        "",
+        "nonsense",
+        "[]",
+        "7",
+        "{\"type\":\"fly\"}",
+        "{\"type\":\"set\",\"params\":{\"length\":{}}}",
+        "{\"type\":\"set\",\"params\":{\"lenght\":\"2\"}}",
+        "{\"type\":\"set\",\"params\":{\"length\":\"90\"}}",
+        "{\"type\":\"seed\",\"seed\":\"-1\"}",
+        "{\"type\":\"steps\",\"steps\":1.5}",
+        "{\"type\":\"cancel\"}",
+        "{\"type\":\"open\",\"file\":\"/etc/passwd\",\"line\":1}",
+        "{\"type\":\"pick\",\"id\":3}",
         "{\"type\":\"highlight\",\"id\":4,\"file\":\"../x\",\"line\":99999999}",
     ];
     for text in wrong {
@@ -235,7 +280,10 @@ fn two_servers_find_ports_of_their_own_and_print_the_address_first() {
         server.kill().unwrap();
         server.wait().unwrap();
     }
-    assert!(addresses.iter().all(|it| it.starts_with("http://127.0.0.1:") && it.ends_with("/\n")), "{addresses:?}");
+    assert!(
+        addresses.iter().all(|it| it.starts_with("http://127.0.0.1:") && it.ends_with("/\n")),
+        "{addresses:?}"
+    );
     let port = |address: &str| address.split([':', '/']).nth(4).unwrap().parse::<u16>().unwrap();
     assert_ne!(port(&addresses[0]), port(&addresses[1]));
 }

@@ -15,7 +15,10 @@ fn every_way_to_save_shows_the_new_model_and_one_that_changes_nothing_does_not()
     let part = |name: &str| server.path(name);
     let shows = |page: &mut crate::support::Page, count: usize| {
         let model = page.next("model");
-        assert_eq!((&model["cause"], model["triangles"].as_u64()), (&json!("save"), Some(triangles(count) as u64)));
+        assert_eq!(
+            (&model["cause"], model["triangles"].as_u64()),
+            (&json!("save"), Some(triangles(count) as u64))
+        );
     };
     server.write("s.lua", script(4));
     shows(&mut page, 4);
@@ -82,7 +85,7 @@ fn required_files_textures_and_the_standard_library_are_watched_even_where_they_
     fs::write(folder.path().join("std.lua"), library).unwrap();
     let text = format!(
         "local parts = require(\"sub/parts\")\n{}",
-        script(3).replace("turtle()", "turtle()").replace("this:forward(length)", "this:material(parts.stone):forward(length)")
+        script(3).replace("this:forward(length)", "this:material(parts.stone):forward(length)")
     );
     fs::write(folder.path().join("s.lua"), text).unwrap();
     let server = Server::start(folder, &["--stdlib", "std.lua"]);

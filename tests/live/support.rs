@@ -103,7 +103,11 @@ impl Server {
         stream.read_to_end(&mut bytes).unwrap();
         let end = bytes.windows(4).position(|window| window == b"\r\n\r\n").unwrap_or(bytes.len());
         let head = String::from_utf8(bytes[..end].to_vec()).unwrap();
-        Answer { status: head[9..12].parse().unwrap(), head, body: bytes.get(end + 4..).unwrap_or(&[]).to_vec() }
+        Answer {
+            status: head[9..12].parse().unwrap(),
+            head,
+            body: bytes.get(end + 4..).unwrap_or(&[]).to_vec(),
+        }
     }
 
     /// Opens a page, and takes its greeting.

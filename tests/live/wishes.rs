@@ -20,16 +20,25 @@ fn values_are_set_shared_kept_across_saves_and_put_back() {
     assert_eq!(first["params"][0]["control"], control);
     let model = set(&mut page, json!("5"));
     let param = &model["params"][0];
-    assert_eq!((&param["value"], &param["default"], &param["changed"]), (&json!(5.0), &json!(1.0), &json!(true)));
+    assert_eq!(
+        (&param["value"], &param["default"], &param["changed"]),
+        (&json!(5.0), &json!(1.0), &json!(true))
+    );
     assert_eq!((&model["cause"], &model["url"]), (&json!("parameters"), &other.next("model")["url"]));
     assert_ne!(model["url"], first["url"]);
     server.write("s.lua", script(4));
     assert_eq!(page.next("model")["params"][0]["value"], 5.0);
     server.write("s.lua", script(4).replace("default = 1", "default = 2"));
     let param = &page.next("model")["params"][0];
-    assert_eq!((&param["value"], &param["default"], &param["old_default"]), (&json!(5.0), &json!(2.0), &json!(1.0)));
+    assert_eq!(
+        (&param["value"], &param["default"], &param["old_default"]),
+        (&json!(5.0), &json!(2.0), &json!(1.0))
+    );
     let param = &set(&mut page, Value::Null)["params"][0];
-    assert_eq!((&param["value"], &param["changed"], &param["old_default"]), (&json!(2.0), &json!(false), &Value::Null));
+    assert_eq!(
+        (&param["value"], &param["changed"], &param["old_default"]),
+        (&json!(2.0), &json!(false), &Value::Null)
+    );
     set(&mut page, json!("3"));
     assert_eq!(page.model_of(json!({ "type": "reset" }))["params"][0]["value"], 2.0);
     // A change that changes nothing is answered, to this page alone.
@@ -68,7 +77,10 @@ fn the_seed_and_the_steps_are_wished_and_the_last_step_is_known() {
     assert_eq!(seeded["seed"], "18446744073709551615");
     assert_ne!(seeded["url"], first["url"]);
     let limited = page.model_of(json!({ "type": "steps", "steps": 2 }));
-    assert_eq!((&limited["steps"], &limited["last_step"], &limited["step_limit"]), (&json!(2), &json!(6), &json!(2)));
+    assert_eq!(
+        (&limited["steps"], &limited["last_step"], &limited["step_limit"]),
+        (&json!(2), &json!(6), &json!(2))
+    );
     let whole = page.model_of(json!({ "type": "steps", "steps": null }));
     assert_eq!((&whole["url"], &whole["step_limit"]), (&seeded["url"], &Value::Null));
     page.model_of(json!({ "type": "steps", "steps": 0 }));
@@ -103,7 +115,10 @@ fn of_many_values_in_a_row_the_last_is_shown_in_the_end() {
 fn a_line_is_opened_in_the_editor_if_the_file_is_one_of_the_script() {
     let server = Server::with(
         Some(&script(3)),
-        &["--editor", "sh -c 'printf %s:%s \"$1\" \"$2\" > opened.part; mv opened.part opened' sh {file} {line}"],
+        &[
+            "--editor",
+            "sh -c 'printf %s:%s \"$1\" \"$2\" > opened.part; mv opened.part opened' sh {file} {line}",
+        ],
     );
     let mut page = server.page();
     page.next("model");
@@ -126,4 +141,76 @@ fn a_line_is_opened_in_the_editor_if_the_file_is_one_of_the_script() {
     page.next("model");
     page.say(&json!({ "type": "open", "file": "s.lua", "line": 3 }));
     assert!(page.any()["text"].as_str().unwrap().contains("--editor"));
+}
+
+#[test]
+fn a_preset_is_saved_loaded_and_deleted_for_all_pages() {
+    let server = Server::with(Some(&script(3)), &["--seed", "5"]);
+    let (mut page, mut other) = (server.page(), server.page());
+    page.next("model");
+    other.next("model");
+    set(&mut page, json!("4"));
+    page.say(&json!({ "type": "preset", "action": "save", "name": "long" }));
+    assert_eq!(page.next("presets")["names"], json!(["long"]));
+    other.next("model");
+    assert_eq!(other.next("presets")["names"], json!(["long"]));
+    let file: Value = serde_json::from_slice(&std::fs::read(server.path("s.presets.json")).unwrap()).unwrap();
+    assert_eq!(file, json!({ "long": { "seed": 5, "params": { "length": 4 } } }));
+    page.model_of(json!({ "type": "reset" }));
+    page.model_of(json!({ "type": "seed", "seed": "6" }));
+    let loaded = page.model_of(json!({ "type": "preset", "action": "load", "name": "long" }));
+    assert_eq!(
+        (&loaded["cause"], &loaded["seed"], &loaded["params"][0]["value"]),
+        (&json!("preset"), &json!("5"), &json!(4.0))
+    );
+    for (action, name) in
+        [("load", "lang"), ("delete", "none"), ("save", ""), ("save", "a\nb"), ("fly", "long")]
+    {
+        page.say(&json!({ "type": "preset", "action": action, "name": name }));
+        assert_eq!(page.any()["type"], "refused", "{action} {name}");
+    }
+    page.say(&json!({ "type": "preset", "action": "delete", "name": "long" }));
+    assert_eq!(page.next("presets")["names"], json!([]));
+    server.write("s.presets.json", "{ nonsense");
+    page.say(&json!({ "type": "preset", "action": "load", "name": "long" }));
+    assert!(page.any()["text"].as_str().unwrap().contains("s.presets.json:1"));
+    let again = Server::with(Some(&script(3)), &["--set", "length=3"]);
+    assert_eq!(again.page().next("model")["params"][0]["value"], 3.0);
+}
+
+#[test]
+fn variations_come_as_pictures_to_the_page_that_asked() {
+    let server = Server::new(Some(&script(3)));
+    let (mut page, mut other) = (server.page(), server.page());
+    page.next("model");
+    other.next("model");
+    set(&mut page, json!(2));
+    other.next("model");
+    page.say(&json!({ "type": "variations", "id": 7, "seeds": ["1", "18446744073709551615"] }));
+    for (index, seed) in ["1", "18446744073709551615"].iter().enumerate() {
+        let made = page.next("variation");
+        assert_eq!((&made["id"], &made["index"], &made["of"]), (&json!(7), &json!(index), &json!(2)));
+        assert_eq!((&made["seed"], &made["params"]), (&json!(seed), &json!({ "length": 2.0 })));
+        let picture = server.get(made["url"].as_str().unwrap());
+        assert!(picture.status == 200 && picture.body.starts_with(b"\x89PNG"));
+    }
+    page.say(&json!({ "type": "variations", "id": 8, "param": "length", "values": ["1", "9"] }));
+    assert_eq!(page.next("variation")["params"]["length"], 1.0);
+    assert_eq!(page.next("variation")["params"]["length"], 9.0);
+    for wrong in [
+        json!({ "param": "length", "values": ["99"] }),
+        json!({ "param": "none", "values": ["1"] }),
+        json!({ "seeds": ["x"] }),
+        json!({ "seeds": [] }),
+        json!({ "seeds": vec!["1"; 999] }),
+        json!({}),
+    ] {
+        let mut message = wrong;
+        message["type"] = "variations".into();
+        message["id"] = 9.into();
+        page.say(&message);
+        let answer = page.any();
+        assert_eq!((&answer["type"], &answer["id"]), (&json!("refused"), &json!(9)), "{message}");
+    }
+    other.is_quiet(Duration::from_millis(50));
 }

@@ -46,7 +46,8 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
     let (wake, changes) = channel();
     let (seen, waker) = (now.clone(), wake.clone());
     let mut files = command.script.files();
-    let watch = Watch::new(files.clone(), move |_| seen.stop(&waker), |why| report::eprint(&format!("{why}\n")))?;
+    let watch =
+        Watch::new(files.clone(), move |_| seen.stop(&waker), |why| report::eprint(&format!("{why}\n")))?;
     let interrupted = now.clone();
     on_interrupt(move || {
         interrupted.over.store(true, Ordering::Release);
