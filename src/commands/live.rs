@@ -70,10 +70,9 @@ impl Serve {
         if self.port.is_none() && port != PORT {
             report::eprint(&format!("port {PORT} is in use, so this is port {port}\n"));
         }
-        if self.open || (!self.no_open && !self.script.json && has_display()) {
-            if let Err(error) = browse(&address) {
-                report::eprint(&format!("{error}\n"));
-            }
+        let opens = self.open || (!self.no_open && !self.script.json && has_display());
+        if let Some(Err(error)) = opens.then(|| browse(&address)) {
+            report::eprint(&format!("{error}\n"));
         }
         // Nothing else ends it, and an end of the other side would be one.
         let _ = interrupted.recv();

@@ -113,15 +113,11 @@ impl Server {
     /// Opens a page, and takes its greeting.
     pub(crate) fn page(&self) -> Page {
         let stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        stream.set_read_timeout(Some(Duration::from_millis(50))).unwrap();
+        stream.set_read_timeout(Some(PATIENCE)).unwrap();
         stream.set_nodelay(true).unwrap();
         let address = format!("ws://127.0.0.1:{}/{}/socket", self.port, self.token);
-        let socket = loop {
-            match tungstenite::client(&address[..], stream.try_clone().unwrap()) {
-                Ok((socket, _)) => break socket,
-                Err(error) => panic!("{error}"),
-            }
-        };
+        let (socket, _) = tungstenite::client(&address[..], stream).unwrap();
+        socket.get_ref().set_read_timeout(Some(Duration::from_millis(50))).unwrap();
         let mut page = Page { socket };
         let hello = page.next("hello");
         assert_eq!(hello["script"], "s.lua");
