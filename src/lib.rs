@@ -23,6 +23,7 @@
 //!   each thread.
 //! - [`derive`](mod@derive): rewrites chains step by step into a [`Derived`](derive::Derived) system, and has
 //!   them interpreted in between.
+//! - [`trace`](mod@trace): which module made what, and which rules led to it.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
 //! - [`presets`]: values of parameters under names, in a file beside the script.
@@ -80,6 +81,7 @@ pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
+pub mod trace;
 pub mod variations;
 pub mod watch;
 

@@ -1,6 +1,8 @@
 //! Rewrites one piece of a chain: chooses rules, runs them in batches, and splices the successors in.
 
+use std::ops::AddAssign;
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use super::Plan;
 use crate::error::{Error, Result};
@@ -8,7 +10,7 @@ use crate::rules::{Bindings, Chain, Choice, END, Key, Links, Mark, Stream, Symbo
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.
-const NONE: u16 = u16::MAX;
+pub(super) const NONE: u16 = u16::MAX;
 /// Marks an application that leaves its module, in the counts that Lua writes.
 const STAY: u32 = 0x8000_0000;
 /// Marks the number of a shape, in the counts that Lua writes.
@@ -29,15 +31,37 @@ pub(crate) struct Output {
     pub ran: bool,
     /// Whether any rule that ran replaced or erased its module.
     pub changed: bool,
-    /// How many modules each rule that ran made.
-    pub made: Vec<(u16, usize)>,
+    /// What each rule that ran has done.
+    pub uses: Vec<(u16, Use)>,
+    /// For each symbol of the piece, the rule that ran and how many symbols came of it; only where it is traced.
+    pub applied: Vec<(u16, u32)>,
+}
+
+/// How much a rule has done.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Use {
+    /// How many times it was applied.
+    pub applied: usize,
+    /// How many modules and brackets it made.
+    pub made: usize,
+    /// The time that it took, of all threads together.
+    pub time: Duration,
+}
+
+impl AddAssign for Use {
+    fn add_assign(&mut self, other: Self) {
+        self.applied += other.applied;
+        self.made += other.made;
+        self.time += other.time;
+    }
 }
 
 impl Output {
     /// Empties it but keeps its memory.
     pub(crate) fn clear(&mut self) {
         self.chain.clear();
-        self.made.clear();
+        self.uses.clear();
+        self.applied.clear();
         (self.ran, self.changed) = (false, false);
     }
 }
@@ -73,6 +97,7 @@ struct Group {
     symbol_at: usize,
     param_at: usize,
     made: usize,
+    time: Duration,
 }
 
 /// The step at hand, for one thread.
@@ -93,7 +118,8 @@ impl Batch<'_> {
         scratch.draws.resize(rules, 0);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
-        Ok(self.splice(piece, scratch, spare))
+        let applied = if self.plan.traced { self.applied(piece, scratch) } else { Vec::new() };
+        Ok(Output { applied, ..self.splice(piece, scratch, spare) })
     }
 
     fn choose(&self, piece: Piece, scratch: &mut Scratch) -> Result<()> {
@@ -302,12 +328,14 @@ impl Batch<'_> {
             if let Some((index, _)) = &first {
                 members.retain(|member| member < index);
             }
+            let begin = Instant::now();
             if !members.is_empty()
                 && let Err((index, error)) = self.run(narrow_rule(rule), &members, scratch)
             {
                 first = Some((index, error));
             }
             scratch.groups[rule].members = members;
+            scratch.groups[rule].time = begin.elapsed();
         }
         first.map_or(Ok(()), |(_, error)| Err(error))
     }
@@ -380,6 +408,27 @@ impl Batch<'_> {
             .rule(&declared.pattern.text)
             .module(module, self.step);
         (index, error)
+    }
+
+    /// For each symbol of `piece`, the rule that ran and how many symbols come of it.
+    fn applied(&self, piece: Piece, scratch: &Scratch) -> Vec<(u16, u32)> {
+        let shapes = self.machine.current.shapes.borrow();
+        let mut applied = vec![(NONE, 1); piece.end - piece.begin.module];
+        let mut read = vec![(0, 0); scratch.groups.len()];
+        for active in scratch.active.iter().filter(|active| active.rule != NONE) {
+            let (next, from) = &mut read[usize::from(active.rule)];
+            let end = scratch.groups[usize::from(active.rule)].ends[*next];
+            *next += 1;
+            let count = if end & STAY != 0 {
+                1
+            } else if end & SHAPE != 0 {
+                narrow(shapes[(end & !SHAPE) as usize].symbols.len())
+            } else {
+                end - std::mem::replace(from, end)
+            };
+            applied[active.module as usize - piece.begin.module] = (active.rule, count);
+        }
+        applied
     }
 
     fn splice(&self, piece: Piece, scratch: &mut Scratch, mut output: Output) -> Output {
@@ -456,7 +505,8 @@ impl Batch<'_> {
         for (rule, group) in scratch.groups.iter().enumerate() {
             if !group.members.is_empty() {
                 output.ran = true;
-                output.made.push((narrow_rule(rule), group.made));
+                let done = Use { applied: group.members.len(), made: group.made, time: group.time };
+                output.uses.push((narrow_rule(rule), done));
             }
         }
         output.chain.mark(self.plan.batch, grammar.arities());

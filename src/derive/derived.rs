@@ -4,10 +4,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use crate::error::Result;
+use super::batch::Use;
+use super::trace::RuleName;
+use crate::error::{Place, Result};
 use crate::objects::{Model, Object};
 use crate::rules::{Chain, Symbols, Values, chain_text, write_chains};
-use crate::scene::Scene;
+use crate::scene::{Origin, Scene};
 
 /// Where the time of a derivation went.
 #[derive(Debug, Clone, Copy, Default)]
@@ -18,6 +20,18 @@ pub struct Times {
     pub read: usize,
     /// Interpretation passes.
     pub interpretation: Duration,
+}
+
+/// What a rule has done in a derivation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RuleReport {
+    /// The rule.
+    pub name: RuleName,
+    /// Whether it is an interpretation rule.
+    pub interprets: bool,
+    /// How much it has done. The time of interpretation rules is measured if
+    /// [`Options::profile`](crate::script::Options::profile) says so.
+    pub done: Use,
 }
 
 /// The chains and objects that a system ended with.
@@ -39,6 +53,10 @@ pub struct Derived {
     pub steps: usize,
     /// Where the time went.
     pub times: Times,
+    /// What the rules and the interpretation rules have done, in the order of their declaration.
+    pub rules: Vec<RuleReport>,
+    /// Where the system was made.
+    pub place: Option<Place>,
     modules: usize,
     model: OnceLock<Arc<Model>>,
     placed: AtomicBool,
@@ -55,6 +73,8 @@ impl Derived {
         features: Vec<Option<String>>,
         steps: usize,
         times: Times,
+        rules: Vec<RuleReport>,
+        place: Option<Place>,
     ) -> Self {
         let modules = chain.modules();
         Self {
@@ -66,6 +86,8 @@ impl Derived {
             features,
             steps,
             times,
+            rules,
+            place,
             modules,
             model: OnceLock::new(),
             placed: AtomicBool::new(false),
@@ -109,11 +131,13 @@ impl Derived {
     /// As [`Derived::add_to`], but the objects that nobody else holds give away what they have drawn.
     pub(crate) fn hand_over(&mut self, scene: &mut Scene) -> Result<()> {
         let name = self.name();
-        for (object, feature) in self.objects.iter_mut().zip(&self.features) {
+        for (chain, (object, feature)) in self.objects.iter_mut().zip(&self.features).enumerate() {
+            let known = (scene.meshes.len(), scene.instances.len());
             match Arc::get_mut(object) {
                 Some(object) => object.hand_over(scene, &name, feature.as_deref())?,
                 None => object.show(scene, &name, feature.as_deref())?,
             }
+            sign(scene, known, Origin { system: self.system, chain });
         }
         Ok(())
     }
@@ -125,9 +149,22 @@ impl Derived {
     /// Adds what its objects have drawn to `scene`, in the order of the chains.
     pub fn add_to(&self, scene: &mut Scene) -> Result<()> {
         let name = self.name();
-        for (object, feature) in self.objects.iter().zip(&self.features) {
+        for (chain, (object, feature)) in self.objects.iter().zip(&self.features).enumerate() {
+            let known = (scene.meshes.len(), scene.instances.len());
             object.show(scene, &name, feature.as_deref())?;
+            sign(scene, known, Origin { system: self.system, chain });
         }
         Ok(())
+    }
+}
+
+/// Notes the origin of the meshes and instances that `scene` has got since it had as many as `known`.
+fn sign(scene: &mut Scene, known: (usize, usize), origin: Origin) {
+    for mesh in &mut scene.meshes[known.0..] {
+        // A mesh that was placed keeps its own.
+        mesh.origin.get_or_insert(origin);
+    }
+    for instance in &mut scene.instances[known.1..] {
+        instance.origin = Some(origin);
     }
 }

@@ -7,11 +7,15 @@ mod batch;
 mod crew;
 mod derived;
 mod step;
+mod trace;
 
+pub use batch::Use;
 pub(crate) use crew::{Crew, Job};
-pub use derived::{Derived, Times};
+pub use derived::{Derived, RuleReport, Times};
+pub(crate) use trace::around;
+pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 use std::time::Instant;
 
 use crate::error::{Error, Result};
@@ -31,6 +35,17 @@ pub(crate) struct Axiom {
     pub features: Vec<Option<String>>,
 }
 
+impl Axiom {
+    /// Chain number `index` alone.
+    fn only(mut self, index: usize, arities: &[u8]) -> Self {
+        Self {
+            chain: self.chain.only(index, arities),
+            objects: self.objects.drain(..).skip(index).take(1).collect(),
+            features: self.features.drain(..).skip(index).take(1).collect(),
+        }
+    }
+}
+
 /// What does not change while a system derives; shared by all threads.
 pub(crate) struct Plan {
     pub grammar: Grammar,
@@ -40,6 +55,10 @@ pub(crate) struct Plan {
     pub chains: usize,
     /// Symbols that a worker takes at a time.
     pub batch: usize,
+    /// Whether it is noted which rules and modules make what.
+    pub traced: bool,
+    /// Whether the time of each interpretation rule is measured.
+    pub profiled: bool,
 }
 
 /// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
@@ -63,12 +82,16 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let session = &machine.session;
     let options = &session.options;
     let random = session.draws_random();
+    let traced = options.trace.filter(|traced| traced.system == index);
     let (axiom, plan, declared) = {
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
         let grammar = system.grammar(&machine.library, random);
         let key = Key::seed(system.seed.unwrap_or(options.seed));
         let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
+        if let Some(chain) = traced.and_then(|traced| traced.chain) {
+            axiom = axiom.only(chain, grammar.arities());
+        }
         let objects = std::mem::take(&mut axiom.objects);
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects)));
         let plan = Plan {
@@ -77,10 +100,13 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             objects,
             chains: axiom.features.len(),
             batch: options.batch.max(1),
+            traced: traced.is_some(),
+            profiled: options.profile,
         };
         let declared = system.prepare(machine)?;
         (axiom, Arc::new(plan), declared)
     };
+    let place = machine.library.systems.borrow()[index].place.clone();
     let last_only = machine.library.systems.borrow()[index].last_only;
     let settled = machine.library.systems.borrow()[index].draws_afresh();
     let limit = match (steps, options.steps) {
@@ -96,9 +122,14 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let mut stepper = Stepper::new(Arc::clone(&plan));
     let interprets = plan.objects.is_some() && !options.check;
     let mut done = 0;
-    let interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
+    let mut trace = traced.map(|_| {
+        let place = machine.library.systems.borrow()[index].axiom_place.clone();
+        Trace::new(&plan, &session.values, place)
+    });
+    let mut interpretations = vec![Use::default(); plan.interpretations.list.len()];
+    let mut interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
         let begin = Instant::now();
-        let chain = Interpreting::pass(machine, &plan, chain, step)?;
+        let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations)?;
         times.interpretation += begin.elapsed();
         Ok(chain)
     };
@@ -109,9 +140,16 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         session.stop.check()?;
         let begin = Instant::now();
         times.read += chain.symbols.len();
+        let before = match traced {
+            Some(Traced { chain: Some(_), .. }) => chain.clone(),
+            _ => Chain::default(),
+        };
         let outcome = stepper.step(machine, &declared, chain, done + 1)?;
         times.rewriting += begin.elapsed();
         chain = outcome.chain;
+        if let Some(trace) = &mut trace {
+            trace.steps.push(trace::Step { chain: before, applied: outcome.applied });
+        }
         if !outcome.ran || (!outcome.changed && settled && !plan.grammar.draws_random()) {
             break;
         }
@@ -125,13 +163,24 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     if interprets && last_only {
         chain = interpret(chain, done, &mut times)?;
     }
+    let rules = reports(&plan, stepper.uses(), &interpretations);
     drop(stepper);
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&chain.params);
     let plan = Arc::try_unwrap(plan).map_err(|_| Error::new("a worker still holds the plan"))?;
     let objects = match plan.objects.map(Arc::try_unwrap) {
-        Some(Ok(objects)) => objects.into_shared(),
+        Some(Ok(objects)) if trace.is_some() => {
+            let mut objects = objects.into_owned();
+            if let Some(mut trace) = trace {
+                let drawings = objects.iter_mut().map(|object| object.drawing());
+                trace.makers = drawings.map(|drawing| drawing?.take_makers()).collect();
+                trace.chain = chain;
+                session.traced.lock().unwrap_or_else(PoisonError::into_inner).replace(trace);
+            }
+            return Err(Error::new("the traced system is derived"));
+        }
+        Some(Ok(objects)) => objects.into_owned().into_iter().map(Arc::from).collect(),
         Some(Err(_)) => return Err(Error::new("a worker still holds the objects")),
         None => Vec::new(),
     };
@@ -144,5 +193,23 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         axiom.features,
         done,
         times,
+        rules,
+        place,
     ))
+}
+
+/// What the rules and interpretation rules have done, in the order of their declaration.
+fn reports(plan: &Plan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
+    let rules = plan.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
+        name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },
+        interprets: false,
+        done: *done,
+    });
+    let interpretations =
+        plan.interpretations.list.iter().zip(interpretations).map(|((_, text, place), done)| RuleReport {
+            name: RuleName { text: text.clone(), place: place.clone() },
+            interprets: true,
+            done: *done,
+        });
+    rules.chain(interpretations).collect()
 }

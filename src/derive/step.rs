@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use super::Plan;
-use super::batch::{Batch, Output, Piece, Scratch};
+use super::batch::{Batch, Output, Piece, Scratch, Use};
 use super::crew::Job;
 use crate::error::{Error, Result};
 use crate::rules::{Chain, Links, Mark};
@@ -78,6 +78,15 @@ pub(crate) struct Outcome {
     pub chain: Chain,
     pub ran: bool,
     pub changed: bool,
+    /// For each symbol of the chain before, the rule that ran and how many symbols came of it; only where it is traced.
+    pub applied: Vec<(u16, u32)>,
+}
+
+/// What all pieces together gave, besides their chain.
+struct Merged {
+    ran: bool,
+    changed: bool,
+    applied: Vec<(u16, u32)>,
 }
 
 /// Makes steps; keeps the memory of the last chain for the next.
@@ -87,11 +96,14 @@ pub(crate) struct Stepper {
     links: Links,
     scratch: Scratch,
     outputs: Vec<Output>,
+    /// What each rule has done in all steps.
+    uses: Vec<Use>,
 }
 
 impl Stepper {
     pub(crate) fn new(plan: Arc<Plan>) -> Self {
         Self {
+            uses: vec![Use::default(); plan.grammar.rules().len()],
             plan,
             spare: Chain::default(),
             links: Links::default(),
@@ -131,24 +143,20 @@ impl Stepper {
             rewriting.abandon();
         }
         let rewriting = machine.crew.reclaim(rewriting);
-        let (ran, changed) = result?;
+        let Merged { ran, changed, applied } = result?;
         self.links = rewriting.links;
         self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
         let made = std::mem::replace(&mut self.spare, rewriting.chain);
-        Ok(Outcome { chain: made, ran, changed })
+        Ok(Outcome { chain: made, ran, changed, applied })
     }
 
     /// Works on pieces and puts the results together as they come, in order.
-    fn merge(
-        &mut self,
-        machine: &Machine,
-        declared: &Declared,
-        rewriting: &Rewriting,
-    ) -> Result<(bool, bool)> {
+    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &Rewriting) -> Result<Merged> {
         let limit = machine.session.options.limits.modules;
         let made = &mut self.spare;
         made.clear();
         let mut growth = vec![0usize; self.plan.grammar.rules().len()];
+        let mut applied = Vec::new();
         let (mut ran, mut changed) = (false, false);
         let mut chain = 0;
         for index in 0..rewriting.pieces.len() {
@@ -175,16 +183,23 @@ impl Stepper {
             }
             ran |= output.ran;
             changed |= output.changed;
-            for (rule, count) in &output.made {
-                growth[usize::from(*rule)] += count;
+            for (rule, done) in &output.uses {
+                growth[usize::from(*rule)] += done.made;
+                self.uses[usize::from(*rule)] += *done;
             }
+            applied.append(&mut output.applied);
             output.clear();
             rewriting.spare.lock().unwrap_or_else(PoisonError::into_inner).push(output);
             if made.symbols.len() > limit {
                 return Err(self.runaway(&growth, limit, rewriting.step));
             }
         }
-        Ok((ran, changed))
+        Ok(Merged { ran, changed, applied })
+    }
+
+    /// What each rule has done so far.
+    pub(crate) fn uses(&self) -> &[Use] {
+        &self.uses
     }
 
     fn runaway(&self, growth: &[usize], limit: usize, step: usize) -> Error {

@@ -12,6 +12,8 @@ mod material;
 mod mesh;
 mod place;
 
+pub use place::Place;
+
 #[cfg(test)]
 mod tests;
 
@@ -36,28 +38,48 @@ enum Textures {
 struct Document<'a> {
     root: json::Root,
     body: Body<'a>,
+    layout: Layout,
+}
+
+/// Where the things of a scene are in a document.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Layout {
+    /// For each instance of the scene, the node that shows it.
+    pub places: Vec<Option<Place>>,
+    /// For each mesh of the scene, its index in the document.
+    pub meshes: Vec<Option<usize>>,
 }
 
 /// `scene` as the bytes of a `.glb` file.
 ///
 /// Fails if the scene is not sound, if a texture cannot be read, and beyond 4 GiB.
 pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
+    bytes(scene, false).map(|(bytes, _)| bytes)
+}
+
+/// As [`glb`], for a viewer: all surfaces have texture coordinates, in metres where they have no texture, and it is told
+/// where everything is.
+pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
+    bytes(scene, true)
+}
+
+fn bytes(scene: &Scene, measured: bool) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded, measured)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
     bytes.reserve_exact(head.len() + document.body.length() as usize);
     bytes.extend(head);
     document.body.write(&mut bytes).map_err(Error::new)?;
-    Ok(bytes)
+    Ok((bytes, document.layout))
 }
 
 /// Writes one `.glb` file.
 pub(super) fn write_glb(scene: &Scene, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded, false)?;
     let head = document.head()?;
     let path = files.main().to_owned();
     files.write(&path, |out| {
@@ -74,7 +96,7 @@ pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
     for (name, file) in names.iter().zip(&images.files) {
         files.write(&files.sibling(name), |out| out.write_all(&file.bytes))?;
     }
-    let mut document = Document::new(&checked, &images, &Textures::Beside(names))?;
+    let mut document = Document::new(&checked, &images, &Textures::Beside(names), false)?;
     if let Some(buffer) = document.root.buffers.first_mut() {
         let name = format!("{}.bin", files.stem());
         buffer.uri = Some(uri(&name));
@@ -85,7 +107,7 @@ pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
 }
 
 impl<'a> Document<'a> {
-    fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures) -> Result<Self> {
+    fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures, measured: bool) -> Result<Self> {
         let mut root = json::Root {
             asset: json::Asset {
                 generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
@@ -97,11 +119,12 @@ impl<'a> Document<'a> {
         };
         let mut body = Body::default();
         let materials = material::write(checked, images, textures, &mut root, &mut body);
-        let meshes = mesh::write(checked, &materials, &mut root, &mut body);
-        let nodes = place::write(checked, &meshes, &mut root, &mut body);
+        let meshes = mesh::write(checked, measured, &materials, &mut root, &mut body);
+        let (nodes, places) = place::write(checked, &meshes, &mut root, &mut body);
         root.scenes.push(json::Scene { extensions: None, extras: None, name: None, nodes });
         body.describe(&mut root)?;
-        Ok(Self { root, body })
+        let meshes = meshes.iter().map(|mesh| mesh.map(|index| index.value())).collect();
+        Ok(Self { root, body, layout: Layout { places, meshes } })
     }
 
     /// All of a `.glb` file but the body: both headers and the description between them.

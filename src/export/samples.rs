@@ -20,11 +20,11 @@ pub(super) fn cube(name: &str, material: usize) -> Mesh {
             part.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
         }
     }
-    Mesh { name: name.into(), parts: vec![part] }
+    Mesh { name: name.into(), parts: vec![part], ..Mesh::default() }
 }
 
 fn instance(mesh: usize, name: &str, transform: DAffine3) -> Instance {
-    Instance { mesh, transform, name: name.into(), feature: None }
+    Instance { mesh, transform, name: name.into(), feature: None, origin: None, placement: None }
 }
 
 fn plaster() -> Material {
@@ -147,7 +147,7 @@ fn odd() -> Scene {
     mesh.parts.push(roof.clone());
     mesh.parts.push(Part { material: 2, triangles: vec![[1, 1, 1]], ..roof.clone() });
     mesh.parts.push(Part { material: 2, ..Part::default() });
-    scene.meshes.push(Mesh { name: "never shown".into(), parts: vec![roof] });
+    scene.meshes.push(Mesh { name: "never shown".into(), parts: vec![roof], ..Mesh::default() });
     scene.meshes.push(Mesh::default());
     scene.instances.push(instance(2, "nothing", DAffine3::IDENTITY));
     scene
@@ -175,7 +175,7 @@ pub(super) fn hill(n: u32) -> Scene {
     }
     let material =
         Material { name: "grass".into(), base_color: [0.25, 0.4, 0.15, 1.0], ..Material::default() };
-    let meshes = vec![Mesh { name: "hill".into(), parts: vec![part] }];
+    let meshes = vec![Mesh { name: "hill".into(), parts: vec![part], ..Mesh::default() }];
     Scene { materials: vec![material], meshes, instances: vec![instance(0, "hill", DAffine3::IDENTITY)] }
 }
 

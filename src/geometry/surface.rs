@@ -22,6 +22,7 @@ pub(super) struct Surface<'a> {
     /// -1 if the way goes against its headings.
     direction: f64,
     open: Vec<[Vec3; 2]>,
+    reached: Vec<(usize, usize)>,
 }
 
 /// The vertices of a ring, as one of its sides sees it.
@@ -50,7 +51,17 @@ impl<'a> Surface<'a> {
             .into_iter()
             .map(|pair| Span::new(section, &skin, pair, direction, shading))
             .collect::<Result<Vec<_>>>()?;
-        Ok(Self { part, section, rings, options, skin, spans, direction, open: Vec::new() })
+        Ok(Self {
+            part,
+            section,
+            rings,
+            options,
+            skin,
+            spans,
+            direction,
+            open: Vec::new(),
+            reached: Vec::new(),
+        })
     }
 
     /// Adds the sides and the ends.
@@ -65,9 +76,16 @@ impl<'a> Surface<'a> {
             }
         } else if !self.options.closed && self.spans.iter().any(Option::is_some) {
             self.end(0, self.options.start_cap, -self.direction);
+            self.reach(0);
             self.end(self.rings.len() - 1, self.options.end_cap, self.direction);
+            self.reach(self.rings.len() - 1);
         }
-        Ok(Swept { v, open: self.open })
+        Ok(Swept { v, open: self.open, reached: self.reached })
+    }
+
+    /// Notes that the triangles added last lead to `ring`.
+    fn reach(&mut self, ring: usize) {
+        self.reached.push((self.rings[ring].station - 1, self.part.triangles.len()));
     }
 
     fn refuse_too_many(&self) -> Result<()> {
@@ -101,6 +119,7 @@ impl<'a> Surface<'a> {
             };
             let above = self.row(index, 1, end, &middles);
             self.faces(index, [below, above])?;
+            self.reach((index + 1) % self.rings.len());
             ready = self.joined(index).map(|_| above);
             v = end;
         }
@@ -276,7 +295,10 @@ impl<'a> Surface<'a> {
         part.normals[behind..].iter_mut().for_each(|normal| *normal = -*normal);
         part.uvs[behind..].iter_mut().for_each(|uv| uv.x = -uv.x);
         let turned = part.triangles[triangles..].to_vec();
+        let added = turned.len();
         part.triangles.extend(turned.into_iter().map(|[a, b, c]| [a + offset, c + offset, b + offset]));
+        let behind: Vec<_> = self.reached.iter().map(|(station, count)| (*station, count + added)).collect();
+        self.reached.extend(behind);
     }
 }
 

@@ -64,6 +64,9 @@ pub struct Swept {
     pub v: f64,
     /// The edges (m) where the surface is open: at ends without a cap, and all around a ribbon.
     pub open: Vec<[Vec3; 2]>,
+    /// Which stations its triangles lead to: in order, each station's number from 0 and how many triangles the part
+    /// had when those that lead to it had been added. Caps count for their station.
+    pub reached: Vec<(usize, usize)>,
 }
 
 /// Adds the surface that `section` leaves along `stations` to `part`.

@@ -1,6 +1,7 @@
 //! Applies recorded method calls to the objects, brackets and ends of chains in between.
 
 use std::sync::Arc;
+use std::time::{Duration, Instant};
 
 use mlua::Buffer;
 
@@ -34,6 +35,8 @@ pub(crate) struct Applier {
     calls: Vec<u16>,
     numbers: Vec<f64>,
     ends: Vec<u32>,
+    /// The time that the calls of each entry took, if that is measured.
+    times: Vec<Duration>,
 }
 
 impl Applier {
@@ -60,6 +63,7 @@ impl Applier {
             calls: Vec::new(),
             numbers: Vec::new(),
             ends: Vec::new(),
+            times: Vec::new(),
         })
     }
 
@@ -70,6 +74,12 @@ impl Applier {
         self.entries.clear();
         self.entries.extend_from_slice(entries);
         self.next = 0;
+        self.times.clear();
+    }
+
+    /// The times of the entries that have been applied.
+    pub(crate) fn take_times(&mut self) -> Vec<Duration> {
+        std::mem::take(&mut self.times)
     }
 
     /// Applies the rest of a batch and all symbols before `until`.
@@ -100,6 +110,9 @@ impl Applier {
                 while self.position < until && !ended {
                     let symbol = pass.chain.symbols[self.position];
                     let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
+                    if pass.plan.traced {
+                        follow(object, self.position);
+                    }
                     match symbol {
                         OPEN => object.push(),
                         CLOSE => object.pop()?,
@@ -181,6 +194,13 @@ impl Applier {
     }
 }
 
+/// Notes that the symbol at place `position` of the chain draws what follows.
+fn follow(object: &mut dyn Object, position: usize) {
+    if let Some(drawing) = object.drawing() {
+        drawing.trace(u32::try_from(position).unwrap_or(u32::MAX));
+    }
+}
+
 impl Flusher for Applier {
     fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
         let [calls, numbers, counts] = self.buffers.clone();
@@ -190,9 +210,11 @@ impl Flusher for Applier {
         read_column(numbers, arguments, &mut self.numbers)?;
         read_column(counts, entry.min(self.entries.len()), &mut self.ends)?;
         let (mut call_at, mut number_at) = (0, 0);
+        let traced = self.pass.plan.traced;
         for index in self.next..=entry {
             let Some((module, _)) = self.entries.get(index).copied() else { break };
             self.walk(module)?;
+            let begin = self.pass.plan.profiled.then(Instant::now);
             let end = if index < entry { self.ends[index] as usize } else { called };
             // A method that runs at once follows, so the pass must have begun even without calls.
             if call_at < end || index == entry {
@@ -201,6 +223,9 @@ impl Flusher for Applier {
                     if !self.begun {
                         object.begin();
                         self.begun = true;
+                    }
+                    if traced {
+                        follow(object, module);
                     }
                     while call_at < end {
                         let method = self.calls[call_at];
@@ -212,6 +237,10 @@ impl Flusher for Applier {
                     Ok(())
                 });
                 applied.map_err(|error| self.blame(error, index))?;
+            }
+            if let Some(begin) = begin {
+                self.times.resize(index + 1, Duration::ZERO);
+                self.times[index] += begin.elapsed();
             }
         }
         self.next = entry;

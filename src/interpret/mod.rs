@@ -10,8 +10,9 @@ use std::sync::Arc;
 use std::sync::Mutex;
 use std::sync::PoisonError;
 use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
 
-use crate::derive::{Job, Plan};
+use crate::derive::{Job, Plan, Use};
 use crate::error::{Error, Result};
 use crate::rules::{Chain, END, Mark};
 use crate::script::{Machine, write_column};
@@ -30,11 +31,18 @@ pub(crate) struct Interpreting {
     next: AtomicUsize,
     triangles: AtomicUsize,
     failure: Mutex<Option<(usize, Error)>>,
+    uses: Mutex<Vec<Use>>,
 }
 
 impl Interpreting {
-    /// Interprets `chain` as it stands after `step` steps, and gives it back.
-    pub(crate) fn pass(machine: &Machine, plan: &Arc<Plan>, chain: Chain, step: usize) -> Result<Chain> {
+    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did.
+    pub(crate) fn pass(
+        machine: &Machine,
+        plan: &Arc<Plan>,
+        chain: Chain,
+        step: usize,
+        uses: &mut [Use],
+    ) -> Result<Chain> {
         let starts = chain.starts(plan.grammar.arities());
         let mut pieces = vec![Mark::default()];
         for start in &starts[1..] {
@@ -54,10 +62,13 @@ impl Interpreting {
             next: AtomicUsize::new(0),
             triangles: AtomicUsize::new(0),
             failure: Mutex::new(None),
+            uses: Mutex::new(vec![Use::default(); uses.len()]),
         });
         machine.crew.hand_out(machine, count, || Job::Interpret(Arc::clone(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = machine.crew.reclaim(interpreting);
+        let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
+        uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
         match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             Some((_, error)) => Err(error),
             None => Ok(done.chain),
@@ -115,12 +126,16 @@ impl Interpreting {
                 module += 1;
             }
             machine.session.stop.check()?;
-            self.interpret(machine, &entries, &ids, &arguments, module)?;
+            let begin = Instant::now();
+            let applying = self.interpret(machine, &entries, &ids, &arguments, module)?;
+            self.count_uses(&ids, begin.elapsed(), applying);
         }
         Ok(())
     }
 
     /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`.
+    ///
+    /// Gives the time that the calls of each entry took, if that is measured.
     fn interpret(
         &self,
         machine: &Machine,
@@ -128,7 +143,7 @@ impl Interpreting {
         ids: &[u16],
         arguments: &[f64],
         until: usize,
-    ) -> Result<()> {
+    ) -> Result<Vec<Duration>> {
         let lua = |error: mlua::Error| machine.translate(error);
         let prelude = machine.prelude();
         write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
@@ -162,7 +177,29 @@ impl Interpreting {
                 return Err(self.blame(machine, machine.translate(error), entries.get(at).copied()));
             }
         };
-        with_applier(&mut |applier| applier.finish_entries(called, until))
+        let mut applying = Vec::new();
+        with_applier(&mut |applier| {
+            applier.finish_entries(called, until)?;
+            applying = applier.take_times();
+            Ok(())
+        })?;
+        Ok(applying)
+    }
+
+    /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`
+    /// is known by entry, while what Lua took is shared out evenly.
+    fn count_uses(&self, ids: &[u16], time: Duration, applying: Vec<Duration>) {
+        let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = u32::try_from(ids.len().max(1)).unwrap_or(u32::MAX);
+        let each = if self.plan.profiled {
+            time.saturating_sub(applying.iter().sum()) / count
+        } else {
+            Duration::ZERO
+        };
+        let applying = applying.into_iter().chain(std::iter::repeat(Duration::ZERO));
+        for (id, own) in ids.iter().zip(applying) {
+            uses[usize::from(*id)] += Use { applied: 1, made: 0, time: each + own };
+        }
     }
 
     /// An error with the interpretation rule and the module where it happened.

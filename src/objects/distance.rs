@@ -1,26 +1,57 @@
 //! Distances from places to what an object has drawn, for rules that ask about their surroundings.
 
 use glam::DVec3;
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
 
 use crate::scene::Part;
 
-/// Distance (m) from `place` to the nearest point of the triangles of `parts`; infinite without triangles.
-pub(super) fn to_parts(parts: &[Part], place: DVec3) -> f64 {
-    let mut nearest = f64::INFINITY;
-    for part in parts {
-        for triangle in &part.triangles {
-            let [a, b, c] = triangle.map(|index| part.positions[index as usize].as_dvec3());
-            nearest = nearest.min((on_triangle(place, a, b, c) - place).length_squared());
-        }
+/// Triangles, arranged so that the nearest one to a place is found without asking all.
+pub(super) struct Nearest {
+    tree: RTree<Triangle>,
+}
+
+struct Triangle([DVec3; 3]);
+
+impl RTreeObject for Triangle {
+    type Envelope = AABB<[f64; 3]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let [a, b, c] = self.0;
+        AABB::from_corners(a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
     }
-    nearest.sqrt()
+}
+
+impl PointDistance for Triangle {
+    fn distance_2(&self, place: &[f64; 3]) -> f64 {
+        let place = DVec3::from_array(*place);
+        let [a, b, c] = self.0;
+        (on_triangle(place, a, b, c) - place).length_squared()
+    }
+}
+
+impl Nearest {
+    /// The triangles of `parts`.
+    pub(super) fn new(parts: &[Part]) -> Self {
+        let corners = |part: &Part, triangle: &[u32; 3]| {
+            Triangle(triangle.map(|corner| part.positions[corner as usize].as_dvec3()))
+        };
+        let triangles = parts.iter().flat_map(|part| part.triangles.iter().map(|it| corners(part, it)));
+        Self { tree: RTree::bulk_load(triangles.collect()) }
+    }
+
+    /// Distance (m) from `place` to the nearest point of them; infinite without triangles.
+    pub(super) fn distance(&self, place: DVec3) -> f64 {
+        let place = place.to_array();
+        let nearest = self.tree.nearest_neighbor(&place);
+        nearest.map_or(f64::INFINITY, |triangle| triangle.distance_2(&place).sqrt())
+    }
 }
 
 /// The point of a triangle nearest to `place`.
 ///
 /// Method: Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: by the regions around the corners,
 /// edges and face.
-pub(super) fn on_triangle(place: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+fn on_triangle(place: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
     let (ab, ac, ap) = (b - a, c - a, place - a);
     let (d1, d2) = (ab.dot(ap), ac.dot(ap));
     if d1 <= 0.0 && d2 <= 0.0 {
@@ -69,5 +100,30 @@ mod tests {
         ] {
             assert!((on_triangle(place, a, b, c) - expected).length() < 1e-12, "{place}");
         }
+    }
+
+    #[test]
+    fn the_nearest_of_many_triangles_is_the_one_that_a_scan_finds() {
+        let mut part = Part::default();
+        for index in 0..200u32 {
+            let angle = f64::from(index);
+            let center = DVec3::new((angle * 1.7).sin(), (angle * 2.3).cos(), (angle * 0.9).sin()) * 5.0;
+            for corner in [DVec3::X, DVec3::Y, DVec3::Z] {
+                part.positions.push((center + corner * 0.3).as_vec3());
+            }
+            part.triangles.push([3 * index, 3 * index + 1, 3 * index + 2]);
+        }
+        let nearest = Nearest::new(std::slice::from_ref(&part));
+        for index in 0..50 {
+            let place =
+                DVec3::new(f64::from(index).sin(), f64::from(index * 3).cos(), 0.1 * f64::from(index)) * 6.0;
+            let scanned = part.triangles.iter().map(|triangle| {
+                let [a, b, c] = triangle.map(|corner| part.positions[corner as usize].as_dvec3());
+                on_triangle(place, a, b, c).distance(place)
+            });
+            let scanned = scanned.fold(f64::INFINITY, f64::min);
+            assert!((nearest.distance(place) - scanned).abs() < 1e-9);
+        }
+        assert_eq!(Nearest::new(&[]).distance(DVec3::ZERO), f64::INFINITY);
     }
 }

@@ -1,103 +1,42 @@
-//! What drawing objects share: surfaces, one mesh part for each, and showing them.
+//! What drawing objects share: faces by material, placed models, and which module made them.
+
+use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3};
 
-use super::{Color, Parameter, Table, Value};
-use crate::error::{Error, Result};
-use crate::scene::{Instance, Material, Mesh, Part, Scene, Texture};
+use super::distance::Nearest;
+use super::makers::Makers;
+use super::{Model, Object};
+use crate::scene::{Instance, Material, Mesh, Part, Scene};
 
-fields! {
-    /// What `material { ... }` takes.
-    pub struct Surface for "material" {
-        /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1.
-        pub color: Color = Color([0.6, 0.6, 0.6, 1.0]),
-        /// 0 for wood, stone and plaster, 1 for bare metal.
-        pub metallic: f64 = 0.0,
-        /// 0 like a mirror, 1 like chalk.
-        pub roughness: f64 = 0.8,
-        /// Light that the surface gives off itself, as a colour.
-        pub emissive: Color = Color([0.0, 0.0, 0.0, 1.0]),
-        /// An image file beside the script, PNG or JPEG.
-        pub texture: Option<String> = None,
-        /// Width and height (m) of one repetition of the image.
-        pub texture_size: Vec<f64> = vec![1.0, 1.0],
-        /// Whether both sides are seen, as with leaves.
-        pub double_sided: bool = false,
-        /// A name for people.
-        pub name: String = String::new(),
-    }
-}
-
-impl Parameter for Surface {
-    fn luau() -> String {
-        "Material".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, super::parameter::Expected> {
-        match value {
-            Value::Table(table) => Self::from_table(&table).map_err(|error| {
-                super::parameter::Expected::new(format!("a material ({})", error.message()))
-            }),
-            Value::Nil => Ok(Self::default()),
-            _ => Err(super::parameter::Expected::new("a table of a material's fields")),
-        }
-    }
-
-    fn into_value(self) -> Value {
-        Value::Table(std::sync::Arc::new(Table::default()))
-    }
-}
-
-impl Surface {
-    /// The material for the scene.
-    pub fn material(&self) -> Result<Material> {
-        for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
-            if !(0.0..=1.0).contains(&factor) {
-                return Err(Error::new(format!("material: {name} must be from 0 to 1, not {factor}")));
-            }
-        }
-        let texture = match (&self.texture, self.texture_size.as_slice()) {
-            (None, _) => None,
-            (Some(path), [width, height]) if *width > 0.0 && *height > 0.0 => {
-                Some(Texture { path: path.into(), size: [*width, *height] })
-            }
-            _ => {
-                return Err(Error::new(
-                    "material: texture_size must be { width, height } in metres, above 0",
-                ));
-            }
-        };
-        let [red, green, blue, _] = self.emissive.0;
-        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
-        let narrow = |factor: f64| factor as f32;
-        Ok(Material {
-            name: self.name.clone(),
-            base_color: self.color.0,
-            metallic: narrow(self.metallic),
-            roughness: narrow(self.roughness),
-            emissive: [red, green, blue],
-            texture,
-            double_sided: self.double_sided,
-        })
-    }
-}
-
-/// The faces that an object has drawn, by material.
-#[derive(Debug, Clone, Default)]
+/// The faces that an object has drawn, by material, and the models that it has placed.
+#[derive(Clone, Default)]
 pub struct Drawing {
     materials: Vec<Material>,
     parts: Vec<Part>,
+    /// What was placed, and where; the same thing once.
+    placed: Vec<(Arc<dyn Object>, Vec<DAffine3>)>,
+    placed_triangles: usize,
     /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
     spare: Vec<Part>,
+    makers: Option<Makers>,
+    /// The triangles by place, from the first question about them to the next change.
+    nearest: OnceLock<Arc<Nearest>>,
 }
 
 impl Drawing {
-    /// Forgets all faces.
+    /// Forgets all faces and models.
     pub fn clear(&mut self) {
+        self.nearest.take();
         self.materials.clear();
+        self.placed.clear();
+        self.placed_triangles = 0;
         for mut part in self.parts.drain(..).rev() {
             part.clear();
             self.spare.push(part);
+        }
+        if let Some(makers) = &mut self.makers {
+            makers.clear();
         }
     }
 
@@ -120,6 +59,7 @@ impl Drawing {
     /// The part with this number, as [`Drawing::material`] gave it.
     #[inline]
     pub fn part(&mut self, index: usize) -> &mut Part {
+        self.nearest.take();
         &mut self.parts[index]
     }
 
@@ -128,27 +68,100 @@ impl Drawing {
         &self.parts
     }
 
-    /// The number of triangles.
-    pub fn triangles(&self) -> usize {
-        self.parts.iter().map(|part| part.triangles.len()).sum()
+    /// Distance (m) from `place` to the nearest point of the faces; infinite without any. Models are not asked.
+    pub fn distance(&self, place: DVec3) -> f64 {
+        self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
     }
 
-    /// Adds the drawing to `scene` as one mesh at `origin` (m), unless it is empty.
+    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
+    pub fn place(&mut self, model: Arc<dyn Object>, frame: DAffine3) {
+        self.placed_triangles += model.triangles();
+        let index = match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, &model)) {
+            Some(index) => index,
+            None => {
+                self.placed.push((model, Vec::new()));
+                self.placed.len() - 1
+            }
+        };
+        self.placed[index].1.push(frame);
+        if let Some(makers) = &mut self.makers {
+            makers.place(index);
+        }
+    }
+
+    /// The number of triangles, those of placed models included.
+    pub fn triangles(&self) -> usize {
+        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.placed_triangles
+    }
+
+    /// The symbol of the chain that draws at present, while a chain is traced.
+    #[inline]
+    pub fn maker(&self) -> u32 {
+        self.makers.as_ref().map_or(0, Makers::present)
+    }
+
+    /// Draws into part `index` for the symbol `maker`, which may have come before the present one.
+    #[inline]
+    pub fn draw_for<T>(&mut self, maker: u32, index: usize, draw: impl FnOnce(&mut Part) -> T) -> T {
+        self.nearest.take();
+        let Some(makers) = &mut self.makers else { return draw(&mut self.parts[index]) };
+        let part = &mut self.parts[index];
+        makers.settle(index, part.triangles.len(), makers.present());
+        let result = draw(part);
+        makers.settle(index, part.triangles.len(), maker);
+        result
+    }
+
+    /// Notes that the triangles of part `index` up to `count`, which nobody is known to have made, are `maker`'s.
+    pub fn made(&mut self, maker: u32, index: usize, count: usize) {
+        if let Some(makers) = &mut self.makers {
+            makers.settle(index, count, maker);
+        }
+    }
+
+    /// From now on notes which symbol of the chain draws what; the next one is `maker`.
+    pub(crate) fn trace(&mut self, maker: u32) {
+        let makers = self.makers.get_or_insert_default();
+        for (index, part) in self.parts.iter().enumerate() {
+            makers.settle(index, part.triangles.len(), makers.present());
+        }
+        makers.follow(maker);
+    }
+
+    /// Which symbol made what: for each part that has triangles, and for placed models in their order.
+    pub(crate) fn take_makers(&mut self) -> Option<Makers> {
+        self.trace(0);
+        let shown: Vec<bool> = self.parts.iter().map(|part| !part.triangles.is_empty()).collect();
+        self.makers.take().map(|makers| makers.shown(&shown))
+    }
+
+    /// Adds the drawing to `scene` at `origin` (m): one mesh, unless it is empty, and what was placed.
     pub fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
-        let mut mesh = Mesh { name: name.to_owned(), parts: Vec::new() };
+        let mut mesh = Mesh { name: name.to_owned(), ..Mesh::default() };
         for part in self.parts.into_iter().filter(|part| !part.triangles.is_empty()) {
             let material = scene.material(&self.materials[part.material]);
             mesh.parts.push(Part { material, ..part });
         }
-        if mesh.parts.is_empty() {
-            return;
+        let origin = DAffine3::from_translation(origin);
+        if !mesh.parts.is_empty() {
+            scene.meshes.push(mesh);
+            scene.instances.push(Instance {
+                mesh: scene.meshes.len() - 1,
+                transform: origin,
+                name: name.to_owned(),
+                feature: feature.map(str::to_owned),
+                origin: None,
+                placement: None,
+            });
         }
-        scene.meshes.push(mesh);
-        scene.instances.push(Instance {
-            mesh: scene.meshes.len() - 1,
-            transform: DAffine3::from_translation(origin),
-            name: name.to_owned(),
-            feature: feature.map(str::to_owned),
-        });
+        let mut first = 0;
+        for (object, frames) in &self.placed {
+            let any: &dyn std::any::Any = &**object;
+            if let Some(model) = any.downcast_ref::<Model>() {
+                let placed: Vec<DAffine3> = frames.iter().map(|frame| origin * *frame).collect();
+                model.place(scene, &placed, first, name, feature);
+            }
+            first += frames.len();
+        }
     }
 }

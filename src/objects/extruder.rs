@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::drawing::{Drawing, Surface};
 use super::{Color, Kind, Object, Table, Vector};
+use super::{Drawing, Surface};
 use crate::error::{Error, Result};
 use crate::geometry::{Frame, Section, Segment, Station, SweepOptions, sweep};
 use crate::scene::{Material, Scene};
@@ -75,6 +75,8 @@ struct State {
 #[derive(Clone)]
 struct Run {
     stations: Vec<Station>,
+    /// The modules that led to each station.
+    makers: Vec<u32>,
     section: Section,
     end: Frame,
     scale: DVec2,
@@ -219,7 +221,7 @@ methods! {
 
         /// Distance (m) from a place to the nearest point of what it has drawn.
         pub fn distance(&self, place: Vector) -> f64 {
-            super::distance::to_parts(self.drawing.parts(), place.0 - self.options.position.0)
+            self.drawing.distance(place.0 - self.options.position.0)
         }
 
         /// The number of edges left open by missing caps and open sections.
@@ -310,14 +312,17 @@ impl Extruder {
         let state = &mut self.state;
         let mut stations = Vec::with_capacity(segment.steps + 1);
         let end = segment.stations(state.frame, &mut stations)?;
+        let maker = self.drawing.maker();
         match &mut state.run {
             Some(run) => {
                 run.stations.extend(stations.into_iter().skip(1));
+                run.makers.resize(run.stations.len(), maker);
                 run.end = end;
                 run.scale = state.taper;
             }
             None => {
                 state.run = Some(Run {
+                    makers: vec![maker; stations.len()],
                     stations,
                     section,
                     end,
@@ -344,7 +349,12 @@ impl Extruder {
             ..SweepOptions::default()
         };
         let part = self.drawing.material(&run.material);
+        // What the present module drew before is settled first.
+        self.drawing.draw_for(self.drawing.maker(), part, |_| ());
         let swept = sweep(self.drawing.part(part), &run.section, &run.stations, &options)?;
+        for (station, count) in &swept.reached {
+            self.drawing.made(run.makers[*station], part, *count);
+        }
         self.open_edges += swept.open.len();
         Ok(())
     }
@@ -418,6 +428,10 @@ impl Object for Extruder {
 
     fn triangles(&self) -> usize {
         self.drawing.triangles()
+    }
+
+    fn drawing(&mut self) -> Option<&mut Drawing> {
+        Some(&mut self.drawing)
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {

@@ -12,17 +12,21 @@ pub mod declare;
 mod distance;
 mod drawing;
 mod extruder;
+mod makers;
 mod model;
 mod parameter;
+mod surface;
 mod turtle;
 mod value;
 
 pub use boxed::Boxed;
 pub use declare::{Argument, Call, Field, Kind, Method};
-pub use drawing::{Drawing, Surface};
+pub use drawing::Drawing;
 pub use extruder::Extruder;
+pub(crate) use makers::Makers;
 pub use model::Model;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};
+pub use surface::Surface;
 pub use turtle::Turtle;
 pub use value::{Key, Table, Value};
 
@@ -68,6 +72,11 @@ pub trait Object: Any + Send + Sync {
     /// The number of triangles drawn so far, for the limit.
     fn triangles(&self) -> usize {
         0
+    }
+
+    /// Where it draws, if it draws with a [`Drawing`]: then people can ask which module made what.
+    fn drawing(&mut self) -> Option<&mut Drawing> {
+        None
     }
 
     /// Adds what it has drawn to `scene`; `name` and `feature` are for its instances.

@@ -51,10 +51,19 @@ impl Model {
         self.scene.triangles()
     }
 
-    /// Adds an instance of everything to `scene`, each at one of `frames`; its meshes are added once.
-    pub fn place(&self, scene: &mut Scene, frames: &[DAffine3], name: &str, feature: Option<&str>) {
+    /// Adds an instance of everything to `scene` at each of `frames`; its meshes are added once.
+    ///
+    /// The frames are numbered from `first` on, as [`Instance::placement`] tells.
+    pub fn place(
+        &self,
+        scene: &mut Scene,
+        frames: &[DAffine3],
+        first: usize,
+        name: &str,
+        feature: Option<&str>,
+    ) {
         let mut meshes = vec![None; self.scene.meshes.len()];
-        for frame in frames {
+        for (number, frame) in (first..).zip(frames) {
             for instance in &self.scene.instances {
                 let mesh = *meshes[instance.mesh].get_or_insert_with(|| {
                     let mut mesh = self.scene.meshes[instance.mesh].clone();
@@ -69,6 +78,8 @@ impl Model {
                     transform: *frame * instance.transform,
                     name: name.to_owned(),
                     feature: feature.map(str::to_owned),
+                    origin: None,
+                    placement: Some(number),
                 });
             }
         }
@@ -89,7 +100,7 @@ impl Object for Model {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.place(scene, &[DAffine3::IDENTITY], name, feature);
+        self.place(scene, &[DAffine3::IDENTITY], 0, name, feature);
         Ok(())
     }
 }

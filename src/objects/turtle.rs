@@ -4,8 +4,7 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::drawing::{Drawing, Surface};
-use super::{Color, Kind, Model, Object, Table, Vector};
+use super::{Color, Drawing, Kind, Model, Object, Surface, Table, Vector};
 use crate::error::{Error, Result};
 use crate::geometry::{Frame, Strand, face, sphere};
 use crate::scene::{Material, Scene};
@@ -47,9 +46,6 @@ pub struct Turtle {
     state: State,
     stack: Vec<State>,
     drawing: Drawing,
-    /// What was placed, and where; the same thing once.
-    placed: Vec<(Arc<dyn Object>, Vec<DAffine3>)>,
-    placed_triangles: usize,
     polygons: Vec<Vec<DVec3>>,
 }
 
@@ -62,7 +58,15 @@ struct State {
     tropism: DVec3,
     elasticity: f64,
     /// The branch that is being drawn.
-    strand: Option<(usize, Strand)>,
+    strand: Option<Branch>,
+}
+
+/// A strand, the part that it is drawn into, and the module that drew its last piece.
+#[derive(Clone)]
+struct Branch {
+    part: usize,
+    strand: Strand,
+    maker: u32,
 }
 
 methods! {
@@ -214,17 +218,12 @@ methods! {
         /// Places what another system has drawn at the turtle's frame, scaled.
         pub fn place(&mut self, model: Arc<dyn Object>, scale: Option<f64>) -> Result<()> {
             let any: &dyn std::any::Any = &*model;
-            let Some(size) = any.downcast_ref::<Model>().map(Model::size) else {
+            if !any.is::<Model>() {
                 return Err(Error::new(format!("turtle:place: a {} cannot be placed", model.kind().name))
                     .help("place what derive returned"));
-            };
-            self.placed_triangles += size;
-            let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
-            let transform = self.state.frame.transform() * scale;
-            match self.placed.iter_mut().find(|(known, _)| Arc::ptr_eq(known, &model)) {
-                Some((_, transforms)) => transforms.push(transform),
-                None => self.placed.push((model, vec![transform])),
             }
+            let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
+            self.drawing.place(model, self.state.frame.transform() * scale);
             Ok(())
         }
 
@@ -248,9 +247,9 @@ methods! {
             self.state.frame.up
         }
 
-        /// Distance (m) from a place to the nearest corner of what it has drawn.
+        /// Distance (m) from a place to the nearest point of what it has drawn.
         pub fn distance(&self, place: Vector) -> f64 {
-            super::distance::to_parts(self.drawing.parts(), place.0 - self.options.position.0)
+            self.drawing.distance(place.0 - self.options.position.0)
         }
     }
 }
@@ -283,15 +282,7 @@ impl Turtle {
         }
         let mut drawing = Drawing::default();
         let state = State::begin(&options, &mut drawing);
-        Ok(Self {
-            options,
-            state,
-            stack: Vec::new(),
-            drawing,
-            placed: Vec::new(),
-            placed_triangles: 0,
-            polygons: Vec::new(),
-        })
+        Ok(Self { options, state, stack: Vec::new(), drawing, polygons: Vec::new() })
     }
 
     fn angle(&self, angle: Option<f64>) -> f64 {
@@ -306,17 +297,20 @@ impl Turtle {
     fn draw(&mut self, length: f64) -> Result<()> {
         if self.polygons.is_empty() && self.state.width > 0.0 {
             let part = self.state.part;
-            if self.state.strand.as_ref().is_none_or(|(of, _)| *of != part) {
+            if self.state.strand.as_ref().is_none_or(|branch| branch.part != part) {
                 self.lift();
                 let frame = &self.state.frame;
                 let sides = self.options.sides as usize;
                 let strand = Strand::begin(sides, frame.position, frame.left, self.state.width / 2.0)?;
-                self.state.strand = Some((part, strand));
+                self.state.strand = Some(Branch { part, strand, maker: self.drawing.maker() });
             }
             self.state.frame.forward(length);
             let position = self.state.frame.position;
-            if let Some((part, strand)) = &mut self.state.strand {
-                strand.extend_to(self.drawing.part(*part), position, self.state.width / 2.0)?;
+            if let Some(Branch { part, strand, maker }) = &mut self.state.strand {
+                // The faces that are added now are those of the piece before this one.
+                let radius = self.state.width / 2.0;
+                self.drawing.draw_for(*maker, *part, |part| strand.extend_to(part, position, radius))?;
+                *maker = self.drawing.maker();
             }
         } else {
             self.lift();
@@ -338,21 +332,10 @@ impl Turtle {
         }
     }
 
-    fn show_placed(&self, scene: &mut Scene, name: &str, feature: Option<&str>) {
-        let origin = DAffine3::from_translation(self.options.position.0);
-        for (object, transforms) in &self.placed {
-            let any: &dyn std::any::Any = &**object;
-            if let Some(model) = any.downcast_ref::<Model>() {
-                let frames: Vec<DAffine3> = transforms.iter().map(|transform| origin * *transform).collect();
-                model.place(scene, &frames, name, feature);
-            }
-        }
-    }
-
     /// Ends the branch that is being drawn.
     fn lift(&mut self) {
-        if let Some((part, strand)) = self.state.strand.take() {
-            strand.end(self.drawing.part(part));
+        if let Some(Branch { part, strand, maker }) = self.state.strand.take() {
+            self.drawing.draw_for(maker, part, |part| strand.end(part));
         }
     }
 }
@@ -392,8 +375,6 @@ impl Object for Turtle {
         self.stack.clear();
         self.drawing.clear();
         self.state = State::begin(&self.options, &mut self.drawing);
-        self.placed.clear();
-        self.placed_triangles = 0;
         self.polygons.clear();
     }
 
@@ -424,18 +405,20 @@ impl Object for Turtle {
     }
 
     fn triangles(&self) -> usize {
-        self.drawing.triangles() + self.placed_triangles
+        self.drawing.triangles()
+    }
+
+    fn drawing(&mut self) -> Option<&mut Drawing> {
+        Some(&mut self.drawing)
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.drawing.clone().show(scene, self.options.position.0, name, feature);
-        self.show_placed(scene, name, feature);
         Ok(())
     }
 
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         std::mem::take(&mut self.drawing).show(scene, self.options.position.0, name, feature);
-        self.show_placed(scene, name, feature);
         Ok(())
     }
 }

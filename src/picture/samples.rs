@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 pub(super) fn scene_of(part: Part, material: Material) -> Scene {
     let mut scene = Scene::default();
     let index = scene.material(&material);
-    scene.meshes.push(Mesh { name: String::new(), parts: vec![Part { material: index, ..part }] });
+    scene.meshes.push(Mesh { parts: vec![Part { material: index, ..part }], ..Mesh::default() });
     scene.instances.push(instance(DVec3::ZERO));
     scene
 }
@@ -15,7 +15,7 @@ pub(super) fn scene_of(part: Part, material: Material) -> Scene {
 /// Mesh 0 put at `place`.
 pub(super) fn instance(place: DVec3) -> Instance {
     let transform = DAffine3::from_translation(place);
-    Instance { mesh: 0, transform, name: String::new(), feature: None }
+    Instance { mesh: 0, transform, name: String::new(), feature: None, origin: None, placement: None }
 }
 
 /// Adds a quadrilateral, counter-clockwise seen from outside, with texture coordinates along its first sides.

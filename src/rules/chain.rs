@@ -67,6 +67,22 @@ impl Chain {
         }
     }
 
+    /// Chain number `index` alone; empty if there is none.
+    #[must_use]
+    pub fn only(&self, index: usize, arities: &[u8]) -> Self {
+        let starts = self.starts(arities);
+        let [Some(begin), Some(end)] = [starts.get(index), starts.get(index + 1)] else {
+            return Self::default();
+        };
+        let keys = if self.keys.is_empty() { &[] } else { &self.keys[begin.module..end.module] };
+        Self {
+            symbols: self.symbols[begin.module..end.module].to_vec(),
+            params: self.params[begin.param..end.param].to_vec(),
+            keys: keys.to_vec(),
+            marks: Vec::new(),
+        }
+    }
+
     /// Where each chain begins; one more for the end of the last.
     pub fn starts(&self, arities: &[u8]) -> Vec<Mark> {
         let mut starts = vec![Mark::default()];

@@ -2,6 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
+use super::Origin;
 use crate::memory::make_room;
 
 /// A shape: parts that share one coordinate system, one part for each material.
@@ -12,6 +13,8 @@ use crate::memory::make_room;
 pub struct Mesh {
     /// A name for people; may repeat, may be empty.
     pub name: String,
+    /// The chain whose object drew it.
+    pub origin: Option<Origin>,
     /// One for each material, in the order of first use; none is empty.
     pub parts: Vec<Part>,
 }

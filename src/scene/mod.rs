@@ -35,6 +35,19 @@ pub struct Instance {
     pub name: String,
     /// The id of the data record that it came from, if it came from one.
     pub feature: Option<String>,
+    /// The chain whose object put it there.
+    pub origin: Option<Origin>,
+    /// Which of the models that the object placed it belongs to, from 0; `None` for what the object drew itself.
+    pub placement: Option<usize>,
+}
+
+/// A chain, among all that a run has derived.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// The system's place in the script, from 0.
+    pub system: usize,
+    /// The chain's number in the system, from 0.
+    pub chain: usize,
 }
 
 impl Scene {

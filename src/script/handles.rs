@@ -32,10 +32,9 @@ impl Objects {
         change(&mut **object.write().unwrap_or_else(PoisonError::into_inner))
     }
 
-    pub(crate) fn into_shared(self) -> Vec<Arc<dyn Object>> {
-        let owned =
-            self.list.into_iter().map(|object| object.into_inner().unwrap_or_else(PoisonError::into_inner));
-        owned.map(Arc::from).collect()
+    pub(crate) fn into_owned(self) -> Vec<Box<dyn Object>> {
+        let objects = self.list.into_iter();
+        objects.map(|object| object.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
     }
 }
 

@@ -261,7 +261,7 @@ impl Library {
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "lsystem",
-            lua.create_function(move |_, options: LuaValue| {
+            lua.create_function(move |lua, options: LuaValue| {
                 let create = || {
                     library.at_top_level("lsystem")?;
                     let options = match options {
@@ -269,7 +269,7 @@ impl Library {
                         LuaValue::Table(options) => Some(options),
                         other => return Err(no_table("lsystem", &other)),
                     };
-                    SystemHandle::create(&library, options.as_ref())
+                    SystemHandle::create(&library, options.as_ref(), Machine::place(lua))
                 };
                 create().map_err(mlua::Error::external)
             })?,

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 use super::analysis::{Analysis, Globals, analyse};
 use super::param::Param;
 use super::preset::Preset;
+use crate::derive::{Trace, Traced};
 use crate::error::{Error, Result};
 use crate::objects::Kind;
 use crate::rules::Values;
@@ -64,6 +65,10 @@ pub struct Options {
     /// Whether values in `set` that the script does not take are left out, and not an error;
     /// [`Session::left_out`] tells which.
     pub forgiving: bool,
+    /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
+    pub profile: bool,
+    /// The chains to note the lineage of; see [`trace`](crate::trace).
+    pub trace: Option<Traced>,
 }
 
 impl Default for Options {
@@ -82,6 +87,8 @@ impl Default for Options {
             kinds: Vec::new(),
             stdlib: None,
             forgiving: false,
+            profile: false,
+            trace: None,
         }
     }
 }
@@ -201,6 +208,8 @@ pub struct Session {
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
     kept: Mutex<Vec<f64>>,
+    /// The lineage that was asked for, once it is known.
+    pub(crate) traced: Mutex<Option<Trace>>,
 }
 
 impl Session {
@@ -224,6 +233,7 @@ impl Session {
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             kept: Mutex::default(),
+            traced: Mutex::default(),
         }))
     }
 

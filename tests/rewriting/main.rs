@@ -4,6 +4,7 @@ mod choice;
 mod contexts;
 mod determinism;
 mod interpretation;
+mod lineage;
 mod literature;
 mod meaning;
 mod naive;

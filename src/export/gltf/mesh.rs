@@ -3,7 +3,7 @@
 use super::super::check::{Checked, shown_parts, triangles};
 use super::body::{Block, Body, Shared, y_up};
 use super::name;
-use crate::scene::{Material, Part};
+use crate::scene::Part;
 use glam::Vec3;
 use gltf_json as json;
 use json::accessor::{ComponentType, GenericComponentType, Type};
@@ -13,8 +13,11 @@ use json::validation::USize64;
 use std::collections::BTreeMap;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
+///
+/// Texture coordinates are left out where no texture needs them, unless `measured`: then they are metres.
 pub(super) fn write<'a>(
     checked: &Checked<'a>,
+    measured: bool,
     materials: &[Option<json::Index<json::Material>>],
     root: &mut json::Root,
     body: &mut Body<'a>,
@@ -25,8 +28,9 @@ pub(super) fn write<'a>(
         written.push(shown.then(|| {
             let primitives = shown_parts(mesh)
                 .map(|part| {
-                    let material = materials[part.material];
-                    primitive(part, &scene.materials[part.material], material, root, body)
+                    let texture = scene.materials[part.material].texture.as_ref();
+                    let size = texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0]));
+                    primitive(part, size, materials[part.material], root, body)
                 })
                 .collect();
             root.push(json::Mesh {
@@ -43,7 +47,7 @@ pub(super) fn write<'a>(
 
 fn primitive<'a>(
     part: &'a Part,
-    material: &Material,
+    texture: Option<[f64; 2]>,
     index: Option<json::Index<json::Material>>,
     root: &mut json::Root,
     body: &mut Body<'a>,
@@ -61,8 +65,8 @@ fn primitive<'a>(
     let normals = accessor(ComponentType::F32, Type::Vec3, count);
     let normals = at(body.share(Shared::Normals, Block::Normals(part)), normals);
     attributes.insert(Valid(Semantic::Normals), root.push(normals));
-    if let Some(texture) = &material.texture {
-        let place = body.share(Shared::TexCoords, Block::TexCoords(part, texture.size));
+    if let Some(size) = texture {
+        let place = body.share(Shared::TexCoords, Block::TexCoords(part, size));
         let tex_coords = at(place, accessor(ComponentType::F32, Type::Vec2, count));
         attributes.insert(Valid(Semantic::TexCoords(0)), root.push(tex_coords));
     }

@@ -41,13 +41,23 @@ struct Group {
     scales: Vec<f32>,
 }
 
-/// Adds the instances. Returns the nodes of the scene's top.
+/// Where an instance of the scene is in a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The node that shows it, as an index into the document's nodes.
+    pub node: usize,
+    /// Its number among the instances that share the node; `None` if it has the node to itself.
+    pub shared: Option<usize>,
+}
+
+/// Adds the instances. Returns the nodes of the scene's top, and where each instance is; `None` for one that has
+/// nothing to show.
 pub(super) fn write(
     checked: &Checked<'_>,
     meshes: &[Option<Index<json::Mesh>>],
     root: &mut json::Root,
     body: &mut Body<'_>,
-) -> Vec<Index<Node>> {
+) -> (Vec<Index<Node>>, Vec<Option<Place>>) {
     let scene = checked.scene;
     let mut groups: Vec<(Kind<'_>, Group)> = Vec::new();
     let mut known = FxHashMap::default();
@@ -63,26 +73,36 @@ pub(super) fn write(
         }));
     }
     let mut nodes = Vec::new();
-    for (instance, group) in scene.instances.iter().zip(group_of) {
+    let mut places = vec![None; scene.instances.len()];
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
+    for (number, (instance, group)) in scene.instances.iter().zip(group_of).enumerate() {
         let Some(mesh) = meshes[instance.mesh] else { continue };
         let mut transform = instance.transform;
         transform.translation -= checked.origin;
         let transform = y_up(&transform);
+        let at = group;
         let shared = group.map(|group| &mut groups[group]).filter(|(_, group)| group.count >= ENOUGH);
         if let Some((kind, group)) = shared
             && group.take(&kind.mirror(transform))
         {
+            members[at.unwrap_or_default()].push(number);
             continue;
         }
-        nodes.push(alone(instance, mesh, &transform, root));
+        let (node, shown) = alone(instance, mesh, &transform, root);
+        nodes.push(node);
+        places[number] = Some(Place { node: shown.value(), shared: None });
     }
-    for (kind, group) in groups {
+    for ((kind, group), members) in groups.into_iter().zip(members) {
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
-            nodes.push(together(kind, group, mesh, root, body));
+            let node = together(kind, group, mesh, root, body);
+            nodes.push(node);
+            for (shared, number) in members.into_iter().enumerate() {
+                places[number] = Some(Place { node: node.value(), shared: Some(shared) });
+            }
         }
     }
     if checked.origin == DVec3::ZERO || nodes.is_empty() {
-        return nodes;
+        return (nodes, places);
     }
     let origin = Node {
         name: Some("origin".into()),
@@ -90,7 +110,7 @@ pub(super) fn write(
         children: Some(nodes),
         ..Node::default()
     };
-    vec![root.push(origin)]
+    (vec![root.push(origin)], places)
 }
 
 impl<'a> Kind<'a> {
@@ -119,13 +139,13 @@ impl Group {
     }
 }
 
-/// A node for one instance; two nodes, one in the other, for a sheared one.
+/// A node for one instance; two nodes, one in the other, for a sheared one. The second of the result has the mesh.
 fn alone(
     instance: &Instance,
     mesh: Index<json::Mesh>,
     transform: &DAffine3,
     root: &mut json::Root,
-) -> Index<Node> {
+) -> (Index<Node>, Index<Node>) {
     let shown = Node {
         mesh: Some(mesh),
         name: name(&instance.name),
@@ -136,10 +156,13 @@ fn alone(
         ..Node::default()
     };
     match decompose(transform) {
-        Steps::One(trs) => root.push(placed(shown, &trs)),
+        Steps::One(trs) => {
+            let node = root.push(placed(shown, &trs));
+            (node, node)
+        }
         Steps::Two(rest, first) => {
             let inner = root.push(Node { rotation: rotation(first), ..shown });
-            root.push(placed(Node { children: Some(vec![inner]), ..Node::default() }, &rest))
+            (root.push(placed(Node { children: Some(vec![inner]), ..Node::default() }, &rest)), inner)
         }
     }
 }

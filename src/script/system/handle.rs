@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
 use crate::derive::derive;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Place, Result, nearest};
 use crate::objects::{Object, Value};
 use crate::rules::Symbol;
 use crate::script::convert::to_value;
@@ -40,12 +40,18 @@ impl SourceHandle {
 }
 
 impl SystemHandle {
-    pub(crate) fn create(library: &Rc<Library>, options: Option<&Table>) -> Result<Self> {
+    pub(crate) fn create(
+        library: &Rc<Library>,
+        options: Option<&Table>,
+        place: Option<Place>,
+    ) -> Result<Self> {
         let mut system = System {
             object: None,
             last_only: false,
             seed: None,
             index: library.systems.borrow().len(),
+            place,
+            axiom_place: None,
             axiom: None,
             rules: Vec::new(),
             interpretations: Vec::new(),
@@ -127,7 +133,11 @@ impl UserData for SystemHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_function("axiom", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
-            this.declare(lua, |system| system.set_axiom(arguments));
+            let place = Machine::place(lua);
+            this.declare(lua, |system| {
+                system.axiom_place = place;
+                system.set_axiom(arguments)
+            });
             Ok(this.again())
         });
         methods.add_function("rule", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {

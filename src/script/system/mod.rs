@@ -14,7 +14,7 @@ use super::freeze::{Frozen, Reached, freeze};
 use super::handles::methods_key;
 use super::library::Library;
 use super::machine::Machine;
-use crate::error::Result;
+use crate::error::{Place, Result};
 use crate::objects::Object;
 use crate::rules::{FIRST_SYMBOL, Grammar, Rule, Symbol};
 
@@ -28,6 +28,10 @@ pub(crate) struct System {
     pub seed: Option<u64>,
     /// Its place among the systems of the script.
     pub index: usize,
+    /// Where it was made.
+    pub place: Option<Place>,
+    /// Where its axiom was set.
+    pub axiom_place: Option<Place>,
     pub(super) axiom: Option<DeclaredAxiom>,
     pub(super) rules: Vec<DeclaredRule>,
     pub(super) interpretations: Vec<DeclaredInterpretation>,
@@ -51,7 +55,7 @@ pub(super) struct DeclaredInterpretation {
     pub(super) bound: usize,
     pub(super) rule: Function,
     pub(super) name: String,
-    pub(super) place: Option<crate::error::Place>,
+    pub(super) place: Option<Place>,
 }
 
 /// A system ready to derive in one machine: the functions that the grammar's rules run.
@@ -72,7 +76,7 @@ pub(crate) struct Interpretations {
     /// By symbol: the method that the standard library gives it, or `u16::MAX`.
     pub methods: Vec<u16>,
     /// By interpretation: how many parameters it takes, its name and its place.
-    pub list: Vec<(usize, String, Option<crate::error::Place>)>,
+    pub list: Vec<(usize, String, Option<Place>)>,
 }
 
 impl System {

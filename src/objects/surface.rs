@@ -1,0 +1,81 @@
+//! `material { ... }`: how scripts say what a surface looks like.
+
+use super::{Color, Parameter, Table, Value};
+use crate::error::{Error, Result};
+use crate::scene::{Material, Texture};
+
+fields! {
+    /// What `material { ... }` takes.
+    pub struct Surface for "material" {
+        /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1.
+        pub color: Color = Color([0.6, 0.6, 0.6, 1.0]),
+        /// 0 for wood, stone and plaster, 1 for bare metal.
+        pub metallic: f64 = 0.0,
+        /// 0 like a mirror, 1 like chalk.
+        pub roughness: f64 = 0.8,
+        /// Light that the surface gives off itself, as a colour.
+        pub emissive: Color = Color([0.0, 0.0, 0.0, 1.0]),
+        /// An image file beside the script, PNG or JPEG.
+        pub texture: Option<String> = None,
+        /// Width and height (m) of one repetition of the image.
+        pub texture_size: Vec<f64> = vec![1.0, 1.0],
+        /// Whether both sides are seen, as with leaves.
+        pub double_sided: bool = false,
+        /// A name for people.
+        pub name: String = String::new(),
+    }
+}
+
+impl Parameter for Surface {
+    fn luau() -> String {
+        "Material".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, super::parameter::Expected> {
+        match value {
+            Value::Table(table) => Self::from_table(&table).map_err(|error| {
+                super::parameter::Expected::new(format!("a material ({})", error.message()))
+            }),
+            Value::Nil => Ok(Self::default()),
+            _ => Err(super::parameter::Expected::new("a table of a material's fields")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(std::sync::Arc::new(Table::default()))
+    }
+}
+
+impl Surface {
+    /// The material for the scene.
+    pub fn material(&self) -> Result<Material> {
+        for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
+            if !(0.0..=1.0).contains(&factor) {
+                return Err(Error::new(format!("material: {name} must be from 0 to 1, not {factor}")));
+            }
+        }
+        let texture = match (&self.texture, self.texture_size.as_slice()) {
+            (None, _) => None,
+            (Some(path), [width, height]) if *width > 0.0 && *height > 0.0 => {
+                Some(Texture { path: path.into(), size: [*width, *height] })
+            }
+            _ => {
+                return Err(Error::new(
+                    "material: texture_size must be { width, height } in metres, above 0",
+                ));
+            }
+        };
+        let [red, green, blue, _] = self.emissive.0;
+        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
+        let narrow = |factor: f64| factor as f32;
+        Ok(Material {
+            name: self.name.clone(),
+            base_color: self.color.0,
+            metallic: narrow(self.metallic),
+            roughness: narrow(self.roughness),
+            emissive: [red, green, blue],
+            texture,
+            double_sided: self.double_sided,
+        })
+    }
+}
