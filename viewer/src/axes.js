@@ -1,4 +1,5 @@
-// The three axes as seen from the camera; each end turns the camera to look from there.
+// The three axes as seen from the camera; each end turns the camera to look from there. For the keyboard there is a
+// menu of views.
 
 import { svg } from './dom.js';
 import { view } from './camera.js';
@@ -20,7 +21,10 @@ export class Axes {
     this.camera = camera;
     this.ends = ENDS.map((end) => {
       const line = end.label && svg('line', { x1: 0, y1: 0 });
-      const group = svg('g', { class: `axis axis-${end.name}${end.label ? '' : ' far'}`, role: 'button', 'aria-label': `Look from the ${end.from}` });
+      const group = svg('g', { class: `axis axis-${end.name}${end.label ? '' : ' far'}`, });
+      const title = svg('title');
+      title.textContent = `From the ${end.from}`;
+      group.append(title);
       if (line) group.append(line);
       const ball = svg('g', {}, svg('circle', { r: end.label ? 8 : 6 }));
       if (end.label) {

@@ -44,7 +44,7 @@ try {
   find('#stage').append(make('p', { class: 'no-webgl', 'data-testid': 'no-webgl', text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.' }));
 }
 
-const places = new Places(socket, (file, line) => highlight(file, line));
+const places = new Places(socket, (file, line) => highlight(file, line), () => [...(state.model?.files ?? []), state.hello.script]);
 const params = new Params(changes);
 const presets = new Presets(changes, socket);
 const seed = new Seed(changes);
@@ -91,8 +91,10 @@ async function show(message) {
       own = await loading.show(message);
     } catch (error) {
       if (error.name === 'AbortError' || state.model !== message) return;
-      // A newer model is on its way, or the connection is gone and brings the present one when it is back.
-      return toast(error.message);
+      // The server keeps only its last few models; on a new connection it tells the present one.
+      if (error.status === 404) return socket.renew();
+      // Without a connection, too, the present one comes when it is back.
+      return socket.open ? toast(error.message) : undefined;
     }
     if (!own) return;
     if (card.open) card.close();

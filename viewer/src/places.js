@@ -6,14 +6,15 @@ import { icon } from './icons.js';
 export class Places {
   editor = false;
 
-  constructor(socket, highlight) {
-    this.socket = socket;
-    this.highlight = highlight;
+  /** `files` tells the script's files by the names that people know. */
+  constructor(socket, highlight, files) {
+    Object.assign(this, { socket, highlight, files });
   }
 
   /** A button that opens the place in the editor; plain text where there is none. */
   open(file, line) {
-    const text = line ? `${file}:${line}` : file;
+    const short = this.files().find((name) => name && (file === name || file.endsWith(`/${name}`))) ?? file;
+    const text = line ? `${short}:${line}` : short;
     if (!this.editor) return make('span', { class: 'place', text });
     return make('button', { class: 'place', title: 'Open in the editor', onclick: () => this.socket.send({ type: 'open', file, line: line ?? 1 }) }, icon('open'), text);
   }

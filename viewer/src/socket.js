@@ -44,6 +44,12 @@ export class Socket {
     return id;
   }
 
+  /** Connects anew, so that the server tells its present state again. */
+  renew() {
+    this.#wait = FIRST_WAIT;
+    this.#socket?.close();
+  }
+
   #tell(type, message) {
     for (const listener of this.#listeners.get(type) ?? []) listener(message);
   }
