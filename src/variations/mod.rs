@@ -188,8 +188,9 @@ impl Variations {
         options.set.extend(plan.set.clone());
         options.threads = Some((self.threads() / self.workers()).max(1));
         let session = Session::new(&self.script, options)?;
-        let run = run_session(&session)?;
+        let run = run_session(&session);
         self.ran.fetch_add(1, Ordering::Relaxed);
+        let run = run?;
         if run.systems.is_empty() {
             let script = self.script.display();
             return Err(Error::new(format!("{script} makes nothing to show, for it derives no system"))

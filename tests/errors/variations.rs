@@ -50,7 +50,7 @@ fn a_sheet_is_the_same_for_any_number_of_threads_and_tells_its_cells() {
     let mut document = said.json();
     document["seconds"] = 0.into();
     document["cells"].as_array_mut().unwrap().truncate(1);
-    assert_snapshot!(document, @"");
+    assert_snapshot!(document, @r#"{"ok":true,"columns":2,"rows":2,"size":[92,114],"cells":[{"label":"seed 1","seed":1,"params":{"n":2.0,"kind":"a"},"modules":1,"triangles":28}],"seconds":0}"#);
     assert_eq!(said.stderr, "");
     assert!(sheet(&["--seeds", "5..8"]).0 != one);
     sheet(&["--sweep", "kind", "--fit", "each", "--columns", "1", "--background", "dark", "--azimuth", "10"]);
@@ -61,7 +61,13 @@ fn a_variation_that_fails_is_told_and_leaves_the_others_alone() {
     let folder = folder();
     let said = folder.burgeon(&arguments(&["--sweep", "n=2..4"])).done();
     assert!(said.stderr.ends_with(" in all\n"));
-    assert_snapshot!(said.stderr.rsplit_once(';').unwrap().0, @"");
+    assert_snapshot!(said.stderr.rsplit_once(';').unwrap().0, @r#"
+    n 3 m failed
+    error: s.lua:7: rule A(x): three is too many
+      | if n == 3 then error("three is too many") end
+      module: A(3), step 1
+    3 variations, 1 of them failed, 3 in a row
+    "#);
     let document = folder.burgeon(&arguments(&["--sweep", "n=2..4", "--json"])).done().json();
     assert_eq!(document["cells"][1]["errors"][0]["line"], 7);
     assert_eq!(document["cells"][2]["set"]["n"], "4");
@@ -69,19 +75,44 @@ fn a_variation_that_fails_is_told_and_leaves_the_others_alone() {
 
 #[test]
 fn if_all_variations_fail_the_reasons_are_told_once() {
-    assert_snapshot!(told(&["--seeds", "1..9", "--set", "n=3"], 1), @"");
-    assert_snapshot!(Folder::new().refuses(&["variations", "no.lua", "--seeds", "1..9", "-o", "a.png"]), @"");
+    assert_snapshot!(told(&["--seeds", "1..9", "--set", "n=3"], 1), @r#"
+    error: s.lua:7: rule A(x): three is too many
+      | if n == 3 then error("three is too many") end
+      module: A(3), step 1
+    "#);
+    assert_snapshot!(Folder::new().refuses(&["variations", "no.lua", "--seeds", "1..9", "-o", "a.png"]), @r"
+    error: there is no script no.lua
+      help: check the path, or make one: burgeon new NAME
+    ");
 }
 
 #[test]
 fn values_that_the_script_does_not_have_are_refused_before_anything_runs() {
-    assert_snapshot!(told(&["--sweep", "nn=1..3"], 1), @"");
-    assert_snapshot!(told(&["--sweep", "n=1..9"], 1), @"");
-    assert_snapshot!(told(&["--sweep", "kind=a,c"], 1), @"");
-    assert_snapshot!(told(&["--sweep", "n"], 1), @"");
-    assert_snapshot!(told(&["--sweep", "n=1..3", "--set", "n=2"], 1), @"");
+    assert_snapshot!(told(&["--sweep", "nn=1..3"], 1), @r"
+    error: s.lua has no parameter called nn
+      help: did you mean n?
+    ");
+    assert_snapshot!(told(&["--sweep", "n=1..9"], 1), @r"
+    error: param n is 7, out of its range
+      help: it goes from 1 to 6
+    ");
+    assert_snapshot!(told(&["--sweep", "kind=a,c"], 1), @r#"
+    error: param kind is "c", which is no choice
+      help: choose one of a, b
+    "#);
+    assert_snapshot!(told(&["--sweep", "n"], 1), @r"
+    error: param n has no list of choices
+      help: say which values: n=LOW..HIGH:STEP or n=A,B,C
+    ");
+    assert_snapshot!(told(&["--sweep", "n=1..3", "--set", "n=2"], 1), @r"
+    error: n is set and varied at the same time
+      help: leave out --set n or --sweep n
+    ");
     let flags = ["variations", "s.lua", "--seeds", "1..200", "--columns", "200", "-o", "sheet.png"];
-    assert_snapshot!(folder().refuses(&flags), @"");
+    assert_snapshot!(folder().refuses(&flags), @r"
+    error: the sheet would be 66613 x 388 pixels, more than 16384 on a side
+      help: take smaller cells, --size WIDTHxHEIGHT, or fewer of them
+    ");
 }
 
 #[test]
@@ -92,11 +123,49 @@ fn a_command_line_that_makes_no_sheet_says_what_would() {
         assert_eq!((said.status, said.stdout.as_str()), (2, ""), "{}", said.stderr);
         said.stderr
     };
-    assert_snapshot!(wrong(&["-o", "a.png"]), @"");
-    assert_snapshot!(wrong(&["--seeds", "1..4"]), @"");
-    assert_snapshot!(wrong(&["--seeds", "1..4", "-o", "a.glb"]), @"");
-    assert_snapshot!(wrong(&["--seeds", "1..4", "--sweep", "n=1", "-o", "a.png"]), @"");
-    assert_snapshot!(wrong(&["--seeds", "9..4", "-o", "a.png"]), @"");
-    assert_snapshot!(wrong(&["--sweep", "n=1..900", "-o", "a.png"]), @"");
-    assert_snapshot!(wrong(&["--seeds", "1..4", "--columns", "0", "-o", "a.png"]), @"");
+    assert_snapshot!(wrong(&["-o", "a.png"]), @r"
+    error: the following required arguments were not provided:
+      <--seeds <SEEDS>|--sweep <NAME=VALUES>>
+
+    Usage: burgeon variations --output <FILE> <--seeds <SEEDS>|--sweep <NAME=VALUES>> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--seeds", "1..4"]), @r"
+    error: the following required arguments were not provided:
+      --output <FILE>
+
+    Usage: burgeon variations --output <FILE> <--seeds <SEEDS>|--sweep <NAME=VALUES>> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--seeds", "1..4", "-o", "a.glb"]), @r"
+    error: invalid value 'a.glb' for '--output <FILE>': a contact sheet is a picture: name a .png file
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--seeds", "1..4", "--sweep", "n=1", "-o", "a.png"]), @r"
+    error: the argument '--seeds <SEEDS>' cannot be used with '--sweep <NAME=VALUES>'
+
+    Usage: burgeon variations --output <FILE> <--seeds <SEEDS>|--sweep <NAME=VALUES>> <SCRIPT>
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--seeds", "9..4", "-o", "a.png"]), @r"
+    error: invalid value '9..4' for '--seeds <SEEDS>': the range 9..4 is empty
+      help: write 4..9
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--sweep", "n=1..900", "-o", "a.png"]), @r"
+    error: invalid value 'n=1..900' for '--sweep <NAME=VALUES>': 900 variations are more than 256, the most at once
+      help: take a larger step: LOW..HIGH:STEP
+
+    For more information, try '--help'.
+    ");
+    assert_snapshot!(wrong(&["--seeds", "1..4", "--columns", "0", "-o", "a.png"]), @r"
+    error: invalid value '0' for '--columns <N>': write a whole number from 1
+
+    For more information, try '--help'.
+    ");
 }
