@@ -5,6 +5,7 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 use crate::error::{Error, Result, nearest};
 use crate::objects::Value;
 use crate::rules::{FIRST_SYMBOL, Pattern, Rule, Symbol};
+use crate::script::analysis::{analyse, unmarked};
 use crate::script::convert::to_value;
 use crate::script::library::Library;
 use crate::script::machine::Machine;
@@ -176,7 +177,9 @@ fn compile_successor(
     place: Option<&crate::error::Place>,
 ) -> Result<Function> {
     let machine = library.machine()?;
+    let (marked, body) = unmarked(body);
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
+    let line = marked.unwrap_or(line);
     let symbols = library.symbols.borrow();
     let mentioned: Vec<(Symbol, &str)> = (FIRST_SYMBOL..)
         .zip(symbols.names())
