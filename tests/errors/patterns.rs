@@ -228,8 +228,9 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
       help: did you mean weight?
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { weight = -3 }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): weight must be a number above 0, not -3
+    error: s.lua:3: rule A(x): weight must be a number from 0, not -3
       | s:rule("A(x)", { weight = -3 }, function() end)
+      help: a rule of weight 0 is never chosen
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { when = true }, function() end)"), @r#"
     error: s.lua:3: rule A(x): when must be a function, not a boolean

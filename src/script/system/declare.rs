@@ -133,9 +133,10 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
         let key = key.to_string().unwrap_or_default();
         match (key.as_str(), value) {
             ("weight", value) => match to_value(&value, false)? {
-                Value::Number(number) if number > 0.0 && number.is_finite() => weight = Some(number),
+                Value::Number(number) if number >= 0.0 && number.is_finite() => weight = Some(number),
                 other => {
-                    return Err(Error::new(format!("weight must be a number above 0, not {other}")));
+                    return Err(Error::new(format!("weight must be a number from 0, not {other}"))
+                        .help("a rule of weight 0 is never chosen"));
                 }
             },
             ("when", LuaValue::Function(function)) => guard = Some(function),
@@ -202,7 +203,7 @@ fn compile_successor(
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
     text.push_str(&format!("local __system = nil; __system:rule(\"\", function(this{formals}) {body}\nend)"));
     drop(symbols);
-    let analysis = crate::script::analysis::analyse(file, &text, &library.globals());
+    let analysis = analyse(file, &text, &library.globals());
     machine.session.note(&analysis);
     let problems: Vec<Error> =
         analysis.problems.into_iter().filter(|problem| !problem.message().contains("__system")).collect();
