@@ -328,9 +328,10 @@ fn declarations_belong_at_the_top_level() {
             let folder = Folder::new().with("s.lua", script).with("late.lua", "return 1\n");
             let said = folder.burgeon(&["run", "s.lua"]).failed();
             assert!(
-                said.starts_with("error: s.lua:5: ") && said.contains("top level of the script"),
+                said.starts_with("error: s.lua:5: rule A(x)") && said.contains("top level of the script"),
                 "{call}: {said}"
             );
+            assert!(said.contains("module: A(1), step "), "{call}: {said}");
         }
     }
 }
