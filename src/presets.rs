@@ -352,17 +352,50 @@ mod tests {
 
     #[test]
     fn a_file_of_another_form_is_refused_with_its_line_and_kept() {
-        insta::assert_snapshot!(refused("{\n  \"tall\": {\n    \"seed\": 7,,\n"), @"");
-        insta::assert_snapshot!(refused(""), @"");
-        insta::assert_snapshot!(refused("[1, 2]"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": 3 }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": {\n\"sed\": 3 } }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": 1e400 } }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [1] } } }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": { \"a\": 1e999 } } }"), @"");
-        insta::assert_snapshot!(refused("{ \"tall\": {},\n\"tall\": {} }"), @"");
+        insta::assert_snapshot!(refused("{\n  \"tall\": {\n    \"seed\": 7,,\n"), @r"
+        FOLDER/tower.presets.json:3: this is not JSON: key must be a string
+          help: mend the file, or move it away
+        ");
+        insta::assert_snapshot!(refused(""), @r"
+        FOLDER/tower.presets.json:1: this is not JSON: EOF while parsing a value
+          help: mend the file, or move it away
+        ");
+        insta::assert_snapshot!(refused("[1, 2]"), @r#"
+        FOLDER/tower.presets.json:1: the file is [1, 2], not an object
+          help: write { "name": { "seed": 0, "params": {} } }
+        "#);
+        insta::assert_snapshot!(refused("{ \"tall\": 3 }"), @r#"
+        FOLDER/tower.presets.json:1: preset tall is 3, not an object
+          help: write { "seed": 0, "params": {} }
+        "#);
+        insta::assert_snapshot!(refused("{ \"tall\": {\n\"sed\": 3 } }"), @r"
+        FOLDER/tower.presets.json:2: preset tall has no field called sed
+          help: did you mean seed?
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"
+        FOLDER/tower.presets.json:2: preset tall has no field called floors
+          help: a preset has a seed and params; parameters belong into params
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @r"
+        FOLDER/tower.presets.json:1: preset tall: -1 is no seed
+          help: write a whole number from 0
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": 1e400 } }"), @r"
+        FOLDER/tower.presets.json:1: preset tall: 1e400 is no seed
+          help: write a whole number from 0
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [1] } } }"), @r"
+        FOLDER/tower.presets.json:3: preset tall: [1] is no value for a
+          help: write a number, true, false or a string
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": { \"a\": 1e999 } } }"), @r"
+        FOLDER/tower.presets.json:1: preset tall: 1e999 is no value for a
+          help: write a number, true, false or a string
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": {},\n\"tall\": {} }"), @r"
+        FOLDER/tower.presets.json:2: the file has two members called tall
+          help: remove or rename one of them
+        ");
     }
 
     #[test]

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon::export::{self, Format};
+use burgeon::picture::{Picture, Quality};
 use burgeon::variations::{Cell, Framing, Over, Sheet, Variations as Cells, sheet};
 use burgeon::{Error, Result};
 use clap::{ArgGroup, Args, ValueEnum};
@@ -75,7 +76,7 @@ impl Variations {
                 .help(format!("leave out --set {name} or --sweep {name}")));
         }
         let variations = Arc::new(Cells::new(&self.script.script, &options, over)?);
-        let picture = self.picture.picture(self.size);
+        let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
         let layout = Sheet::new(variations.len(), self.columns, &picture)?;
         let framing = match self.fit {
             Fit::All => Framing::Together,

@@ -189,6 +189,9 @@ impl Library {
         let string: Table = globals.raw_get("string")?;
         string.raw_set("format", globals.raw_get::<LuaValue>("format")?)?;
         globals.raw_set("format", LuaValue::Nil)?;
+        let coroutine: Table = globals.raw_get("coroutine")?;
+        coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
+        globals.raw_set("resume", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
         let own = machine.session.options.kinds.clone();
         for kind in KINDS.iter().copied().chain([&crate::objects::Model::KIND]).chain(own) {

@@ -17,10 +17,10 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use image::RgbaImage;
+use image::{Rgba, RgbaImage};
 
 use crate::error::{Error, Result};
-use crate::picture::{Extent, Picture, render_within};
+use crate::picture::{Extent, Picture, Quality, render_within};
 use crate::run::{declare, no_such, run_session};
 use crate::scene::Scene;
 use crate::script::{Control, Options, Param, Session, Setting, Stop};
@@ -134,7 +134,8 @@ impl Variations {
 
     /// Makes all variations and gives each to `take` in order, as soon as it and those before it are finished.
     ///
-    /// `picture` is the wish for each cell. Fails if a stop was asked for, with its reason, and if `picture`
+    /// `picture` is the wish for each cell; a draft is photographed at twice the size, so that its edges are smooth.
+    /// Fails if a stop was asked for, with its reason, and if `picture`
     /// cannot be.
     pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Cell)) -> Result<()> {
         picture.check()?;
@@ -187,8 +188,9 @@ impl Variations {
         options.set.extend(plan.set.clone());
         options.threads = Some((self.threads() / self.workers()).max(1));
         let session = Session::new(&self.script, options)?;
-        let run = run_session(&session)?;
+        let run = run_session(&session);
         self.ran.fetch_add(1, Ordering::Relaxed);
+        let run = run?;
         if run.systems.is_empty() {
             let script = self.script.display();
             return Err(Error::new(format!("{script} makes nothing to show, for it derives no system"))
@@ -208,7 +210,7 @@ impl Variations {
             Some(scene) => scene,
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
-        let picture = render_within(&scene, extent, picture)?;
+        let picture = thumbnail(&scene, extent, picture)?;
         Ok(Made { picture, params: ran.params, modules: ran.modules, triangles: ran.triangles })
     }
 
@@ -260,6 +262,29 @@ impl Variations {
     }
 }
 
+fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture) -> Result<RgbaImage> {
+    let (width, height) = (picture.width, picture.height);
+    if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
+        return render_within(scene, extent, picture);
+    }
+    let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
+    let large = render_within(scene, extent, &large)?;
+    Ok(RgbaImage::from_fn(width, height, |x, y| {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| *large.get_pixel(2 * x + i, 2 * y + j));
+        mean(four)
+    }))
+}
+
+/// The mean colour of pixels that differ in opacity.
+fn mean(pixels: [Rgba<u8>; 4]) -> Rgba<u8> {
+    let opacity: u32 = pixels.iter().map(|pixel| u32::from(pixel[3])).sum();
+    let color = |i: usize| {
+        let sum: u32 = pixels.iter().map(|pixel| u32::from(pixel[i]) * u32::from(pixel[3])).sum();
+        ((sum + opacity / 2) / opacity.max(1)) as u8
+    };
+    Rgba([color(0), color(1), color(2), ((opacity + 2) / 4) as u8])
+}
+
 /// The parameter `name` of `script`.
 fn find(script: &Path, options: &Options, name: &str) -> Result<Param> {
     let mut options = Options { check: true, ..options.clone() };
@@ -302,7 +327,6 @@ fn bytes(scene: &Scene) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::picture::Quality;
 
     const SCRIPT: &str = r#"local n = param("n", { default = 2, min = 1, max = 6, unit = "m" })
 param("kind", { default = "a", choices = { "a", "b" } })

@@ -157,20 +157,65 @@ mod tests {
     #[test]
     fn what_is_no_range_is_refused_with_what_to_write() {
         let said = |over: Result<Over>| over.unwrap_err().to_string();
-        insta::assert_snapshot!(said(Over::seeds("16..1")), @"");
-        insta::assert_snapshot!(said(Over::seeds("1..")), @"");
-        insta::assert_snapshot!(said(Over::seeds("-3")), @"");
-        insta::assert_snapshot!(said(Over::seeds("1..257")), @"");
-        insta::assert_snapshot!(said(Over::seeds("0..18446744073709551615")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=9..1")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=1..9:0")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=1..9:-1")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=1..")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=..5")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=0..1e9")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=0..nan")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=")), @"");
-        insta::assert_snapshot!(said(Over::sweep("x=a,,b")), @"");
-        insta::assert_snapshot!(said(Over::sweep("=1,2")), @"");
+        insta::assert_snapshot!(said(Over::seeds("16..1")), @r"
+        the range 16..1 is empty
+          help: write 1..16
+        ");
+        insta::assert_snapshot!(said(Over::seeds("1..")), @r#"
+        "" is no seed
+          help: write a range such as 1..16, or numbers such as 3,7,12
+        "#);
+        insta::assert_snapshot!(said(Over::seeds("-3")), @r#"
+        "-3" is no seed
+          help: write a range such as 1..16, or numbers such as 3,7,12
+        "#);
+        insta::assert_snapshot!(said(Over::seeds("1..257")), @r"
+        257 variations are more than 256, the most at once
+          help: take fewer seeds
+        ");
+        insta::assert_snapshot!(said(Over::seeds("0..18446744073709551615")), @r"
+        so many variations are more than 256, the most at once
+          help: take fewer seeds
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=9..1")), @r"
+        the range 9..1 is empty
+          help: write 1..9
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=1..9:0")), @r"
+        the step 0 does not lead from 1 to 9
+          help: give a step above 0
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=1..9:-1")), @r"
+        the step -1 does not lead from 1 to 9
+          help: give a step above 0
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=1..")), @r#"
+        "" is no number for the end of a range
+          help: write LOW..HIGH:STEP, such as 0..90:10
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("x=..5")), @r#"
+        "" is no number for the beginning of a range
+          help: write LOW..HIGH:STEP, such as 0..90:10
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("x=0..1e9")), @r"
+        so many variations are more than 256, the most at once
+          help: take a larger step: LOW..HIGH:STEP
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=0..nan")), @r#"
+        "nan" is no number for the end of a range
+          help: write LOW..HIGH:STEP, such as 0..90:10
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("x=")), @r"
+        x has no values
+          help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=a,,b")), @r#"
+        "a,,b" leaves a value empty
+          help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("=1,2")), @r"
+        the parameter has no name
+          help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
+        ");
     }
 }

@@ -35,7 +35,7 @@ impl Sheet {
         let divided = |columns: usize| {
             let columns = columns.clamp(1, count.max(1));
             let rows = count.div_ceil(columns);
-            let label = (letters * (LINE + 0.9)).ceil() as u64;
+            let label = (letters * (LINE + 1.5)).ceil() as u64;
             let wide = columns as u64 * u64::from(cell[0] + margin) + u64::from(margin);
             let high = rows as u64 * (u64::from(cell[1]) + label) + 2 * u64::from(margin);
             (columns, rows, wide, high)
@@ -46,7 +46,7 @@ impl Sheet {
                 let cost = |columns: &usize| {
                     let (columns, rows, wide, high) = divided(*columns);
                     let empty = (columns * rows - count) as f64 / count.max(1) as f64;
-                    (wide as f64 / high as f64 / ASPECT).ln().abs() + 2.0 * empty
+                    (wide as f64 / high as f64 / ASPECT).ln().abs() + 3.0 * empty
                 };
                 let best = (1..=count.max(1)).min_by(|a, b| cost(a).total_cmp(&cost(b)));
                 divided(best.unwrap_or(1))
