@@ -105,4 +105,18 @@ impl State {
             None => Err(Error::new(format!("{name:?} is not a file of the script"))),
         }
     }
+    /// The name that the engine has for the script's file that pages name so.
+    pub(super) fn engine_name(&self, name: &str) -> Result<String> {
+        let path = self.own_file(name)?;
+        let is = |known: &Path| known.canonicalize().is_ok_and(|known| known == path);
+        let whole = [&self.script].into_iter().chain(&self.options.stdlib).find(|known| is(known));
+        let root = self.script.canonicalize().ok().and_then(|script| script.parent().map(Path::to_path_buf));
+        let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok()).unwrap_or(&path);
+        let named = match (whole, self.script.parent()) {
+            (Some(whole), _) => whole.clone(),
+            (None, Some(folder)) => folder.join(inner),
+            (None, None) => inner.to_path_buf(),
+        };
+        Ok(named.display().to_string())
+    }
 }

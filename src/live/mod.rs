@@ -16,6 +16,7 @@
 mod address;
 mod ask;
 mod export;
+mod layout;
 pub mod message;
 mod open;
 mod server;

@@ -16,6 +16,7 @@ use super::wish::{Inputs, Wish};
 use super::{Settings, Told};
 use crate::error::Error;
 use crate::export::Format;
+use crate::export::gltf::Layout;
 use crate::run::Run;
 use crate::script::{Options, Param, Session, Stop};
 use crate::watch::Change;
@@ -46,6 +47,8 @@ pub(super) struct State {
     pages: broadcast::Sender<Utf8Bytes>,
     /// Ends the variations that are being made.
     pub variations: Mutex<Option<Arc<Stop>>>,
+    /// Held while a chain is traced, since each may take all cores.
+    pub tracing: Mutex<()>,
 }
 
 pub(super) struct Inner {
@@ -72,6 +75,8 @@ pub(super) struct Inner {
     pub left_out: BTreeSet<String>,
     /// The script's files, which an editor may open.
     pub files: Vec<PathBuf>,
+    /// Ends what is made besides models, for it is about a script that has changed.
+    pub aside: Arc<Stop>,
     pub over: bool,
 }
 
@@ -99,6 +104,10 @@ pub(super) struct Running {
 /// The present model.
 pub(super) struct Shown {
     pub run: Arc<Run>,
+    /// What it was made from.
+    pub inputs: Inputs,
+    /// Where the scene's things are in the model's bytes.
+    pub layout: Arc<Layout>,
     pub message: Model,
 }
 
@@ -123,6 +132,7 @@ impl State {
             last_step: None,
             left_out: BTreeSet::new(),
             files: Vec::new(),
+            aside: Arc::default(),
             over: false,
         };
         Self {
@@ -134,6 +144,7 @@ impl State {
             wake: Condvar::new(),
             pages: broadcast::channel(QUEUE).0,
             variations: Mutex::default(),
+            tracing: Mutex::default(),
         }
     }
 
@@ -197,13 +208,18 @@ impl State {
     /// An error whose file is named as pages name it.
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
         let mut object = error.to_json();
-        if let Some(file) = error.place().map(|place| Path::new(&place.file)) {
-            let folder = self.script.parent().filter(|folder| !folder.as_os_str().is_empty());
-            let inner = folder.and_then(|folder| file.strip_prefix(folder).ok());
-            object["file"] =
-                inner.map_or_else(|| self.name(file), |inner| inner.display().to_string()).into();
+        if let Some(place) = error.place() {
+            object["file"] = self.short(&place.file).into();
         }
         object
+    }
+
+    /// A file of an error or a rule as pages name it.
+    pub(super) fn short(&self, file: &str) -> String {
+        let file = Path::new(file);
+        let folder = self.script.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let inner = folder.and_then(|folder| file.strip_prefix(folder).ok());
+        inner.map_or_else(|| self.name(file), |inner| inner.display().to_string())
     }
 
     /// The model of that name, if it is kept.
@@ -240,6 +256,7 @@ impl State {
         self.stop_variations("the script has changed");
         let files = change.files.iter().map(|path| self.name(path)).collect();
         let mut inner = self.lock();
+        std::mem::take(&mut inner.aside).stop(Error::new("the script has changed"));
         inner.generation += 1;
         inner.post(Due { cause: Cause::Save, files, at: change.at });
         self.wake.notify_all();
@@ -250,6 +267,7 @@ impl State {
         self.stop_variations("the server ends");
         let mut inner = self.lock();
         inner.over = true;
+        inner.aside.stop(Error::new("the server ends"));
         inner.stop("the server ends");
         self.wake.notify_all();
     }

@@ -13,7 +13,7 @@ use super::state::{Due, Inner, Running, Shown, State};
 use super::wish::Inputs;
 use super::{Told, trace};
 use crate::error::{Error, Result};
-use crate::export::gltf;
+use crate::export::gltf::{self, Layout};
 use crate::run::{Run, run_session};
 use crate::script::{Limits, Options, Session};
 use crate::watch::Watch;
@@ -45,11 +45,19 @@ enum Outcome {
 
 struct Made {
     run: Run,
-    /// The model's name and bytes, if there is something to show.
-    bytes: Option<(String, Bytes)>,
-    /// What pages are told besides.
+    file: File,
+    /// What pages are told of it, but for what depends on the wish.
+    message: Model,
+}
+
+/// The model as pages get it.
+#[derive(Default)]
+struct File {
+    /// Its name, which depends on its content alone, and its content; nothing if there is nothing to show.
+    content: Option<(String, Bytes)>,
+    layout: Layout,
+    /// Why there is nothing, if there is too much.
     note: Option<String>,
-    encode: Duration,
 }
 
 /// Works until the state is over.
@@ -140,12 +148,14 @@ fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<Ato
     cancelled
 }
 
-fn options(state: &State, inputs: &Inputs) -> Options {
+/// How the script is run with these inputs.
+pub(super) fn options(state: &State, inputs: &Inputs) -> Options {
     Options {
         set: inputs.set.clone(),
         seed: inputs.seed,
         steps: inputs.steps,
         forgiving: true,
+        profile: true,
         ..state.options.clone()
     }
 }
@@ -164,9 +174,15 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
         if cancelled.load(Ordering::Acquire) {
             return Err(Error::new("there is something newer"));
         }
-        let begin = Instant::now();
-        let (bytes, note) = encode(&run)?;
-        Ok(Made { run, bytes, note, encode: begin.elapsed() })
+        let (file, mut message) = rayon::join(|| encode(&run), || describe(state, job, &session, &run));
+        let (file, time) = file?;
+        if let Some((hash, bytes)) = &file.content {
+            message.url = Some(format!("model/{hash}.glb"));
+            message.bytes = bytes.len();
+        }
+        message.times.encode = ms(time);
+        message.times.total = ms(job.due.at.elapsed());
+        Ok(Made { run, file, message })
     });
     match made {
         _ if cancelled.load(Ordering::Acquire) => Outcome::Cancelled,
@@ -175,24 +191,78 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
     }
 }
 
-/// The model's name, which depends on its content alone, and bytes; and why there are none, if they are too many.
-#[allow(clippy::type_complexity, reason = "taken apart where it is called")]
-fn encode(run: &Run) -> Result<(Option<(String, Bytes)>, Option<String>)> {
+/// The model's bytes, and how long it took to make them.
+fn encode(run: &Run) -> Result<(File, Duration)> {
+    let begin = Instant::now();
     if run.scene.triangles() == 0 {
-        return Ok((None, None));
+        return Ok((File::default(), begin.elapsed()));
     }
-    let glb = match gltf::glb(&run.scene) {
-        Ok(glb) if glb.len() <= LARGEST => glb,
-        Ok(glb) => {
-            let size = glb.len() / 1_000_000;
-            return Ok((None, Some(format!("the model takes {size} MB, more than a page can show"))));
+    let nothing = |note: String| File { note: Some(note), ..File::default() };
+    let file = match gltf::glb_for_viewer(&run.scene) {
+        Ok((glb, layout)) if glb.len() <= LARGEST => {
+            let hash = blake3::hash(&glb).to_hex()[..32].to_owned();
+            File { content: Some((hash, glb.into())), layout, note: None }
+        }
+        Ok((glb, _)) => {
+            nothing(format!("the model takes {} MB, more than a page can show", glb.len() / 1_000_000))
         }
         // The scene is sound, or the run would have failed: it is too large for any file.
-        Err(error) if error.message().contains("GiB") => return Ok((None, Some(error.to_string()))),
+        Err(error) if error.message().contains("GiB") => nothing(error.to_string()),
         Err(error) => return Err(error),
     };
-    let hash = blake3::hash(&glb).to_hex()[..32].to_owned();
-    Ok((Some((hash, glb.into())), None))
+    Ok((file, begin.elapsed()))
+}
+
+/// What pages are told of a run, but for what depends on the wish and on the model's bytes.
+fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
+    let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
+    let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
+    files.extend(textures.map(|texture| state.name(&texture.path)));
+    files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
+    files.sort();
+    files.dedup();
+    let systems = run.systems.iter().map(|system| {
+        let place = system.place.as_ref();
+        System {
+            system: system.system,
+            place: place.map(|it| format!("{}:{}", state.short(&it.file), it.line)).unwrap_or_default(),
+            chains: system.features.len(),
+            modules: system.modules(),
+            steps: system.steps,
+            symbols: trace::symbols(system),
+        }
+    });
+    let bounds = run.scene.bounds();
+    Model {
+        run: job.run,
+        cause: job.due.cause,
+        url: None,
+        bytes: 0,
+        triangles: run.scene.triangles(),
+        instances: run.scene.instances.len(),
+        modules: run.systems.iter().map(|system| system.modules()).sum(),
+        bounds: bounds.map(|(low, high)| Bounds { low: low.to_array(), high: high.to_array() }),
+        steps: run.systems.iter().map(|system| system.steps).max().unwrap_or(0),
+        last_step: 0,
+        step_limit: job.inputs.steps,
+        seed: job.inputs.seed.to_string(),
+        params: Vec::new(),
+        systems: systems.collect(),
+        rules: trace::rules(state, run),
+        times: Times {
+            script: ms(run.times.script),
+            rewriting: ms(run.times.derivation.rewriting),
+            interpretation: ms(run.times.derivation.interpretation),
+            scene: ms(run.times.scene),
+            encode: 0.0,
+            total: 0.0,
+        },
+        files,
+    }
+}
+
+fn ms(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
 }
 
 fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
@@ -224,10 +294,11 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             told.push(Told::Failed(error));
         }
         Outcome::Made(made) => {
-            let Made { run, bytes, note, encode } = *made;
-            let hash = bytes.as_ref().map(|(hash, bytes)| (hash.clone(), bytes.len()));
-            let message = inner.describe(state, job, &run, hash, encode);
-            let old = bytes.map(|(hash, bytes)| inner.keep(hash, bytes));
+            let Made { run, file, mut message } = *made;
+            message.params = inner.wish.knobs(&run.params);
+            message.last_step = inner.last_step_of(&job.inputs, message.steps);
+            let File { content, layout, note } = file;
+            let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
             told.push(Told::Model {
                 triangles: message.triangles,
                 modules: message.modules,
@@ -244,7 +315,8 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
                 state.say(&Say::Refused { id: None, text: text.clone() });
                 told.push(Told::Note(text));
             }
-            gone = Some((inner.shown.replace(Arc::new(Shown { run: Arc::new(run), message })), old));
+            let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
+            gone = Some((inner.shown.replace(Arc::new(Shown { run, inputs, layout, message })), old));
         }
     }
     drop(inner);
@@ -276,65 +348,6 @@ impl Inner {
         }
         self.left_out = texts.into_iter().collect();
         told
-    }
-
-    fn describe(
-        &mut self,
-        state: &State,
-        job: &Job,
-        run: &Run,
-        file: Option<(String, usize)>,
-        encode: Duration,
-    ) -> Model {
-        let ms = |duration: Duration| duration.as_secs_f64() * 1e3;
-        let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
-        let (url, bytes) = file.map_or((None, 0), |(hash, bytes)| (Some(format!("model/{hash}.glb")), bytes));
-        let mut files: Vec<String> = self.files.iter().map(|path| state.name(path)).collect();
-        let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
-        files.extend(textures.map(|texture| state.name(&texture.path)));
-        files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
-        files.sort();
-        files.dedup();
-        Model {
-            run: job.run,
-            cause: job.due.cause,
-            url,
-            bytes,
-            triangles: run.scene.triangles(),
-            instances: run.scene.instances.len(),
-            modules: run.systems.iter().map(|system| system.modules()).sum(),
-            bounds: run
-                .scene
-                .bounds()
-                .map(|(low, high)| Bounds { low: low.to_array(), high: high.to_array() }),
-            steps,
-            last_step: self.last_step_of(&job.inputs, steps),
-            step_limit: job.inputs.steps,
-            seed: job.inputs.seed.to_string(),
-            params: self.wish.knobs(&run.params),
-            systems: run
-                .systems
-                .iter()
-                .map(|system| System {
-                    system: system.system,
-                    place: trace::place(system),
-                    chains: system.features.len(),
-                    modules: system.modules(),
-                    steps: system.steps,
-                    symbols: trace::symbols(system),
-                })
-                .collect(),
-            rules: trace::rules(run),
-            times: Times {
-                script: ms(run.times.script),
-                rewriting: ms(run.times.derivation.rewriting),
-                interpretation: ms(run.times.derivation.interpretation),
-                scene: ms(run.times.scene),
-                encode: ms(encode),
-                total: ms(job.due.at.elapsed()),
-            },
-            files,
-        }
     }
 
     /// The number of steps to the end, of a run with these inputs that took `steps`; the best guess if it was
@@ -394,5 +407,6 @@ fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
     let Some(shown) = inner.shown.as_mut() else { return };
     let message = Model { last_step, ..shown.message.clone() };
     state.say(&Say::Model(Box::new(message.clone())));
-    *shown = Arc::new(Shown { run: Arc::clone(&shown.run), message });
+    let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
+    *shown = Arc::new(Shown { run, inputs: shown.inputs.clone(), layout, message });
 }
