@@ -1,11 +1,11 @@
 //! Burgeon: procedural modelling by rewriting. Rules are written in Lua, geometry is made in Rust.
 //!
 //! ```text
-//! script.lua ──► script ──► rules ──────► derive ⇄ interpret ──────────► scene ──────► export | picture
-//!                (Lua VMs)  (grammar,     (parallel  (rules change       (meshes,      (glTF, OBJ, SVG,
-//!                            immutable)    rewriting) object state)       instances)    PNG)
-//!                                              ▲          ▲
-//!                                              └─ objects ┘  read-only while rewriting, mutable while
+//! script.lua ──► script ──► rules ──────► derive ⇄ interpret ──────────► scene ──────► export | picture | live
+//!     ▲          (Lua VMs)  (grammar,     (parallel  (rules change       (meshes,      (glTF, OBJ, SVG, PNG,
+//!   watch                    immutable)    rewriting) object state)       instances)    a page in the browser)
+//!  (on a save,                                 ▲          ▲
+//!   again)                                     └─ objects ┘  read-only while rewriting, mutable while
 //!                                                    ▲       interpreting
 //!                                                    └────── geometry
 //! ```
@@ -26,6 +26,11 @@
 //! - [`trace`](mod@trace): which module made what, and which rules led to it.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`presets`]: values of parameters under names, in a file beside the script.
+//! - [`variations`]: many runs of a script, as thumbnails to choose from.
+//! - [`watch`]: tells when the files of a script have changed.
+//! - [`live`]: a [`Live`](live::Live) server shows the scene on a page in the browser, and shows it anew on every
+//!   save. It is behind the feature `live`, which is on unless turned off.
 //!
 //! [`run()`] goes the whole way, from a file to a scene:
 //!
@@ -66,14 +71,19 @@ pub mod error;
 pub mod export;
 pub mod geometry;
 mod interpret;
+#[cfg(feature = "live")]
+pub mod live;
 mod memory;
 pub mod objects;
 pub mod picture;
+pub mod presets;
 pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
 pub mod trace;
+pub mod variations;
+pub mod watch;
 
 pub use error::{Error, Result};
 pub use run::{Run, RunTimes, check, run, run_session};

@@ -75,11 +75,10 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once.
 pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
     let session = Session::new(path, Options { check: true, ..options })?;
-    let watchdog = Arc::new(Watchdog::new(&session));
-    let machine = Machine::new(&session, &watchdog, Crew::leading(&watchdog))?;
-    let ran = machine.run();
+    let mut found = Vec::new();
+    let ran = declare_with(&session, &mut found);
     let mut problems = session.problems();
-    problems.extend(machine.library.problems.borrow_mut().drain(..));
+    problems.extend(found);
     if let Err(error) = ran {
         for problem in error.problems() {
             let told =
@@ -96,28 +95,56 @@ pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
     if problems.is_empty() { Ok(session.params()) } else { Err(Error::several(problems)) }
 }
 
+/// Runs the script of a session whose options say to check only, for the sake of its parameters.
+pub(crate) fn declare(session: &Arc<Session>) -> Result<()> {
+    declare_with(session, &mut Vec::new())
+}
+
+/// The same, with the `problems` of its rules.
+fn declare_with(session: &Arc<Session>, problems: &mut Vec<Error>) -> Result<()> {
+    let watchdog = Arc::new(Watchdog::new(session));
+    let machine = Machine::new(session, &watchdog, Crew::leading(&watchdog))?;
+    let ran = machine.run();
+    problems.extend(machine.library.problems.borrow_mut().drain(..));
+    ran
+}
+
 /// Refuses values for parameters that the script does not have.
 fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
     for (name, _) in &session.options.set {
         if !params.iter().any(|param| param.name == *name) {
-            let script = session.script().display();
-            let error = Error::new(format!("{script} has no parameter called {name}"));
-            let names = params.iter().map(|param| param.name.as_str());
-            return Err(match crate::error::nearest(name, names.clone()) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None if params.is_empty() => error.help("it declares none"),
-                None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
-            });
+            session.forgive(name, no_such(session.script(), name, params))?;
+        }
+    }
+    if let Some(preset) = &session.options.preset {
+        for (name, _) in &preset.params {
+            if !params.iter().any(|param| param.name == *name) {
+                let script = session.script().display().to_string();
+                session.forgive(name, preset.outdated(name, &script, params))?;
+            }
         }
     }
     Ok(())
+}
+
+/// The error for a parameter `name` that `script` does not have.
+pub(crate) fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
+    let error = Error::new(format!("{} has no parameter called {name}", script.display()));
+    let names = params.iter().map(|param| param.name.as_str());
+    match crate::error::nearest(name, names.clone()) {
+        Some(near) => error.help(format!("did you mean {near}?")),
+        None if params.is_empty() => error.help("it declares none"),
+        None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
+    }
 }
 
 /// Turns the textures' names into files within the script's folder.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     for texture in scene.materials.iter_mut().filter_map(|material| material.texture.as_mut()) {
         let shown = texture.path.display().to_string();
-        let path = session.root().join(&texture.path).canonicalize().map_err(|_| {
+        let path = session.root().join(&texture.path);
+        session.seek(&path);
+        let path = path.canonicalize().map_err(|_| {
             Error::new(format!("there is no texture {shown}")).help("textures are files beside the script")
         })?;
         if !path.starts_with(session.root()) {

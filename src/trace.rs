@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::{Arc, PoisonError};
 
 use crate::derive::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::objects::Makers;
 use crate::run::run_session;
 use crate::scene::{Origin, Part, Scene};
@@ -50,6 +50,8 @@ pub struct Made {
     pub interpretation: Option<RuleName>,
     /// The modules that led to it, from the axiom on; the last one is itself as it was made.
     pub path: Vec<Ancestor>,
+    /// Where the axiom was set.
+    pub axiom: Option<Place>,
     /// The chain before it, itself, and the chain after it.
     pub around: [String; 3],
     /// What it has drawn.
@@ -172,6 +174,7 @@ fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Opt
         module,
         interpretation: trace.interpretation(index).cloned(),
         path: trace.path(index),
+        axiom: trace.axiom().cloned(),
         around: trace.around(index, AROUND),
         runs,
     })

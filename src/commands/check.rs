@@ -20,7 +20,7 @@ impl Check {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let params = burgeon::check(&self.script.script, self.script.options())?;
+        let params = burgeon::check(&self.script.script, self.script.options()?)?;
         if self.script.json {
             let params: Vec<_> = params
                 .iter()

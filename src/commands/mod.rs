@@ -5,11 +5,14 @@
 
 mod check;
 mod completions;
+#[cfg(feature = "live")]
+mod live;
 mod new;
 mod progress;
 mod report;
 mod run;
 mod shared;
+mod variations;
 
 use std::process::ExitCode;
 
@@ -21,7 +24,7 @@ use clap::{Parser, Subcommand};
     name = "burgeon",
     version,
     about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
-    after_help = "To begin:\n  burgeon new tree\n  burgeon run tree.lua -o tree.glb"
+    after_help = "To begin:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb"
 )]
 struct Cli {
     #[command(subcommand)]
@@ -31,7 +34,10 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(run::Run),
+    #[cfg(feature = "live")]
+    Live(live::Serve),
     Check(check::Check),
+    Variations(Box<variations::Variations>),
     New(new::New),
     Completions(completions::Completions),
 }
@@ -44,7 +50,10 @@ pub(crate) fn main() -> ExitCode {
     };
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
+        #[cfg(feature = "live")]
+        Command::Live(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
+        Command::Variations(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),
     };

@@ -21,11 +21,18 @@ pub(crate) struct Progress {
 impl Progress {
     /// Watches `session`; silent unless stderr is a terminal and `wanted`.
     pub(crate) fn show(session: &Arc<Session>, wanted: bool) -> Self {
+        let session = Arc::clone(session);
+        let begin = Instant::now();
+        Self::saying(move || session.progress.message(begin.elapsed()), wanted)
+    }
+
+    /// Shows `message` again and again; silent unless stderr is a terminal and `wanted`.
+    pub(crate) fn saying(message: impl Fn() -> String + Send + 'static, wanted: bool) -> Self {
         let over = Arc::new(AtomicBool::new(false));
         if !wanted || !std::io::stderr().is_terminal() {
             return Self { over, thread: None };
         }
-        let (done, session) = (Arc::clone(&over), Arc::clone(session));
+        let done = Arc::clone(&over);
         let thread = std::thread::spawn(move || {
             let begin = Instant::now();
             while begin.elapsed() < PATIENCE {
@@ -38,7 +45,7 @@ impl Progress {
             let bar = ProgressBar::new_spinner()
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
             while !done.load(Ordering::Relaxed) {
-                bar.set_message(session.progress.message(begin.elapsed()));
+                bar.set_message(message());
                 bar.tick();
                 std::thread::sleep(Duration::from_millis(80));
             }

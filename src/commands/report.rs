@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 use std::time::Duration;
 
-use burgeon::script::Setting;
+use burgeon::script::{Param, Setting};
 use burgeon::{Error, Run};
 use serde_json::json;
 
@@ -70,8 +70,6 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration) -> String {
 /// The summary of a run for machines.
 pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> serde_json::Value {
     let seconds = |duration: Duration| duration.as_secs_f64();
-    let params: serde_json::Map<String, serde_json::Value> =
-        run.params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect();
     json!({
         "ok": true,
         "modules": run.systems.iter().map(|system| system.modules()).sum::<usize>(),
@@ -80,7 +78,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "triangles": run.scene.triangles(),
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
-        "params": params,
+        "params": params_json(&run.params),
         "seconds": {
             "total": seconds(total),
             "script": seconds(run.times.script),
@@ -91,6 +89,11 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         },
         "peak_memory_mb": peak_memory(),
     })
+}
+
+/// The parameters' values by their names, for machines.
+pub(crate) fn params_json(params: &[Param]) -> serde_json::Value {
+    params.iter().map(|param| (param.name.clone(), setting_json(&param.value))).collect()
 }
 
 /// A parameter's value for machines.
@@ -109,7 +112,8 @@ fn peak_memory() -> Option<u64> {
     Some(line.split_whitespace().next()?.parse::<u64>().ok()? / 1024)
 }
 
-fn count(number: usize) -> String {
+/// A number with its digits in groups of three.
+pub(crate) fn count(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -125,7 +129,8 @@ fn plural(number: usize, noun: &str) -> String {
     format!("{} {noun}{}", count(number), if number == 1 { "" } else { "s" })
 }
 
-fn time(duration: Duration) -> String {
+/// A time in milliseconds or seconds.
+pub(crate) fn time(duration: Duration) -> String {
     let seconds = duration.as_secs_f64();
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
 }

@@ -2,18 +2,21 @@
 
 use std::io::{BufWriter, Write};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon::derive::Derived;
 use burgeon::export;
-use burgeon::picture::{Background, Picture};
-use burgeon::script::Session;
+use burgeon::presets::Presets;
+use burgeon::script::{Param, Preset, Session};
 use burgeon::{Error, Result};
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::progress::Progress;
 use super::report;
-use super::shared::ScriptFlags;
+use super::shared::{PictureFlags, ScriptFlags, size};
+
+mod watch;
 
 /// Runs a script and writes what it makes
 #[derive(Args)]
@@ -29,29 +32,20 @@ pub(crate) struct Run {
     #[arg(long, value_name = "FILE")]
     chain: Option<PathBuf>,
 
+    /// Runs and writes again whenever a file of the script changes, until interrupted
+    #[arg(long)]
+    watch: bool,
+
     /// Width and height of a picture in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "1280x960", help_heading = "Pictures")]
     size: (u32, u32),
 
-    /// Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
-    azimuth: Option<f64>,
+    #[command(flatten)]
+    picture: PictureFlags,
 
-    /// How high the camera stands above the horizon (degrees) [default: by the model]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
-    elevation: Option<f64>,
-
-    /// What is behind the model
-    #[arg(long, value_enum, default_value_t = Behind::Light, help_heading = "Pictures")]
-    background: Behind,
-}
-
-#[derive(Clone, Copy, ValueEnum)]
-enum Behind {
-    Light,
-    Dark,
-    /// Transparent
-    Clear,
+    /// Saves the seed and the values of --set and --preset under a name, once the run has succeeded
+    #[arg(long, value_name = "NAME")]
+    save_preset: Option<String>,
 }
 
 impl Run {
@@ -60,23 +54,47 @@ impl Run {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let begin = Instant::now();
         self.check_files()?;
-        let session = Session::new(&self.script.script, self.script.options())?;
+        if let Some(name) = &self.save_preset {
+            burgeon::presets::check_name(name)?;
+            Presets::read(&self.script.script)?;
+        }
+        if self.watch {
+            return watch::again_and_again(self);
+        }
+        let begin = Instant::now();
+        let session = self.session()?;
+        self.make(&session, begin, &|| false)
+    }
+
+    /// The script as it was named, and how it is run.
+    fn session(&self) -> Result<Arc<Session>> {
+        Session::new(&self.script.script, self.script.options()?)
+    }
+
+    /// Runs `session`, writes everything, and says what came of it, unless it is `stale` before anything is written.
+    fn make(&self, session: &Arc<Session>, begin: Instant, stale: &dyn Fn() -> bool) -> Result<()> {
         let (run, writing) = {
-            let _progress = Progress::show(&session, !self.script.json);
-            let run = burgeon::run_session(&session)?;
+            let _progress = Progress::show(session, !self.script.json);
+            let run = burgeon::run_session(session)?;
+            if stale() {
+                return Ok(());
+            }
             if run.systems.is_empty() && !self.output.is_empty() {
                 let script = self.script.script.display();
                 return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
                     .help("end it with system:derive()"));
             }
             let writing = Instant::now();
+            let picture = self.picture.picture(self.size);
             for output in &self.output {
-                export::write(&run.scene, output, &self.picture())?;
+                export::write(&run.scene, output, &picture)?;
             }
             if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
                 write_chains(path, &run.systems)?;
+            }
+            if let Some(name) = &self.save_preset {
+                self.save(name, session, &run.params)?;
             }
             (run, writing.elapsed())
         };
@@ -93,6 +111,17 @@ impl Run {
             report::eprint(&report::summary(&run, writing, begin.elapsed()));
         }
         Ok(())
+    }
+
+    /// Saves what this run was given.
+    fn save(&self, name: &str, session: &Session, params: &[Param]) -> Result<()> {
+        let options = &session.options;
+        let preset = options.preset.iter().flat_map(|preset| &preset.params).map(|(name, _)| name);
+        let given: Vec<&String> = preset.chain(options.set.iter().map(|(name, _)| name)).collect();
+        let params = params.iter().filter(|param| given.contains(&&param.name));
+        let params = params.map(|param| (param.name.clone(), param.value.clone())).collect();
+        let preset = Preset { name: name.to_owned(), seed: Some(options.seed), params, ..Preset::default() };
+        Presets::save(&self.script.script, preset).map(|_| ())
     }
 
     /// Whether the chains go to standard output as a part of the JSON document.
@@ -126,25 +155,10 @@ impl Run {
         }
         Ok(())
     }
-
-    fn picture(&self) -> Picture {
-        Picture {
-            width: self.size.0,
-            height: self.size.1,
-            azimuth: self.azimuth,
-            elevation: self.elevation,
-            background: match self.background {
-                Behind::Light => Background::Light,
-                Behind::Dark => Background::Dark,
-                Behind::Clear => Background::Clear,
-            },
-            ..Picture::default()
-        }
-    }
 }
 
 /// Writes the chains of all systems, in the order in which they were derived.
-fn write_chains(path: &Path, systems: &[std::sync::Arc<Derived>]) -> Result<()> {
+fn write_chains(path: &Path, systems: &[Arc<Derived>]) -> Result<()> {
     let failed = |error: std::io::Error| {
         Error::new(format!("cannot write the chains to {}: {error}", path.display()))
             .help("check that the folder exists and may be written to")
@@ -165,18 +179,4 @@ fn write_chains(path: &Path, systems: &[std::sync::Arc<Derived>]) -> Result<()> 
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
     export::Format::of(&path).map(|_| path).map_err(|error| error.to_string())
-}
-
-fn size(text: &str) -> Result<(u32, u32), String> {
-    let parts = text
-        .split_once(['x', 'X'])
-        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
-    match parts {
-        Some((width, height))
-            if (1..=Picture::LARGEST).contains(&width) && (1..=Picture::LARGEST).contains(&height) =>
-        {
-            Ok((width, height))
-        }
-        _ => Err(format!("write WIDTHxHEIGHT, such as 1280x960, each from 1 to {}", Picture::LARGEST)),
-    }
 }

@@ -3,8 +3,11 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
+use burgeon::picture::{Background, Picture};
+use burgeon::presets::Presets;
 use burgeon::script::{Limits, Options};
-use clap::Args;
+use burgeon::{Error, Result};
+use clap::{Args, ValueEnum};
 
 /// How a script is run.
 #[derive(Args)]
@@ -16,9 +19,13 @@ pub(crate) struct ScriptFlags {
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     set: Vec<(String, String)>,
 
-    /// The seed of all random numbers
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = whole::<u64>, allow_negative_numbers = true)]
-    pub seed: u64,
+    /// Takes the parameters and the seed from a preset of the script; --set and --seed win over it
+    #[arg(long, value_name = "NAME")]
+    preset: Option<String>,
+
+    /// The seed of all random numbers [default: 0]
+    #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
+    seed: Option<u64>,
 
     /// Derives at most N steps
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
@@ -52,16 +59,34 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "N", default_value_t = 4096, hide = true)]
     batch: u32,
 
+    /// Reads this file in the place of the built-in standard library
+    #[arg(long, value_name = "FILE")]
+    stdlib: Option<PathBuf>,
+
     /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
     pub json: bool,
 }
 
 impl ScriptFlags {
-    pub(crate) fn options(&self) -> Options {
-        Options {
+    /// The files that decide what is made even if the script cannot be read.
+    pub(crate) fn files(&self) -> Vec<PathBuf> {
+        let presets = self.preset.as_ref().map(|_| Presets::path_of(&self.script));
+        std::iter::once(&self.script).chain(&self.stdlib).cloned().chain(presets).collect()
+    }
+
+    /// How to run the script. Fails if there is no such preset.
+    pub(crate) fn options(&self) -> Result<Options> {
+        let preset = match &self.preset {
+            // A script that is not there is told of by the run.
+            Some(name) if self.script.is_file() => Some(Presets::read(&self.script)?.get(name)?.clone()),
+            _ => None,
+        };
+        let seed = self.seed.or(preset.as_ref().and_then(|preset| preset.seed));
+        Ok(Options {
             set: self.set.clone(),
-            seed: self.seed,
+            preset,
+            seed: seed.unwrap_or(0),
             steps: self.steps,
             threads: self.threads.map(usize::from),
             batch: self.batch as usize,
@@ -71,8 +96,74 @@ impl ScriptFlags {
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
             },
+            stdlib: self.stdlib.clone(),
             ..Options::default()
+        })
+    }
+}
+
+/// How a picture is taken, but for its size.
+#[derive(Args)]
+pub(crate) struct PictureFlags {
+    /// Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
+    azimuth: Option<f64>,
+
+    /// How high the camera stands above the horizon (degrees) [default: by the model]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
+    elevation: Option<f64>,
+
+    /// What is behind the model
+    #[arg(long, value_enum, default_value_t = Behind::Light, help_heading = "Pictures")]
+    background: Behind,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Behind {
+    Light,
+    Dark,
+    /// Transparent
+    Clear,
+}
+
+impl PictureFlags {
+    pub(crate) fn picture(&self, (width, height): (u32, u32)) -> Picture {
+        Picture {
+            width,
+            height,
+            azimuth: self.azimuth,
+            elevation: self.elevation,
+            background: match self.background {
+                Behind::Light => Background::Light,
+                Behind::Dark => Background::Dark,
+                Behind::Clear => Background::Clear,
+            },
+            ..Picture::default()
         }
+    }
+}
+
+/// Calls `ended` when the user interrupts; if the program is still there soon after, it ends as it is.
+pub(crate) fn on_interrupt(ended: impl Fn() + Send + 'static) -> Result<()> {
+    ctrlc::set_handler(move || {
+        ended();
+        std::thread::sleep(Duration::from_millis(500));
+        std::process::exit(0);
+    })
+    .map_err(|error| Error::new(format!("cannot wait for an interrupt: {error}")))
+}
+
+pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {
+    let parts = text
+        .split_once(['x', 'X'])
+        .and_then(|(width, height)| Some((width.parse().ok()?, height.parse().ok()?)));
+    match parts {
+        Some((width, height))
+            if (1..=Picture::LARGEST).contains(&width) && (1..=Picture::LARGEST).contains(&height) =>
+        {
+            Ok((width, height))
+        }
+        _ => Err(format!("write WIDTHxHEIGHT, such as 1280x960, each from 1 to {}", Picture::LARGEST)),
     }
 }
 

@@ -85,7 +85,11 @@ pub fn write_file(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io:
 
 /// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.
 pub fn png(scene: &Scene, picture: &Picture) -> Result<Vec<u8>> {
-    let image = picture::render(scene, picture)?;
+    encode_png(&picture::render(scene, picture)?)
+}
+
+/// `image` as a PNG file.
+pub fn encode_png(image: &image::RgbaImage) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
     image
         .write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)

@@ -1,6 +1,5 @@
 //! The perspective camera and how it is fitted to the model.
 
-use super::stage::Stage;
 use super::view::Viewpoint;
 use glam::{Affine3A, Mat3A, Vec3A};
 
@@ -27,9 +26,8 @@ pub(super) struct Camera {
 }
 
 impl Camera {
-    /// The camera in direction `eye` that is as near as lets all of the model into a picture of `size`
-    /// (pixels).
-    pub(super) fn fit(stage: &Stage, eye: Viewpoint, size: [u32; 2]) -> Self {
+    /// The camera in direction `eye` that is as near as lets all of `points` into a picture of `size` (pixels).
+    pub(super) fn fit(points: impl Iterator<Item = Vec3A>, eye: Viewpoint, size: [u32; 2]) -> Self {
         let forward = -eye.direction();
         let (sin, cos) = eye.azimuth.sin_cos();
         let right = glam::DVec3::new(-cos, sin, 0.0);
@@ -43,7 +41,7 @@ impl Camera {
         // difference gives the eye.x that leaves the same margin on both.
         let mut most = [f32::NEG_INFINITY; 4];
         let mut nearest = f32::INFINITY;
-        for point in stage.points() {
+        for point in points {
             let (x, y, z) = (point.dot(right), point.dot(down), point.dot(forward));
             let reach = [x - slope[0] * z, -x - slope[0] * z, y - slope[1] * z, -y - slope[1] * z];
             most = std::array::from_fn(|i| most[i].max(reach[i]));
@@ -92,6 +90,7 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::picture::stage::Stage;
     use crate::picture::{Picture, samples, view};
 
     #[test]
@@ -103,7 +102,7 @@ mod tests {
         {
             let picture =
                 Picture { azimuth: Some(azimuth), elevation: Some(elevation), ..Picture::default() };
-            let camera = Camera::fit(&stage, view::viewpoint(&stage, &picture), size);
+            let camera = Camera::fit(stage.points(), view::viewpoint(&stage.hull, &picture), size);
             let (mut low, mut high) = ([f32::MAX; 2], [f32::MIN; 2]);
             stage.each_triangle(
                 0..stage.triangles() as u32,
@@ -128,7 +127,7 @@ mod tests {
     fn the_ray_through_a_projected_point_leads_to_it() {
         let scene = samples::twisted_tower(4);
         let stage = Stage::new(&scene).unwrap();
-        let camera = Camera::fit(&stage, Viewpoint { azimuth: 1.0, elevation: 0.3 }, [300, 200]);
+        let camera = Camera::fit(stage.points(), Viewpoint { azimuth: 1.0, elevation: 0.3 }, [300, 200]);
         let point = Vec3A::new(0.1, -0.2, 0.3);
         let pixel = camera.project(camera.view.transform_point3a(point));
         let ray = camera.ray(pixel.x, pixel.y).normalize();

@@ -16,6 +16,7 @@
 
 mod camera;
 mod develop;
+mod extent;
 mod floor;
 mod light_map;
 mod points;
@@ -36,6 +37,7 @@ mod samples;
 #[cfg(test)]
 mod tests;
 
+pub use extent::Extent;
 pub use settings::{Background, Picture, Quality};
 
 use crate::error::Result;
@@ -47,12 +49,35 @@ use image::RgbaImage;
 /// Corners with a coordinate that is not finite hide their triangles. Fails if the size is zero or beyond
 /// 16384, a texture cannot be read, or the scene names a mesh, material or corner that it does not have.
 pub fn render(scene: &Scene, picture: &Picture) -> Result<RgbaImage> {
+    photograph(scene, None, picture)
+}
+
+/// The picture of `scene` by a camera that sees all of `extent`, as large as it stands there.
+///
+/// Pictures of several scenes within one extent, with the same `picture`, have the same camera, so that what is
+/// larger looks larger. Where `picture` names no direction, the shape of the extent decides. Fails as [`render`]
+/// does.
+pub fn render_within(scene: &Scene, extent: &Extent, picture: &Picture) -> Result<RgbaImage> {
+    photograph(scene, Some(extent), picture)
+}
+
+fn photograph(scene: &Scene, extent: Option<&Extent>, picture: &Picture) -> Result<RgbaImage> {
     picture.check()?;
-    let stage = stage::Stage::new(scene)?;
+    let stage = stage::Stage::within(scene, extent)?;
     let textures = texture::load(&scene.materials)?;
     let detail = settings::Detail::of(picture.quality, stage.triangles());
-    let eye = view::viewpoint(&stage, picture);
-    let camera = camera::Camera::fit(&stage, eye, [picture.width, picture.height]);
+    let size = [picture.width, picture.height];
+    let (eye, camera) = match extent {
+        None => {
+            let eye = view::viewpoint(&stage.hull, picture);
+            (eye, camera::Camera::fit(stage.points(), eye, size))
+        }
+        Some(extent) => {
+            let points = extent.points(&stage.shrink);
+            let eye = view::viewpoint(&points, picture);
+            (eye, camera::Camera::fit(points.into_iter(), eye, size))
+        }
+    };
     let sun = sun::Sun::new(&stage, eye, &detail);
     let sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
     // A little below the model, so that what lies on the ground is not mixed with it.

@@ -40,7 +40,7 @@ fn outline(mesh: &Mesh, uses: usize) -> Vec<Vec3> {
 }
 
 /// Direction `i` of `count`, evenly spread over the sphere on a spiral.
-fn spread(i: usize, count: usize) -> DVec3 {
+pub(super) fn spread(i: usize, count: usize) -> DVec3 {
     let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
     let (sin, cos) = (i as f64 * 2.399_963_229_728_653).sin_cos();
     let r = (1.0 - z * z).sqrt();

@@ -70,7 +70,7 @@ impl Picture {
     pub const LARGEST: u32 = 16384;
 
     /// Refuses sizes and angles that have no picture.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         let fits = |size: u32| (1..=Self::LARGEST).contains(&size);
         if !fits(self.width) || !fits(self.height) {
             let message = format!("a picture cannot be {} x {} pixels", self.width, self.height);

@@ -3,6 +3,7 @@
 //! Instances are not unfolded: a triangle is known by its number in the order of instances, parts and
 //! triangles, and found again by searching the draws.
 
+use super::extent::Extent;
 use super::points;
 use crate::error::{Error, Result};
 use crate::scene::{Material, Part, Scene};
@@ -19,6 +20,8 @@ pub(super) struct Stage<'a> {
     pub bounds: (Vec3A, Vec3A),
     /// Points whose convex hull holds the model, hardly larger than the model.
     pub hull: Vec<Vec3A>,
+    /// From the world to the stage.
+    pub shrink: DAffine3,
     count: u32,
     outlines: Vec<Vec<glam::Vec3>>,
     places: Vec<(usize, Affine3A)>,
@@ -44,6 +47,11 @@ impl<'a> Stage<'a> {
     /// Checks `scene` and finds its size. Fails if an index is out of range or triangles are too many to
     /// number.
     pub(super) fn new(scene: &'a Scene) -> Result<Self> {
+        Self::within(scene, None)
+    }
+
+    /// As [`new`](Self::new), around the middle of `extent` and in units of its radius.
+    pub(super) fn within(scene: &'a Scene, extent: Option<&Extent>) -> Result<Self> {
         check(scene)?;
         let outlines = points::outlines(scene);
         let corners = |instance: &'a crate::scene::Instance| {
@@ -51,10 +59,7 @@ impl<'a> Stage<'a> {
             outlines[instance.mesh].iter().map(move |point| transform.transform_point3(point.as_dvec3()))
         };
         let (low, high) = points::bounds(scene.instances.iter().flat_map(corners));
-        let center = (low + high) / 2.0;
-        let half = (high - low).length() / 2.0;
-        // A model without size, such as a point, is shown as if it measured a metre.
-        let radius = if half > 1e-9 { half } else { 1.0 };
+        let (center, radius) = extent.map_or_else(|| sphere(low, high), Extent::sphere);
         let shrink = DAffine3::from_mat3_translation(
             DMat3::from_diagonal(DVec3::splat(1.0 / radius)),
             -center / radius,
@@ -87,8 +92,8 @@ impl<'a> Stage<'a> {
         }
         draws.retain(|draw| !draw.part.triangles.is_empty());
         let bounds = (((low - center) / radius).as_vec3a(), ((high - center) / radius).as_vec3a());
-        let mut stage =
-            Self { draws, materials: &scene.materials, bounds, hull: Vec::new(), count, outlines, places };
+        let materials = &scene.materials;
+        let mut stage = Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, places };
         stage.hull = points::hull(stage.points(), bounds);
         Ok(stage)
     }
@@ -167,6 +172,13 @@ impl<'a> Stage<'a> {
             }
         }
     }
+}
+
+/// The middle and the radius of the sphere around the box from `low` to `high`.
+pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
+    let half = (high - low).length() / 2.0;
+    // A model without size, such as a point, is shown as if it measured a metre.
+    ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
 }
 
 /// `place` at single precision.

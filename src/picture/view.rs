@@ -1,8 +1,7 @@
 //! Where to look from: the viewpoint that shows a model of unknown shape best.
 
 use super::settings::Picture;
-use super::stage::Stage;
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DVec3, Vec3A};
 
 /// A standing model is flat if its thickness is below this part of its next larger extent.
 const WALL: f64 = 0.15;
@@ -26,9 +25,10 @@ impl Viewpoint {
     }
 }
 
-/// The viewpoint that `picture` asks for, and where it asks for nothing, the one that suits the model.
-pub(super) fn viewpoint(stage: &Stage, picture: &Picture) -> Viewpoint {
-    let points: Vec<DVec3> = stage.hull.iter().map(|point| point.as_dvec3()).collect();
+/// The viewpoint that `picture` asks for, and where it asks for nothing, the one that suits a model with this
+/// `hull`.
+pub(super) fn viewpoint(hull: &[Vec3A], picture: &Picture) -> Viewpoint {
+    let points: Vec<DVec3> = hull.iter().map(|point| point.as_dvec3()).collect();
     let (azimuth, elevation) = suitable(&points);
     Viewpoint {
         azimuth: picture.azimuth.unwrap_or(azimuth).to_radians(),

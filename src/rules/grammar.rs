@@ -80,14 +80,14 @@ pub struct Grammar {
 }
 
 impl Grammar {
-    /// A grammar of `rules` in the order of their declaration.
+    /// A grammar of `rules` in the order of their declaration. A rule of weight 0 never applies.
     ///
     /// `ignored` lists the symbols that contexts pass over. `random` tells whether successors may draw random
     /// numbers; weights are seen from the rules themselves.
     pub fn new(symbols: Arc<Symbols>, rules: Vec<Rule>, ignored: &[Symbol], random: bool) -> Self {
         let arities = symbols.arities();
         let mut by_symbol = vec![Vec::new(); arities.len()];
-        for (index, rule) in (0u16..).zip(&rules) {
+        for (index, rule) in (0u16..).zip(&rules).filter(|(_, rule)| rule.weight != Some(0.0)) {
             by_symbol[usize::from(rule.pattern.predecessor.symbol)].push(index);
         }
         let mut skipped = vec![false; arities.len()];

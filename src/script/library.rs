@@ -95,11 +95,21 @@ impl Library {
     pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
-        let chunk = machine.load_compiled("stdlib.lua", &STANDARD_COMPILED)?;
-        let exports: Table = chunk.call(()).map_err(|error| machine.translate(error))?;
+        let (name, chunk) = match machine.session.stdlib() {
+            None => ("stdlib.lua", machine.load_compiled("stdlib.lua", &STANDARD_COMPILED)?),
+            Some((name, text)) => (name, machine.load(name, text)?),
+        };
+        let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
+        let LuaValue::Table(exports) = exports else {
+            return Err(Error::new(format!("{name} returns no table"))
+                .help("end it with: return { name = value, ... }, the names that scripts get"));
+        };
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
-            let (name, value) = pair.map_err(|error| machine.translate(error))?;
+            let (name, value) = pair.map_err(|_| {
+                Error::new(format!("{name} returns a table with keys that are no names"))
+                    .help("return { name = value, ... }")
+            })?;
             if name.starts_with(char::is_lowercase) {
                 self.functions.borrow_mut().push(name.clone());
             }
@@ -179,6 +189,9 @@ impl Library {
         let string: Table = globals.raw_get("string")?;
         string.raw_set("format", globals.raw_get::<LuaValue>("format")?)?;
         globals.raw_set("format", LuaValue::Nil)?;
+        let coroutine: Table = globals.raw_get("coroutine")?;
+        coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
+        globals.raw_set("resume", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
         let own = machine.session.options.kinds.clone();
         for kind in KINDS.iter().copied().chain([&crate::objects::Model::KIND]).chain(own) {
@@ -231,14 +244,23 @@ impl Library {
                 let name = name.to_string_lossy();
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
-                let param =
-                    Param::declare(&name, &options, &session.options.set).map_err(mlua::Error::external)?;
+                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
+                match param.given(&session.options.set, session.options.preset.as_ref()) {
+                    Ok(value) => param.value = value,
+                    Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
+                }
                 let value = param.value.to_value();
                 session.add_param(param);
                 to_lua(lua, &value, false)
             })?,
         )?;
-        globals.raw_set("print", lua.create_function(|lua, values: MultiValue| print(lua, &values))?)?;
+        let quiet = machine.session.options.quiet;
+        globals.raw_set(
+            "print",
+            lua.create_function(
+                move |lua, values: MultiValue| if quiet { Ok(()) } else { print(lua, &values) },
+            )?,
+        )?;
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "lsystem",
@@ -428,6 +450,7 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
         if !path.starts_with(session.root()) {
             return Err(outside());
         }
+        session.seek(&path);
         if let Ok(path) = path.canonicalize() {
             if !path.starts_with(session.root()) {
                 return Err(outside());

@@ -10,6 +10,7 @@ mod handles;
 mod library;
 mod machine;
 mod param;
+mod preset;
 mod session;
 mod system;
 
@@ -17,5 +18,6 @@ pub(crate) use handles::Objects;
 pub(crate) use machine::{Flusher, read_column, write_column};
 pub use machine::{Machine, Watchdog};
 pub use param::{Control, Param, Setting};
+pub use preset::Preset;
 pub use session::{Limits, Options, Progress, Session, Stop};
 pub(crate) use system::{Declared, Interpretations};

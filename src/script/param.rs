@@ -1,5 +1,6 @@
 //! `param`: the values of a script that a person may change without editing it.
 
+use super::preset::Preset;
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Color, Parameter, Table, Value};
 
@@ -64,6 +65,15 @@ impl std::fmt::Display for Setting {
 }
 
 impl Setting {
+    /// The value as text that reads back as the same value.
+    pub fn plain(&self) -> String {
+        match self {
+            Self::Number(number) => number.to_string(),
+            Self::Boolean(value) => value.to_string(),
+            Self::Text(text) => text.clone(),
+        }
+    }
+
     /// The value for the script.
     pub fn to_value(&self) -> Value {
         match self {
@@ -77,8 +87,8 @@ impl Setting {
 const FIELDS: [&str; 7] = ["default", "min", "max", "step", "choices", "unit", "text"];
 
 impl Param {
-    /// Reads `param(name, { default = ..., ... })`; `set` holds the values given from outside.
-    pub fn declare(name: &str, options: &Table, set: &[(String, String)]) -> Result<Self> {
+    /// Reads `param(name, { default = ..., ... })`; its value is the default.
+    pub fn declare(name: &str, options: &Table) -> Result<Self> {
         for (key, _) in &options.entries {
             let key = match key {
                 crate::objects::Key::Name(name) => name.to_string(),
@@ -146,7 +156,7 @@ impl Param {
                 )));
             }
         };
-        let mut param = Self {
+        let param = Self {
             name: name.to_owned(),
             value: default.clone(),
             default,
@@ -158,11 +168,29 @@ impl Param {
             Error::new(format!("the default of {}", error.message()))
                 .help(error.remedy().unwrap_or("change the default or its bounds"))
         })?;
-        if let Some((_, given)) = set.iter().rev().find(|(known, _)| known == name) {
-            param.value = param.read(given)?;
-            param.check(&param.value)?;
-        }
         Ok(param)
+    }
+
+    /// Its value where `set` holds those given from outside, which win over those of `preset`.
+    pub(crate) fn given(&self, set: &[(String, String)], preset: Option<&Preset>) -> Result<Setting> {
+        if let Some((_, given)) = set.iter().rev().find(|(known, _)| *known == self.name) {
+            return self.accept(given);
+        }
+        match preset
+            .and_then(|preset| Some((preset, preset.params.iter().find(|(known, _)| *known == self.name)?)))
+        {
+            Some((preset, (_, given))) => {
+                self.accept(&given.plain()).map_err(|error| preset.refused(&self.name, &error))
+            }
+            None => Ok(self.default.clone()),
+        }
+    }
+
+    /// The value that the text `given` stands for. Fails if the parameter cannot have it.
+    pub fn accept(&self, given: &str) -> Result<Setting> {
+        let setting = self.read(given)?;
+        self.check(&setting)?;
+        Ok(setting)
     }
 
     fn read(&self, given: &str) -> Result<Setting> {

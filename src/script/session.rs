@@ -1,5 +1,6 @@
 //! What all virtual machines of one run share: options, limits, source files, parameters.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -9,6 +10,7 @@ use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, analyse};
 use super::param::Param;
+use super::preset::Preset;
 use crate::derive::{Trace, Traced};
 use crate::error::{Error, Result};
 use crate::objects::Kind;
@@ -38,6 +40,8 @@ impl Default for Limits {
 pub struct Options {
     /// Values for `param` declarations, by name, as text.
     pub set: Vec<(String, String)>,
+    /// Values for `param` declarations that are not in `set`. Its seed does not count: `seed` does.
+    pub preset: Option<Preset>,
     /// The seed of all random numbers.
     pub seed: u64,
     /// The greatest number of derivation steps of each system; as the script says if `None`.
@@ -50,8 +54,17 @@ pub struct Options {
     pub limits: Limits,
     /// Whether to stop before deriving, after all declarations have been read.
     pub check: bool,
+    /// Whether `print` says nothing.
+    pub quiet: bool,
+    /// Ends this run, too, when it is stopped.
+    pub stop: Option<Arc<Stop>>,
     /// Types of objects that scripts can construct besides the built-in ones.
     pub kinds: Vec<&'static Kind>,
+    /// A file in the place of the built-in standard library.
+    pub stdlib: Option<PathBuf>,
+    /// Whether values in `set` that the script does not take are left out, and not an error;
+    /// [`Session::left_out`] tells which.
+    pub forgiving: bool,
     /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
     pub profile: bool,
     /// The chains to note the lineage of; see [`trace`](crate::trace).
@@ -62,13 +75,18 @@ impl Default for Options {
     fn default() -> Self {
         Self {
             set: Vec::new(),
+            preset: None,
             seed: 0,
             steps: None,
             threads: None,
             batch: 4096,
             limits: Limits::default(),
             check: false,
+            quiet: false,
+            stop: None,
             kinds: Vec::new(),
+            stdlib: None,
+            forgiving: false,
             profile: false,
             trace: None,
         }
@@ -78,11 +96,17 @@ impl Default for Options {
 /// Tells everything that works on a run to stop, and why.
 #[derive(Debug, Default)]
 pub struct Stop {
+    parent: Option<Arc<Stop>>,
     stopped: AtomicBool,
     reason: Mutex<Option<Error>>,
 }
 
 impl Stop {
+    /// Stops whenever `parent` does, too.
+    fn under(parent: Option<Arc<Self>>) -> Self {
+        Self { parent, ..Self::default() }
+    }
+
     /// Asks for a stop; the first reason is kept.
     pub fn stop(&self, reason: Error) {
         self.reason.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
@@ -92,13 +116,16 @@ impl Stop {
     /// Whether a stop was asked for.
     #[inline]
     pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Acquire)
+        self.stopped.load(Ordering::Acquire) || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
     }
 
     /// The reason as an error, if a stop was asked for.
     pub fn check(&self) -> Result<()> {
         if !self.is_stopped() {
             return Ok(());
+        }
+        if let Some(parent) = self.parent.as_ref().filter(|_| !self.stopped.load(Ordering::Acquire)) {
+            return parent.check();
         }
         let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
         Err(reason.unwrap_or_else(|| Error::new("stopped")))
@@ -121,6 +148,13 @@ impl Progress {
         self.steps.store(steps, Ordering::Relaxed);
         self.modules.store(modules, Ordering::Relaxed);
         self.total.fetch_add(modules, Ordering::Relaxed);
+    }
+
+    /// The last step that is done, the greatest number of steps if there is one, and the modules of the chain.
+    pub fn counts(&self) -> (usize, Option<usize>, usize) {
+        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
+        let steps = load(&self.steps);
+        (load(&self.step), (steps != usize::MAX && steps > 0).then_some(steps), load(&self.modules))
     }
 
     /// Says it in words, with the rate and an estimate of the time left.
@@ -165,8 +199,11 @@ pub struct Session {
     pub(crate) values: Arc<Values>,
     script: PathBuf,
     root: PathBuf,
+    stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    sought: Mutex<BTreeSet<PathBuf>>,
     params: Mutex<Vec<Param>>,
+    left_out: Mutex<Vec<(String, Error)>>,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
@@ -180,15 +217,19 @@ impl Session {
     pub fn new(script: &Path, options: Options) -> Result<Arc<Self>> {
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
         Ok(Arc::new(Self {
+            stop: Arc::new(Stop::under(options.stop.clone())),
             options,
-            stop: Arc::default(),
             progress: Progress::default(),
             values: Arc::default(),
             script: script.to_path_buf(),
             root,
+            stdlib,
             sources: Mutex::default(),
+            sought: Mutex::default(),
             params: Mutex::default(),
+            left_out: Mutex::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             kept: Mutex::default(),
@@ -212,6 +253,43 @@ impl Session {
             self.sources.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect();
         files.sort();
         files
+    }
+
+    /// Every file that decides what the run makes, there or not: the script, the standard library's
+    /// replacement, and all that was read or looked for, in the order of their paths.
+    pub fn sought(&self) -> Vec<PathBuf> {
+        let mut files = self.sought.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        files.extend(self.files());
+        files.insert(self.script.clone());
+        files.extend(self.options.stdlib.clone());
+        files.into_iter().collect()
+    }
+
+    /// Takes notice of a file that is about to be looked for.
+    pub(crate) fn seek(&self, path: &Path) {
+        self.sought.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf());
+    }
+
+    /// The name and the text of the file in the place of the standard library, if there is one.
+    pub(crate) fn stdlib(&self) -> Option<(&str, &str)> {
+        self.stdlib.as_ref().map(|(name, text)| (name.as_str(), text.as_str()))
+    }
+
+    /// The values that a forgiving run did not use: the parameter's name and what is wrong.
+    pub fn left_out(&self) -> Vec<(String, Error)> {
+        self.left_out.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Passes `error` on, or notes it if the run forgives that a value of `name` cannot be used.
+    pub(crate) fn forgive(&self, name: &str, error: Error) -> Result<()> {
+        if !self.options.forgiving {
+            return Err(error);
+        }
+        let mut left_out = self.left_out.lock().unwrap_or_else(PoisonError::into_inner);
+        if !left_out.iter().any(|(known, _)| known == name) {
+            left_out.push((name.to_owned(), error));
+        }
+        Ok(())
     }
 
     /// The parameters that the script declared, in order.
@@ -273,6 +351,19 @@ impl Session {
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
+}
+
+/// The name and the text of a file in the place of the standard library.
+fn read_stdlib(path: &Path) -> Result<(String, String)> {
+    let name = path.display().to_string();
+    let remedy = "--stdlib names a Lua file; without it the built-in one is used";
+    let bytes = std::fs::read(path).map_err(|error| {
+        Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy)
+    })?;
+    let text = String::from_utf8(bytes)
+        .map_err(|_| Error::new(format!("the standard library {name} is not a text file")).help(remedy))?;
+    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+    Ok((name, text))
 }
 
 /// The error for a script that cannot be read.

@@ -264,6 +264,7 @@ fn help_reads_well() {
     Commands:
       run          Runs a script and writes what it makes
       check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
+      variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       new          Makes a script to start from
       completions  Prints a script that completes the command line in a shell
       help         Print this message or the help of the given subcommand(s)
@@ -285,14 +286,16 @@ fn help_reads_well() {
       <SCRIPT>  The script, a Lua file
 
     Options:
-          --set <NAME=VALUE>  Sets a parameter of the script
-          --seed <N>          The seed of all random numbers [default: 0]
-          --steps <N>         Derives at most N steps
-          --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]
-          --json              Prints one JSON document, for machines, in place of text for people
-      -o, --output <FILE>     Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
-          --chain <FILE>      Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
-      -h, --help              Print help (see more with '--help')
+          --set <NAME=VALUE>    Sets a parameter of the script
+          --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
+          --seed <N>            The seed of all random numbers [default: 0]
+          --steps <N>           Derives at most N steps
+          --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
+          --json                Prints one JSON document, for machines, in place of text for people
+      -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
+          --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
+          --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded
+      -h, --help                Print help (see more with '--help')
 
     Limits:
           --time-limit <SECONDS>      Stops after this time [default: 300]
@@ -316,6 +319,7 @@ fn help_reads_well() {
 
     Options:
           --set <NAME=VALUE>  Sets a parameter of the script
+          --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
           --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]

@@ -228,8 +228,9 @@ fn a_rule_is_declared_with_a_pattern_options_and_a_successor() {
       help: did you mean weight?
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { weight = -3 }, function() end)"), @r#"
-    error: s.lua:3: rule A(x): weight must be a number above 0, not -3
+    error: s.lua:3: rule A(x): weight must be a number from 0, not -3
       | s:rule("A(x)", { weight = -3 }, function() end)
+      help: a rule of weight 0 is never chosen
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", { when = true }, function() end)"), @r#"
     error: s.lua:3: rule A(x): when must be a function, not a boolean
@@ -263,6 +264,21 @@ fn an_interpretation_has_no_context_and_a_module_has_one() {
 }
 
 #[test]
+fn an_error_in_a_text_successor_names_its_line_wherever_the_text_begins() {
+    let line = |rule: &str| {
+        let said = refused_rules(rule);
+        said.split(':').nth(2).unwrap().parse::<usize>().unwrap()
+    };
+    for wrong in ["return C(x)", "error('no')", "x.y = 1"] {
+        assert_eq!(line(&format!("s:rule(\"A(x)\", [[ {wrong} ]])")), 3);
+        assert_eq!(line(&format!("s:rule(\"A(x)\", [[\n  {wrong} ]])")), 4);
+        assert_eq!(line(&format!("s:rule(\"A(x)\", [==[\n\n  {wrong} ]==])")), 5);
+        assert_eq!(line(&format!("s:rule(\n  \"A(x)\",\n  {{ weight = 2 }},\n  [[\n  {wrong} ]]\n)")), 7);
+        assert_eq!(line(&format!("s:rule(\"A(x)\", \"\\n{wrong}\")")), 4);
+    }
+}
+
+#[test]
 fn a_successor_given_as_text_tells_its_mistakes_with_its_rule() {
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[ return A(x ]])"), @r"
     error: s.lua:4: rule A(x): Expected ')' (to close '(' at line 3), got 'end'
@@ -274,8 +290,8 @@ fn a_successor_given_as_text_tells_its_mistakes_with_its_rule() {
       help: declare it: local y = ...
     "#);
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[\n  if x > 0 then\n    return A(1, 2)\n  end ]])"), @r"
-    error: s.lua:4: rule A(x): A has 1 parameter, not 2
-      | if x > 0 then
+    error: s.lua:5: rule A(x): A has 1 parameter, not 2
+      | return A(1, 2)
       help: it was declared as A(x)
     ");
     assert_snapshot!(refused_rules("s:rule(\"A(x)\", [[ return x.y ]])"), @r#"

@@ -1,6 +1,6 @@
 //! Scripts are not trusted.
 
-use crate::support::{Folder, HEAD, chain, printed, refused, refused_rules};
+use crate::support::{Folder, HEAD, assert_decent, chain, printed, refused, refused_rules};
 
 #[test]
 fn the_system_is_out_of_reach_by_name() {
@@ -276,4 +276,35 @@ fn a_print_cannot_forge_the_json_document() {
     let said = folder.burgeon(&["run", "s.lua", "--json"]).done();
     assert_eq!(said.json()["ok"], true);
     assert_eq!(said.stderr, "{\"ok\":false}\n");
+}
+
+#[test]
+fn what_a_script_catches_reads_as_a_person_is_told() {
+    let script = format!(
+        r##"{HEAD}local make: any = B
+print(pcall(turtle, {{ wdth = 3 }}))
+print(pcall(function() make(1) end))
+print(xpcall(function() turtle({{ wdth = 3 }}) end, function(cause) return "!" .. cause end))
+print(coroutine.resume(coroutine.create(function() turtle({{ wdth = 3 }}) end)))
+print(select("#", pcall(function() return 1, nil, nil end)), pcall(error, {{}}))
+s:rule("A(x)", function(this, x)
+  local done, cause = pcall(function() this:distance() end)
+  error(cause, 0)
+end)
+s:derive(1)
+"##
+    );
+    let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]);
+    assert_eq!(said.status, 1);
+    assert_decent(&said.stderr);
+    insta::assert_snapshot!(said.stderr, @r"
+    false	s.lua:4: turtle has no field called wdth
+    false	s.lua:5: B has no parameters, not 1
+    false	!s.lua:6: turtle has no field called wdth
+    false	s.lua:7: turtle has no field called wdth
+    4	false	table
+    error: s.lua:10: rule A(x): turtle:distance: place must be a vector: { x, y, z } or vec(x, y, z), not nothing
+      | local done, cause = pcall(function() this:distance() end)
+      module: A(1), step 1
+    ");
 }

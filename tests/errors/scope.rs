@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::{Folder, HEAD, chain, refused, refused_rules};
+use crate::support::{Folder, HEAD, chain, printed, refused, refused_rules};
 
 #[test]
 fn a_rule_cannot_assign_a_captured_variable() {
@@ -257,15 +257,50 @@ fn random_takes_no_bounds_or_two_numbers() {
     let drawn =
         |call: &str| refused_rules(&format!("s:rule(\"A(x)\", function(this, x)\n  return A({call})\nend)"));
     assert_snapshot!(drawn("random(3)"), @r"
-    error: s.lua:4: rule A(x): random takes no bounds or two
+    error: s.lua:4: rule A(x): random takes no bounds or two, not 1
       | return A(random(3))
       module: A(1), step 1
       help: write random() or random(low, high)
     ");
-    for call in ["random(\"a\", \"b\")", "random(1, {})"] {
+    assert_snapshot!(drawn("random(nil, 1)"), @r"
+    error: s.lua:4: rule A(x): random takes two numbers, not nothing and the number 1
+      | return A(random(nil, 1))
+      module: A(1), step 1
+      help: write random() or random(low, high)
+    ");
+    assert_snapshot!(drawn("random(0 / 0, 1)"), @r"
+    error: s.lua:4: rule A(x): random takes two finite numbers, not NaN and 1
+      | return A(random(0 / 0, 1))
+      module: A(1), step 1
+      help: check where they come from, such as a division by 0
+    ");
+    assert_snapshot!(drawn("random(0, 1 / 0)"), @r"
+    error: s.lua:4: rule A(x): random takes two finite numbers, not 0 and inf
+      | return A(random(0, 1 / 0))
+      module: A(1), step 1
+      help: check where they come from, such as a division by 0
+    ");
+    for call in ["random(\"a\", \"b\")", "random(1, {})", "random(nil)", "random(1, nil)", "random(1, 2, 3)"]
+    {
         let said = drawn(call);
         assert!(said.starts_with("error: s.lua:4: rule A(x): random takes "), "{call}: {said}");
     }
+}
+
+#[test]
+fn random_numbers_lie_between_bounds_in_either_order_and_however_far_apart() {
+    let said = printed(
+        "local function within(low, high)
+  for _ = 1, 1000 do
+    local x = random(low, high)
+    if x < math.min(low, high) or x > math.max(low, high) then return x end
+  end
+  return true
+end
+print(within(2, 5), within(5, 2), within(-1e308, 1e308), random(3, 3))
+",
+    );
+    assert_eq!(said, ["true\ttrue\ttrue\t3"]);
 }
 
 #[test]
@@ -293,9 +328,10 @@ fn declarations_belong_at_the_top_level() {
             let folder = Folder::new().with("s.lua", script).with("late.lua", "return 1\n");
             let said = folder.burgeon(&["run", "s.lua"]).failed();
             assert!(
-                said.starts_with("error: s.lua:5: ") && said.contains("top level of the script"),
+                said.starts_with("error: s.lua:5: rule A(x)") && said.contains("top level of the script"),
                 "{call}: {said}"
             );
+            assert!(said.contains("module: A(1), step "), "{call}: {said}");
         }
     }
 }

@@ -60,6 +60,22 @@ fn a_weight_of_three_to_one_is_drawn_three_times_in_four() {
 }
 
 #[test]
+fn a_rule_of_weight_0_is_never_chosen_and_changes_nothing_for_the_others() {
+    let others =
+        "s:rule(\"Bud\", { weight = 3 }, [[ return P() ]]) s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])";
+    let never = "s:rule(\"Bud\", { weight = 0 }, [[ return R() ]])";
+    let text = |rules: &str| lines(&run_with(&buds(rules), Options::default())).concat();
+    assert_eq!(text(&format!("{never} {others}")), text(others));
+    assert_eq!(text(&format!("{others} {never}")), text(others));
+    assert_eq!(words(&text(&format!("{never} s:rule(\"Bud\", [[ return Q() ]])")))[0], "Q");
+    assert_eq!(words(&text(&format!("{never} {never}")))[0], "Bud(1)");
+    for weight in ["-1", "0 / 0", "1 / 0", "true"] {
+        let said = error(&buds(&format!("s:rule(\"Bud\", {{ weight = {weight} }}, [[ return R() ]])")));
+        assert!(said.contains("weight must be a number from 0"), "{weight}: {said}");
+    }
+}
+
+#[test]
 fn equal_weights_are_drawn_equally() {
     let rules =
         "for _, make in { P, Q, R } do s:rule(\"Bud\", { weight = 0.2 }, function() return make() end) end";

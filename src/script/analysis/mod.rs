@@ -1,6 +1,6 @@
 //! Reads a script before it runs: finds mistakes that can be seen without running it, and prepares its rules.
 //!
-//! Three things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes one call
+//! Four things are changed in the text, and no line break is: a rule's `return A(x), { B(y) }` becomes one call
 //! with all parameters, since its modules and brackets, its shape, can be seen from the text; its other
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
@@ -41,6 +41,21 @@ pub(crate) struct Analysis {
     pub problems: Vec<Error>,
     /// Whether the script names `random`.
     pub random: bool,
+}
+
+/// What stands before a successor that is given as text: the line on which it begins.
+fn marked(line: usize) -> String {
+    format!("@{line};")
+}
+
+/// Takes apart what [`marked`] put together: the line and the text itself. A text that comes from elsewhere has
+/// no line.
+pub(crate) fn unmarked(text: &str) -> (Option<usize>, &str) {
+    let parts = text.strip_prefix('@').and_then(|rest| rest.split_once(';'));
+    match parts.and_then(|(line, rest)| Some((line.parse().ok()?, rest))) {
+        Some((line, rest)) => (Some(line), rest),
+        None => (None, text),
+    }
 }
 
 /// The stack (bytes) for reading a script: enough for the deepest nesting that Luau compiles.

@@ -3,7 +3,7 @@
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix};
 use full_moon::node::Node;
-use full_moon::tokenizer::TokenReference;
+use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
 use std::sync::atomic::Ordering;
 
 use super::syntax::{end_of, first_position, is_open, string_of, text_of};
@@ -51,6 +51,9 @@ impl Walk<'_> {
                         self.function(function.body(), role, false);
                     }
                 }
+                Expression::String(text) if role == Role::Rule && index == last && index > 0 => {
+                    self.mark_line(text);
+                }
                 Expression::TableConstructor(table) if role == Role::Rule => {
                     for field in table.fields() {
                         match field {
@@ -69,6 +72,20 @@ impl Walk<'_> {
             }
         }
         self.rule = outer;
+    }
+
+    /// Puts the line on which the content of a text successor begins before it.
+    fn mark_line(&mut self, text: &TokenReference) {
+        let Some(begin) = text.start_position() else { return };
+        // Luau leaves out a line break behind the opening bracket.
+        let left_out = match text.token_type() {
+            TokenType::StringLiteral { literal, quote_type: StringLiteralQuoteType::Brackets, .. } => {
+                literal.starts_with(['\n', '\r'])
+            }
+            _ => false,
+        };
+        let line = begin.line() + usize::from(left_out);
+        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::marked(line)));
     }
 
     /// Walks a function of a rule, and lets the script say that it has been seen.

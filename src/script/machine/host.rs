@@ -44,6 +44,17 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             Ok(())
         })?,
     )?;
+    host.set(
+        "told",
+        lua.create_function(|lua, value: LuaValue| match value {
+            LuaValue::Error(error) => {
+                let error = super::translate(&error);
+                let place = error.place().map_or_else(String::new, |place| format!("{place}: "));
+                Ok(LuaValue::String(lua.create_string(format!("{place}{}", error.message()))?))
+            }
+            other => Ok(other),
+        })?,
+    )?;
     let (state, shelf) = (Rc::clone(current), Rc::clone(library));
     host.set(
         "shape",

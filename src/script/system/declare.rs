@@ -5,6 +5,7 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 use crate::error::{Error, Result, nearest};
 use crate::objects::Value;
 use crate::rules::{FIRST_SYMBOL, Pattern, Rule, Symbol};
+use crate::script::analysis::{analyse, unmarked};
 use crate::script::convert::to_value;
 use crate::script::library::Library;
 use crate::script::machine::Machine;
@@ -132,9 +133,10 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
         let key = key.to_string().unwrap_or_default();
         match (key.as_str(), value) {
             ("weight", value) => match to_value(&value, false)? {
-                Value::Number(number) if number > 0.0 && number.is_finite() => weight = Some(number),
+                Value::Number(number) if number >= 0.0 && number.is_finite() => weight = Some(number),
                 other => {
-                    return Err(Error::new(format!("weight must be a number above 0, not {other}")));
+                    return Err(Error::new(format!("weight must be a number from 0, not {other}"))
+                        .help("a rule of weight 0 is never chosen"));
                 }
             },
             ("when", LuaValue::Function(function)) => guard = Some(function),
@@ -176,7 +178,9 @@ fn compile_successor(
     place: Option<&crate::error::Place>,
 ) -> Result<Function> {
     let machine = library.machine()?;
+    let (marked, body) = unmarked(body);
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
+    let line = marked.unwrap_or(line);
     let symbols = library.symbols.borrow();
     let mentioned: Vec<(Symbol, &str)> = (FIRST_SYMBOL..)
         .zip(symbols.names())
@@ -199,7 +203,7 @@ fn compile_successor(
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
     text.push_str(&format!("local __system = nil; __system:rule(\"\", function(this{formals}) {body}\nend)"));
     drop(symbols);
-    let analysis = crate::script::analysis::analyse(file, &text, &library.globals());
+    let analysis = analyse(file, &text, &library.globals());
     machine.session.note(&analysis);
     let problems: Vec<Error> =
         analysis.problems.into_iter().filter(|problem| !problem.message().contains("__system")).collect();

@@ -96,18 +96,16 @@ impl SystemHandle {
         Ok(Self { library: Rc::clone(library), index })
     }
 
-    /// Runs a declaration; a mistake is kept, so that all of them can be told at once.
-    fn declare(&self, lua: &Lua, declare: impl FnOnce(&mut System) -> Result<()>) {
+    /// Runs a declaration; a mistake is kept, so that all of them can be told at once. Fails while rules run.
+    fn declare(&self, lua: &Lua, declare: impl FnOnce(&mut System) -> Result<()>) -> mlua::Result<()> {
         let place = Machine::place(lua);
-        let rules_run = self.library.machine().and_then(|machine| machine.refuse_in_rules("a declaration"));
-        if let Err(error) = rules_run {
-            self.library.problems.borrow_mut().push(error.at(place));
-            return;
-        }
+        let machine = self.library.machine().map_err(mlua::Error::external)?;
+        machine.refuse_in_rules("a declaration").map_err(mlua::Error::external)?;
         let result = declare(&mut self.library.systems.borrow_mut()[self.index]);
         if let Err(error) = result {
             self.library.problems.borrow_mut().push(error.at(place));
         }
+        Ok(())
     }
 }
 
@@ -137,20 +135,20 @@ impl UserData for SystemHandle {
             this.declare(lua, |system| {
                 system.axiom_place = place;
                 system.set_axiom(arguments)
-            });
+            })?;
             Ok(this.again())
         });
         methods.add_function("rule", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
             let library = Rc::clone(&this.library);
-            this.declare(lua, |system| system.add_rule(&library, lua, arguments));
+            this.declare(lua, |system| system.add_rule(&library, lua, arguments))?;
             Ok(this.again())
         });
         methods.add_function(
             "interpret",
             |lua, (this, pattern, rule): (UserDataRef<Self>, LuaValue, LuaValue)| {
                 let library = Rc::clone(&this.library);
-                this.declare(lua, |system| system.add_interpretation(&library, lua, &pattern, rule));
+                this.declare(lua, |system| system.add_interpretation(&library, lua, &pattern, rule))?;
                 Ok(this.again())
             },
         );
@@ -160,7 +158,7 @@ impl UserData for SystemHandle {
                 let symbols = named_symbols(&library, &names)?;
                 system.ignored.extend(symbols);
                 Ok(())
-            });
+            })?;
             Ok(this.again())
         });
         methods.add_function("consider", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
@@ -169,7 +167,7 @@ impl UserData for SystemHandle {
                 let symbols = named_symbols(&library, &names)?;
                 system.considered.get_or_insert_default().extend(symbols);
                 Ok(())
-            });
+            })?;
             Ok(this.again())
         });
         methods.add_function("derive", |lua, (this, steps): (UserDataRef<Self>, LuaValue)| {

@@ -1,0 +1,104 @@
+//! `burgeon live`: serves the live page until it is interrupted.
+
+use std::sync::mpsc::channel;
+
+use burgeon::Result;
+use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
+use clap::Args;
+use serde_json::json;
+
+use super::report;
+use super::shared::{ScriptFlags, on_interrupt};
+
+/// Shows what a script makes in the browser, and shows it anew on every save
+#[derive(Args)]
+pub(crate) struct Serve {
+    #[command(flatten)]
+    script: ScriptFlags,
+
+    /// Listens on this port of this machine; 0 takes any that is free [default: 4747, or the next that is free]
+    #[arg(long, value_name = "N", help_heading = "Page")]
+    port: Option<u16>,
+
+    /// Opens the page in the browser [default: from a terminal, where there is a display]
+    #[arg(long, conflicts_with = "no_open", help_heading = "Page")]
+    open: bool,
+
+    /// Leaves the browser alone
+    #[arg(long, help_heading = "Page")]
+    no_open: bool,
+
+    /// Opens lines that are clicked in the page, such as 'code -g {file}:{line}'
+    #[arg(long, value_name = "COMMAND", value_parser = editor, help_heading = "Page")]
+    editor: Option<Editor>,
+
+    /// The secret part of the address, to keep it across restarts
+    #[arg(long, value_name = "HEX", value_parser = token, hide = true)]
+    token: Option<Token>,
+}
+
+impl Serve {
+    pub(crate) fn json(&self) -> bool {
+        self.script.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        let (interrupt, interrupted) = channel();
+        on_interrupt(move || {
+            // The other end waits for one interrupt only.
+            let _ = interrupt.send(());
+        })?;
+        let token = self.token.clone().map_or_else(Token::random, Ok)?;
+        let live = Live::start(Settings {
+            script: self.script.script.clone(),
+            options: self.script.options()?,
+            port: self.port,
+            token: token.clone(),
+            editor: self.editor.clone(),
+            tell: Box::new(tell),
+        })?;
+        let (port, address) = (live.port(), live.address());
+        if self.script.json {
+            report::print(&format!(
+                "{}\n",
+                json!({ "address": address, "port": port, "token": token.as_str() })
+            ));
+        } else {
+            report::print(&format!("{address}\n"));
+            report::eprint("the address is secret, for whoever has it can set parameters; Ctrl-C ends\n");
+        }
+        if self.port.is_none() && port != PORT {
+            report::eprint(&format!("port {PORT} is in use, so this is port {port}\n"));
+        }
+        let opens = self.open || (!self.no_open && !self.script.json && has_display());
+        if let Some(Err(error)) = opens.then(|| browse(&address)) {
+            report::eprint(&format!("{error}\n"));
+        }
+        // Nothing else ends it, and an end of the other side would be one.
+        let _ = interrupted.recv();
+        drop(live);
+        Ok(())
+    }
+}
+
+/// Says on standard error what happens.
+fn tell(told: &Told) {
+    match told {
+        Told::Model { triangles, modules, total } => report::eprint(&format!(
+            "{} triangles, {} modules in {}\n",
+            report::count(*triangles),
+            report::count(*modules),
+            report::time(*total)
+        )),
+        Told::Failed(error) => report::error(error, false),
+        Told::Waiting(text) | Told::Note(text) => report::eprint(&format!("{text}\n")),
+    }
+}
+
+fn editor(text: &str) -> Result<Editor, String> {
+    Editor::from_text(text).map_err(|error| error.to_string())
+}
+
+fn token(text: &str) -> Result<Token, String> {
+    Token::from_text(text).map_err(|error| error.to_string())
+}

@@ -1,0 +1,91 @@
+//! `burgeon run --watch`: the outputs follow the script.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Instant, SystemTime};
+
+use burgeon::script::Session;
+use burgeon::watch::Watch;
+use burgeon::{Error, Result};
+
+use super::super::report;
+use super::super::shared::on_interrupt;
+use super::Run;
+
+/// What the watcher and the interrupt share with the run that is under way.
+#[derive(Clone, Default)]
+struct Now {
+    session: Arc<Mutex<Option<Arc<Session>>>>,
+    /// Whether files have changed since the run read them.
+    stale: Arc<AtomicBool>,
+    over: Arc<AtomicBool>,
+}
+
+impl Now {
+    /// Stops the run that is under way, and wakes whoever waits for the next one.
+    fn stop(&self, wake: &Sender<()>) {
+        self.stale.store(true, Ordering::Release);
+        if let Some(session) = &*self.session.lock().unwrap_or_else(PoisonError::into_inner) {
+            session.stop.stop(Error::new("there is something newer"));
+        }
+        // Nobody waits any more at the end.
+        let _ = wake.send(());
+    }
+
+    fn is_stale(&self) -> bool {
+        self.stale.load(Ordering::Acquire)
+    }
+}
+
+/// Runs, writes and says what came of it, and again after every change, until interrupted.
+///
+/// A run that fails says so and leaves what an earlier one wrote.
+pub(super) fn again_and_again(command: &Run) -> Result<()> {
+    let now = Now::default();
+    let (wake, changes) = channel();
+    let (seen, waker) = (now.clone(), wake.clone());
+    let mut files = command.script.files();
+    let watch =
+        Watch::new(files.clone(), move |_| seen.stop(&waker), |why| report::eprint(&format!("{why}\n")))?;
+    let interrupted = now.clone();
+    on_interrupt(move || {
+        interrupted.over.store(true, Ordering::Release);
+        interrupted.stop(&wake);
+    })?;
+    loop {
+        now.stale.store(now.over.load(Ordering::Acquire), Ordering::Release);
+        let (begin, since) = (Instant::now(), SystemTime::now());
+        let session = command.session();
+        let made = match &session {
+            Ok(session) => {
+                *now.session.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(session));
+                if now.is_stale() {
+                    session.stop.stop(Error::new("there is something newer"));
+                }
+                command.make(session, begin, &|| now.is_stale())
+            }
+            Err(error) => Err(error.clone()),
+        };
+        now.session.lock().unwrap_or_else(PoisonError::into_inner).take();
+        let mut sought = session.map(|session| session.sought()).unwrap_or_default();
+        sought.extend(command.script.files());
+        let stale = now.is_stale();
+        // A run that was stopped has not come to all of its files.
+        if stale {
+            files.extend(sought);
+        } else {
+            files = sought;
+        }
+        watch.follow(files.clone(), since);
+        if let Err(error) = made
+            && !stale
+        {
+            report::error(&error, command.json());
+        }
+        if changes.recv().is_err() || now.over.load(Ordering::Acquire) {
+            return Ok(());
+        }
+        while changes.try_recv().is_ok() {}
+    }
+}

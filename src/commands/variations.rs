@@ -1,0 +1,207 @@
+//! `burgeon variations`: a contact sheet of many runs.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use burgeon::export::{self, Format};
+use burgeon::picture::{Picture, Quality};
+use burgeon::variations::{Cell, Framing, Over, Sheet, Variations as Cells, sheet};
+use burgeon::{Error, Result};
+use clap::{ArgGroup, Args, ValueEnum};
+use serde_json::json;
+
+use super::progress::Progress;
+use super::report;
+use super::shared::{PictureFlags, ScriptFlags, size};
+
+/// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
+#[derive(Args)]
+#[command(group = ArgGroup::new("over").required(true))]
+pub(crate) struct Variations {
+    #[command(flatten)]
+    script: ScriptFlags,
+
+    /// The seeds: 1..16, or 3,7,12
+    #[arg(long, value_name = "SEEDS", value_parser = seeds, group = "over", allow_hyphen_values = true)]
+    seeds: Option<Over>,
+
+    /// A parameter and its values: twist=0..90:10 in steps of 10, kind=a,b,c, or kind for every choice
+    #[arg(long, value_name = "NAME=VALUES", value_parser = sweep, group = "over")]
+    sweep: Option<Over>,
+
+    /// The contact sheet, a .png file
+    #[arg(short, long, value_name = "FILE", value_parser = output, required = true)]
+    output: PathBuf,
+
+    /// Cells in a row [default: as many as look well]
+    #[arg(long, value_name = "N", value_parser = columns, allow_negative_numbers = true)]
+    columns: Option<usize>,
+
+    /// How the pictures go together
+    #[arg(long, value_enum, default_value_t = Fit::All, help_heading = "Pictures")]
+    fit: Fit,
+
+    /// Width and height of a cell in pixels
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "320x320", help_heading = "Pictures")]
+    size: (u32, u32),
+
+    #[command(flatten)]
+    picture: PictureFlags,
+}
+
+#[derive(Clone, Copy, ValueEnum)]
+enum Fit {
+    /// One camera for all: what looks larger is larger
+    All,
+    /// Each model fills its cell
+    Each,
+}
+
+impl Variations {
+    pub(crate) fn json(&self) -> bool {
+        self.script.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        let begin = Instant::now();
+        export::check_writable(&self.output)?;
+        let options = self.script.options()?;
+        let over = self.seeds.as_ref().or(self.sweep.as_ref());
+        let over = over.ok_or_else(|| Error::new("give --seeds or --sweep"))?;
+        if let Over::Param { name, .. } = over
+            && options.set.iter().any(|(known, _)| known == name)
+        {
+            return Err(Error::new(format!("{name} is set and varied at the same time"))
+                .help(format!("leave out --set {name} or --sweep {name}")));
+        }
+        let variations = Arc::new(Cells::new(&self.script.script, &options, over)?);
+        let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
+        let layout = Sheet::new(variations.len(), self.columns, &picture)?;
+        let framing = match self.fit {
+            Fit::All => Framing::Together,
+            Fit::Each => Framing::Each,
+        };
+        let mut cells: Vec<Cell> = Vec::new();
+        {
+            let of = variations.len();
+            let watched = Arc::clone(&variations);
+            let message = move || format!("{} of {of} variations", watched.ran());
+            let _progress = Progress::saying(message, !self.script.json);
+            variations.make(&picture, framing, |cell| cells.push(cell))?;
+            refuse_if_all_failed(&cells)?;
+            let texts: Vec<String> = cells.iter().map(told).collect();
+            let content = cells.iter().zip(&texts).map(|(cell, told)| {
+                (cell.label.as_str(), cell.made.as_ref().map(|made| &made.picture).map_err(|_| told.as_str()))
+            });
+            let png = export::encode_png(&sheet(&layout, picture.background, content))?;
+            export::write_file(&self.output, |out| std::io::Write::write_all(out, &png))?;
+        }
+        if self.script.json {
+            let seconds = begin.elapsed().as_secs_f64();
+            let told: Vec<_> = cells.iter().map(cell_json).collect();
+            let document = json!({
+                "ok": true,
+                "columns": layout.columns,
+                "rows": layout.rows,
+                "size": layout.size,
+                "cells": told,
+                "seconds": { "total": seconds },
+            });
+            report::print(&format!("{document}\n"));
+        } else {
+            self.tell(&cells, &layout, begin);
+        }
+        Ok(())
+    }
+
+    fn tell(&self, cells: &[Cell], layout: &Sheet, begin: Instant) {
+        for cell in cells {
+            if let Err(error) = &cell.made {
+                report::eprint(&format!("{} failed\n", cell.label));
+                report::error(error, false);
+            }
+        }
+        let failed = cells.iter().filter(|cell| cell.made.is_err()).count();
+        let failed = if failed > 0 { format!(", {failed} of them failed") } else { String::new() };
+        report::eprint(&format!(
+            "{} variations{failed}, {} in a row; {} in all\n",
+            cells.len(),
+            layout.columns,
+            report::time(begin.elapsed())
+        ));
+    }
+}
+
+/// If nothing is left to be shown, the reasons become one error.
+fn refuse_if_all_failed(cells: &[Cell]) -> Result<()> {
+    let mut errors: Vec<(Error, String)> = Vec::new();
+    for cell in cells {
+        let Err(error) = &cell.made else { return Ok(()) };
+        let text = error.to_string();
+        if errors.iter().all(|(_, known)| *known != text) {
+            errors.push((error.clone(), text));
+        }
+    }
+    // Many runs fail in the same way, with other numbers in the text.
+    errors.truncate(5);
+    Err(Error::several(
+        errors
+            .into_iter()
+            .flat_map(|(error, _)| error.problems().map(Error::alone).collect::<Vec<_>>())
+            .collect(),
+    ))
+}
+
+/// What a cell without a picture says.
+fn told(cell: &Cell) -> String {
+    match &cell.made {
+        Ok(_) => String::new(),
+        Err(error) => {
+            let place = error.place().map(|place| {
+                let file = Path::new(&place.file).file_name().unwrap_or_default().to_string_lossy();
+                format!("{file}:{}: ", place.line)
+            });
+            format!("{}{}", place.unwrap_or_default(), error.message())
+        }
+    }
+}
+
+fn cell_json(cell: &Cell) -> serde_json::Value {
+    let mut object = json!({ "label": cell.label, "seed": cell.seed });
+    if let Some((name, value)) = &cell.set {
+        object["set"] = json!({ name: value });
+    }
+    match &cell.made {
+        Ok(made) => {
+            object["params"] = report::params_json(&made.params);
+            object["modules"] = made.modules.into();
+            object["triangles"] = made.triangles.into();
+        }
+        Err(error) => object["errors"] = error.problems().map(Error::to_json).collect(),
+    }
+    object
+}
+
+fn seeds(text: &str) -> Result<Over, String> {
+    Over::seeds(text).map_err(|error| error.to_string())
+}
+
+fn sweep(text: &str) -> Result<Over, String> {
+    Over::sweep(text).map_err(|error| error.to_string())
+}
+
+fn output(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match Format::of(&path) {
+        Ok(Format::Png) => Ok(path),
+        _ => Err("a contact sheet is a picture: name a .png file".to_owned()),
+    }
+}
+
+fn columns(text: &str) -> Result<usize, String> {
+    match text.parse() {
+        Ok(columns) if columns > 0 => Ok(columns),
+        _ => Err("write a whole number from 1".to_owned()),
+    }
+}

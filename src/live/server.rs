@@ -1,0 +1,243 @@
+//! The routes: the page, models, exports and the socket, for those who know the address.
+
+use std::sync::Arc;
+
+use axum::Router;
+use axum::body::{Body, Bytes};
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::{FromRequestParts, Request, State as Extract};
+use axum::http::header::{self, HeaderMap, HeaderName, HeaderValue};
+use axum::http::{Method, StatusCode};
+use axum::response::{IntoResponse, Response};
+use tokio::net::TcpListener;
+use tokio::sync::Semaphore;
+
+use super::address::{Token, admits};
+use super::export::{self, Download};
+use super::socket;
+use super::state::State;
+use crate::error::Result;
+
+const INDEX: &[u8] = include_bytes!("../../viewer/dist/index.html");
+const SCRIPT: &[u8] = include_bytes!("../../viewer/dist/viewer.js");
+const STYLE: &[u8] = include_bytes!("../../viewer/dist/viewer.css");
+
+/// Only what comes from this server; textures inside of models are read from the browser's own memory.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
+                      connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+const FOR_EVER: &str = "private, max-age=31536000, immutable";
+const NEVER: &str = "no-store";
+
+/// What every request needs.
+pub(super) struct Site {
+    pub state: Arc<State>,
+    pub token: Token,
+    /// Exports are made one at a time.
+    pub exports: Semaphore,
+}
+
+/// Answers requests until it is dropped.
+pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
+    let routes = Router::new().fallback(answer).with_state(site);
+    // It ends only with the runtime.
+    let _ = axum::serve(listener, routes).await;
+}
+
+async fn answer(Extract(site): Extract<Arc<Site>>, request: Request) -> Response {
+    let mut response = route(&site, request).await;
+    let headers = response.headers_mut();
+    let always: [(HeaderName, &str); 6] = [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::X_FRAME_OPTIONS, "DENY"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+        (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+    ];
+    for (name, value) in always {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    headers.entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static(NEVER));
+    response
+}
+
+async fn route(site: &Arc<Site>, request: Request) -> Response {
+    let headers = request.headers();
+    if !admits(
+        only(headers, &header::HOST).unwrap_or(None),
+        only(headers, &header::ORIGIN).unwrap_or(Some("")),
+    ) {
+        return plain(StatusCode::FORBIDDEN, "this server answers only pages of its own");
+    }
+    let path = request.uri().path().to_owned();
+    let (token, inner) = match path.strip_prefix('/').unwrap_or("").split_once('/') {
+        Some((token, inner)) => (token, Some(inner)),
+        None => (path.strip_prefix('/').unwrap_or(""), None),
+    };
+    if !site.token.is(token) {
+        return plain(
+            StatusCode::FORBIDDEN,
+            "open the address that burgeon live printed: it ends with a token",
+        );
+    }
+    if request.method() != Method::GET {
+        let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered");
+        return ([(header::ALLOW, "GET")], refused).into_response();
+    }
+    match inner {
+        // The page's addresses are relative to the folder.
+        None => (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{token}/"))]).into_response(),
+        Some("") => file(INDEX, "text/html; charset=utf-8"),
+        Some("viewer.js") => file(SCRIPT, "text/javascript; charset=utf-8"),
+        Some("viewer.css") => file(STYLE, "text/css; charset=utf-8"),
+        Some("socket") => open_socket(site, request).await,
+        Some(inner) => match inner.split_once('/') {
+            Some(("model", name)) => kept(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash)),
+            Some(("picture", name)) => kept(name, ".png", "image/png", |hash| site.state.picture(hash)),
+            Some(("export", name)) if !name.contains('/') => {
+                let query = request.uri().query().unwrap_or("").to_owned();
+                save(site, name, &query).await
+            }
+            _ => missing(),
+        },
+    }
+}
+
+/// The value of a header that may be there once; `Err` if it is there more often or is not text.
+fn only<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::Result<Option<&'a str>, ()> {
+    let mut values = headers.get_all(name).iter();
+    match (values.next(), values.next()) {
+        (None, _) => Ok(None),
+        (Some(value), None) => value.to_str().map(Some).map_err(|_| ()),
+        (Some(_), Some(_)) => Err(()),
+    }
+}
+
+async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
+    let (mut parts, _) = request.into_parts();
+    match WebSocketUpgrade::from_request_parts(&mut parts, &()).await {
+        Ok(upgrade) => {
+            let state = Arc::clone(&site.state);
+            socket::limited(upgrade).on_upgrade(move |socket| socket::talk(socket, state))
+        }
+        Err(refused) => refused.into_response(),
+    }
+}
+
+/// A file that is named by its content.
+fn kept(name: &str, ending: &str, kind: &'static str, find: impl Fn(&str) -> Option<Bytes>) -> Response {
+    match name.strip_suffix(ending).and_then(find) {
+        Some(bytes) => {
+            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
+        }
+        None => missing(),
+    }
+}
+
+async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
+    let refuse = |text: String| plain_text(StatusCode::BAD_REQUEST, text);
+    let Some(name) = decoded(name) else { return missing() };
+    if crate::export::Format::of(name.as_ref()).is_err() {
+        return missing();
+    }
+    let picture = match export::picture(query) {
+        Ok(picture) => picture,
+        Err(error) => return refuse(error.to_string()),
+    };
+    let Some(shown) = site.state.lock().shown.clone() else {
+        return plain(StatusCode::CONFLICT, "there is no model yet");
+    };
+    let made: Option<Result<Download>> = {
+        let Ok(_turn) = site.exports.acquire().await else { return missing() };
+        let make = move || export::download(&shown.run.scene, &name, &picture);
+        tokio::task::spawn_blocking(make).await.ok()
+    };
+    match made {
+        Some(Ok(download)) => {
+            let disposition = disposition(&download.name);
+            let headers = [
+                (header::CONTENT_TYPE, HeaderValue::from_static(download.media_type)),
+                (header::CONTENT_DISPOSITION, disposition),
+            ];
+            (headers, download.bytes).into_response()
+        }
+        Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+        None => {
+            plain(StatusCode::INTERNAL_SERVER_ERROR, "the export ended early: this is a mistake in Burgeon")
+        }
+    }
+}
+
+/// `name` without the escapes of addresses; `None` if that is no text or leads to another folder.
+fn decoded(name: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(name.len());
+    let mut rest = name.as_bytes();
+    while let [first, tail @ ..] = rest {
+        rest = tail;
+        if *first != b'%' {
+            bytes.push(*first);
+            continue;
+        }
+        let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
+        bytes.push(u8::from_str_radix(digits, 16).ok()?);
+        rest = &rest[2..];
+    }
+    let name = String::from_utf8(bytes).ok()?;
+    let leads_away = name.contains(['/', '\\', '\0']) || name.starts_with("..") || name.len() > 255;
+    (!leads_away).then_some(name)
+}
+
+/// Has a browser keep a file under `name`.
+fn disposition(name: &str) -> HeaderValue {
+    let plain: String =
+        name.chars().map(|it| if it.is_ascii_graphic() && it != '"' { it } else { '_' }).collect();
+    let escaped: String = name
+        .bytes()
+        .map(|byte| match byte {
+            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => char::from(byte).to_string(),
+            _ => format!("%{byte:02X}"),
+        })
+        .collect();
+    let text = format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{escaped}");
+    HeaderValue::from_str(&text).unwrap_or(HeaderValue::from_static("attachment"))
+}
+
+fn file(content: &'static [u8], media_type: &'static str) -> Response {
+    ([(header::CONTENT_TYPE, media_type)], Bytes::from_static(content)).into_response()
+}
+
+fn missing() -> Response {
+    plain(StatusCode::NOT_FOUND, "there is nothing here")
+}
+
+fn plain(status: StatusCode, text: &'static str) -> Response {
+    (status, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], Body::from(text)).into_response()
+}
+
+fn plain_text(status: StatusCode, text: String) -> Response {
+    (status, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], Body::from(text)).into_response()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escaped_names_are_read_and_those_that_lead_away_are_not() {
+        assert_eq!(decoded("my%20t%C3%B6wer.glb").as_deref(), Some("my t\u{f6}wer.glb"));
+        for wrong in
+            ["%2e%2e%2fx.glb", "..%2Fx.glb", "a%5Cb.glb", "%", "%2", "%zz", "%ff.glb", "a%00.glb", "%+1.glb"]
+        {
+            assert_eq!(decoded(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_of_any_letters_become_headers() {
+        assert_eq!(
+            disposition("t\u{f6} \"w\".glb"),
+            "attachment; filename=\"t___w_.glb\"; filename*=UTF-8''t%C3%B6%20%22w%22.glb"
+        );
+    }
+}

@@ -1,0 +1,180 @@
+//! Presets and variations: the wish under a name, and small pictures of other wishes.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::{Arc, PoisonError};
+
+use axum::extract::ws::Utf8Bytes;
+use tokio::sync::mpsc::Sender;
+
+use super::message::{Cause, Say, json};
+use super::state::State;
+use super::wish::seed;
+use crate::error::{Error, Result};
+use crate::export::encode_png;
+use crate::picture::{Background, Picture, Quality};
+use crate::presets::Presets;
+use crate::script::{Options, Preset};
+use crate::variations::{Cell, Framing, Over, Variations};
+
+/// Width and height (pixels) of a small picture.
+const SIZE: (u32, u32) = (320, 240);
+
+/// The names of the script's presets; none if their file is broken, which is told when one of them is used.
+pub(super) fn presets(script: &Path) -> Vec<String> {
+    Presets::read(script).map(|presets| names(&presets)).unwrap_or_default()
+}
+
+fn names(presets: &Presets) -> Vec<String> {
+    presets.names().map(str::to_owned).collect()
+}
+
+/// Saves, loads or deletes a preset. Returns what the page that asked is answered.
+pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
+    let done =
+        match action {
+            "save" => save(state, name).map(Some),
+            "delete" => Presets::remove(&state.script, name).map(Some),
+            "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
+                Ok(preset) => {
+                    return state.change(Cause::Preset, |inner| {
+                        inner.wish.load(&preset);
+                        Ok(())
+                    });
+                }
+                Err(error) => Err(error),
+            },
+            _ => Err(Error::new(format!("{action:?} cannot be done with a preset"))
+                .help("save, load or delete it")),
+        };
+    match done {
+        Ok(presets) => {
+            let _order = state.lock();
+            state.say(&Say::Presets { names: presets.as_ref().map(names).unwrap_or_default() });
+            None
+        }
+        Err(error) => Some(Say::Refused { id: None, text: error.to_string() }),
+    }
+}
+
+/// Saves the values that are set and used, and the seed.
+fn save(state: &State, name: &str) -> Result<Presets> {
+    let preset = {
+        let inner = state.lock();
+        let Some(params) = &inner.params else {
+            return Err(Error::new("a preset is saved when the script runs without an error"));
+        };
+        let params = inner.wish.used(params);
+        Preset { name: name.to_owned(), seed: Some(inner.wish.seed), params, ..Preset::default() }
+    };
+    Presets::save(&state.script, preset)
+}
+
+/// Has small pictures of other values made, and sent to the page that asked through `page`, in place of those
+/// that are being made. Returns why that cannot be.
+pub(super) fn variations(
+    state: &Arc<State>,
+    id: u64,
+    over: Result<Over>,
+    page: Sender<Utf8Bytes>,
+) -> Option<Say> {
+    let begin = || -> Result<Variations> {
+        let (inputs, params) = {
+            let inner = state.lock();
+            (inner.wish.inputs(inner.generation), inner.params.clone())
+        };
+        let options = Options {
+            set: inputs.set,
+            seed: inputs.seed,
+            steps: inputs.steps,
+            preset: None,
+            forgiving: true,
+            ..state.options.clone()
+        };
+        let over = over?;
+        if let (Over::Param { name, .. }, Some(params)) = (&over, &params)
+            && !params.iter().any(|param| param.name == *name)
+        {
+            return Err(Error::new(format!("the script has no parameter called {name}")));
+        }
+        Variations::new(&state.script, &options, &over)
+    };
+    let variations = match begin() {
+        Ok(variations) => variations,
+        Err(error) => return Some(Say::Refused { id: Some(id), text: error.to_string() }),
+    };
+    let stop = Arc::clone(&variations.stop);
+    let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
+    if let Some(before) = before {
+        before.stop(Error::new("others are made"));
+    }
+    let state = Arc::clone(state);
+    let make = move || {
+        let picture = Picture {
+            width: SIZE.0,
+            height: SIZE.1,
+            background: Background::Clear,
+            quality: Quality::Draft,
+            ..Picture::default()
+        };
+        let of = variations.len();
+        let made = variations.make(&picture, Framing::Each, |cell| {
+            let say = variation(&state, id, of, cell);
+            if page.blocking_send(say.to_text().into()).is_err() {
+                stop.stop(Error::new("the page has gone"));
+            }
+        });
+        if let Err(error) = made
+            && !stop.is_stopped()
+        {
+            // The page may have gone.
+            let _ =
+                page.blocking_send(Say::Refused { id: Some(id), text: error.to_string() }.to_text().into());
+        }
+    };
+    match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
+        Ok(_) => None,
+        Err(error) => Some(Say::Refused { id: Some(id), text: format!("cannot start a thread: {error}") }),
+    }
+}
+
+fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Say {
+    let mut params: BTreeMap<String, serde_json::Value> = BTreeMap::new();
+    let picture = cell.made.and_then(|made| {
+        params.extend(made.params.iter().map(|param| (param.name.clone(), json(&param.value))));
+        encode_png(&made.picture)
+    });
+    if let Some((name, value)) = cell.set {
+        params.entry(name).or_insert_with(|| value.into());
+    }
+    let (url, error) = match picture {
+        Ok(png) => (Some(state.keep_picture(png)), None),
+        Err(error) => (None, Some(error.to_string())),
+    };
+    Say::Variation {
+        id,
+        index: cell.index,
+        of,
+        label: cell.label,
+        seed: cell.seed.to_string(),
+        params,
+        url,
+        error,
+    }
+}
+
+/// What a page wants other values of: seeds, or a parameter.
+pub(super) fn over(
+    seeds: Option<&[String]>,
+    param: Option<String>,
+    values: Option<Vec<String>>,
+) -> Result<Over> {
+    match (seeds, param, values) {
+        (Some(seeds), None, None) => {
+            let seeds = seeds.iter().map(|text| seed(&text.as_str().into()));
+            Ok(Over::Seeds(seeds.collect::<Result<_>>()?))
+        }
+        (None, Some(name), Some(values)) => Ok(Over::Param { name, values }),
+        _ => Err(Error::new("variations have seeds, or a param and its values")),
+    }
+}

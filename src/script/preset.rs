@@ -1,0 +1,57 @@
+//! A preset: values of a script's parameters and a seed, under a name.
+
+use super::param::{Param, Setting};
+use crate::error::{Error, Place, nearest};
+
+/// Values of a script's parameters and a seed, under a name.
+///
+/// Parameters that it does not name keep the script's own values.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Preset {
+    /// Its name.
+    pub name: String,
+    /// The seed of all random numbers, if it has one.
+    pub seed: Option<u64>,
+    /// Values by the parameters' names, in the order of the file.
+    pub params: Vec<(String, Setting)>,
+    /// Where it begins in its file, if it came from one.
+    pub place: Option<Place>,
+    /// Where each of `params` stands; empty if it came from no file.
+    pub places: Vec<Place>,
+}
+
+impl Preset {
+    /// The values as text, as [`Options::set`](super::Options::set) takes them.
+    pub fn set(&self) -> Vec<(String, String)> {
+        self.params.iter().map(|(name, value)| (name.clone(), value.plain())).collect()
+    }
+
+    /// Where the value of the parameter `name` stands.
+    pub(crate) fn place_of(&self, name: &str) -> Option<Place> {
+        let index = self.params.iter().position(|(known, _)| known == name)?;
+        self.places.get(index).or(self.place.as_ref()).cloned()
+    }
+
+    /// The error for the value of a parameter `name` that `script` does not have.
+    pub(crate) fn outdated(&self, name: &str, script: &str, params: &[Param]) -> Error {
+        let preset = &self.name;
+        let error =
+            Error::new(format!("preset {preset} sets {name}, but {script} has no parameter called {name}"));
+        let names = params.iter().map(|param| param.name.as_str());
+        let help = match nearest(name, names) {
+            Some(near) => format!("if {near} is meant, rename it in the preset; otherwise remove it there"),
+            None => format!("remove {name} from the preset, or declare it again: param(\"{name}\", ...)"),
+        };
+        error.help(help).at(self.place_of(name))
+    }
+
+    /// An `error` that the value of the parameter `name` led to.
+    pub(crate) fn refused(&self, name: &str, error: &Error) -> Error {
+        let said = Error::new(format!("preset {}: {}", self.name, error.message()));
+        let said = match error.remedy() {
+            Some(help) => said.help(format!("{help}; change the preset")),
+            None => said.help("change the preset"),
+        };
+        said.at(self.place_of(name))
+    }
+}

@@ -1,0 +1,315 @@
+//! What watched files hold, and whether that has changed.
+
+use std::collections::BTreeMap;
+use std::fs::{self, Metadata};
+use std::path::{Path, PathBuf};
+use std::time::{Duration, SystemTime};
+
+/// Larger files (bytes) are told apart by their size and time alone.
+const LARGE: u64 = 64 << 20;
+
+/// How coarse the times of files may be.
+const GRAIN: Duration = Duration::from_millis(10);
+
+/// Watched files with what they held when last seen.
+#[derive(Default)]
+pub(super) struct Files {
+    known: BTreeMap<PathBuf, Seen>,
+    /// Every path whose change may matter: the files, and the links that lead to them.
+    spellings: Vec<PathBuf>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+struct Seen {
+    content: Content,
+    stamp: Option<Stamp>,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum Content {
+    /// Never looked at, so any look finds a change.
+    Unknown,
+    /// Not there, or not to be read.
+    Missing,
+    /// A folder, a pipe or the like.
+    NoFile,
+    /// A regular file, by the place that links lead to and the hash of its content.
+    File { place: PathBuf, hash: blake3::Hash, empty: bool },
+    /// A regular file that is too large to be read again and again.
+    Large { place: PathBuf, stamp: Stamp },
+}
+
+/// What tells most changes of a file without reading it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Stamp {
+    length: u64,
+    modified: Option<SystemTime>,
+    file: u64,
+}
+
+/// A file that holds something else than before.
+pub(super) struct Found {
+    path: PathBuf,
+    now: Seen,
+    /// Whether it held something before.
+    was_there: bool,
+}
+
+impl Found {
+    /// Whether it has become missing or empty, as in the middle of a save.
+    pub(super) fn looks_unfinished(&self) -> bool {
+        let nothing = matches!(
+            self.now.content,
+            Content::Missing | Content::File { empty: true, .. } | Content::NoFile
+        );
+        self.was_there && nothing
+    }
+}
+
+impl Seen {
+    /// Where a regular file lies.
+    fn place(&self) -> Option<&PathBuf> {
+        match &self.content {
+            Content::File { place, .. } | Content::Large { place, .. } => Some(place),
+            _ => None,
+        }
+    }
+}
+
+impl Files {
+    /// Watches `files` from now on. Returns whether one that is new was changed after `since`.
+    pub(super) fn follow(&mut self, files: Vec<PathBuf>, since: Option<SystemTime>) -> bool {
+        let mut late = false;
+        let mut known = BTreeMap::new();
+        // The same file by another name is no new one.
+        let places: BTreeMap<PathBuf, Seen> =
+            self.known.values().filter_map(|seen| Some((seen.place()?.clone(), seen.clone()))).collect();
+        for path in files {
+            let seen = match self.known.remove(&path) {
+                Some(seen) => seen,
+                None => {
+                    let mut seen = look(&path);
+                    if let Some(same) = seen.place().and_then(|place| places.get(place)) {
+                        known.insert(path, same.clone());
+                        continue;
+                    }
+                    let modified = seen.stamp.and_then(|stamp| stamp.modified);
+                    if let (Some(since), Some(modified)) = (since, modified)
+                        && modified + GRAIN > since
+                        && fs::metadata(&path).is_ok_and(|it| it.is_file())
+                    {
+                        late = true;
+                        seen.content = Content::Unknown;
+                        seen.stamp = None;
+                    }
+                    seen
+                }
+            };
+            known.insert(path, seen);
+        }
+        self.known = known;
+        self.spell();
+        late
+    }
+
+    /// The files that hold something else than before; `by_stamp` trusts times and sizes where they are the same.
+    pub(super) fn changed(&self, by_stamp: bool) -> Vec<Found> {
+        let mut found = Vec::new();
+        for (path, seen) in &self.known {
+            if by_stamp && seen.content != Content::Unknown && stamp_of(path) == seen.stamp {
+                continue;
+            }
+            let now = look(path);
+            if now.content != seen.content {
+                let was_there = matches!(
+                    seen.content,
+                    Content::File { empty: false, .. } | Content::Large { .. } | Content::Unknown
+                );
+                found.push(Found { path: path.clone(), now, was_there });
+            }
+        }
+        found
+    }
+
+    /// Takes what was found for known. Returns the paths.
+    pub(super) fn accept(&mut self, found: Vec<Found>) -> Vec<PathBuf> {
+        let paths = found.iter().map(|found| found.path.clone()).collect();
+        for Found { path, now, .. } in found {
+            self.known.insert(path, now);
+        }
+        self.spell();
+        paths
+    }
+
+    /// Whether what happened to `paths`, or to anything if there are none, may have changed a file.
+    pub(super) fn concerned_by(&self, paths: &[PathBuf]) -> bool {
+        paths.is_empty() || self.spellings.iter().any(|file| paths.iter().any(|path| file.starts_with(path)))
+    }
+
+    /// Every path whose change may matter, in no folder twice.
+    pub(super) fn spellings(&self) -> &[PathBuf] {
+        &self.spellings
+    }
+
+    fn spell(&mut self) {
+        let mut spellings: Vec<PathBuf> = self.known.keys().flat_map(|path| hops(path)).collect();
+        spellings.sort();
+        spellings.dedup();
+        self.spellings = spellings;
+    }
+}
+
+/// `path` and where it leads, link by link, each also as the system spells its folder.
+fn hops(path: &Path) -> Vec<PathBuf> {
+    let mut hops = Vec::new();
+    let mut at = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
+    // Links may lead in a circle.
+    for _ in 0..16 {
+        if let (Some(Ok(folder)), Some(name)) = (at.parent().map(Path::canonicalize), at.file_name()) {
+            hops.push(folder.join(name));
+        }
+        let next = fs::read_link(&at).ok().map(|target| at.parent().unwrap_or(&at).join(target));
+        hops.push(at);
+        match next {
+            Some(next) => at = next,
+            None => break,
+        }
+    }
+    hops
+}
+
+fn look(path: &Path) -> Seen {
+    let Ok(metadata) = fs::metadata(path) else { return Seen { content: Content::Missing, stamp: None } };
+    let stamp = stamp(&metadata);
+    let content = if !metadata.is_file() {
+        Content::NoFile
+    } else if metadata.len() > LARGE {
+        Content::Large { place: place(path), stamp }
+    } else {
+        match fs::read(path) {
+            Ok(bytes) => {
+                Content::File { place: place(path), hash: blake3::hash(&bytes), empty: bytes.is_empty() }
+            }
+            Err(_) => Content::Missing,
+        }
+    };
+    Seen { content, stamp: Some(stamp) }
+}
+
+/// Where `path` leads; a link that leads elsewhere is a change, since what lies beside the file changes too.
+fn place(path: &Path) -> PathBuf {
+    path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
+}
+
+fn stamp_of(path: &Path) -> Option<Stamp> {
+    fs::metadata(path).ok().map(|metadata| stamp(&metadata))
+}
+
+fn stamp(metadata: &Metadata) -> Stamp {
+    Stamp {
+        length: metadata.len(),
+        modified: metadata.modified().ok(),
+        file: super::folders::identity(metadata),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn changed(files: &mut Files) -> usize {
+        let found = files.changed(false);
+        files.accept(found).len()
+    }
+
+    #[test]
+    fn only_another_content_is_a_change() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.lua");
+        fs::write(&path, "one").unwrap();
+        let mut files = Files::default();
+        files.follow(vec![path.clone()], None);
+        fs::write(&path, "one").unwrap();
+        assert_eq!(changed(&mut files), 0);
+        fs::write(&path, "two").unwrap();
+        assert_eq!(changed(&mut files), 1);
+        fs::remove_file(&path).unwrap();
+        assert_eq!(changed(&mut files), 1);
+        assert_eq!(changed(&mut files), 0);
+        fs::create_dir(&path).unwrap();
+        assert_eq!(changed(&mut files), 1);
+    }
+
+    #[test]
+    fn a_file_that_vanishes_or_becomes_empty_looks_unfinished_and_a_new_one_does_not() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.lua");
+        let mut files = Files::default();
+        files.follow(vec![path.clone()], None);
+        let mut unfinished = || {
+            let found = files.changed(false);
+            let answer = found.iter().any(Found::looks_unfinished);
+            files.accept(found);
+            answer
+        };
+        fs::write(&path, "").unwrap();
+        assert!(!unfinished());
+        fs::write(&path, "one").unwrap();
+        assert!(!unfinished());
+        fs::write(&path, "").unwrap();
+        assert!(unfinished());
+        fs::write(&path, "one").unwrap();
+        assert!(!unfinished());
+        fs::remove_file(&path).unwrap();
+        assert!(unfinished());
+    }
+
+    #[test]
+    fn a_file_that_is_new_to_the_list_counts_as_changed_if_it_was_written_since_it_was_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.lua");
+        let before = SystemTime::now();
+        fs::write(&path, "one").unwrap();
+        let mut files = Files::default();
+        assert!(files.follow(vec![path.clone()], Some(before)));
+        assert_eq!((changed(&mut files), changed(&mut files)), (1, 0));
+        let mut files = Files::default();
+        assert!(!files.follow(vec![path.clone()], Some(SystemTime::now() + Duration::from_secs(1))));
+        assert!(!files.follow(vec![folder.path().join("none")], Some(before)));
+    }
+
+    #[test]
+    fn events_of_other_files_are_not_looked_into() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        fs::create_dir(at("sub")).unwrap();
+        let mut files = Files::default();
+        files.follow(vec![at("sub/a.lua")], None);
+        assert!(files.concerned_by(&[at("sub/a.lua")]) && files.concerned_by(&[at("sub")]));
+        assert!(files.concerned_by(&[]));
+        assert!(!files.concerned_by(&[at("sub/b.lua"), at("a.lua")]));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn links_are_followed_and_one_that_leads_elsewhere_is_a_change() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        for name in ["one", "two"] {
+            fs::create_dir(at(name)).unwrap();
+            fs::write(at(name).join("a.lua"), "same").unwrap();
+        }
+        std::os::unix::fs::symlink("one/a.lua", at("link")).unwrap();
+        std::os::unix::fs::symlink("link", at("chain")).unwrap();
+        let mut files = Files::default();
+        files.follow(vec![at("chain")], None);
+        assert!(files.concerned_by(&[at("one/a.lua")]) && files.concerned_by(&[at("link")]));
+        fs::remove_file(at("link")).unwrap();
+        std::os::unix::fs::symlink("two/a.lua", at("link")).unwrap();
+        assert_eq!(changed(&mut files), 1);
+        assert!(files.concerned_by(&[at("two/a.lua")]) && !files.concerned_by(&[at("one/a.lua")]));
+        fs::remove_file(at("link")).unwrap();
+        std::os::unix::fs::symlink("chain", at("link")).unwrap();
+        assert_eq!(changed(&mut files), 1);
+    }
+}

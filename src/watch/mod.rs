@@ -1,0 +1,173 @@
+//! Watching: tells when files that decide what a run makes hold something else than before.
+//!
+//! Comes in: paths, of files that are there or not. Goes out: a [`Change`] soon after one of them holds something
+//! else, appears or goes. It never tells of a save that changes nothing, and it never opens what is no regular file.
+//!
+//! Folders are watched, not files, since most editors save by renaming a new file over the old one (`folders`).
+//! What an event means is decided by comparing contents (`files`).
+
+mod files;
+mod folders;
+
+use std::path::PathBuf;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant, SystemTime};
+
+use crate::error::{Error, Result};
+use files::Files;
+use folders::Folders;
+
+/// How long it must be quiet after an event until files are compared: editors save in several steps.
+const QUIET: Duration = Duration::from_millis(10);
+
+/// The same after an event that comes at the end of a save.
+const SETTLED: Duration = Duration::from_millis(2);
+
+/// The longest time from an event to a comparison, however busy the folder is.
+const LONGEST: Duration = Duration::from_millis(100);
+
+/// How long a file may be missing or empty until that is believed: some editors delete a file or cut it to
+/// nothing before they write it.
+const PATIENCE: Duration = Duration::from_millis(150);
+
+/// How often files are compared without an event: some disks, such as those of other machines, tell of none.
+const ROUND: Duration = Duration::from_secs(1);
+
+/// As [`ROUND`], where the system cannot watch folders.
+const SHORT_ROUND: Duration = Duration::from_millis(100);
+
+/// Files that hold something else than before.
+#[derive(Debug, Clone)]
+pub struct Change {
+    /// The files as they were named to [`Watch`].
+    pub files: Vec<PathBuf>,
+    /// When the first sign of it was seen.
+    pub at: Instant,
+}
+
+/// Watches files in a thread of its own until it is dropped.
+pub struct Watch {
+    signals: Sender<Signal>,
+    thread: Option<JoinHandle<()>>,
+}
+
+/// What the thread waits for.
+enum Signal {
+    /// Something happened to these paths; none if the system lost count. And whether a save ends so.
+    Event(Vec<PathBuf>, Instant, bool),
+    Follow(Vec<PathBuf>, SystemTime),
+    Over,
+}
+
+struct Watcher {
+    files: Files,
+    folders: Folders,
+    /// When the first sign of a change was seen that has not been looked into.
+    first: Option<Instant>,
+}
+
+impl Watch {
+    /// Watches `files` and calls `changed` in a thread of its own; `complain` is told if only polling is left.
+    pub fn new(
+        files: Vec<PathBuf>,
+        changed: impl Fn(Change) + Send + 'static,
+        complain: impl Fn(&str) + Send + 'static,
+    ) -> Result<Self> {
+        let (signals, inbox) = channel();
+        let events = signals.clone();
+        let mut watcher = Watcher {
+            files: Files::default(),
+            folders: Folders::new(move |paths, settled| {
+                // The watcher may be over already.
+                let _ = events.send(Signal::Event(paths, Instant::now(), settled));
+            }),
+            first: None,
+        };
+        watcher.files.follow(files, None);
+        let watch = move || {
+            watcher.folders.cover(&watcher.files);
+            if let Some(why) = watcher.folders.failure() {
+                complain(&format!("cannot watch folders, so files are read ten times a second: {why}"));
+            }
+            watcher.work(&inbox, &changed);
+        };
+        let thread = std::thread::Builder::new()
+            .name("burgeon watch".to_owned())
+            .spawn(watch)
+            .map_err(|error| Error::new(format!("cannot start a thread to watch files: {error}")))?;
+        Ok(Self { signals, thread: Some(thread) })
+    }
+
+    /// Watches `files` and no others from now on. Those that are new to it and were changed after `since`, when
+    /// they were read, count as changed.
+    pub fn follow(&self, files: Vec<PathBuf>, since: SystemTime) {
+        // The thread ends only when this is dropped.
+        let _ = self.signals.send(Signal::Follow(files, since));
+    }
+}
+
+impl Drop for Watch {
+    fn drop(&mut self) {
+        let _ = self.signals.send(Signal::Over);
+        if let Some(thread) = self.thread.take() {
+            // What it would have told does not matter any more.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Watcher {
+    fn work(mut self, inbox: &Receiver<Signal>, changed: &dyn Fn(Change)) {
+        let mut due: Option<Instant> = None;
+        loop {
+            let round = if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
+            let wait = due.map_or(round, |due| due.saturating_duration_since(Instant::now()));
+            match inbox.recv_timeout(wait) {
+                Ok(Signal::Event(paths, at, settled)) => {
+                    if self.files.concerned_by(&paths) {
+                        let first = *self.first.get_or_insert(at);
+                        let quiet = if settled { SETTLED } else { QUIET };
+                        due = Some((Instant::now() + quiet).min(first + LONGEST));
+                    }
+                }
+                Ok(Signal::Follow(files, since)) => {
+                    if self.files.follow(files, Some(since)) {
+                        self.first.get_or_insert_with(Instant::now);
+                        due = Some(Instant::now());
+                    }
+                    self.folders.cover(&self.files);
+                }
+                Err(RecvTimeoutError::Timeout) => {
+                    // Events that come while files are read lead to another look.
+                    self.folders.cover(&self.files);
+                    due = self.look(changed);
+                }
+                Ok(Signal::Over) | Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    }
+
+    /// Compares the files and tells of a change. Returns when to look again, if what is there looks unfinished.
+    fn look(&mut self, changed: &dyn Fn(Change)) -> Option<Instant> {
+        let without_event = self.first.is_none() && self.folders.failure().is_none();
+        let found = self.files.changed(without_event);
+        if found.is_empty() {
+            self.first = None;
+            return None;
+        }
+        let first = *self.first.get_or_insert_with(Instant::now);
+        if found.iter().any(files::Found::looks_unfinished) && first.elapsed() < PATIENCE {
+            return Some(Instant::now() + QUIET);
+        }
+        self.first = None;
+        let files = self.files.accept(found);
+        // What has just been named may lie elsewhere than before, if it is a link.
+        self.folders.cover(&self.files);
+        changed(Change { files, at: first });
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests;

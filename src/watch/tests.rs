@@ -1,0 +1,108 @@
+//! Saves of all kinds, as the watcher tells of them.
+
+use std::fs;
+use std::path::Path;
+use std::sync::mpsc::{Receiver, channel};
+
+use super::*;
+
+/// A watch of `a.lua` in a new folder `sub`, and what it tells.
+struct Trial {
+    folder: tempfile::TempDir,
+    told: Receiver<Change>,
+    watch: Watch,
+}
+
+impl Trial {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        fs::create_dir(folder.path().join("sub")).unwrap();
+        fs::write(folder.path().join("sub/a.lua"), "one").unwrap();
+        let (teller, told) = channel();
+        let files = vec![folder.path().join("sub/a.lua")];
+        let changed = move |change| teller.send(change).unwrap();
+        let watch = Watch::new(files, changed, |why| panic!("{why}")).unwrap();
+        // The first folders are watched when this has been answered.
+        watch.follow(vec![folder.path().join("sub/a.lua")], SystemTime::now());
+        std::thread::sleep(Duration::from_millis(20));
+        Self { folder, told, watch }
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn write(&self, name: &str, text: &str) {
+        fs::write(self.at(name), text).unwrap();
+    }
+
+    /// How long it took until the change was told.
+    #[track_caller]
+    fn tells(&self, name: &str) -> Duration {
+        let begin = Instant::now();
+        let change = self.told.recv_timeout(Duration::from_secs(5)).unwrap();
+        assert_eq!(change.files, [self.at(name)]);
+        begin.elapsed()
+    }
+
+    #[track_caller]
+    fn tells_nothing(&self) {
+        assert!(self.told.recv_timeout(PATIENCE * 2).is_err());
+    }
+}
+
+#[test]
+fn every_way_to_save_is_told_once_and_soon() {
+    let trial = Trial::new();
+    let soon = Duration::from_millis(900);
+    trial.write("sub/a.lua", "in place");
+    assert!(trial.tells("sub/a.lua") < soon);
+    trial.write("sub/.a.lua.swp", "renamed over");
+    fs::rename(trial.at("sub/.a.lua.swp"), trial.at("sub/a.lua")).unwrap();
+    assert!(trial.tells("sub/a.lua") < soon);
+    fs::rename(trial.at("sub/a.lua"), trial.at("sub/a.lua~")).unwrap();
+    trial.write("sub/a.lua", "after a backup");
+    assert!(trial.tells("sub/a.lua") < soon);
+    fs::remove_file(trial.at("sub/a.lua")).unwrap();
+    std::thread::sleep(QUIET * 3);
+    trial.write("sub/a.lua", "deleted and made again");
+    assert!(trial.tells("sub/a.lua") < soon);
+    trial.write("sub/a.lua", "");
+    std::thread::sleep(QUIET * 3);
+    trial.write("sub/a.lua", "cut to nothing and written");
+    assert!(trial.tells("sub/a.lua") < soon);
+    trial.write("sub/a.lua", "cut to nothing and written");
+    trial.write("sub/b.lua", "another file");
+    trial.tells_nothing();
+    fs::remove_file(trial.at("sub/a.lua")).unwrap();
+    assert!(trial.tells("sub/a.lua") < soon);
+}
+
+#[test]
+fn a_folder_that_is_deleted_and_made_again_is_watched_again() {
+    let trial = Trial::new();
+    for text in ["two", "three"] {
+        fs::remove_dir_all(trial.at("sub")).unwrap();
+        trial.tells("sub/a.lua");
+        fs::create_dir(trial.at("sub")).unwrap();
+        trial.write("sub/a.lua", text);
+        trial.tells("sub/a.lua");
+        trial.write("sub/a.lua", "another");
+        assert!(trial.tells("sub/a.lua") < Duration::from_millis(900));
+    }
+}
+
+#[test]
+fn a_file_that_is_not_there_yet_is_told_when_it_comes() {
+    let trial = Trial::new();
+    let path = |name: &str| Path::new(&trial.at(name)).to_path_buf();
+    trial.watch.follow(vec![path("sub/a.lua"), path("deep/er/b.lua")], SystemTime::now());
+    std::thread::sleep(QUIET);
+    fs::create_dir_all(trial.at("deep/er")).unwrap();
+    trial.write("deep/er/b.lua", "here");
+    trial.tells("deep/er/b.lua");
+    trial.watch.follow(vec![path("deep/er/b.lua")], SystemTime::now());
+    std::thread::sleep(QUIET);
+    trial.write("sub/a.lua", "not watched any more");
+    trial.tells_nothing();
+}

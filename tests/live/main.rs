@@ -1,0 +1,9 @@
+//! The live page's server, as the real binary: requests, saves, wishes, exports; and `run --watch`.
+#![cfg(feature = "live")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod requests;
+mod saves;
+mod support;
+mod watching;
+mod wishes;

@@ -1,0 +1,156 @@
+//! What happens when files change.
+
+use std::fs;
+use std::time::{Duration, Instant};
+
+use serde_json::json;
+
+use crate::support::{SLOW, Server, script, triangles};
+
+#[test]
+fn every_way_to_save_shows_the_new_model_and_one_that_changes_nothing_does_not() {
+    let server = Server::new(Some(&script(3)));
+    let mut page = server.page();
+    page.next("model");
+    let part = |name: &str| server.path(name);
+    let shows = |page: &mut crate::support::Page, count: usize| {
+        let model = page.next("model");
+        assert_eq!(
+            (&model["cause"], model["triangles"].as_u64()),
+            (&json!("save"), Some(triangles(count) as u64))
+        );
+    };
+    server.write("s.lua", script(4));
+    shows(&mut page, 4);
+    server.write("s.lua.tmp", script(5));
+    fs::rename(part("s.lua.tmp"), part("s.lua")).unwrap();
+    shows(&mut page, 5);
+    fs::rename(part("s.lua"), part("s.lua~")).unwrap();
+    server.write("s.lua", script(6));
+    shows(&mut page, 6);
+    fs::remove_file(part("s.lua")).unwrap();
+    std::thread::sleep(Duration::from_millis(30));
+    server.write("s.lua", script(7));
+    shows(&mut page, 7);
+    server.write("s.lua", "");
+    std::thread::sleep(Duration::from_millis(30));
+    server.write("s.lua", script(8));
+    shows(&mut page, 8);
+    server.write("s.lua", script(8));
+    server.write("other.lua", "x");
+    page.is_quiet(Duration::from_millis(300));
+}
+
+#[test]
+fn an_error_leaves_the_model_and_the_repaired_script_shows_a_new_one() {
+    let server = Server::new(Some("local = = 1"));
+    let mut page = server.page();
+    let error = page.next("error");
+    assert_eq!((&error["errors"][0]["file"], &error["errors"][0]["line"]), (&json!("s.lua"), &json!(1)));
+    assert!(error["text"].as_str().unwrap().starts_with("s.lua:1: "), "{error}");
+    server.write("s.lua", script(3));
+    let model = page.next("model");
+    server.write("s.lua", script(3).replace("return S()", "return s()"));
+    page.next("error");
+    let mut second = server.page();
+    assert_eq!(second.next("model")["url"], model["url"]);
+    second.next("error");
+    server.write("s.lua", [0xff, 0xfe, 0x00]);
+    assert!(page.next("error")["text"].as_str().unwrap().contains("is not a text file"));
+    server.write("s.lua", script(3));
+    assert_eq!(page.next("model")["url"], model["url"]);
+}
+
+#[test]
+fn a_script_that_is_missing_is_waited_for() {
+    let server = Server::new(None);
+    let mut page = server.page();
+    assert!(page.next("waiting")["text"].as_str().unwrap().contains("s.lua"));
+    server.write("s.lua", script(3));
+    page.next("model");
+    fs::remove_file(server.path("s.lua")).unwrap();
+    page.next("waiting");
+    fs::create_dir(server.path("s.lua")).unwrap();
+    assert!(page.next("error")["text"].as_str().unwrap().contains("folder"));
+    fs::remove_dir(server.path("s.lua")).unwrap();
+    page.next("waiting");
+    server.write("s.lua", script(4));
+    page.next("model");
+}
+
+#[test]
+fn required_files_textures_and_the_standard_library_are_watched_even_where_they_are_missing() {
+    let library = include_str!("../../stdlib.lua");
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("std.lua"), library).unwrap();
+    let text = format!(
+        "local parts = require(\"sub/parts\")\n{}",
+        script(3).replace("this:forward(length)", "this:material(parts.stone):forward(length)")
+    );
+    fs::write(folder.path().join("s.lua"), text).unwrap();
+    let server = Server::start(folder, &["--stdlib", "std.lua"]);
+    let mut page = server.page();
+    assert!(page.next("error")["text"].as_str().unwrap().contains("sub/parts.lua"));
+    fs::create_dir(server.path("sub")).unwrap();
+    server.write("sub/parts.lua", "return { stone = { texture = \"wall.png\", texture_size = { 1, 1 } } }");
+    assert!(page.next("error")["text"].as_str().unwrap().contains("wall.png"));
+    image::RgbImage::new(2, 2).save(server.path("wall.png")).unwrap();
+    let model = page.next("model");
+    assert_eq!(model["files"], json!(["s.lua", "std.lua", "sub/parts.lua", "wall.png"]));
+    image::RgbImage::from_pixel(2, 2, image::Rgb([9, 9, 9])).save(server.path("wall.png")).unwrap();
+    let other = page.next("model");
+    assert_ne!(other["url"], model["url"]);
+    server.write("std.lua", format!("{library}\nnonsense nonsense"));
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().starts_with("std.lua:"), "{error}");
+    server.write("std.lua", "return 7");
+    assert!(page.next("error")["text"].as_str().unwrap().contains("std.lua returns no table"));
+    server.write("std.lua", library);
+    assert_eq!(page.next("model")["url"], other["url"]);
+    fs::remove_dir_all(server.path("sub")).unwrap();
+    page.next("error");
+    fs::create_dir(server.path("sub")).unwrap();
+    server.write("sub/parts.lua", "return { stone = {} }");
+    page.next("model");
+}
+
+#[test]
+fn a_save_during_a_long_run_stops_it_and_so_does_a_page() {
+    let server = Server::new(Some(SLOW));
+    let mut page = server.page();
+    let run = page.until("progress")["run"].clone();
+    let begin = Instant::now();
+    server.write("s.lua", script(3));
+    assert_eq!(page.next("cancelled")["run"], run);
+    page.next("model");
+    assert!(begin.elapsed() < Duration::from_secs(2), "{:?}", begin.elapsed());
+    server.write("s.lua", SLOW);
+    page.until("progress");
+    page.say(&json!({ "type": "cancel" }));
+    page.until("cancelled");
+    // What was cancelled is not tried again until something changes.
+    page.is_quiet(Duration::from_millis(100));
+    server.write("s.lua", script(4));
+    assert_eq!(page.next("model")["triangles"], triangles(4));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_script_behind_a_link_and_a_folder_that_is_made_again_are_followed() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::create_dir(folder.path().join("real")).unwrap();
+    fs::write(folder.path().join("real/tree.lua"), script(3)).unwrap();
+    std::os::unix::fs::symlink("real/tree.lua", folder.path().join("s.lua")).unwrap();
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    page.next("model");
+    server.write("real/tree.lua", script(4));
+    assert_eq!(page.next("model")["triangles"], triangles(4));
+    fs::remove_dir_all(server.path("real")).unwrap();
+    page.next("waiting");
+    fs::create_dir(server.path("real")).unwrap();
+    server.write("real/tree.lua", script(5));
+    assert_eq!(page.next("model")["triangles"], triangles(5));
+    server.write("real/tree.lua", script(6));
+    assert_eq!(page.next("model")["triangles"], triangles(6));
+}

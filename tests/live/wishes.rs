@@ -1,0 +1,216 @@
+//! What pages wish: parameters, the seed, steps; and how wishes outlive saves.
+
+use std::time::Duration;
+
+use serde_json::{Value, json};
+
+use crate::support::{Page, Server, script};
+
+fn set(page: &mut Page, value: Value) -> Value {
+    page.model_of(json!({ "type": "set", "params": { "length": value } }))
+}
+
+#[test]
+fn values_are_set_shared_kept_across_saves_and_put_back() {
+    let server = Server::new(Some(&script(3)));
+    let (mut page, mut other) = (server.page(), server.page());
+    let first = page.next("model");
+    other.next("model");
+    let control = json!({ "type": "number", "min": 1.0, "max": 9.0, "step": 1.0 });
+    assert_eq!(first["params"][0]["control"], control);
+    let model = set(&mut page, json!("5"));
+    let param = &model["params"][0];
+    assert_eq!(
+        (&param["value"], &param["default"], &param["changed"]),
+        (&json!(5.0), &json!(1.0), &json!(true))
+    );
+    assert_eq!((&model["cause"], &model["url"]), (&json!("parameters"), &other.next("model")["url"]));
+    assert_ne!(model["url"], first["url"]);
+    server.write("s.lua", script(4));
+    assert_eq!(page.next("model")["params"][0]["value"], 5.0);
+    server.write("s.lua", script(4).replace("default = 1", "default = 2"));
+    let param = &page.next("model")["params"][0];
+    assert_eq!(
+        (&param["value"], &param["default"], &param["old_default"]),
+        (&json!(5.0), &json!(2.0), &json!(1.0))
+    );
+    let param = &set(&mut page, Value::Null)["params"][0];
+    assert_eq!(
+        (&param["value"], &param["changed"], &param["old_default"]),
+        (&json!(2.0), &json!(false), &Value::Null)
+    );
+    set(&mut page, json!("3"));
+    assert_eq!(page.model_of(json!({ "type": "reset" }))["params"][0]["value"], 2.0);
+    // A change that changes nothing is answered, to this page alone.
+    assert_eq!(set(&mut page, Value::Null)["params"][0]["value"], 2.0);
+    for _ in 0..5 {
+        other.next("model");
+    }
+    other.is_quiet(Duration::from_millis(50));
+}
+
+#[test]
+fn values_that_a_new_script_does_not_take_are_told_once_left_out_and_used_again_later() {
+    let server = Server::with(Some(&script(3)), &["--set", "length=7"]);
+    let mut page = server.page();
+    assert_eq!(page.next("model")["params"][0]["value"], 7.0);
+    server.write("s.lua", script(3).replace("max = 9", "max = 4"));
+    let model = page.next("model");
+    assert_eq!((&model["params"][0]["value"], &model["params"][0]["changed"]), (&json!(1.0), &json!(false)));
+    assert!(page.next("refused")["text"].as_str().unwrap().contains("length is 7"));
+    server.write("s.lua", script(2).replace("max = 9", "max = 4"));
+    page.next("model");
+    server.write("s.lua", script(2).replace("\"length\"", "\"size\""));
+    page.next("model");
+    assert!(page.next("refused")["text"].as_str().unwrap().contains("no parameter called length"));
+    server.write("s.lua", script(3));
+    assert_eq!(page.next("model")["params"][0]["value"], 7.0);
+}
+
+#[test]
+fn the_seed_and_the_steps_are_wished_and_the_last_step_is_known() {
+    let server = Server::with(Some(&script(5)), &["--seed", "7"]);
+    let mut page = server.page();
+    let first = page.next("model");
+    assert_eq!((&first["seed"], &first["steps"], &first["last_step"]), (&json!("7"), &json!(6), &json!(6)));
+    let seeded = page.model_of(json!({ "type": "seed", "seed": "18446744073709551615" }));
+    assert_eq!(seeded["seed"], "18446744073709551615");
+    assert_ne!(seeded["url"], first["url"]);
+    let limited = page.model_of(json!({ "type": "steps", "steps": 2 }));
+    assert_eq!(
+        (&limited["steps"], &limited["last_step"], &limited["step_limit"]),
+        (&json!(2), &json!(6), &json!(2))
+    );
+    let whole = page.model_of(json!({ "type": "steps", "steps": null }));
+    assert_eq!((&whole["url"], &whole["step_limit"]), (&seeded["url"], &Value::Null));
+    page.model_of(json!({ "type": "steps", "steps": 0 }));
+    // With another script the number is not known, so it is found while there is nothing else to do.
+    server.write("s.lua", script(9));
+    let guess = page.next("model");
+    let found = page.next("model");
+    assert_eq!((&found["url"], &found["steps"], &found["last_step"]), (&guess["url"], &json!(0), &json!(10)));
+    page.is_quiet(Duration::from_millis(50));
+}
+
+#[test]
+fn of_many_values_in_a_row_the_last_is_shown_in_the_end() {
+    let server = Server::new(Some(&script(200)));
+    let mut page = server.page();
+    page.next("model");
+    for value in (1..=9).cycle().take(200) {
+        page.say(&json!({ "type": "set", "params": { "length": value } }));
+    }
+    page.say(&json!({ "type": "set", "params": { "length": 4 } }));
+    let mut last = Value::Null;
+    while let Some(message) = page.within(Duration::from_millis(500)) {
+        if message["type"] == "model" {
+            last = message;
+        }
+    }
+    assert_eq!(last["params"][0]["value"], 4.0);
+    assert!(last["run"].as_u64().unwrap() < 200);
+}
+
+#[test]
+fn a_line_is_opened_in_the_editor_if_the_file_is_one_of_the_script() {
+    let server = Server::with(
+        Some(&script(3)),
+        &[
+            "--editor",
+            "sh -c 'printf %s:%s \"$1\" \"$2\" > opened.part; mv opened.part opened' sh {file} {line}",
+        ],
+    );
+    let mut page = server.page();
+    page.next("model");
+    server.write("secret.lua", "x");
+    for file in ["/etc/passwd", "secret.lua", "../s.lua", "", "s.lua; touch x"] {
+        page.say(&json!({ "type": "open", "file": file, "line": 3 }));
+        assert_eq!(page.any()["type"], "refused", "{file}");
+    }
+    page.say(&json!({ "type": "open", "file": "s.lua", "line": 3 }));
+    for _ in 0..200 {
+        if server.path("opened").exists() {
+            break;
+        }
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    let opened = std::fs::read_to_string(server.path("opened")).unwrap();
+    assert!(opened.ends_with("s.lua:3"), "{opened}");
+    let plain = Server::new(Some(&script(3)));
+    let mut page = plain.page();
+    page.next("model");
+    page.say(&json!({ "type": "open", "file": "s.lua", "line": 3 }));
+    assert!(page.any()["text"].as_str().unwrap().contains("--editor"));
+}
+
+#[test]
+fn a_preset_is_saved_loaded_and_deleted_for_all_pages() {
+    let server = Server::with(Some(&script(3)), &["--seed", "5"]);
+    let (mut page, mut other) = (server.page(), server.page());
+    page.next("model");
+    other.next("model");
+    set(&mut page, json!("4"));
+    page.say(&json!({ "type": "preset", "action": "save", "name": "long" }));
+    assert_eq!(page.next("presets")["names"], json!(["long"]));
+    other.next("model");
+    assert_eq!(other.next("presets")["names"], json!(["long"]));
+    let file: Value = serde_json::from_slice(&std::fs::read(server.path("s.presets.json")).unwrap()).unwrap();
+    assert_eq!(file, json!({ "long": { "seed": 5, "params": { "length": 4 } } }));
+    page.model_of(json!({ "type": "reset" }));
+    page.model_of(json!({ "type": "seed", "seed": "6" }));
+    let loaded = page.model_of(json!({ "type": "preset", "action": "load", "name": "long" }));
+    assert_eq!(
+        (&loaded["cause"], &loaded["seed"], &loaded["params"][0]["value"]),
+        (&json!("preset"), &json!("5"), &json!(4.0))
+    );
+    for (action, name) in
+        [("load", "lang"), ("delete", "none"), ("save", ""), ("save", "a\nb"), ("fly", "long")]
+    {
+        page.say(&json!({ "type": "preset", "action": action, "name": name }));
+        assert_eq!(page.any()["type"], "refused", "{action} {name}");
+    }
+    page.say(&json!({ "type": "preset", "action": "delete", "name": "long" }));
+    assert_eq!(page.next("presets")["names"], json!([]));
+    server.write("s.presets.json", "{ nonsense");
+    page.say(&json!({ "type": "preset", "action": "load", "name": "long" }));
+    assert!(page.any()["text"].as_str().unwrap().contains("s.presets.json:1"));
+    let again = Server::with(Some(&script(3)), &["--set", "length=3"]);
+    assert_eq!(again.page().next("model")["params"][0]["value"], 3.0);
+}
+
+#[test]
+fn variations_come_as_pictures_to_the_page_that_asked() {
+    let server = Server::new(Some(&script(3)));
+    let (mut page, mut other) = (server.page(), server.page());
+    page.next("model");
+    other.next("model");
+    set(&mut page, json!(2));
+    other.next("model");
+    page.say(&json!({ "type": "variations", "id": 7, "seeds": ["1", "18446744073709551615"] }));
+    for (index, seed) in ["1", "18446744073709551615"].iter().enumerate() {
+        let made = page.next("variation");
+        assert_eq!((&made["id"], &made["index"], &made["of"]), (&json!(7), &json!(index), &json!(2)));
+        assert_eq!((&made["seed"], &made["params"]), (&json!(seed), &json!({ "length": 2.0 })));
+        let picture = server.get(made["url"].as_str().unwrap());
+        assert!(picture.status == 200 && picture.body.starts_with(b"\x89PNG"));
+    }
+    page.say(&json!({ "type": "variations", "id": 8, "param": "length", "values": ["1", "9"] }));
+    assert_eq!(page.next("variation")["params"]["length"], 1.0);
+    assert_eq!(page.next("variation")["params"]["length"], 9.0);
+    for wrong in [
+        json!({ "param": "length", "values": ["99"] }),
+        json!({ "param": "none", "values": ["1"] }),
+        json!({ "seeds": ["x"] }),
+        json!({ "seeds": [] }),
+        json!({ "seeds": vec!["1"; 999] }),
+        json!({}),
+    ] {
+        let mut message = wrong;
+        message["type"] = "variations".into();
+        message["id"] = 9.into();
+        page.say(&message);
+        let answer = page.any();
+        assert_eq!((&answer["type"], &answer["id"]), (&json!("refused"), &json!(9)), "{message}");
+    }
+    other.is_quiet(Duration::from_millis(50));
+}

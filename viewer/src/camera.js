@@ -1,0 +1,185 @@
+// The camera: it circles a target, and is kept from model to model.
+//
+// Azimuth is from north clockwise and elevation above the horizon, both of the camera as seen from the target (rad).
+// Coordinates are glTF's, y up; east is +x and north is -z.
+
+import { Matrix4, OrthographicCamera, PerspectiveCamera, Vector3 } from 'three';
+
+const DEGREE = Math.PI / 180;
+const FIELD = 32 * DEGREE;
+const MARGIN = 0.88;
+const BARS = 120; // pixels above and below that the tools cover
+const TURN_TIME = 260;
+
+/** Azimuth and elevation (degrees) by name, in the order of the keys 1 to 7. */
+export const VIEWS = {
+  front: [180, 0],
+  back: [0, 0],
+  left: [270, 0],
+  right: [90, 0],
+  top: [180, 90],
+  bottom: [180, -90],
+  iso: [135, 35.264],
+};
+
+export class Camera {
+  #perspective = new PerspectiveCamera(FIELD / DEGREE);
+  #orthographic = new OrthographicCamera();
+  #animation = 0;
+  target = new Vector3(0, 2, 0);
+  azimuth = 150 * DEGREE;
+  elevation = 22 * DEGREE;
+  distance = 24;
+  flat = false;
+  aspect = 1;
+  /** The picture's height in pixels. */
+  height = 800;
+  right = new Vector3();
+  up = new Vector3();
+  back = new Vector3();
+
+  /** `changed` is called after each change. */
+  constructor(changed) {
+    this.changed = changed;
+    this.orient();
+  }
+
+  get active() {
+    return this.flat ? this.#orthographic : this.#perspective;
+  }
+
+  /** Half the height (m) of what is seen at the target. */
+  get reach() {
+    return this.distance * Math.tan(FIELD / 2);
+  }
+
+  orient() {
+    const [sin, cos] = [Math.sin(this.azimuth), Math.cos(this.azimuth)];
+    const level = Math.cos(this.elevation);
+    this.back.set(sin * level, Math.sin(this.elevation), -cos * level);
+    this.right.set(-cos, 0, -sin);
+    this.up.crossVectors(this.back, this.right);
+  }
+
+  /** Places the camera; `center` and `radius` (m) are of what must not be cut off. */
+  place(center, radius) {
+    this.orient();
+    const camera = this.active;
+    camera.position.copy(this.target).addScaledVector(this.back, this.distance);
+    camera.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(this.right, this.up, this.back));
+    const depth = -center.clone().sub(camera.position).dot(this.back);
+    camera.far = Math.max(depth + radius, this.distance * 2);
+    if (this.flat) {
+      camera.near = depth - radius;
+      [camera.left, camera.right] = [-this.reach * this.aspect, this.reach * this.aspect];
+      [camera.bottom, camera.top] = [-this.reach, this.reach];
+    } else {
+      camera.near = Math.max(depth - radius, this.distance * 0.004, camera.far * 2e-5);
+      camera.aspect = this.aspect;
+    }
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    return camera;
+  }
+
+  /** Where `box` is seen whole from here. */
+  fitted(box, azimuth = this.azimuth, elevation = this.elevation) {
+    const center = box.getCenter(new Vector3());
+    const [kept, keptUp] = [this.azimuth, this.elevation];
+    [this.azimuth, this.elevation] = [azimuth, elevation];
+    this.orient();
+    const slope = Math.tan(FIELD / 2);
+    const tall = Math.max(Math.min(MARGIN, 1 - BARS / this.height), 0.5);
+    let distance = 1e-3;
+    for (let corner = 0; corner < 8; corner++) {
+      const at = new Vector3(
+        corner & 1 ? box.max.x : box.min.x,
+        corner & 2 ? box.max.y : box.min.y,
+        corner & 4 ? box.max.z : box.min.z,
+      ).sub(center);
+      const near = this.flat ? 0 : at.dot(this.back);
+      const across = Math.max(Math.abs(at.dot(this.right)) / this.aspect / MARGIN, Math.abs(at.dot(this.up)) / tall);
+      distance = Math.max(distance, across / slope + near);
+    }
+    [this.azimuth, this.elevation] = [kept, keptUp];
+    this.orient();
+    return { target: center, distance, azimuth, elevation };
+  }
+
+  rotate(azimuth, elevation) {
+    this.stop();
+    this.azimuth += azimuth;
+    this.elevation = Math.min(Math.max(this.elevation + elevation, -Math.PI / 2), Math.PI / 2);
+    this.changed();
+  }
+
+  /** Moves by a part of the picture's height. */
+  pan(x, y) {
+    this.stop();
+    this.target.addScaledVector(this.right, x * 2 * this.reach).addScaledVector(this.up, y * 2 * this.reach);
+    this.changed();
+  }
+
+  /** Comes nearer by `factor` < 1 so that what is under (x, y), -1 to 1, stays there. */
+  zoom(factor, x = 0, y = 0) {
+    this.stop();
+    const distance = Math.min(Math.max(this.distance * factor, 1e-3), 1e7);
+    const moved = 1 - distance / this.distance;
+    this.target.addScaledVector(this.right, x * this.reach * this.aspect * moved);
+    this.target.addScaledVector(this.up, y * this.reach * moved);
+    this.distance = distance;
+    this.changed();
+  }
+
+  /** Turns to a state of `fitted` or a part of one, the short way round. */
+  go(state, at_once = false) {
+    this.stop();
+    const from = this.state();
+    const to = { ...from, ...state };
+    const turn = to.azimuth - from.azimuth;
+    to.azimuth = from.azimuth + Math.atan2(Math.sin(turn), Math.cos(turn));
+    const put = (t) => {
+      this.target.lerpVectors(from.target, to.target, t);
+      this.azimuth = from.azimuth + (to.azimuth - from.azimuth) * t;
+      this.elevation = from.elevation + (to.elevation - from.elevation) * t;
+      this.distance = from.distance * (to.distance / from.distance) ** t;
+      this.changed();
+    };
+    if (at_once || document.hidden || matchMedia('(prefers-reduced-motion: reduce)').matches) return put(1);
+    const start = performance.now();
+    const step = () => {
+      const t = Math.min((performance.now() - start) / TURN_TIME, 1);
+      this.#animation = t < 1 ? requestAnimationFrame(step) : 0;
+      put(1 - (1 - t) ** 3);
+    };
+    step();
+  }
+
+  stop() {
+    cancelAnimationFrame(this.#animation);
+    this.#animation = 0;
+  }
+
+  get moving() {
+    return this.#animation !== 0;
+  }
+
+  state() {
+    const { azimuth, elevation, distance } = this;
+    return { target: this.target.clone(), azimuth, elevation, distance };
+  }
+}
+
+/** The view of `name` in radians. */
+export function view(name) {
+  const [azimuth, elevation] = VIEWS[name];
+  return { azimuth: azimuth * DEGREE, elevation: elevation * DEGREE };
+}
+
+/** The first view of a model: steeper on what is flat, as the pictures of `run` are. */
+export function firstView(box) {
+  const size = box.getSize(new Vector3());
+  const slender = Math.min(Math.max(size.y / Math.max(size.x, size.z, 1e-9), 0.1), 3);
+  const bend = slender < 1 ? 16 : 16.8;
+  return { azimuth: 150 * DEGREE, elevation: (22 - bend * Math.log10(slender)) * DEGREE };
+}

@@ -1,0 +1,92 @@
+// The card of a picked module: what it is, who drew it, and by which rules it came to be.
+
+import { find, make } from './dom.js';
+import { count, plain } from './format.js';
+import { icon } from './icons.js';
+
+export class Card {
+  #card = find('#card');
+  #dot = find('#dot');
+  #point = null;
+
+  constructor({ stage, socket, places, closed }) {
+    Object.assign(this, { stage, socket, places, closed });
+    stage?.onDraw(() => this.#follow());
+  }
+
+  get open() {
+    return !this.#card.hidden;
+  }
+
+  /** Asks what is at a pixel of the window. */
+  pick(x, y) {
+    const hit = this.stage.at(x, y);
+    if (!hit) return this.close();
+    const { mesh, primitive, node } = hit.part.userData;
+    this.#point = hit.point;
+    this.#follow();
+    this.socket.ask({ type: 'pick', mesh, primitive, triangle: hit.triangle, instance: hit.instance, node }, (answer) => {
+      if (answer.type === 'refused') return;
+      if (!answer.found) return this.#fill(make('p', { class: 'none', text: 'No module is known for this triangle.' }));
+      if (answer.ranges?.length) {
+        this.stage.mark.show(this.stage.model, answer.ranges, { node, instance: hit.instance });
+        this.#point = null;
+        this.#follow();
+        this.stage.invalidate();
+      }
+      this.#show(answer);
+    });
+  }
+
+  close() {
+    this.#card.hidden = true;
+    this.#point = null;
+    this.#follow();
+    this.closed();
+  }
+
+  #show({ system, chain, feature, module, interpretation, path, chain_text: text }) {
+    const where = [`system ${system + 1}`, `chain ${chain + 1}`];
+    if (feature) where.push(`feature ${feature}`);
+    if (Number.isFinite(module.index)) where.push(`module ${count(module.index + 1)}`);
+    const values = (module.params ?? []).flatMap(({ name, value }) => [make('dt', { text: name }), make('dd', { text: typeof value === 'number' ? plain(value) : String(typeof value === 'object' ? JSON.stringify(value) : value) })]);
+    this.#fill(
+      make('h3', { class: 'module', text: module.symbol ?? module.text }),
+      values.length ? make('dl', { class: 'values' }, ...values) : null,
+      make('p', { class: 'where', text: where.join(' · ') }),
+      interpretation ? make('div', { class: 'drawn' }, make('span', { class: 'caption', text: 'drawn by' }), make('code', { text: interpretation.text }), this.#place(interpretation)) : null,
+      path?.length ? make('span', { class: 'caption', text: 'came from' }) : null,
+      path?.length ? make('ol', { class: 'path' }, ...path.map((it) => this.#step(it))) : null,
+      text ? make('p', { class: 'chain', title: 'The chain around it' }, text.before, make('mark', { text: text.at }), text.after) : null,
+    );
+  }
+
+  #step(it) {
+    return make('li', {},
+      make('span', { class: 'step', text: String(it.step), title: `Step ${it.step}` }),
+      make('div', {}, make('code', { class: 'is', text: it.module }),
+        make('div', { class: 'by' }, make('span', { text: it.rule ? `by ${it.rule}` : 'axiom' }), this.#place(it))));
+  }
+
+  #place({ file, line }) {
+    if (!file || !line) return null;
+    return make('span', { class: 'both' }, this.places.show(file, line), this.places.editor ? make('button', {
+      class: 'tool tiny', title: `Open ${file}:${line} in the editor`, 'aria-label': `Open ${file}:${line} in the editor`, onclick: () => this.socket.send({ type: 'open', file, line }),
+    }, icon('open')) : null);
+  }
+
+  #fill(...children) {
+    const close = make('button', { class: 'tool close', 'aria-label': 'Close', title: 'Close (Esc)', onclick: () => this.close() }, icon('close'));
+    this.#card.replaceChildren(close, ...children.filter(Boolean));
+    this.#card.hidden = false;
+    this.#card.scrollTop = 0;
+  }
+
+  #follow() {
+    const at = this.#point && this.stage.pixel(this.#point);
+    this.#dot.hidden = !at;
+    if (!at) return;
+    const box = this.stage.canvas.getBoundingClientRect();
+    this.#dot.style.transform = `translate(${at[0] - box.left}px, ${at[1] - box.top}px)`;
+  }
+}

@@ -1,0 +1,34 @@
+// Numbers as people read them.
+
+const whole = new Intl.NumberFormat('en-US', { maximumFractionDigits: 0 });
+
+export const count = (number) => whole.format(number);
+
+export const many = (number, one, more = `${one}s`) => `${count(number)} ${number === 1 ? one : more}`;
+
+/** A length in metres with three digits that matter. */
+export function metres(length) {
+  if (!Number.isFinite(length)) return '–';
+  if (length === 0) return '0';
+  const digits = Math.min(3, Math.max(0, 2 - Math.floor(Math.log10(Math.abs(length)))));
+  return length.toLocaleString('en-US', { minimumFractionDigits: 0, maximumFractionDigits: digits });
+}
+
+export function milliseconds(ms) {
+  if (ms >= 10000) return `${(ms / 1000).toFixed(1)} s`;
+  if (ms >= 1000) return `${(ms / 1000).toFixed(2)} s`;
+  return `${ms >= 10 || ms === 0 ? Math.round(ms) : ms.toFixed(1)} ms`;
+}
+
+/** A parameter's number without the noise of binary fractions. */
+export const plain = (number) => String(Number(Number(number).toPrecision(9)));
+
+export function age(seconds) {
+  if (seconds < 60) return `${Math.floor(seconds)} s`;
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;
+  return `${Math.floor(seconds / 3600)} h`;
+}
+
+export function bytes(number) {
+  return number < 1e6 ? `${Math.round(number / 1e3)} kB` : `${(number / 1e6).toFixed(1)} MB`;
+}

@@ -1,0 +1,36 @@
+// Reads a binary glTF file without copying its arrays.
+//
+// Khronos Group, "glTF 2.0 Specification", 2021. Reads what the exporter writes: plain accessors in one buffer.
+
+const ARRAYS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const WIDTHS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
+
+export class Glb {
+  /** `file` is an ArrayBuffer. Fails with a text for people if it is no such file. */
+  constructor(file) {
+    const head = new DataView(file);
+    if (file.byteLength < 20 || head.getUint32(0, true) !== 0x46546c67) throw new Error('the model is not a .glb file');
+    const length = head.getUint32(12, true);
+    this.json = JSON.parse(new TextDecoder().decode(new Uint8Array(file, 20, length)));
+    this.file = file;
+    this.body = 28 + length;
+  }
+
+  /** The typed array of accessor `index`. */
+  array(index) {
+    const accessor = this.json.accessors[index];
+    const Kind = ARRAYS[accessor.componentType];
+    const size = accessor.count * WIDTHS[accessor.type];
+    if (accessor.bufferView === undefined) return new Kind(size);
+    const view = this.json.bufferViews[accessor.bufferView];
+    const start = this.body + (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
+    return new Kind(this.file, start, size);
+  }
+
+  /** The bytes of an embedded image. */
+  image(index) {
+    const image = this.json.images[index];
+    const view = this.json.bufferViews[image.bufferView];
+    return { bytes: new Uint8Array(this.file, this.body + (view.byteOffset ?? 0), view.byteLength), type: image.mimeType };
+  }
+}

@@ -1,0 +1,130 @@
+// The ground: a grid in metres that suits the zoom, and the model's shadow.
+
+import { DoubleSide, Mesh, PlaneGeometry, ShaderMaterial, ShadowMaterial, Color, Vector2 } from 'three';
+
+const VERTEX = /* glsl */ `
+varying vec2 at;
+void main() {
+  at = position.xy;
+  gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+}`;
+
+const FRAGMENT = /* glsl */ `
+varying vec2 at;
+uniform vec2 origin;
+uniform float cell, blend, radius, opacity;
+uniform vec3 color, east, north;
+
+float lines(vec2 p, float size, float width) {
+  vec2 q = p / size;
+  vec2 w = fwidth(q) * width;
+  vec2 d = abs(fract(q - 0.5) - 0.5);
+  vec2 line = 1.0 - smoothstep(w * 0.5, w * 1.5, d);
+  // Where cells are smaller than pixels only their mean is left.
+  line *= 1.0 - smoothstep(0.12, 0.45, w);
+  return max(line.x, line.y);
+}
+
+void main() {
+  vec2 p = at * radius + origin;
+  float fade = 1.0 - smoothstep(0.08, 0.85, length(at));
+  float fine = lines(p, cell, 0.8) * 0.28 * (1.0 - blend);
+  float coarse = lines(p, cell * 10.0, 1.0) * mix(0.62, 0.28, blend);
+  float coarsest = lines(p, cell * 100.0, 1.0) * 0.62 * blend;
+  float a = max(max(fine, coarse), coarsest);
+  vec2 w = fwidth(p) * 1.2;
+  vec2 axis = 1.0 - smoothstep(w * 0.5, w * 1.6, abs(p));
+  vec3 c = mix(mix(color, east, axis.y), north, axis.x);
+  a = max(a, max(axis.x, axis.y) * 1.3);
+  gl_FragColor = vec4(c, a * fade * opacity);
+  #include <colorspace_fragment>
+}`;
+
+/** How many pixels the finest cells measure at least. */
+const FINEST = 9;
+
+export class Ground {
+  cell = 1;
+  height = 0;
+  #uniforms = {
+    origin: { value: new Vector2() },
+    cell: { value: 1 },
+    blend: { value: 0 },
+    radius: { value: 1 },
+    opacity: { value: 0.4 },
+    color: { value: new Color() },
+    east: { value: new Color() },
+    north: { value: new Color() },
+  };
+
+  constructor(scene) {
+    const plane = new PlaneGeometry(2, 2);
+    plane.rotateX(-Math.PI / 2);
+    const flat = new PlaneGeometry(2, 2);
+    const material = new ShaderMaterial({
+      vertexShader: VERTEX,
+      fragmentShader: FRAGMENT,
+      uniforms: this.#uniforms,
+      transparent: true,
+      depthWrite: false,
+      side: DoubleSide,
+    });
+    this.grid = new Mesh(flat, material);
+    this.grid.rotation.x = -Math.PI / 2;
+    this.grid.frustumCulled = false;
+    this.grid.renderOrder = -2;
+    this.shade = new Mesh(plane, new ShadowMaterial({ opacity: 0.3, depthWrite: false }));
+    this.shade.receiveShadow = true;
+    this.shade.renderOrder = -1;
+    scene.add(this.grid, this.shade);
+  }
+
+  theme(dark) {
+    this.#uniforms.color.value.set(dark ? 0xaab6bf : 0x4c5a66);
+    this.#uniforms.east.value.set(dark ? 0xe0655f : 0xc0392f);
+    this.#uniforms.north.value.set(dark ? 0x6fbf73 : 0x2f8a3b);
+    this.#uniforms.opacity.value = dark ? 0.34 : 0.36;
+    this.shade.material.opacity = dark ? 0.5 : 0.3;
+  }
+
+  /** The ground lies under `box` and is never above zero; `origin` is where the model's zero is. */
+  under(box, origin) {
+    const zero = -origin.y;
+    this.height = box.isEmpty() ? zero : Math.min(zero, box.min.y);
+    const size = box.isEmpty() ? 1 : Math.max(box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z);
+    this.origin = origin;
+    // A hair lower than what stands on it.
+    this.shade.position.set(0, this.height - size * 2e-4, 0);
+    if (!box.isEmpty()) {
+      this.shade.position.x = (box.min.x + box.max.x) / 2;
+      this.shade.position.z = (box.min.z + box.max.z) / 2;
+    }
+    this.shade.scale.setScalar(size * 4);
+    this.shade.visible = !box.isEmpty();
+    this.grid.position.y = this.height - size * 3e-4;
+  }
+
+  /** Follows the camera. Returns how far (m) the grid reaches. */
+  follow(camera, pixels) {
+    const pixel = (2 * camera.reach) / pixels;
+    const exact = Math.log10(pixel * FINEST);
+    const level = Math.ceil(exact);
+    const cell = 10 ** level;
+    const blend = 1 - (level - exact);
+    const radius = Math.max(camera.distance * 4, camera.reach * 8);
+    const uniforms = this.#uniforms;
+    uniforms.cell.value = cell;
+    uniforms.blend.value = blend ** 2;
+    uniforms.radius.value = radius;
+    const [x, z] = [camera.target.x, camera.target.z];
+    this.grid.position.x = x;
+    this.grid.position.z = z;
+    this.grid.scale.set(radius, radius, 1);
+    const origin = this.origin ?? { x: 0, z: 0 };
+    // Exact in doubles; what reaches the shader is small, but for the axes, which are only near zero.
+    const wrap = (value) => (Math.abs(value) > cell * 2e4 ? value % (cell * 100) : value);
+    uniforms.origin.value.set(wrap(x + origin.x), wrap(-(z + origin.z)));
+    this.cell = blend > 0.6 ? cell * 10 : cell;
+    return radius;
+  }
+}

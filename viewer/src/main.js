@@ -1,0 +1,337 @@
+// The page of `burgeon live`: puts the rooms together.
+
+import { Axes } from './axes.js';
+import { VIEWS, firstView, view } from './camera.js';
+import { Card } from './card.js';
+import { Changes } from './changes.js';
+import { find, make, say } from './dom.js';
+import * as exports_ from './exports.js';
+import { addIcons, changeIcon, icon } from './icons.js';
+import * as keys from './keys.js';
+import { Loading } from './loading.js';
+import { closeMenu, menu } from './menu.js';
+import { Params } from './params.js';
+import { Places } from './places.js';
+import { listen as listenToPointer } from './pointer.js';
+import { Presets } from './presets.js';
+import { Profile } from './profile.js';
+import * as readouts from './readouts.js';
+import { Seed } from './seed.js';
+import { MODES } from './shading.js';
+import { Socket } from './socket.js';
+import { Stage } from './stage.js';
+import { Steps } from './steps.js';
+import * as theme from './theme.js';
+import { Ticks } from './ticks.js';
+import { Trouble, Working, connection, toast } from './trouble.js';
+import { Variations } from './variations.js';
+
+addIcons(document);
+
+const address = new URL('socket', location.href);
+address.protocol = address.protocol.replace('http', 'ws');
+address.hash = '';
+const socket = new Socket(address);
+const changes = new Changes(socket);
+const canvas = find('#view');
+const state = { hello: { script: '', formats: [] }, model: null, run: null, fitted: false };
+
+let stage = null;
+try {
+  stage = new Stage(canvas);
+} catch {
+  find('#stage').classList.add('blind');
+  find('#stage').append(make('p', { class: 'no-webgl', 'data-testid': 'no-webgl', text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.' }));
+}
+
+const places = new Places(socket, (file, line) => highlight(file, line), () => [...(state.model?.files ?? []), state.hello.script]);
+const params = new Params(changes);
+const presets = new Presets(changes, socket);
+const seed = new Seed(changes);
+const steps = new Steps(changes);
+const trouble = new Trouble(places);
+const working = new Working(socket);
+const profile = new Profile({ places, highlight });
+const variations = new Variations({ socket, changes, seed });
+const card = new Card({ stage, socket, places, closed: clearMark });
+const loading = stage && new Loading(stage, (part) => working.download(part));
+
+function highlight(file, line) {
+  socket.ask({ type: 'highlight', file, line }, (answer) => {
+    if (answer.type === 'refused') return;
+    profile.highlighted(answer);
+    stage?.mark.show(stage.model, answer.ranges ?? []);
+    stage?.invalidate();
+    if (!answer.ranges?.length) toast(`${answer.file}:${answer.line} makes nothing in this model`);
+  });
+}
+
+function clearMark() {
+  stage?.mark.clear();
+  stage?.invalidate();
+  profile.highlighted(null);
+}
+
+// The model
+
+async function show(message) {
+  state.model = message;
+  profile.script = message.files?.[0] ?? state.hello.script;
+  working.stop();
+  trouble.clear();
+  params.show(message.params);
+  variations.params(message.params);
+  seed.show(message.seed);
+  steps.show(message);
+  readouts.model(message);
+  profile.show(message);
+  let own = { load: 0, draw: 0, total: 0 };
+  if (loading) {
+    try {
+      own = await loading.show(message);
+    } catch (error) {
+      if (error.name === 'AbortError' || state.model !== message) return;
+      // The server keeps only its last few models; on a new connection it tells the present one.
+      if (error.status === 404) return socket.renew();
+      // Without a connection, too, the present one comes when it is back.
+      return socket.open ? toast(error.message) : undefined;
+    }
+    if (!own) return;
+    if (card.open) card.close();
+    profile.highlighted(null);
+    if (!state.fitted && message.url) {
+      state.fitted = true;
+      if (!restoreCamera()) stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);
+    }
+  }
+  const ms = readouts.times(message, own);
+  state.run = message.run;
+  document.documentElement.dataset.run = message.run;
+  dispatchEvent(new CustomEvent('burgeon:drawn', { detail: { run: message.run, ms, load: own.load, draw: own.draw } }));
+  steps.drawn();
+}
+
+// Messages
+
+connection('connecting');
+socket.on('open', () => connection('live'));
+socket.on('lost', () => {
+  connection('lost');
+  working.stop();
+  steps.pause();
+});
+socket.on('hello', (hello) => {
+  state.hello = hello;
+  places.editor = hello.editor;
+  say(find('#script'), hello.script);
+  find('#script').title = hello.path;
+  document.title = `${hello.script} · burgeon`;
+  find('.wordmark').title = `burgeon ${hello.version}`;
+  presets.show(hello.presets ?? []);
+});
+socket.on('model', show);
+socket.on('working', (message) => working.start(message));
+socket.on('progress', (message) => working.progress(message));
+socket.on('error', (message) => {
+  working.stop();
+  steps.pause();
+  trouble.error(message, state.model !== null);
+  document.documentElement.dataset.failed = message.run;
+});
+socket.on('waiting', (message) => {
+  working.stop();
+  trouble.waiting(message, state.model !== null);
+});
+socket.on('cancelled', () => {
+  working.stop();
+  steps.pause();
+  toast('Cancelled');
+});
+socket.on('presets', ({ names }) => presets.show(names));
+socket.on('refused', ({ text }) => toast(text));
+
+// The view
+
+const modes = find('#modes');
+const MODE_NAMES = { lit: 'Lit', wire: 'Wireframe', normals: 'Normals; red where a face is seen from behind', uv: 'Texture coordinates' };
+for (const [i, mode] of MODES.entries()) {
+  const input = make('input', { type: 'radio', name: 'mode', value: mode, checked: i === 0, 'data-testid': `mode-${mode}`, 'aria-label': MODE_NAMES[mode], onchange: () => setMode(mode) });
+  modes.append(make('label', { title: `${MODE_NAMES[mode]} (W)` }, input, make('span', {}, icon(mode))));
+}
+
+function setMode(mode) {
+  find(`[data-testid=mode-${mode}]`).checked = true;
+  if (!stage) return;
+  stage.mode = mode;
+  const bare = mode === 'uv' && !stage.model.parts.some((part) => part.geometry.attributes.uv);
+  if (bare) toast('Nothing here has texture coordinates: give a material a texture');
+}
+
+function fit() {
+  if (stage && !stage.model.box.isEmpty()) stage.camera.go(stage.camera.fitted(stage.model.box));
+}
+
+function look(name) {
+  if (!stage) return;
+  const { azimuth, elevation } = view(name);
+  stage.camera.go(stage.model.box.isEmpty() ? { azimuth, elevation } : stage.camera.fitted(stage.model.box, azimuth, elevation));
+}
+
+function project() {
+  if (!stage) return;
+  stage.camera.flat = !stage.camera.flat;
+  find('#projection').setAttribute('aria-pressed', String(stage.camera.flat));
+  changeIcon(find('#projection'), stage.camera.flat ? 'orthographic' : 'perspective');
+  stage.invalidate();
+}
+
+function toggleGrid() {
+  if (!stage) return;
+  stage.ground.grid.visible = !stage.ground.grid.visible;
+  find('#grid').setAttribute('aria-pressed', String(stage.ground.grid.visible));
+  stage.invalidate();
+}
+
+find('#fit').addEventListener('click', fit);
+find('#projection').addEventListener('click', project);
+find('#grid').addEventListener('click', toggleGrid);
+find('#views-menu').append(...Object.keys(VIEWS).map((name, i) => make('button', { role: 'menuitem', 'data-testid': `view-${name}`, onclick: () => look(name) }, make('span', { text: name }), make('kbd', { text: i + 1 }))));
+menu(find('#views'), find('#views-menu'));
+menu(find('#time'), find('#times'));
+menu(find('#export'), find('#exports'), { fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size) });
+find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
+
+function togglePanel() {
+  const closed = document.body.classList.toggle('no-panel');
+  find('#toggle-panel').setAttribute('aria-expanded', String(!closed));
+}
+find('#toggle-panel').addEventListener('click', togglePanel);
+
+if (stage) {
+  const axes = new Axes(find('#axes'), stage.camera);
+  const ticks = new Ticks(find('#ticks'), stage);
+  stage.onDraw(() => {
+    axes.draw();
+    ticks.draw();
+    readouts.scale(stage.camera, stage.size[1]);
+    keepCamera();
+  });
+  listenToPointer(canvas, stage.camera, {
+    clicked: (x, y) => card.pick(x, y),
+    doubled: (x, y) => {
+      const hit = stage.at(x, y);
+      if (hit) stage.camera.go({ target: hit.point });
+    },
+  });
+}
+
+theme.listen(find('#theme'), () => stage?.theme(theme.dark()));
+
+// The camera stays where it is when the page is loaded again.
+
+function keepCamera() {
+  clearTimeout(keepCamera.timer);
+  if (!state.fitted) return;
+  keepCamera.timer = setTimeout(() => {
+    const { azimuth, elevation, distance, target, flat } = stage.camera;
+    try {
+      sessionStorage.setItem(`burgeon-camera ${state.hello.path}`, JSON.stringify({ azimuth, elevation, distance, flat, target: target.clone().add(stage.model.origin).toArray() }));
+    } catch {
+      // Without storage the view is fitted again.
+    }
+  }, 300);
+}
+
+function restoreCamera() {
+  try {
+    const kept = JSON.parse(sessionStorage.getItem(`burgeon-camera ${state.hello.path}`));
+    if (!kept) return false;
+    const { azimuth, elevation, distance } = kept;
+    const target = stage.camera.target.clone().fromArray(kept.target).sub(stage.model.origin);
+    if (![azimuth, elevation, distance, ...target.toArray()].every(Number.isFinite)) return false;
+    if (kept.flat) project();
+    stage.camera.go({ azimuth, elevation, distance, target }, true);
+    return true;
+  } catch {
+    return false;
+  }
+}
+
+// Keys
+
+function escape() {
+  if (find('#sheet').open) find('#sheet').close();
+  else if (!closeMenu() && !working.cancel()) {
+    if (card.open) card.close();
+    else if (variations.open && find('#tray').contains(document.activeElement)) variations.toggle(false);
+    else if (!find('#line-result').hidden) clearMark();
+    else if (variations.open) variations.toggle(false);
+    else if (document.activeElement !== canvas) canvas.focus();
+  }
+}
+
+const TURN = Math.PI / 36;
+const arrow = (azimuth, elevation, x, y) => (event) => {
+  if (!stage) return;
+  if (event.shiftKey) stage.camera.pan(x * 0.05, y * 0.05);
+  else stage.camera.rotate(azimuth * TURN, elevation * TURN);
+};
+
+const showSheet = keys.listen(
+  [
+    ['View', [
+      ['F', 'Fit the model', ['f'], fit],
+      ...Object.keys(VIEWS).map((name, i) => [`${i + 1}`, name === 'iso' ? 'Isometric' : `From the ${name}`, [`${i + 1}`], () => look(name)]),
+      ['O', 'Perspective or parallel', ['o'], project],
+      ['W', 'Next shading', ['w'], () => setMode(MODES[(MODES.indexOf(find('[name=mode]:checked').value) + 1) % MODES.length])],
+      ['G', 'Grid', ['g'], toggleGrid],
+      ['← → ↑ ↓', 'Turn', ['ArrowLeft'], arrow(1, 0, -1, 0)],
+      ['⇧ ← →', 'Move', ['ArrowRight'], arrow(-1, 0, 1, 0)],
+      ['+ −', 'Nearer, farther', ['+', '='], () => stage?.camera.zoom(1 / 1.15)],
+    ]],
+    ['Mouse', [
+      ['drag', 'Turn'],
+      ['right drag', 'Move; also with Shift'],
+      ['wheel', 'Zoom to the pointer'],
+      ['click', 'What made this?'],
+      ['double click', 'Turn around this point'],
+    ]],
+    ['Model', [
+      ['Space', 'Play the derivation', [' '], () => steps.toggle()],
+      [', .', 'One step back, one on', [','], () => steps.move(-1)],
+      ['A', 'All steps', ['a'], () => steps.all()],
+      ['R', 'Another seed', ['r'], () => seed.roll()],
+      ['V', 'Variations', ['v'], () => variations.toggle()],
+      ['Esc', 'Cancel, close, clear', ['Escape'], escape],
+    ]],
+    ['Page', [
+      ['P', 'Panel', ['p'], togglePanel],
+      ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
+      ['E', 'Export', ['e'], () => find('#export').click()],
+      ['L', 'Light or dark', ['l'], () => find('#theme').click()],
+      ['?', 'These keys', ['?'], () => showSheet()],
+    ]],
+  ],
+  keys.typing,
+  {
+    ArrowUp: arrow(0, 1, 0, 1),
+    ArrowDown: arrow(0, -1, 0, -1),
+    '-': () => stage?.camera.zoom(1.15),
+    '.': () => steps.move(1),
+  },
+);
+
+/** For tests: to look, not to touch. */
+window.burgeon = Object.freeze({
+  get run() {
+    return state.run;
+  },
+  get camera() {
+    return stage && { ...stage.camera.state(), target: stage.camera.target.toArray(), flat: stage.camera.flat };
+  },
+  get memory() {
+    return stage && { ...stage.renderer.info.memory, programs: stage.renderer.info.programs.length };
+  },
+  /** The pixel of the window where a point of the scene (m, z up) is seen; null behind the camera. */
+  project: (point) => stage?.pixel(stage.inside(point)) ?? null,
+});

@@ -1,0 +1,75 @@
+// Materials that live from model to model, so that a reload compiles no shaders and uploads no picture twice.
+
+import {
+  DoubleSide, FrontSide, LinearFilter, LinearMipmapLinearFilter, MeshStandardMaterial, RepeatWrapping, SRGBColorSpace, Texture,
+} from 'three';
+
+export class Materials {
+  #materials = new Map();
+  #textures = [];
+
+  /** The materials of a file; `release` lets go of what no later call has used. */
+  async of(glb) {
+    const { materials = [], textures = [] } = glb.json;
+    const pictures = await Promise.all(textures.map((texture) => this.#texture(glb.image(texture.source))));
+    const used = new Map();
+    const made = materials.map((given) => {
+      const picture = pictures[given.pbrMetallicRoughness?.baseColorTexture?.index];
+      const key = JSON.stringify([{ ...given, name: undefined }, picture?.id]);
+      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture));
+      return used.get(key);
+    });
+    return { made, keep: () => this.#keep(used, new Set(pictures)) };
+  }
+
+  /** A grey of the exporter's own for primitives without a material. */
+  plain = new MeshStandardMaterial({ color: 0x999999, roughness: 0.8 });
+
+  async #texture({ bytes, type }) {
+    const known = this.#textures.find((it) => same(it.bytes, bytes));
+    if (known) return known.texture;
+    const settings = { premultiplyAlpha: 'none', colorSpaceConversion: 'none' };
+    const picture = await createImageBitmap(new Blob([bytes], { type }), settings);
+    const texture = new Texture(picture);
+    texture.flipY = false;
+    texture.colorSpace = SRGBColorSpace;
+    texture.wrapS = texture.wrapT = RepeatWrapping;
+    texture.magFilter = LinearFilter;
+    texture.minFilter = LinearMipmapLinearFilter;
+    texture.anisotropy = 8;
+    texture.needsUpdate = true;
+    this.#textures.push({ bytes: bytes.slice(), texture });
+    return texture;
+  }
+
+  #keep(used, pictures) {
+    for (const [key, material] of this.#materials) if (!used.has(key)) material.dispose();
+    this.#materials = used;
+    this.#textures = this.#textures.filter(({ texture }) => {
+      if (pictures.has(texture)) return true;
+      texture.image.close();
+      texture.dispose();
+      return false;
+    });
+  }
+}
+
+function material(given, picture) {
+  const { baseColorFactor = [1, 1, 1, 1], metallicFactor = 1, roughnessFactor = 1 } = given.pbrMetallicRoughness ?? {};
+  const [r, g, b, opacity] = baseColorFactor;
+  const made = new MeshStandardMaterial({ roughness: roughnessFactor, metalness: metallicFactor });
+  made.color.setRGB(r, g, b);
+  made.emissive.setRGB(...(given.emissiveFactor ?? [0, 0, 0]));
+  made.emissiveIntensity = given.extensions?.KHR_materials_emissive_strength?.emissiveStrength ?? 1;
+  made.side = given.doubleSided ? DoubleSide : FrontSide;
+  if (picture) made.map = picture;
+  if (given.alphaMode === 'BLEND') Object.assign(made, { transparent: true, opacity, depthWrite: false });
+  if (given.alphaMode === 'MASK') made.alphaTest = given.alphaCutoff ?? 0.5;
+  return made;
+}
+
+function same(a, b) {
+  if (a.length !== b.length) return false;
+  for (let i = 0; i < a.length; i++) if (a[i] !== b[i]) return false;
+  return true;
+}

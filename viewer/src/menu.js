@@ -1,0 +1,47 @@
+// Buttons that open a small menu beside them.
+
+let opened = null;
+
+export function menu(button, sheet, { fill } = {}) {
+  const set = (open) => {
+    if (open && opened && opened !== set) opened(false);
+    opened = open ? set : opened === set ? null : opened;
+    if (open) fill?.();
+    sheet.hidden = !open;
+    button.setAttribute('aria-expanded', String(open));
+  };
+  button.addEventListener('click', () => set(sheet.hidden));
+  sheet.addEventListener('keydown', (event) => {
+    const items = [...sheet.querySelectorAll('a, button')];
+    const at = items.indexOf(document.activeElement);
+    const move = { ArrowDown: 1, ArrowUp: -1 }[event.key];
+    if (!move || items.length === 0) return;
+    event.preventDefault();
+    event.stopPropagation();
+    items[(at + move + items.length) % items.length].focus();
+  });
+  button.addEventListener('keydown', (event) => {
+    if (event.key !== 'ArrowDown') return;
+    event.preventDefault();
+    event.stopPropagation();
+    set(true);
+    sheet.querySelector('a, button')?.focus();
+  });
+  sheet.addEventListener('click', (event) => {
+    if (event.target.closest('a, button')) {
+      set(false);
+      button.focus();
+    }
+  });
+  addEventListener('pointerdown', (event) => {
+    if (!sheet.hidden && !sheet.contains(event.target) && !button.contains(event.target)) set(false);
+  });
+  return set;
+}
+
+/** Closes the open menu. Returns whether there was one. */
+export function closeMenu() {
+  if (!opened) return false;
+  opened(false);
+  return true;
+}

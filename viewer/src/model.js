@@ -1,0 +1,125 @@
+// What a file shows, as meshes of three.js that remember where in the file they come from.
+
+import {
+  Box3, BufferAttribute, BufferGeometry, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Mesh, Quaternion, Sphere, Vector3,
+} from 'three';
+
+const ONE = new Vector3(1, 1, 1);
+
+/** Builds the model; `made` are the file's materials. */
+export function build(glb, made, plain) {
+  const model = new Model();
+  const { scenes, scene = 0, nodes = [] } = glb.json;
+  const geometries = (glb.json.meshes ?? []).map((mesh) => mesh.primitives.map((it) => geometry(glb, it)));
+  model.geometries = geometries.flat();
+
+  const visit = (index, parent) => {
+    const node = nodes[index];
+    const matrix = parent.clone().multiply(local(node));
+    if (node.mesh !== undefined) {
+      const placed = node.extensions?.EXT_mesh_gpu_instancing?.attributes;
+      const instances = placed && transforms(glb, placed);
+      glb.json.meshes[node.mesh].primitives.forEach((given, primitive) => {
+        const material = made[given.material] ?? plain;
+        model.add(geometries[node.mesh][primitive], material, matrix, instances, { node: index, mesh: node.mesh, primitive });
+      });
+    }
+    for (const child of node.children ?? []) visit(child, matrix);
+  };
+
+  let roots = scenes?.[scene]?.nodes ?? [];
+  const first = nodes[roots[0]];
+  if (roots.length === 1 && first.name === 'origin' && first.translation && first.mesh === undefined) {
+    // Far from zero 32-bit floats get coarse, so the page works around the model's own origin.
+    model.origin.set(...first.translation);
+    roots = first.children ?? [];
+  }
+  for (const root of roots) visit(root, new Matrix4());
+  return model;
+}
+
+export class Model {
+  group = new Group();
+  /** The meshes, each with `userData` of `{node, mesh, primitive, material}`. */
+  parts = [];
+  geometries = [];
+  box = new Box3();
+  /** Where (0, 0, 0) of the group is in the file. */
+  origin = new Vector3();
+  triangles = 0;
+
+  add(geometry, material, matrix, instances, from) {
+    const count = instances ? instances.length / 16 : 1;
+    let part;
+    if (instances) {
+      part = new InstancedMesh(geometry, material, 0);
+      part.count = count;
+      part.instanceMatrix = new InstancedBufferAttribute(instances, 16);
+      part.frustumCulled = false;
+      const each = new Matrix4();
+      for (let i = 0; i < count; i++) {
+        this.#include(geometry.boundingBox, each.fromArray(instances, i * 16).premultiply(matrix));
+      }
+    } else {
+      part = new Mesh(geometry, material);
+      this.#include(geometry.boundingBox, matrix);
+    }
+    part.matrixAutoUpdate = false;
+    part.matrix.copy(matrix);
+    part.castShadow = true;
+    part.receiveShadow = true;
+    part.userData = { ...from, material };
+    this.triangles += (geometry.index.count / 3) * count;
+    this.parts.push(part);
+    this.group.add(part);
+  }
+
+  dispose() {
+    for (const part of this.parts) if (part.isInstancedMesh) part.dispose();
+    for (const geometry of this.geometries) geometry.dispose();
+    this.group.clear();
+  }
+
+  #include(box, matrix) {
+    if (box.isEmpty()) return;
+    this.box.union(box.clone().applyMatrix4(matrix));
+  }
+}
+
+function geometry(glb, { attributes, indices }) {
+  const made = new BufferGeometry();
+  const { min, max } = glb.json.accessors[attributes.POSITION];
+  made.setAttribute('position', new BufferAttribute(glb.array(attributes.POSITION), 3));
+  if (attributes.NORMAL !== undefined) made.setAttribute('normal', new BufferAttribute(glb.array(attributes.NORMAL), 3));
+  if (attributes.TEXCOORD_0 !== undefined) made.setAttribute('uv', new BufferAttribute(glb.array(attributes.TEXCOORD_0), 2));
+  made.setIndex(new BufferAttribute(indices === undefined ? counting(made) : glb.array(indices), 1));
+  made.boundingBox = new Box3(new Vector3(...min), new Vector3(...max));
+  made.boundingSphere = made.boundingBox.getBoundingSphere(new Sphere());
+  return made;
+}
+
+function counting(geometry) {
+  return Uint32Array.from({ length: geometry.attributes.position.count }, (_, i) => i);
+}
+
+function local(node) {
+  if (node.matrix) return new Matrix4().fromArray(node.matrix);
+  const { translation = [0, 0, 0], rotation = [0, 0, 0, 1], scale = [1, 1, 1] } = node;
+  return new Matrix4().compose(new Vector3(...translation), new Quaternion(...rotation), new Vector3(...scale));
+}
+
+/** The matrices of all instances, one after another. */
+function transforms(glb, { TRANSLATION, ROTATION, SCALE }) {
+  const read = (accessor) => (accessor === undefined ? null : glb.array(accessor));
+  const [moves, turns, scales] = [read(TRANSLATION), read(ROTATION), read(SCALE)];
+  const count = moves ? moves.length / 3 : turns ? turns.length / 4 : scales.length / 3;
+  const all = new Float32Array(count * 16);
+  const [matrix, move, turn, scale] = [new Matrix4(), new Vector3(), new Quaternion(), ONE.clone()];
+  for (let i = 0; i < count; i++) {
+    if (moves) move.fromArray(moves, i * 3);
+    if (turns) turn.fromArray(turns, i * 4);
+    if (scales) scale.fromArray(scales, i * 3);
+    matrix.compose(move, turn, scale).toArray(all, i * 16);
+  }
+  return all;
+}

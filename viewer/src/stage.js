@@ -1,0 +1,244 @@
+// The picture: draws when something has changed, and never otherwise.
+//
+// A machine that is slow at a model (or draws without a graphics card) gets plainer frames while things move; the
+// finer frame follows as soon as they rest.
+
+import {
+  Box3, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, InstancedMesh, Mesh, MeshStandardMaterial, NeutralToneMapping,
+  PCFShadowMap, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+} from 'three';
+import { Camera } from './camera.js';
+import { Ground } from './grid.js';
+import { Light } from './light.js';
+import { Mark } from './mark.js';
+import { Model } from './model.js';
+import { Shading } from './shading.js';
+import { nearest } from './ray.js';
+
+const REST = 160; // ms without a change after which the finer frame is drawn
+const SLOW = 40; // ms for a frame above which moving frames are plainer
+const FINE = 450; // ms that the finer frame may take, about
+
+export class Stage {
+  model = new Model();
+  scene = new Scene();
+  mark = new Mark();
+  shading = new Shading();
+  #frame = 0;
+  #rest = 0;
+  #cost = 0;
+  #shadowDue = false;
+  #drawn = [];
+
+  /** Fails where there is no WebGL. */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.camera = new Camera(() => this.invalidate());
+    const context = canvas.getContext('webgl2', { alpha: true, antialias: !software(), depth: true, powerPreference: 'high-performance' });
+    if (!context) throw new Error('no WebGL 2');
+    this.slow = software(context);
+    this.renderer = new WebGLRenderer({ canvas, context });
+    this.renderer.toneMapping = NeutralToneMapping;
+    this.renderer.toneMappingExposure = 1;
+    this.renderer.shadowMap.enabled = true;
+    this.renderer.shadowMap.type = PCFShadowMap;
+    this.renderer.setClearColor(0, 0);
+    this.light = new Light(this.scene, this);
+    this.light.reflect(this.renderer, this.scene);
+    this.ground = new Ground(this.scene);
+    this.ground.under(this.model.box, this.model.origin);
+    this.scene.add(this.model.group);
+    this.#warm();
+    new ResizeObserver(() => this.#resize()).observe(canvas);
+    this.#resize();
+    canvas.addEventListener('webglcontextrestored', () => ((this.#shadowDue = true), this.invalidate()));
+  }
+
+  /** Calls `listener` after each frame. */
+  onDraw(listener) {
+    this.#drawn.push(listener);
+  }
+
+  theme(dark) {
+    for (const it of [this.ground, this.mark, this.shading]) it.theme(dark);
+    this.invalidate();
+  }
+
+  /** Puts `model` in the place of the one before and draws it at once. Returns the milliseconds. */
+  swap(model) {
+    const start = performance.now();
+    const old = this.model;
+    this.mark.clear();
+    this.shading.clear();
+    this.scene.remove(old.group);
+    this.model = model;
+    this.scene.add(model.group);
+    this.shading.apply(model);
+    this.ground.under(model.box, model.origin);
+    this.light.fit(model.box, this.ground.height);
+    this.#shadowDue = true;
+    old.dispose();
+    this.#draw(!this.slow || model.triangles < 60_000);
+    this.#finish();
+    this.#cost = performance.now() - start;
+    this.#later();
+    return this.#cost;
+  }
+
+  set mode(mode) {
+    this.shading.mode = mode;
+    this.shading.apply(this.model);
+    this.invalidate();
+  }
+
+  invalidate() {
+    this.#frame ||= requestAnimationFrame(() => {
+      this.#frame = 0;
+      const start = performance.now();
+      const fine = this.#cost < SLOW && !this.#shadowDue;
+      this.#draw(fine);
+      if (!fine || this.slow) {
+        this.#finish();
+        this.#cost = this.#cost * 0.5 + (performance.now() - start) * 0.5;
+      }
+      this.#later();
+    });
+  }
+
+  /** Draws the finer frame when nothing has changed for a while. */
+  #later() {
+    clearTimeout(this.#rest);
+    this.#rest = setTimeout(() => {
+      if (this.camera.moving) return;
+      this.#draw(true, true);
+    }, REST);
+  }
+
+  #draw(fine, still = false) {
+    const { renderer, camera, model, light } = this;
+    const [width, height] = this.size;
+    if (width === 0 || height === 0) return;
+    const shadows = fine && this.shading.mode !== 'normals';
+    if (shadows && this.#shadowDue) {
+      light.sun.shadow.needsUpdate = true;
+      this.#shadowDue = false;
+    }
+    // Only a uniform of the same shaders, so that nothing has to be compiled.
+    for (const part of model.parts) part.receiveShadow = shadows;
+    this.ground.shade.visible = shadows && !model.box.isEmpty();
+    this.#scale(still);
+    const grid = this.ground.follow(camera, height);
+    const [center, radius] = this.#extent(grid);
+    renderer.render(this.scene, camera.place(center, radius));
+    for (const listener of this.#drawn) listener();
+  }
+
+  /** What the clip planes must leave in. */
+  #extent(grid) {
+    const { box } = this.model;
+    const all = new Box3().copy(box);
+    const ground = this.camera.target.clone().setY(this.ground.height);
+    all.expandByPoint(ground);
+    const radius = box.isEmpty() ? 0 : box.getSize(new Vector3()).length() / 2;
+    const center = all.getCenter(new Vector3());
+    return [center, Math.max(radius + center.distanceTo(box.isEmpty() ? center : box.getCenter(new Vector3())), center.distanceTo(ground) + grid * 0.9)];
+  }
+
+  /** Pixels of the drawing for each of the page's; without a graphics card edges are smoothed only at rest. */
+  #scale(still) {
+    let ratio = Math.min(devicePixelRatio, 2);
+    if (this.slow) ratio = !still ? (this.#cost > 2 * SLOW ? 0.6 : 1) : this.#cost < FINE / 5 ? 2 : 1;
+    if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
+  }
+
+  #resize() {
+    const { clientWidth, clientHeight } = this.canvas;
+    this.size = [clientWidth, clientHeight];
+    if (clientWidth === 0 || clientHeight === 0) return;
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.height = clientHeight;
+    cancelAnimationFrame(this.#frame);
+    this.#frame = 0;
+    this.#draw(this.#cost < SLOW && !this.#shadowDue);
+    this.#later();
+  }
+
+  /** Waits until the frame is on the screen's side, so that its time can be told. */
+  #finish() {
+    const context = this.renderer.getContext();
+    context.readPixels(0, 0, 1, 1, context.RGBA, context.UNSIGNED_BYTE, new Uint8Array(4));
+  }
+
+  /** Compiles the usual shaders while the first script still runs. */
+  #warm() {
+    const geometry = new BufferGeometry();
+    for (const name of ['position', 'normal']) geometry.setAttribute(name, new BufferAttribute(new Float32Array(9), 3));
+    const warm = new Group();
+    for (const side of [FrontSide, DoubleSide]) {
+      const material = new MeshStandardMaterial({ side });
+      const meshes = [new Mesh(geometry, material), new InstancedMesh(geometry, material, 1)];
+      for (const mesh of meshes) warm.add(Object.assign(mesh, { castShadow: true, receiveShadow: true, frustumCulled: false }));
+    }
+    this.scene.add(warm);
+    this.light.sun.shadow.needsUpdate = true;
+    this.size = [1, 1];
+    this.#draw(true);
+    this.scene.remove(warm);
+    // The materials stay referenced, or their shaders would go with them.
+    this.warm = warm;
+  }
+
+  /** The triangle under a pixel of the window, or null. */
+  at(x, y) {
+    return nearest(this.model, this.#ray(x, y));
+  }
+
+  #ray(x, y) {
+    const box = this.canvas.getBoundingClientRect();
+    const caster = new Raycaster();
+    caster.setFromCamera(new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera.active);
+    return caster.ray;
+  }
+
+  /** The pixel of the window where a point in the page's own coordinates is; null behind the camera. */
+  pixel(point) {
+    const box = this.canvas.getBoundingClientRect();
+    const seen = point.clone().project(this.camera.active);
+    if (seen.z > 1 || seen.z < -1) return null;
+    return [box.left + ((seen.x + 1) / 2) * box.width, box.top + ((1 - seen.y) / 2) * box.height];
+  }
+
+  /** A point of the scene (m, z up) in the page's own coordinates. */
+  inside([x, y, z]) {
+    return new Vector3(x, z, -y).sub(this.model.origin);
+  }
+
+  /** A picture of what is seen, on `background` (two colours, top and bottom). */
+  picture(background) {
+    this.#draw(true, true);
+    const { width, height } = this.canvas;
+    const paper = document.createElement('canvas');
+    [paper.width, paper.height] = [width, height];
+    const draw = paper.getContext('2d');
+    const fill = draw.createLinearGradient(0, 0, 0, height);
+    background.forEach((color, i) => fill.addColorStop(i, color));
+    draw.fillStyle = fill;
+    draw.fillRect(0, 0, width, height);
+    draw.drawImage(this.canvas, 0, 0);
+    return new Promise((resolve) => paper.toBlob(resolve, 'image/png'));
+  }
+}
+
+let known;
+
+/** Whether WebGL runs on the processor. */
+function software(context) {
+  if (known !== undefined) return known;
+  const probe = context ?? document.createElement('canvas').getContext('webgl2');
+  if (!probe) return false;
+  const info = probe.getExtension('WEBGL_debug_renderer_info');
+  const name = probe.getParameter(info ? info.UNMASKED_RENDERER_WEBGL : probe.RENDERER);
+  if (!context) probe.getExtension('WEBGL_lose_context')?.loseContext();
+  return (known = /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name));
+}

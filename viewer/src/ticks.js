@@ -1,0 +1,61 @@
+// Labels in metres on the ground's axes, at the grid's lines.
+
+import { Vector3 } from 'three';
+import { make, say } from './dom.js';
+import { label } from './readouts.js';
+
+const SIDE = 6; // labels on each side of zero
+const APART = 46; // pixels between labels at least
+
+export class Ticks {
+  #pool = [];
+
+  constructor(place, stage) {
+    Object.assign(this, { place, stage });
+  }
+
+  draw() {
+    const { stage } = this;
+    const { camera, ground, model } = stage;
+    const shown = [];
+    const low = Math.sin(camera.elevation) < 0.05;
+    const cell = low || !ground.grid.visible ? 0 : this.#cell();
+    if (cell) {
+      const box = stage.canvas.getBoundingClientRect();
+      for (const axis of ['x', 'z']) {
+        for (let i = -SIDE; i <= SIDE; i++) {
+          if (i === 0) continue;
+          const at = new Vector3(axis === 'x' ? i * cell : 0, 0, axis === 'z' ? -i * cell : 0).sub(model.origin).setY(ground.height);
+          const { min, max } = model.box;
+          const margin = cell * 0.3;
+          if (at.x > min.x - margin && at.x < max.x + margin && at.z > min.z - margin && at.z < max.z + margin) continue;
+          if (at.distanceTo(camera.target) > camera.distance * 1.6) continue;
+          const pixel = stage.pixel(at);
+          if (!pixel) continue;
+          const [x, y] = [pixel[0] - box.left, pixel[1] - box.top];
+          if (x < 8 || y < 8 || x > box.width - 8 || y > box.height - 8) continue;
+          if (shown.some((other) => Math.abs(other.x - x) < APART && Math.abs(other.y - y) < 18)) continue;
+          shown.push({ x, y, text: label(Math.abs(i * cell)), axis });
+        }
+      }
+    }
+    shown.forEach(({ x, y, text, axis }, i) => {
+      this.#pool[i] ??= this.place.appendChild(make('span'));
+      const tick = this.#pool[i];
+      tick.hidden = false;
+      tick.dataset.axis = axis;
+      say(tick, text);
+      tick.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
+    });
+    for (const tick of this.#pool.slice(shown.length)) tick.hidden = true;
+  }
+
+  /** A multiple of the grid's cell far enough apart to be read. */
+  #cell() {
+    const pixel = (2 * this.stage.camera.reach) / this.stage.size[1];
+    let cell = this.stage.ground.cell;
+    while (cell / pixel < APART * 1.4) cell *= 10;
+    if (cell / 2 / pixel > APART * 2.2) cell /= 2;
+    return cell;
+  }
+}
