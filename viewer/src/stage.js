@@ -44,7 +44,7 @@ export class Stage {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(0, 0);
     this.light = new Light(this.scene, this);
-    this.light.reflect(this.renderer, this.scene);
+    if (!this.slow) this.light.reflect(this.renderer, this.scene);
     this.ground = new Ground(this.scene);
     this.ground.under(this.model.box, this.model.origin);
     this.scene.add(this.model.group);
