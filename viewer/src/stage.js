@@ -72,6 +72,9 @@ export class Stage {
     this.shading.clear();
     this.scene.remove(old.group);
     this.model = model;
+    // The camera stays where it is in the scene, also if the page's own zero moves.
+    if (model.box.isEmpty()) model.origin.copy(old.origin);
+    this.camera.target.add(old.origin).sub(model.origin);
     this.scene.add(model.group);
     this.shading.apply(model);
     this.ground.under(model.box, model.origin);
