@@ -4,7 +4,7 @@
 // finer frame follows as soon as they rest.
 
 import {
-  Box3, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, InstancedMesh, Mesh, MeshStandardMaterial, NeutralToneMapping,
+  Box3, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, InstancedMesh, Mesh, MeshStandardMaterial,
   PCFShadowMap, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { Camera } from './camera.js';
@@ -14,6 +14,7 @@ import { Mark } from './mark.js';
 import { Model } from './model.js';
 import { Shading } from './shading.js';
 import { nearest } from './ray.js';
+import { toneMapping } from './tone.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
 const SLOW = 40; // ms for a frame above which moving frames are plainer
@@ -38,8 +39,8 @@ export class Stage {
     if (!context) throw new Error('no WebGL 2');
     this.slow = software(context);
     this.renderer = new WebGLRenderer({ canvas, context });
-    this.renderer.toneMapping = NeutralToneMapping;
-    this.renderer.toneMappingExposure = 1;
+    this.renderer.toneMapping = toneMapping();
+    this.renderer.toneMappingExposure = 1.15;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(0, 0);
