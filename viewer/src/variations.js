@@ -12,6 +12,7 @@ export class Variations {
   #id = 0;
   #number = 9;
   #params = [];
+  #all = [];
   #parts = {};
 
   constructor({ socket, changes, seed }) {
@@ -33,6 +34,7 @@ export class Variations {
   }
 
   params(params) {
+    this.#all = params;
     this.#params = params.filter(({ control }) => control.type === 'number' || control.type === 'choice');
     const { of } = this.#parts;
     const kept = of.value;
@@ -109,8 +111,11 @@ export class Variations {
     place.onclick = () => {
       for (const other of this.#parts.list.children) other.setAttribute('aria-selected', String(other === place));
       const swept = this.#parts.of.value;
-      for (const [name, value] of Object.entries(params)) if (!swept || name === swept) this.changes.set(name, String(value));
-      if (!swept) this.seed.use(seed);
+      for (const [name, value] of Object.entries(params)) {
+        const now = this.#all.find((param) => param.name === name)?.value;
+        if (name === swept || (now !== undefined && String(now) !== String(value))) this.changes.set(name, String(value));
+      }
+      if (seed !== this.seed.value) this.seed.use(seed);
     };
   }
 
