@@ -1,7 +1,7 @@
 // The card of a picked module: what it is, who drew it, and by which rules it came to be.
 
 import { find, make } from './dom.js';
-import { count, plain } from './format.js';
+import { count, short } from './format.js';
 import { icon } from './icons.js';
 
 export class Card {
@@ -9,8 +9,8 @@ export class Card {
   #dot = find('#dot');
   #point = null;
 
-  constructor({ stage, socket, places, closed }) {
-    Object.assign(this, { stage, socket, places, closed });
+  constructor({ stage, socket, places, picking, closed }) {
+    Object.assign(this, { stage, socket, places, picking, closed });
     stage?.onDraw(() => this.#follow());
   }
 
@@ -25,15 +25,11 @@ export class Card {
     const { mesh, primitive, node } = hit.part.userData;
     this.#point = hit.point;
     this.#follow();
+    this.picking();
     this.socket.ask({ type: 'pick', mesh, primitive, triangle: hit.triangle, instance: hit.instance, node }, (answer) => {
       if (answer.type === 'refused') return;
       if (!answer.found) return this.#fill(make('p', { class: 'none', text: 'No module is known for this triangle.' }));
-      if (answer.ranges?.length) {
-        this.stage.mark.show(this.stage.model, answer.ranges, { node, instance: hit.instance });
-        this.#point = null;
-        this.#follow();
-        this.stage.invalidate();
-      }
+      this.#mark(answer, hit);
       this.#show(answer);
     });
   }
@@ -45,26 +41,48 @@ export class Card {
     this.closed();
   }
 
-  #show({ system, chain, feature, module, interpretation, path, chain_text: text }) {
+  /** Marks the picked module's triangles there; of a model that another system has placed, all of it. */
+  #mark({ ranges, placed }, { part, instance }) {
+    const { mesh, node } = part.userData;
+    const { model, mark } = this.stage;
+    const whole = () => model.parts.filter((it) => it.userData.node === node).map((it) => ({ mesh, primitive: it.userData.primitive, from: 0, count: Infinity }));
+    const wanted = placed ? whole() : (ranges ?? []);
+    if (wanted.length === 0) return;
+    mark.show(model, wanted.map((range) => ({ ...range, node, instances: instance === null ? null : [instance] })));
+    this.#point = null;
+    this.#follow();
+    this.stage.invalidate();
+  }
+
+  /** The module that placed what is seen comes first, since it is what one thinks to have clicked. */
+  #show({ placed, ...drawn }) {
+    if (!placed) return this.#fill(...this.#describe(drawn));
+    this.#fill(...this.#describe(placed), make('section', { class: 'inside' }, make('span', { class: 'caption', text: 'it places a model; this triangle of it is of' }), ...this.#describe(drawn)));
+  }
+
+  #describe({ system, chain, feature, module, interpretation, path, chain_text: text }) {
     const where = [`system ${system + 1}`, `chain ${chain + 1}`];
     if (feature) where.push(`feature ${feature}`);
     if (Number.isFinite(module.index)) where.push(`module ${count(module.index + 1)}`);
-    const values = (module.params ?? []).flatMap(({ name, value }) => [make('dt', { text: name }), make('dd', { text: typeof value === 'number' ? plain(value) : String(typeof value === 'object' ? JSON.stringify(value) : value) })]);
-    this.#fill(
+    const values = (module.params ?? []).flatMap(({ name, value }) => {
+      const full = typeof value === 'object' ? JSON.stringify(value) : String(value);
+      return [make('dt', { text: name }), make('dd', { text: short(full), title: full })];
+    });
+    return [
       make('h3', { class: 'module', text: module.symbol ?? module.text }),
       values.length ? make('dl', { class: 'values' }, ...values) : null,
       make('p', { class: 'where', text: where.join(' · ') }),
       interpretation ? make('div', { class: 'drawn' }, make('span', { class: 'caption', text: 'drawn by' }), make('code', { text: interpretation.text }), this.#place(interpretation)) : null,
       path?.length ? make('span', { class: 'caption', text: 'came from' }) : null,
       path?.length ? make('ol', { class: 'path' }, ...path.map((it) => this.#step(it))) : null,
-      text ? make('p', { class: 'chain', title: 'The chain around it' }, text.before, make('mark', { text: text.at }), text.after) : null,
-    );
+      text ? make('p', { class: 'chain', title: 'The chain around it' }, `${short(text.before)} `, make('mark', { text: short(text.at) }), ` ${short(text.after)}`) : null,
+    ].filter(Boolean);
   }
 
   #step(it) {
     return make('li', {},
       make('span', { class: 'step', text: String(it.step), title: `Step ${it.step}` }),
-      make('div', {}, make('code', { class: 'is', text: it.module }),
+      make('div', {}, make('code', { class: 'is', text: short(it.module), title: it.module }),
         make('div', { class: 'by' }, make('span', { text: it.rule ? `by ${it.rule}` : 'axiom' }), this.#place(it))));
   }
 

@@ -32,3 +32,6 @@ export function age(seconds) {
 export function bytes(number) {
   return number < 1e6 ? `${Math.round(number / 1e3)} kB` : `${(number / 1e6).toFixed(1)} MB`;
 }
+
+/** A text with its long decimals cut to five digits. */
+export const short = (text) => text.replace(/-?\d+\.\d{4,}(?:e[-+]?\d+)?/gi, (number) => String(Number(Number(number).toPrecision(5))));

@@ -12,8 +12,9 @@ export class Mark {
     for (const material of [this.#front, this.#behind]) material.color.set(dark ? 0xff5c9a : 0xe0246e);
   }
 
-  /** Shows `ranges` of the model; of a mesh that stands in many places only `instance` of `node`, if given. */
-  show(model, ranges, { node = null, instance = null } = {}) {
+  /** Shows ranges of triangles `{mesh, primitive, from, count, node, instances}`; without `node` and `instances`
+   *  wherever the mesh stands. */
+  show(model, ranges) {
     this.clear();
     const wanted = new Map();
     for (const range of ranges) {
@@ -22,12 +23,14 @@ export class Mark {
       wanted.get(key).push(range);
     }
     for (const part of model.parts) {
-      const { mesh, primitive } = part.userData;
-      const own = wanted.get(`${mesh} ${primitive}`);
-      if (!own || (instance !== null && part.userData.node !== node)) continue;
-      const geometry = pieces(part.geometry, own);
-      if (!geometry) continue;
-      for (const material of [this.#behind, this.#front]) this.#add(model, part, geometry, material, instance);
+      const { mesh, primitive, node } = part.userData;
+      const own = (wanted.get(`${mesh} ${primitive}`) ?? []).filter((range) => (range.node ?? node) === node);
+      for (const alike of byInstances(own)) {
+        const geometry = pieces(part.geometry, alike);
+        if (!geometry) continue;
+        const instances = part.isInstancedMesh ? (alike[0].instances?.filter((i) => i >= 0 && i < part.count) ?? null) : null;
+        for (const material of [this.#behind, this.#front]) this.#add(model, part, geometry, material, instances);
+      }
     }
   }
 
@@ -42,15 +45,13 @@ export class Mark {
     this.#meshes = [];
   }
 
-  #add(model, part, geometry, material, instance) {
+  #add(model, part, geometry, material, instances) {
     let mesh;
     if (part.isInstancedMesh) {
       mesh = new InstancedMesh(geometry, material, 0);
-      const own = instance !== null;
-      const all = part.instanceMatrix;
-      mesh.userData.own = own;
-      mesh.instanceMatrix = own ? new InstancedBufferAttribute(all.array.slice(instance * 16, instance * 16 + 16), 16) : all;
-      mesh.count = own ? 1 : part.count;
+      mesh.userData.own = instances !== null;
+      mesh.instanceMatrix = instances ? chosen(part.instanceMatrix, instances) : part.instanceMatrix;
+      mesh.count = instances ? instances.length : part.count;
     } else mesh = new Mesh(geometry, material);
     mesh.matrixAutoUpdate = false;
     mesh.frustumCulled = false;
@@ -59,6 +60,23 @@ export class Mark {
     model.group.add(mesh);
     this.#meshes.push(mesh);
   }
+}
+
+/** The ranges in lists of those that name the same instances. */
+function byInstances(ranges) {
+  const lists = new Map();
+  for (const range of ranges) {
+    const key = range.instances ? range.instances.join() : '';
+    if (!lists.has(key)) lists.set(key, []);
+    lists.get(key).push(range);
+  }
+  return lists.values();
+}
+
+function chosen(all, instances) {
+  const some = new Float32Array(instances.length * 16);
+  instances.forEach((instance, i) => some.set(all.array.subarray(instance * 16, instance * 16 + 16), i * 16));
+  return new InstancedBufferAttribute(some, 16);
 }
 
 function pieces(geometry, ranges) {

@@ -3,7 +3,6 @@
 import { find, make, say } from './dom.js';
 import { plain } from './format.js';
 import { icon } from './icons.js';
-import { randomSeed } from './seed.js';
 
 const NUMBERS = [4, 9, 16];
 
@@ -13,6 +12,7 @@ export class Variations {
   #id = 0;
   #number = 9;
   #params = [];
+  #all = [];
   #parts = {};
 
   constructor({ socket, changes, seed }) {
@@ -34,6 +34,7 @@ export class Variations {
   }
 
   params(params) {
+    this.#all = params;
     this.#params = params.filter(({ control }) => control.type === 'number' || control.type === 'choice');
     const { of } = this.#parts;
     const kept = of.value;
@@ -74,7 +75,7 @@ export class Variations {
     const param = this.#params.find(({ name }) => name === of.value);
     const message = { type: 'variations' };
     if (param) Object.assign(message, { param: param.name, values: this.#values(param) });
-    else message.seeds = Array.from({ length: this.#number }, randomSeed);
+    else message.seeds = Array.from({ length: this.#number }, () => String(Math.floor(Math.random() * 1e6)));
     const number = (message.seeds ?? message.values).length;
     list.replaceChildren(...Array.from({ length: number }, (_, i) => make('button', { class: 'picture', role: 'option', 'aria-selected': 'false', tabindex: i ? -1 : 0, disabled: true }, make('span', { class: 'label', text: '…' }))));
     let made = 0;
@@ -110,8 +111,11 @@ export class Variations {
     place.onclick = () => {
       for (const other of this.#parts.list.children) other.setAttribute('aria-selected', String(other === place));
       const swept = this.#parts.of.value;
-      for (const [name, value] of Object.entries(params)) if (!swept || name === swept) this.changes.set(name, String(value));
-      if (!swept) this.seed.use(seed);
+      for (const [name, value] of Object.entries(params)) {
+        const now = this.#all.find((param) => param.name === name)?.value;
+        if (name === swept || (now !== undefined && String(now) !== String(value))) this.changes.set(name, String(value));
+      }
+      if (seed !== this.seed.value) this.seed.use(seed);
     };
   }
 
