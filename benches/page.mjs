@@ -1,0 +1,69 @@
+// From a save to the picture: the median of many saves, of a model below 100,000 triangles, and of one of a million.
+//
+//   cargo build --release && node benches/page.mjs [SAVES]
+//
+// The clock starts before the file is written and stops when the page has drawn the new model. The server's part, from
+// the file's event to the model's bytes, is what the page is told.
+
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { fileURLToPath } from "node:url";
+
+import { Server, browse, drawn, folder } from "../tests/page/driver.mjs";
+
+const saves = Number(process.argv[2] ?? 21);
+const tower = readFileSync(fileURLToPath(new URL("../scripts/tower.lua", import.meta.url)), "utf8");
+
+// One cylinder of many segments.
+const million = `local A = module("A", "n")
+local s = lsystem({ object = turtle({ sides = 10 }) })
+s:axiom(A(50000))
+s:interpret("A(n)", function(this, n)
+  for i = 1, n do
+    this:turn(0.5):forward(0.1)
+  end
+end)
+s:derive(0)
+`;
+
+const median = (times) => times.toSorted((a, b) => a - b)[Math.floor(times.length / 2)];
+
+async function measure(name, text, flags) {
+  const path = join(folder(), "script.lua");
+  writeFileSync(path, text);
+  const server = await Server.start(path, "--port", "0", ...flags);
+  const browser = await browse();
+  try {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    await page.goto(server.address);
+    let run = await drawn(page);
+    await page.evaluate(() => {
+      window.drawnAt = {};
+      window.addEventListener("burgeon:drawn", (event) => (window.drawnAt[event.detail.run] = Date.now()));
+    });
+    const whole = [];
+    const parts = { script: [], rewriting: [], interpretation: [], scene: [], encode: [], total: [] };
+    let triangles = 0;
+    for (let save = 0; save < saves; save += 1) {
+      await new Promise((done) => setTimeout(done, 300));
+      const begin = Date.now();
+      writeFileSync(path, `${text}-- ${save}\n`);
+      run = await drawn(page, run);
+      whole.push((await page.evaluate((run) => window.drawnAt[run], run)) - begin);
+      const model = await page.evaluate(() => window.burgeon.model);
+      triangles = model.triangles;
+      for (const part of Object.keys(parts)) parts[part].push(model.times[part]);
+    }
+    const shown = Object.entries(parts).map(([part, times]) => `${part} ${median(times).toFixed(1)}`);
+    console.log(`| ${name} | ${triangles} | ${median(whole).toFixed(0)} ms | ${shown.at(-1).replace("total ", "")} ms | ${shown.slice(0, -1).join(", ")} |`);
+  } finally {
+    await browser.close();
+    await server.stop();
+  }
+}
+
+console.log("| script | triangles | save to picture | save to bytes | of that (ms) |");
+console.log("| --- | --- | --- | --- | --- |");
+await measure("tower.lua with one storey less", tower, ["--set", "floors=18"]);
+await measure("tower.lua", tower, []);
+await measure("a bent tube", million, []);

@@ -1,0 +1,124 @@
+// Starts `burgeon live` and a browser, and asks both what they show.
+//
+// BURGEON names the binary (target/release/burgeon if it is not given), CHROMIUM the browser, and PLAYWRIGHT the folder
+// whose node_modules has playwright-core.
+
+import { spawn } from "node:child_process";
+import { once } from "node:events";
+import { mkdtempSync, renameSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join, resolve } from "node:path";
+import { createInterface } from "node:readline";
+import { fileURLToPath } from "node:url";
+
+const root = resolve(fileURLToPath(import.meta.url), "../../..");
+const binary = process.env.BURGEON ?? join(root, "target/release/burgeon");
+const require = createRequire(join(resolve(process.env.PLAYWRIGHT ?? root), "package.json"));
+const { chromium } = require("playwright-core");
+
+/** A folder for scripts. */
+export const folder = () => mkdtempSync(join(tmpdir(), "burgeon page "));
+
+/** Saves as editors do: writes beside the file and renames. */
+export function save(path, text) {
+  writeFileSync(`${path}~`, text);
+  renameSync(`${path}~`, path);
+}
+
+/** A running server; `address` is where its page is. */
+export class Server {
+  static async start(script, ...flags) {
+    const server = new Server();
+    server.child = spawn(binary, ["live", script, "--json", "--no-open", ...flags], { stdio: ["ignore", "pipe", "pipe"] });
+    server.said = "";
+    server.child.stderr.on("data", (text) => (server.said += text));
+    const lines = createInterface({ input: server.child.stdout });
+    const [line] = await Promise.race([
+      once(lines, "line"),
+      once(server.child, "exit").then(() => Promise.reject(new Error(`the server ended: ${server.said}`))),
+    ]);
+    Object.assign(server, JSON.parse(line));
+    return server;
+  }
+
+  /** Bytes of memory that it holds at present. */
+  async memory() {
+    const { readFile } = await import("node:fs/promises");
+    const status = await readFile(`/proc/${this.child.pid}/status`, "utf8");
+    return Number(/VmRSS:\s+(\d+)/.exec(status)[1]) * 1024;
+  }
+
+  async stop() {
+    if (this.child.exitCode !== null) return;
+    const gone = once(this.child, "exit");
+    this.child.kill("SIGINT");
+    await gone;
+  }
+}
+
+/** A browser without a graphics card or a display. */
+export const browse = (...flags) =>
+  chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: [
+      "--no-sandbox",
+      "--disable-quic",
+      "--no-first-run",
+      "--disable-background-networking",
+      "--disable-component-update",
+      "--disable-sync",
+      "--use-angle=swiftshader",
+      "--enable-unsafe-swiftshader",
+      ...flags,
+    ],
+  });
+
+/** What can be seen of a page by its `data-testid`. */
+export const seen = (page, name) => page.locator(`[data-testid="${name}"]`);
+
+/** Waits until a model has been drawn whose run is later than `after`; gives its run. */
+export async function drawn(page, after = 0) {
+  const run = await page.waitForFunction(
+    (after) => {
+      const run = Number(document.documentElement.dataset.run ?? 0);
+      return run > after && run;
+    },
+    after,
+    { timeout: 60_000 },
+  );
+  return run.jsonValue();
+}
+
+/** The run whose model is shown at present. */
+export const run = (page) => page.evaluate(() => Number(document.documentElement.dataset.run ?? 0));
+
+/** The number that a readout shows. */
+export async function number(page, name) {
+  return Number((await seen(page, name).first().textContent()).replace(/[^\d.]/g, ""));
+}
+
+/** The colours of the picture: rows of red, green, blue and opacity, one byte each. */
+export async function pixels(page) {
+  const png = await page.locator("canvas#view").screenshot();
+  return page.evaluate(async (text) => {
+    const image = new Image();
+    image.src = `data:image/png;base64,${text}`;
+    await image.decode();
+    const canvas = document.createElement("canvas");
+    [canvas.width, canvas.height] = [image.width, image.height];
+    const context = canvas.getContext("2d");
+    context.drawImage(image, 0, 0);
+    return [...context.getImageData(0, 0, image.width, image.height).data];
+  }, png.toString("base64"));
+}
+
+/** How many pixels differ clearly between two pictures of the same size. */
+export function different(a, b) {
+  let count = 0;
+  for (let at = 0; at < a.length; at += 4) {
+    const far = [0, 1, 2].some((channel) => Math.abs(a[at + channel] - b[at + channel]) > 24);
+    if (far) count += 1;
+  }
+  return count;
+}

@@ -1,0 +1,383 @@
+// The live page in a real browser: what a person does and what they see.
+//
+//   node --test tests/page/
+
+import assert from "node:assert/strict";
+import { rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:http";
+import { readFile } from "node:fs/promises";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { Server, browse, different, drawn, folder, number, pixels, run, save, seen } from "./driver.mjs";
+
+const BLOCKS = `local count = param("count", { default = 3, min = 1, max = 12, step = 1, text = "Blocks of the tower" })
+local color = param("color", { default = "#b0413e" })
+local hollow = param("hollow", { default = false })
+local style = param("style", { default = "plain", choices = { "plain", "fluted" } })
+local Block, Slab = module("Block", "n"), module("Slab", "n")
+local tower = lsystem({ object = extruder({ shape = { { -2, -2 }, { 2, -2 }, { 2, 2 }, { -2, 2 } }, smooth = false }) })
+tower:axiom(Block(count))
+tower:rule("Block(n)", function(this, n)
+  if n == 0 then return nil end
+  return Slab(n), Block(n - 1)
+end)
+tower:interpret("Slab(n)", function(this, n)
+  this:color(color):caps(not hollow):scale(1 + n * 0.01):extrude(2)
+end)
+tower:derive()
+`;
+
+let browser;
+before(async () => (browser = await browse()));
+after(() => browser.close());
+
+/** Opens a script's page and hands everything to `act`; the console must stay free of errors. */
+async function open(text, act, { flags = [], fails = false } = {}) {
+  const script = join(folder(), "blocks.lua");
+  if (text !== null) writeFileSync(script, text);
+  const server = await Server.start(script, "--port", "0", ...flags);
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 } });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  try {
+    await page.goto(server.address);
+    await act({ page, script, server, context, complaints });
+    if (!fails) assert.deepEqual(complaints, []);
+  } finally {
+    await context.close();
+    await server.stop();
+  }
+}
+
+test("saving the script changes the picture, and saving it unchanged does nothing", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    const red = await pixels(page);
+    save(script, BLOCKS.replace("#b0413e", "#2a6fb0"));
+    const second = await drawn(page, first);
+    const blue = await pixels(page);
+    assert.ok(different(red, blue) > 1000, "a block of another colour covers thousands of pixels");
+    save(script, BLOCKS.replace("#b0413e", "#2a6fb0"));
+    writeFileSync(script, BLOCKS.replace("#b0413e", "#2a6fb0"));
+    await page.waitForTimeout(400);
+    assert.equal(await run(page), second);
+    assert.match(await seen(page, "time").textContent(), /\d/);
+  }));
+
+test("an error stands over the last good model until it is mended", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    const triangles = await number(page, "triangles");
+    save(script, BLOCKS.replace("Slab(n), Block(n - 1)", "Slab(n, 7), Block(n - 1)"));
+    const error = seen(page, "error");
+    await error.waitFor({ state: "visible" });
+    const text = await error.textContent();
+    assert.match(text, /blocks\.lua:10/);
+    assert.match(text, /Slab/);
+    await seen(page, "stale").waitFor({ state: "visible" });
+    assert.equal(await run(page), first);
+    assert.equal(await number(page, "triangles"), triangles);
+    save(script, BLOCKS.replace("default = 3", "default = 4"));
+    await drawn(page, first);
+    await error.waitFor({ state: "hidden" });
+    await seen(page, "stale").waitFor({ state: "hidden" });
+    assert.ok((await number(page, "triangles")) > triangles);
+  }));
+
+test("a rule that fails is told with its rule, module and step", () =>
+  open(BLOCKS.replace("if n == 0", "if n == 1 then error('too low') end if n == 0"), async ({ page }) => {
+    const error = seen(page, "error");
+    await error.waitFor({ state: "visible" });
+    const text = await error.textContent();
+    for (const part of [/too low/, /blocks\.lua:9/, /Block\(n\)/, /Block\(1\)/, /3/]) assert.match(text, part);
+  }));
+
+test("parameters change the model, keep their values across saves, and go back", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    let last = await drawn(page);
+    const triangles = await number(page, "triangles");
+    await seen(page, "param-count").fill("8");
+    await seen(page, "param-count").press("Enter");
+    last = await drawn(page, last);
+    const many = await number(page, "triangles");
+    assert.ok(many > triangles);
+    save(script, BLOCKS.replace("default = 3", "default = 5"));
+    last = await drawn(page, last);
+    assert.equal(await number(page, "triangles"), many);
+    assert.equal(await seen(page, "param-count").inputValue(), "8");
+    assert.match(await page.locator("body").textContent(), /default is now 5/i);
+    await seen(page, "param-count-slider").focus();
+    await page.keyboard.press("ArrowRight");
+    last = await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "9");
+    await seen(page, "param-hollow").check();
+    last = await drawn(page, last);
+    await seen(page, "param-count-reset").click();
+    last = await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "5");
+    await seen(page, "reset-all").click();
+    await drawn(page, last);
+    assert.equal(await seen(page, "param-hollow").isChecked(), false);
+  }));
+
+test("the step slider shows the model after each step", () =>
+  open(BLOCKS, async ({ page }) => {
+    let last = await drawn(page);
+    const whole = await number(page, "triangles");
+    const slider = seen(page, "steps");
+    assert.equal(await slider.getAttribute("max"), "4");
+    await slider.focus();
+    const counts = [];
+    for (let step = 0; step < 3; step += 1) {
+      await page.keyboard.press("ArrowLeft");
+      last = await drawn(page, last);
+      counts.push(await number(page, "triangles"));
+    }
+    assert.ok(counts[0] >= counts[1] && counts[1] > counts[2] && counts[0] <= whole, `${counts} of ${whole}`);
+    await seen(page, "all-steps").click();
+    await drawn(page, last);
+    assert.equal(await number(page, "triangles"), whole);
+  }));
+
+test("a click on a known point tells the module, the line and the path of rules", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    // The middle of the second block's front: the blocks are 2 m high, and the second one is Slab(2).
+    const [x, y] = await page.evaluate(() => window.burgeon.project([0, -2.04, 3]));
+    await page.mouse.click(x, y);
+    const card = seen(page, "picked");
+    await card.waitFor({ state: "visible" });
+    const text = await card.textContent();
+    assert.match(text, /Slab/);
+    assert.match(text, /blocks\.lua:12/);
+    assert.match(text, /blocks\.lua:8/);
+    assert.match(text, /Block\(3\).*Block\(2\).*Slab\(2\)/s);
+    const before = await pixels(page);
+    await page.keyboard.press("Escape");
+    await card.waitFor({ state: "hidden" });
+    await page.waitForTimeout(300);
+    assert.ok(different(before, await pixels(page)) > 200, "the module's triangles were marked");
+  }));
+
+test("a line of the script marks all that it made", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    const before = await pixels(page);
+    const line = seen(page, "line");
+    if (!(await line.isVisible())) await seen(page, "derivation").click();
+    await line.fill("12");
+    await line.press("Enter");
+    await seen(page, "highlighted").waitFor({ state: "visible" });
+    assert.match(await seen(page, "highlighted").textContent(), /3/);
+    await page.waitForTimeout(300);
+    assert.ok(different(before, await pixels(page)) > 2000);
+  }));
+
+test("the page finds the server again after a restart, and two pages show the same", () =>
+  open(
+    BLOCKS,
+    async ({ page, script, server, context }) => {
+      await drawn(page);
+      const other = await context.newPage();
+      await other.goto(server.address);
+      const last = await drawn(other);
+      await seen(other, "param-count").fill("6");
+      await seen(other, "param-count").press("Enter");
+      await drawn(other, last);
+      await page.waitForFunction(() => document.querySelector("[data-testid=param-count]").value === "6");
+      await other.reload();
+      await drawn(other);
+      await server.stop();
+      const connection = (state) => page.locator(`[data-testid=connection][data-state=${state}]`).waitFor({ timeout: 20_000 });
+      await connection("lost");
+      const again = await Server.start(script, "--port", String(server.port), "--token", server.token);
+      try {
+        await connection("live");
+        save(script, BLOCKS.replace("default = 3", "default = 2"));
+        await page.waitForFunction(() => document.querySelector("[data-testid=param-count]").value === "2");
+      } finally {
+        await again.stop();
+      }
+    },
+    { fails: true },
+  ));
+
+test("a script that is not there is waited for, and one that is broken at the start is told", async () => {
+  await open(null, async ({ page, script }) => {
+    await seen(page, "waiting").waitFor({ state: "visible" });
+    save(script, "this is no Lua");
+    await seen(page, "error").waitFor({ state: "visible" });
+    save(script, BLOCKS);
+    await drawn(page);
+    await seen(page, "error").waitFor({ state: "hidden" });
+    rmSync(script);
+    await seen(page, "waiting").waitFor({ state: "visible" });
+    assert.ok((await number(page, "triangles")) > 0, "the last model stays");
+  });
+});
+
+test("variations are shown and a click adopts one; presets come back", () =>
+  open(BLOCKS.replace("extrude(2)", "extrude(1 + random())"), async ({ page }) => {
+    let last = await drawn(page);
+    await seen(page, "vary").click();
+    const cells = page.locator("[data-testid=variations-list] [role=option]");
+    await cells.nth(3).locator("img").waitFor({ state: "visible", timeout: 30_000 });
+    await cells.nth(2).click();
+    last = await drawn(page, last);
+    const seed = await seen(page, "seed").inputValue();
+    assert.notEqual(seed, "0");
+    await page.keyboard.press("Escape");
+    await seen(page, "param-count").fill("7");
+    await seen(page, "param-count").press("Enter");
+    last = await drawn(page, last);
+    await seen(page, "preset-save").click();
+    await seen(page, "preset-name").fill("tall");
+    await seen(page, "preset-name").press("Enter");
+    await page.waitForFunction(() => [...document.querySelectorAll("[data-testid=presets] option")].some((it) => it.textContent === "tall"));
+    await seen(page, "reset-all").click();
+    last = await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "3");
+    await seen(page, "presets").selectOption("tall");
+    await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "7");
+    assert.equal(await seen(page, "seed").inputValue(), seed);
+  }));
+
+test("exports are downloaded, and a screenshot is", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    for (const [format, begins] of [["glb", "glTF"], ["png", "\x89PNG"], ["obj", "PK"], ["svg", "<"]]) {
+      const download = page.waitForEvent("download");
+      await seen(page, "export").click();
+      await seen(page, `export-${format}`).click();
+      const bytes = await readFile(await (await download).path());
+      assert.equal(bytes.subarray(0, begins.length).toString("latin1"), begins, format);
+    }
+    const download = page.waitForEvent("download");
+    await seen(page, "screenshot").click();
+    const bytes = await readFile(await (await download).path());
+    assert.equal(bytes.subarray(1, 4).toString("latin1"), "PNG");
+  }));
+
+test("everything can be done from the keyboard, and ? tells how", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    await page.keyboard.press("?");
+    await seen(page, "keys").waitFor({ state: "visible" });
+    await page.keyboard.press("Escape");
+    await seen(page, "keys").waitFor({ state: "hidden" });
+    const reached = new Set();
+    for (let presses = 0; presses < 60; presses += 1) {
+      await page.keyboard.press("Tab");
+      reached.add(await page.evaluate(() => document.activeElement?.dataset?.testid ?? ""));
+    }
+    for (const name of ["export", "theme", "help", "param-count", "seed", "dice", "play", "fit"]) {
+      assert.ok(reached.has(name), `${name} is reached by Tab; reached: ${[...reached]}`);
+    }
+    const before = await pixels(page);
+    await page.keyboard.press("5");
+    await page.waitForTimeout(500);
+    assert.ok(different(before, await pixels(page)) > 500, "a standard view is another picture");
+  }));
+
+test("shading modes and themes are other pictures; the camera stays across saves", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    const pictures = [];
+    for (const mode of ["lit", "wire", "normals", "uv"]) {
+      await seen(page, `mode-${mode}`).check({ force: true });
+      await page.waitForTimeout(500);
+      pictures.push(await pixels(page));
+    }
+    for (let a = 0; a < pictures.length; a += 1) {
+      for (let b = a + 1; b < pictures.length; b += 1) {
+        assert.ok(different(pictures[a], pictures[b]) > 1000, `modes ${a} and ${b}`);
+      }
+    }
+    await seen(page, "mode-lit").check({ force: true });
+    const box = await page.locator("canvas#view").boundingBox();
+    await page.mouse.move(box.x + box.width / 2, box.y + box.height / 2);
+    await page.mouse.down();
+    await page.mouse.move(box.x + box.width / 2 + 150, box.y + box.height / 2 + 20, { steps: 4 });
+    await page.mouse.up();
+    await page.waitForTimeout(400);
+    const corner = () => page.evaluate(() => JSON.stringify(window.burgeon.project([2, 2, 0])));
+    const where = await corner();
+    save(script, BLOCKS.replace("default = 3", "default = 9"));
+    await drawn(page, first);
+    assert.equal(await corner(), where);
+    const light = await pixels(page);
+    await page.emulateMedia({ colorScheme: "dark" });
+    await page.waitForTimeout(500);
+    assert.ok(different(light, await pixels(page)) > 10_000);
+  }));
+
+test("a page of another site, a wrong token and a path that leads away are refused", () =>
+  open(BLOCKS, async ({ page, server, context }) => {
+    await drawn(page);
+    const base = `http://127.0.0.1:${server.port}`;
+    const status = async (path, headers) => (await context.request.get(base + path, { headers, maxRedirects: 0 })).status();
+    assert.equal(await status("/"), 403);
+    assert.equal(await status(`/${"0".repeat(32)}/`), 403);
+    assert.equal(await status(`/${server.token}/`, { Host: "example.org" }), 403);
+    assert.equal(await status(`/${server.token}/`, { Origin: "http://example.org" }), 403);
+    for (const path of ["/%2e%2e/%2e%2e/etc/passwd", "/..%2f..%2fetc/passwd", "/model/../../Cargo.toml", "/none"]) {
+      const answered = await status(`/${server.token}${path}`);
+      assert.ok(answered === 404 || answered === 403, `${path}: ${answered}`);
+    }
+    const foreign = createServer((_, answer) => answer.setHeader("content-type", "text/html").end("<p>elsewhere"));
+    await new Promise((done) => foreign.listen(0, "127.0.0.1", done));
+    const elsewhere = await context.newPage();
+    await elsewhere.goto(`http://127.0.0.1:${foreign.address().port}/`);
+    const opened = await elsewhere.evaluate(
+      (address) =>
+        new Promise((done) => {
+          const socket = new WebSocket(address);
+          socket.onopen = () => done("open");
+          socket.onerror = () => done("refused");
+        }),
+      `ws://127.0.0.1:${server.port}/${server.token}/socket`,
+    );
+    foreign.close();
+    assert.equal(opened, "refused");
+  }));
+
+test("without WebGL the page says so and the rest works", async () => {
+  const plain = await browse("--disable-3d-apis");
+  const script = join(folder(), "blocks.lua");
+  writeFileSync(script, BLOCKS);
+  const server = await Server.start(script, "--port", "0");
+  try {
+    const page = await plain.newPage();
+    await page.goto(server.address);
+    await seen(page, "no-webgl").waitFor({ state: "visible" });
+    await page.waitForFunction(() => /\d/.test(document.querySelector("[data-testid=triangles]").textContent));
+    await seen(page, "param-count").fill("8");
+    await seen(page, "param-count").press("Enter");
+    save(script, "broken");
+    await seen(page, "error").waitFor({ state: "visible" });
+  } finally {
+    await plain.close();
+    await server.stop();
+  }
+});
+
+test("a long run tells its progress and can be cancelled", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    const slow = BLOCKS.replace("if n == 0", "local s = 0 for i = 1, 4e8 do s += i % 7 end if n == 0");
+    save(script, slow);
+    await seen(page, "cancel").waitFor({ state: "visible", timeout: 20_000 });
+    await seen(page, "cancel").click();
+    await seen(page, "working").waitFor({ state: "hidden", timeout: 20_000 });
+    assert.equal(await run(page), first);
+    save(script, slow + "-- again");
+    await seen(page, "cancel").waitFor({ state: "visible", timeout: 20_000 });
+    save(script, BLOCKS);
+    await page.waitForFunction((first) => Number(document.documentElement.dataset.run) > first, first);
+  }));
