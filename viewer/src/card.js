@@ -49,8 +49,6 @@ export class Card {
     const wanted = placed ? whole() : (ranges ?? []);
     if (wanted.length === 0) return;
     mark.show(model, wanted.map((range) => ({ ...range, node, instances: instance === null ? null : [instance] })));
-    this.#point = null;
-    this.#follow();
     this.stage.invalidate();
   }
 

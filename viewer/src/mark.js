@@ -1,12 +1,12 @@
 // Triangles shown in the marking colour: of a picked module, or of a line of the script.
 
-import { BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedMesh, Mesh, MeshBasicMaterial } from 'three';
+import { BufferAttribute, BufferGeometry, DoubleSide, InstancedBufferAttribute, InstancedMesh, Mesh, MeshBasicMaterial } from 'three';
 
 export class Mark {
   #meshes = [];
   // Seen where nothing is in front; and faintly where something is.
-  #front = new MeshBasicMaterial({ transparent: true, opacity: 0.72, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2, toneMapped: false });
-  #behind = new MeshBasicMaterial({ transparent: true, opacity: 0.16, depthWrite: false, depthTest: false, toneMapped: false });
+  #front = new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.72, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2, toneMapped: false });
+  #behind = new MeshBasicMaterial({ side: DoubleSide, transparent: true, opacity: 0.12, depthWrite: false, depthTest: false, toneMapped: false });
 
   theme(dark) {
     for (const material of [this.#front, this.#behind]) material.color.set(dark ? 0xff5c9a : 0xe0246e);

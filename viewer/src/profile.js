@@ -5,7 +5,7 @@ import { count, many, milliseconds } from './format.js';
 import { icon } from './icons.js';
 
 const COLUMNS = { applied: 'applied', made: 'made', ms: 'time' };
-const MOST = 12; // symbols shown of each system before the rest is folded
+const MOST = 8; // symbols shown of each system before the rest is folded
 
 export class Profile {
   #panel = find('#derivation');
@@ -47,7 +47,7 @@ export class Profile {
   #draw() {
     if (!this.#panel.open || !this.#model) return;
     const { systems, rules } = this.#model;
-    this.#systems.replaceChildren(...systems.map((system) => this.#system(system)));
+    this.#systems.replaceChildren(...[...systems].sort((a, b) => b.modules - a.modules).map((system) => this.#system(system)));
     this.#rules.replaceChildren(...(rules.length ? [this.#table(rules)] : []));
   }
 
