@@ -42,10 +42,20 @@ try {
 } catch {
   find('#stage').classList.add('blind');
   find('#screenshot').hidden = find('#scale').hidden = true;
-  find('#stage').append(make('p', { class: 'no-webgl', 'data-testid': 'no-webgl', text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.' }));
+  find('#stage').append(
+    make('p', {
+      class: 'no-webgl',
+      'data-testid': 'no-webgl',
+      text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.',
+    }),
+  );
 }
 
-const places = new Places(socket, (file, line) => highlight(file, line), () => [...(state.model?.files ?? []), state.hello.script]);
+const places = new Places(
+  socket,
+  (file, line) => highlight(file, line),
+  () => [...(state.model?.files ?? []), state.hello.script],
+);
 const params = new Params(changes);
 const presets = new Presets(changes, socket);
 const seed = new Seed(changes);
@@ -105,7 +115,8 @@ async function show(message) {
     if (marked) highlight(marked.file, marked.line, true);
     if (!state.fitted && message.url) {
       state.fitted = true;
-      if (!restoreCamera()) stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);
+      if (!restoreCamera())
+        stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);
     }
   }
   const ms = readouts.times(message, own);
@@ -157,9 +168,22 @@ socket.on('refused', ({ text }) => toast(text));
 // The view
 
 const modes = find('#modes');
-const MODE_NAMES = { lit: 'Lit', wire: 'Wireframe', normals: 'Normals; red where a face is seen from behind', uv: 'Texture coordinates' };
+const MODE_NAMES = {
+  lit: 'Lit',
+  wire: 'Wireframe',
+  normals: 'Normals; red where a face is seen from behind',
+  uv: 'Texture coordinates',
+};
 for (const [i, mode] of MODES.entries()) {
-  const input = make('input', { type: 'radio', name: 'mode', value: mode, checked: i === 0, 'data-testid': `mode-${mode}`, 'aria-label': MODE_NAMES[mode], onchange: () => setMode(mode) });
+  const input = make('input', {
+    type: 'radio',
+    name: 'mode',
+    value: mode,
+    checked: i === 0,
+    'data-testid': `mode-${mode}`,
+    'aria-label': MODE_NAMES[mode],
+    onchange: () => setMode(mode),
+  });
   modes.append(make('label', { title: `${MODE_NAMES[mode]} (W)` }, input, make('span', {}, icon(mode))));
 }
 
@@ -178,7 +202,9 @@ function fit() {
 function look(name) {
   if (!stage) return;
   const { azimuth, elevation } = view(name);
-  stage.camera.go(stage.model.box.isEmpty() ? { azimuth, elevation } : stage.camera.fitted(stage.model.box, azimuth, elevation));
+  stage.camera.go(
+    stage.model.box.isEmpty() ? { azimuth, elevation } : stage.camera.fitted(stage.model.box, azimuth, elevation),
+  );
 }
 
 function project() {
@@ -199,10 +225,21 @@ function toggleGrid() {
 find('#fit').addEventListener('click', fit);
 find('#projection').addEventListener('click', project);
 find('#grid').addEventListener('click', toggleGrid);
-find('#views-menu').append(...Object.keys(VIEWS).map((name, i) => make('button', { role: 'menuitem', 'data-testid': `view-${name}`, onclick: () => look(name) }, make('span', { text: name }), make('kbd', { text: i + 1 }))));
+find('#views-menu').append(
+  ...Object.keys(VIEWS).map((name, i) =>
+    make(
+      'button',
+      { role: 'menuitem', 'data-testid': `view-${name}`, onclick: () => look(name) },
+      make('span', { text: name }),
+      make('kbd', { text: i + 1 }),
+    ),
+  ),
+);
 menu(find('#views'), find('#views-menu'));
 menu(find('#time'), find('#times'));
-menu(find('#export'), find('#exports'), { fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size) });
+menu(find('#export'), find('#exports'), {
+  fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size),
+});
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
 
 function togglePanel() {
@@ -239,7 +276,16 @@ function keepCamera() {
   keepCamera.timer = setTimeout(() => {
     const { azimuth, elevation, distance, target, flat } = stage.camera;
     try {
-      sessionStorage.setItem(`burgeon-camera ${state.hello.path}`, JSON.stringify({ azimuth, elevation, distance, flat, target: target.clone().add(stage.model.origin).toArray() }));
+      sessionStorage.setItem(
+        `burgeon-camera ${state.hello.path}`,
+        JSON.stringify({
+          azimuth,
+          elevation,
+          distance,
+          flat,
+          target: target.clone().add(stage.model.origin).toArray(),
+        }),
+      );
     } catch {
       // Without storage the view is fitted again.
     }
@@ -283,38 +329,60 @@ const arrow = (azimuth, elevation, x, y) => (event) => {
 
 const showSheet = keys.listen(
   [
-    ['View', [
-      ['F', 'Fit the model', ['f'], fit],
-      ...Object.keys(VIEWS).map((name, i) => [`${i + 1}`, name === 'iso' ? 'Isometric' : `From the ${name}`, [`${i + 1}`], () => look(name)]),
-      ['O', 'Perspective or parallel', ['o'], project],
-      ['W', 'Next shading', ['w'], () => setMode(MODES[(MODES.indexOf(find('[name=mode]:checked').value) + 1) % MODES.length])],
-      ['G', 'Grid', ['g'], toggleGrid],
-      ['← → ↑ ↓', 'Turn', ['ArrowLeft'], arrow(1, 0, -1, 0)],
-      ['⇧ ← →', 'Move', ['ArrowRight'], arrow(-1, 0, 1, 0)],
-      ['+ −', 'Nearer, farther', ['+', '='], () => stage?.camera.zoom(1 / 1.15)],
-    ]],
-    ['Mouse', [
-      ['drag', 'Turn'],
-      ['right drag', 'Move; also with Shift'],
-      ['wheel', 'Zoom to the pointer'],
-      ['click', 'What made this?'],
-      ['double click', 'Turn around this point'],
-    ]],
-    ['Model', [
-      ['Space', 'Play the derivation', [' '], () => steps.toggle()],
-      [', .', 'One step back, one on', [','], () => steps.move(-1)],
-      ['A', 'All steps', ['a'], () => steps.all()],
-      ['R', 'Another seed', ['r'], () => seed.roll()],
-      ['V', 'Variations', ['v'], () => variations.toggle()],
-      ['Esc', 'Cancel, close, clear', ['Escape'], escape],
-    ]],
-    ['Page', [
-      ['P', 'Panel', ['p'], togglePanel],
-      ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
-      ['E', 'Export', ['e'], () => find('#export').click()],
-      ['L', 'Light or dark', ['l'], () => find('#theme').click()],
-      ['?', 'These keys', ['?'], () => showSheet()],
-    ]],
+    [
+      'View',
+      [
+        ['F', 'Fit the model', ['f'], fit],
+        ...Object.keys(VIEWS).map((name, i) => [
+          `${i + 1}`,
+          name === 'iso' ? 'Isometric' : `From the ${name}`,
+          [`${i + 1}`],
+          () => look(name),
+        ]),
+        ['O', 'Perspective or parallel', ['o'], project],
+        [
+          'W',
+          'Next shading',
+          ['w'],
+          () => setMode(MODES[(MODES.indexOf(find('[name=mode]:checked').value) + 1) % MODES.length]),
+        ],
+        ['G', 'Grid', ['g'], toggleGrid],
+        ['← → ↑ ↓', 'Turn', ['ArrowLeft'], arrow(1, 0, -1, 0)],
+        ['⇧ ← →', 'Move', ['ArrowRight'], arrow(-1, 0, 1, 0)],
+        ['+ −', 'Nearer, farther', ['+', '='], () => stage?.camera.zoom(1 / 1.15)],
+      ],
+    ],
+    [
+      'Mouse',
+      [
+        ['drag', 'Turn'],
+        ['right drag', 'Move; also with Shift'],
+        ['wheel', 'Zoom to the pointer'],
+        ['click', 'What made this?'],
+        ['double click', 'Turn around this point'],
+      ],
+    ],
+    [
+      'Model',
+      [
+        ['Space', 'Play the derivation', [' '], () => steps.toggle()],
+        [', .', 'One step back, one on', [','], () => steps.move(-1)],
+        ['A', 'All steps', ['a'], () => steps.all()],
+        ['R', 'Another seed', ['r'], () => seed.roll()],
+        ['V', 'Variations', ['v'], () => variations.toggle()],
+        ['Esc', 'Cancel, close, clear', ['Escape'], escape],
+      ],
+    ],
+    [
+      'Page',
+      [
+        ['P', 'Panel', ['p'], togglePanel],
+        ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
+        ['E', 'Export', ['e'], () => find('#export').click()],
+        ['L', 'Light or dark', ['l'], () => find('#theme').click()],
+        ['?', 'These keys', ['?'], () => showSheet()],
+      ],
+    ],
   ],
   keys.typing,
   {
