@@ -21,7 +21,7 @@ export class Axes {
     this.camera = camera;
     this.ends = ENDS.map((end) => {
       const line = end.label && svg('line', { x1: 0, y1: 0 });
-      const group = svg('g', { class: `axis axis-${end.name}${end.label ? '' : ' far'}`, });
+      const group = svg('g', { class: `axis axis-${end.name}${end.label ? '' : ' far'}` });
       const title = svg('title');
       title.textContent = `From the ${end.from}`;
       group.append(title);
@@ -45,7 +45,12 @@ export class Axes {
     const key = [right.x, right.y, back.y, back.x].map((it) => it.toFixed(4)).join();
     if (key === this.key) return;
     this.key = key;
-    const seen = this.ends.map((end) => ({ ...end, x: dot(right, end.at) * LENGTH, y: -dot(up, end.at) * LENGTH, z: dot(back, end.at) }));
+    const seen = this.ends.map((end) => ({
+      ...end,
+      x: dot(right, end.at) * LENGTH,
+      y: -dot(up, end.at) * LENGTH,
+      z: dot(back, end.at),
+    }));
     seen.sort((a, b) => a.z - b.z);
     for (const { group, ball, line, x, y } of seen) {
       ball.setAttribute('transform', `translate(${x.toFixed(2)} ${y.toFixed(2)})`);

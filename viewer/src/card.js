@@ -26,12 +26,16 @@ export class Card {
     this.#point = hit.point;
     this.#follow();
     this.picking();
-    this.socket.ask({ type: 'pick', mesh, primitive, triangle: hit.triangle, instance: hit.instance, node }, (answer) => {
-      if (answer.type === 'refused') return;
-      if (!answer.found) return this.#fill(make('p', { class: 'none', text: 'No module is known for this triangle.' }));
-      this.#mark(answer, hit);
-      this.#show(answer);
-    });
+    this.socket.ask(
+      { type: 'pick', mesh, primitive, triangle: hit.triangle, instance: hit.instance, node },
+      (answer) => {
+        if (answer.type === 'refused') return;
+        if (!answer.found)
+          return this.#fill(make('p', { class: 'none', text: 'No module is known for this triangle.' }));
+        this.#mark(answer, hit);
+        this.#show(answer);
+      },
+    );
   }
 
   close() {
@@ -45,19 +49,31 @@ export class Card {
   #mark({ ranges, placed }, { part, instance }) {
     const { mesh, node } = part.userData;
     const { model, mark } = this.stage;
-    const whole = () => model.parts.filter((it) => it.userData.node === node).map((it) => ({ mesh, primitive: it.userData.primitive, from: 0, count: Infinity }));
+    const whole = () =>
+      model.parts
+        .filter((it) => it.userData.node === node)
+        .map((it) => ({ mesh, primitive: it.userData.primitive, from: 0, count: Infinity }));
     const wanted = placed ? whole() : (ranges ?? []);
     if (wanted.length === 0) return;
-    mark.show(model, wanted.map((range) => ({ ...range, node, instances: instance === null ? null : [instance] })));
-    this.#point = null;
-    this.#follow();
+    mark.show(
+      model,
+      wanted.map((range) => ({ ...range, node, instances: instance === null ? null : [instance] })),
+    );
     this.stage.invalidate();
   }
 
   /** The module that placed what is seen comes first, since it is what one thinks to have clicked. */
   #show({ placed, ...drawn }) {
     if (!placed) return this.#fill(...this.#describe(drawn));
-    this.#fill(...this.#describe(placed), make('section', { class: 'inside' }, make('span', { class: 'caption', text: 'it places a model; this triangle of it is of' }), ...this.#describe(drawn)));
+    this.#fill(
+      ...this.#describe(placed),
+      make(
+        'section',
+        { class: 'inside' },
+        make('span', { class: 'caption', text: 'it places a model; this triangle of it is of' }),
+        ...this.#describe(drawn),
+      ),
+    );
   }
 
   #describe({ system, chain, feature, module, interpretation, path, chain_text: text }) {
@@ -72,29 +88,70 @@ export class Card {
       make('h3', { class: 'module', text: module.symbol ?? module.text }),
       values.length ? make('dl', { class: 'values' }, ...values) : null,
       make('p', { class: 'where', text: where.join(' · ') }),
-      interpretation ? make('div', { class: 'drawn' }, make('span', { class: 'caption', text: 'drawn by' }), make('code', { text: interpretation.text }), this.#place(interpretation)) : null,
+      interpretation
+        ? make(
+            'div',
+            { class: 'drawn' },
+            make('span', { class: 'caption', text: 'drawn by' }),
+            make('code', { text: interpretation.text }),
+            this.#place(interpretation),
+          )
+        : null,
       path?.length ? make('span', { class: 'caption', text: 'came from' }) : null,
       path?.length ? make('ol', { class: 'path' }, ...path.map((it) => this.#step(it))) : null,
-      text ? make('p', { class: 'chain', title: 'The chain around it' }, `${short(text.before)} `, make('mark', { text: short(text.at) }), ` ${short(text.after)}`) : null,
+      text
+        ? make(
+            'p',
+            { class: 'chain', title: 'The chain around it' },
+            `${short(text.before)} `,
+            make('mark', { text: short(text.at) }),
+            ` ${short(text.after)}`,
+          )
+        : null,
     ].filter(Boolean);
   }
 
   #step(it) {
-    return make('li', {},
+    return make(
+      'li',
+      {},
       make('span', { class: 'step', text: String(it.step), title: `Step ${it.step}` }),
-      make('div', {}, make('code', { class: 'is', text: short(it.module), title: it.module }),
-        make('div', { class: 'by' }, make('span', { text: it.rule ? `by ${it.rule}` : 'axiom' }), this.#place(it))));
+      make(
+        'div',
+        {},
+        make('code', { class: 'is', text: short(it.module), title: it.module }),
+        make('div', { class: 'by' }, make('span', { text: it.rule ? `by ${it.rule}` : 'axiom' }), this.#place(it)),
+      ),
+    );
   }
 
   #place({ file, line }) {
     if (!file || !line) return null;
-    return make('span', { class: 'both' }, this.places.show(file, line), this.places.editor ? make('button', {
-      class: 'tool tiny', title: `Open ${file}:${line} in the editor`, 'aria-label': `Open ${file}:${line} in the editor`, onclick: () => this.socket.send({ type: 'open', file, line }),
-    }, icon('open')) : null);
+    return make(
+      'span',
+      { class: 'both' },
+      this.places.show(file, line),
+      this.places.editor
+        ? make(
+            'button',
+            {
+              class: 'tool tiny',
+              title: `Open ${file}:${line} in the editor`,
+              'aria-label': `Open ${file}:${line} in the editor`,
+              onclick: () => this.socket.send({ type: 'open', file, line }),
+            },
+            icon('open'),
+          )
+        : null,
+    );
   }
 
   #fill(...children) {
-    const close = make('button', { class: 'tool close', 'aria-label': 'Close', title: 'Close (Esc)', onclick: () => this.close() }, icon('close'));
+    const close = make(
+      'button',
+      { class: 'tool close', 'aria-label': 'Close', title: 'Close (Esc)', onclick: () => this.close() },
+      icon('close'),
+    );
     this.#card.replaceChildren(close, ...children.filter(Boolean));
     this.#card.hidden = false;
     this.#card.scrollTop = 0;

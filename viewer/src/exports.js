@@ -18,15 +18,22 @@ export function name(script) {
 /** Fills the menu; `camera` may be missing. */
 export function fill(place, { script, formats }, camera, size) {
   const degrees = (angle) => ((angle * 180) / Math.PI).toFixed(1);
-  place.replaceChildren(...formats.map((format) => {
-    let address = `export/${encodeURIComponent(name(script))}.${format}`;
-    if (camera && (format === 'png' || format === 'svg')) {
-      const azimuth = ((camera.azimuth * 180) / Math.PI + 36000) % 360;
-      address += `?azimuth=${azimuth.toFixed(1)}&elevation=${degrees(camera.elevation)}`;
-      if (format === 'png') address += `&width=${Math.round(size[0] * 2)}&height=${Math.round(size[1] * 2)}`;
-    }
-    return make('a', { role: 'menuitem', href: address, download: '', 'data-testid': `export-${format}` }, make('b', { text: `.${format}` }), make('span', { text: ABOUT[format] ?? '' }));
-  }));
+  place.replaceChildren(
+    ...formats.map((format) => {
+      let address = `export/${encodeURIComponent(name(script))}.${format}`;
+      if (camera && (format === 'png' || format === 'svg')) {
+        const azimuth = ((camera.azimuth * 180) / Math.PI + 36000) % 360;
+        address += `?azimuth=${azimuth.toFixed(1)}&elevation=${degrees(camera.elevation)}`;
+        if (format === 'png') address += `&width=${Math.round(size[0] * 2)}&height=${Math.round(size[1] * 2)}`;
+      }
+      return make(
+        'a',
+        { role: 'menuitem', href: address, download: '', 'data-testid': `export-${format}` },
+        make('b', { text: `.${format}` }),
+        make('span', { text: ABOUT[format] ?? '' }),
+      );
+    }),
+  );
 }
 
 export async function screenshot(stage, script) {

@@ -34,4 +34,5 @@ export function bytes(number) {
 }
 
 /** A text with its long decimals cut to five digits. */
-export const short = (text) => text.replace(/-?\d+\.\d{4,}(?:e[-+]?\d+)?/gi, (number) => String(Number(Number(number).toPrecision(5))));
+export const short = (text) =>
+  text.replace(/-?\d+\.\d{4,}(?:e[-+]?\d+)?/gi, (number) => String(Number(Number(number).toPrecision(5))));

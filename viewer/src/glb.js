@@ -2,7 +2,14 @@
 //
 // Khronos Group, "glTF 2.0 Specification", 2021. Reads what the exporter writes: plain accessors in one buffer.
 
-const ARRAYS = { 5120: Int8Array, 5121: Uint8Array, 5122: Int16Array, 5123: Uint16Array, 5125: Uint32Array, 5126: Float32Array };
+const ARRAYS = {
+  5120: Int8Array,
+  5121: Uint8Array,
+  5122: Int16Array,
+  5123: Uint16Array,
+  5125: Uint32Array,
+  5126: Float32Array,
+};
 const WIDTHS = { SCALAR: 1, VEC2: 2, VEC3: 3, VEC4: 4, MAT4: 16 };
 
 export class Glb {
@@ -31,6 +38,9 @@ export class Glb {
   image(index) {
     const image = this.json.images[index];
     const view = this.json.bufferViews[image.bufferView];
-    return { bytes: new Uint8Array(this.file, this.body + (view.byteOffset ?? 0), view.byteLength), type: image.mimeType };
+    return {
+      bytes: new Uint8Array(this.file, this.body + (view.byteOffset ?? 0), view.byteLength),
+      type: image.mimeType,
+    };
   }
 }

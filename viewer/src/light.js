@@ -1,8 +1,18 @@
 // Sun and sky, and the sun's shadow map, which is drawn anew only for a new model.
 
 import {
-  DataTexture, DataUtils, DirectionalLight, EquirectangularReflectionMapping, HalfFloatType, HemisphereLight, LinearFilter, LinearSRGBColorSpace,
-  Matrix4, PMREMGenerator, RGBAFormat, Vector3,
+  DataTexture,
+  DataUtils,
+  DirectionalLight,
+  EquirectangularReflectionMapping,
+  HalfFloatType,
+  HemisphereLight,
+  LinearFilter,
+  LinearSRGBColorSpace,
+  Matrix4,
+  PMREMGenerator,
+  RGBAFormat,
+  Vector3,
 } from 'three';
 
 /** Towards the sun: from the south-west, as in the pictures of `run`. */
@@ -41,7 +51,11 @@ export class Light {
     const camera = this.sun.shadow.camera;
     let [width, tall] = [0, 0];
     for (let corner = 0; corner < 8; corner++) {
-      const at = new Vector3(corner & 1 ? box.max.x : box.min.x, corner & 2 ? box.max.y : box.min.y, corner & 4 ? box.max.z : box.min.z)
+      const at = new Vector3(
+        corner & 1 ? box.max.x : box.min.x,
+        corner & 2 ? box.max.y : box.min.y,
+        corner & 4 ? box.max.z : box.min.z,
+      )
         .sub(center)
         .applyMatrix4(turn);
       [width, tall] = [Math.max(width, Math.abs(at.x)), Math.max(tall, Math.abs(at.y))];
@@ -65,7 +79,8 @@ function skyPicture() {
       const t = Math.max(up, 0) ** 0.5;
       // Bright above the horizon, and a soft window high up, as photographers put one beside what shines.
       const window_ = Math.exp(-(((x / width - 0.2) * 7) ** 2)) * Math.exp(-(((up - 0.5) * 4) ** 2)) * 2.2;
-      const color = up < 0 ? [0.42, 0.41, 0.39] : [0.95 - 0.45 * t + window_, 0.97 - 0.35 * t + window_, 1.0 - 0.16 * t + window_];
+      const color =
+        up < 0 ? [0.42, 0.41, 0.39] : [0.95 - 0.45 * t + window_, 0.97 - 0.35 * t + window_, 1.0 - 0.16 * t + window_];
       [...color, 1].forEach((value, i) => (data[(y * width + x) * 4 + i] = DataUtils.toHalfFloat(value)));
     }
   }

@@ -42,7 +42,8 @@ export class Loading {
 
   async #fetch({ url, bytes }, signal) {
     const answer = await fetch(url, { signal });
-    if (!answer.ok) throw Object.assign(new Error(`the model cannot be fetched (${answer.status})`), { status: answer.status });
+    if (!answer.ok)
+      throw Object.assign(new Error(`the model cannot be fetched (${answer.status})`), { status: answer.status });
     if (!(bytes > STREAMED)) return answer.arrayBuffer();
     const reader = answer.body.getReader();
     let [file, length] = [new Uint8Array(bytes), 0];

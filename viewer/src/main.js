@@ -1,13 +1,13 @@
 // The page of `burgeon live`: puts the rooms together.
 
 import { Axes } from './axes.js';
-import { VIEWS, firstView, view } from './camera.js';
+import { firstView } from './camera.js';
 import { Card } from './card.js';
 import { Changes } from './changes.js';
 import { find, make, say } from './dom.js';
 import * as exports_ from './exports.js';
-import { addIcons, changeIcon, icon } from './icons.js';
-import * as keys from './keys.js';
+import { addIcons } from './icons.js';
+import { keep, restore } from './keep.js';
 import { Loading } from './loading.js';
 import { closeMenu, menu } from './menu.js';
 import { Params } from './params.js';
@@ -17,12 +17,13 @@ import { Presets } from './presets.js';
 import { Profile } from './profile.js';
 import * as readouts from './readouts.js';
 import { Seed } from './seed.js';
-import { MODES } from './shading.js';
+import { shortcuts } from './shortcuts.js';
 import { Socket } from './socket.js';
 import { Stage } from './stage.js';
 import { Steps } from './steps.js';
 import * as theme from './theme.js';
 import { Ticks } from './ticks.js';
+import { tools } from './tools.js';
 import { Trouble, Working, connection, toast } from './trouble.js';
 import { Variations } from './variations.js';
 
@@ -42,10 +43,20 @@ try {
 } catch {
   find('#stage').classList.add('blind');
   find('#screenshot').hidden = find('#scale').hidden = true;
-  find('#stage').append(make('p', { class: 'no-webgl', 'data-testid': 'no-webgl', text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.' }));
+  find('#stage').append(
+    make('p', {
+      class: 'no-webgl',
+      'data-testid': 'no-webgl',
+      text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.',
+    }),
+  );
 }
 
-const places = new Places(socket, (file, line) => highlight(file, line), () => [...(state.model?.files ?? []), state.hello.script]);
+const places = new Places(
+  socket,
+  (file, line) => highlight(file, line),
+  () => [...(state.model?.files ?? []), state.hello.script],
+);
 const params = new Params(changes);
 const presets = new Presets(changes, socket);
 const seed = new Seed(changes);
@@ -55,6 +66,7 @@ const working = new Working(socket);
 const profile = new Profile({ places, highlight });
 const variations = new Variations({ socket, changes, seed });
 const card = new Card({ stage, socket, places, picking: clearMark, closed: clearMark });
+const view = tools(stage);
 const loading = stage && new Loading(stage, (part) => working.download(part));
 
 function highlight(file, line, again = false) {
@@ -95,7 +107,10 @@ async function show(message) {
     } catch (error) {
       if (error.name === 'AbortError' || state.model !== message) return;
       // The server keeps only its last few models; on a new connection it tells the present one.
-      if (error.status === 404) return socket.renew();
+      if (error.status === 404 && state.gone !== message.url) {
+        state.gone = message.url;
+        return socket.renew();
+      }
       // Without a connection, too, the present one comes when it is back.
       return socket.open ? toast(error.message) : undefined;
     }
@@ -105,7 +120,10 @@ async function show(message) {
     if (marked) highlight(marked.file, marked.line, true);
     if (!state.fitted && message.url) {
       state.fitted = true;
-      if (!restoreCamera()) stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);
+      const kept = restore(stage, state.hello.path);
+      if (kept?.flat) view.project();
+      if (!kept)
+        stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);
     }
   }
   const ms = readouts.times(message, own);
@@ -156,53 +174,10 @@ socket.on('refused', ({ text }) => toast(text));
 
 // The view
 
-const modes = find('#modes');
-const MODE_NAMES = { lit: 'Lit', wire: 'Wireframe', normals: 'Normals; red where a face is seen from behind', uv: 'Texture coordinates' };
-for (const [i, mode] of MODES.entries()) {
-  const input = make('input', { type: 'radio', name: 'mode', value: mode, checked: i === 0, 'data-testid': `mode-${mode}`, 'aria-label': MODE_NAMES[mode], onchange: () => setMode(mode) });
-  modes.append(make('label', { title: `${MODE_NAMES[mode]} (W)` }, input, make('span', {}, icon(mode))));
-}
-
-function setMode(mode) {
-  find(`[data-testid=mode-${mode}]`).checked = true;
-  if (!stage) return;
-  stage.mode = mode;
-  const bare = mode === 'uv' && !stage.model.parts.some((part) => part.geometry.attributes.uv);
-  if (bare) toast('Nothing here has texture coordinates: give a material a texture');
-}
-
-function fit() {
-  if (stage && !stage.model.box.isEmpty()) stage.camera.go(stage.camera.fitted(stage.model.box));
-}
-
-function look(name) {
-  if (!stage) return;
-  const { azimuth, elevation } = view(name);
-  stage.camera.go(stage.model.box.isEmpty() ? { azimuth, elevation } : stage.camera.fitted(stage.model.box, azimuth, elevation));
-}
-
-function project() {
-  if (!stage) return;
-  stage.camera.flat = !stage.camera.flat;
-  find('#projection').setAttribute('aria-pressed', String(stage.camera.flat));
-  changeIcon(find('#projection'), stage.camera.flat ? 'orthographic' : 'perspective');
-  stage.invalidate();
-}
-
-function toggleGrid() {
-  if (!stage) return;
-  stage.ground.grid.visible = !stage.ground.grid.visible;
-  find('#grid').setAttribute('aria-pressed', String(stage.ground.grid.visible));
-  stage.invalidate();
-}
-
-find('#fit').addEventListener('click', fit);
-find('#projection').addEventListener('click', project);
-find('#grid').addEventListener('click', toggleGrid);
-find('#views-menu').append(...Object.keys(VIEWS).map((name, i) => make('button', { role: 'menuitem', 'data-testid': `view-${name}`, onclick: () => look(name) }, make('span', { text: name }), make('kbd', { text: i + 1 }))));
-menu(find('#views'), find('#views-menu'));
 menu(find('#time'), find('#times'));
-menu(find('#export'), find('#exports'), { fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size) });
+menu(find('#export'), find('#exports'), {
+  fill: () => exports_.fill(find('#exports'), state.hello, stage?.camera, stage?.size),
+});
 find('#screenshot').addEventListener('click', () => stage && exports_.screenshot(stage, state.hello.script));
 
 function togglePanel() {
@@ -218,7 +193,7 @@ if (stage) {
     axes.draw();
     ticks.draw();
     readouts.scale(stage.camera, stage.size[1]);
-    keepCamera();
+    if (state.fitted) keep(stage, state.hello.path);
   });
   listenToPointer(canvas, stage.camera, {
     clicked: (x, y) => card.pick(x, y),
@@ -230,36 +205,6 @@ if (stage) {
 }
 
 theme.listen(find('#theme'), () => stage?.theme(theme.dark()));
-
-// The camera stays where it is when the page is loaded again.
-
-function keepCamera() {
-  clearTimeout(keepCamera.timer);
-  if (!state.fitted) return;
-  keepCamera.timer = setTimeout(() => {
-    const { azimuth, elevation, distance, target, flat } = stage.camera;
-    try {
-      sessionStorage.setItem(`burgeon-camera ${state.hello.path}`, JSON.stringify({ azimuth, elevation, distance, flat, target: target.clone().add(stage.model.origin).toArray() }));
-    } catch {
-      // Without storage the view is fitted again.
-    }
-  }, 300);
-}
-
-function restoreCamera() {
-  try {
-    const kept = JSON.parse(sessionStorage.getItem(`burgeon-camera ${state.hello.path}`));
-    if (!kept) return false;
-    const { azimuth, elevation, distance } = kept;
-    const target = stage.camera.target.clone().fromArray(kept.target).sub(stage.model.origin);
-    if (![azimuth, elevation, distance, ...target.toArray()].every(Number.isFinite)) return false;
-    if (kept.flat) project();
-    stage.camera.go({ azimuth, elevation, distance, target }, true);
-    return true;
-  } catch {
-    return false;
-  }
-}
 
 // Keys
 
@@ -274,56 +219,7 @@ function escape() {
   }
 }
 
-const TURN = Math.PI / 36;
-const arrow = (azimuth, elevation, x, y) => (event) => {
-  if (!stage) return;
-  if (event.shiftKey) stage.camera.pan(x * 0.05, y * 0.05);
-  else stage.camera.rotate(azimuth * TURN, elevation * TURN);
-};
-
-const showSheet = keys.listen(
-  [
-    ['View', [
-      ['F', 'Fit the model', ['f'], fit],
-      ...Object.keys(VIEWS).map((name, i) => [`${i + 1}`, name === 'iso' ? 'Isometric' : `From the ${name}`, [`${i + 1}`], () => look(name)]),
-      ['O', 'Perspective or parallel', ['o'], project],
-      ['W', 'Next shading', ['w'], () => setMode(MODES[(MODES.indexOf(find('[name=mode]:checked').value) + 1) % MODES.length])],
-      ['G', 'Grid', ['g'], toggleGrid],
-      ['← → ↑ ↓', 'Turn', ['ArrowLeft'], arrow(1, 0, -1, 0)],
-      ['⇧ ← →', 'Move', ['ArrowRight'], arrow(-1, 0, 1, 0)],
-      ['+ −', 'Nearer, farther', ['+', '='], () => stage?.camera.zoom(1 / 1.15)],
-    ]],
-    ['Mouse', [
-      ['drag', 'Turn'],
-      ['right drag', 'Move; also with Shift'],
-      ['wheel', 'Zoom to the pointer'],
-      ['click', 'What made this?'],
-      ['double click', 'Turn around this point'],
-    ]],
-    ['Model', [
-      ['Space', 'Play the derivation', [' '], () => steps.toggle()],
-      [', .', 'One step back, one on', [','], () => steps.move(-1)],
-      ['A', 'All steps', ['a'], () => steps.all()],
-      ['R', 'Another seed', ['r'], () => seed.roll()],
-      ['V', 'Variations', ['v'], () => variations.toggle()],
-      ['Esc', 'Cancel, close, clear', ['Escape'], escape],
-    ]],
-    ['Page', [
-      ['P', 'Panel', ['p'], togglePanel],
-      ['S', 'Save a picture of the view', ['s'], () => find('#screenshot').click()],
-      ['E', 'Export', ['e'], () => find('#export').click()],
-      ['L', 'Light or dark', ['l'], () => find('#theme').click()],
-      ['?', 'These keys', ['?'], () => showSheet()],
-    ]],
-  ],
-  keys.typing,
-  {
-    ArrowUp: arrow(0, 1, 0, 1),
-    ArrowDown: arrow(0, -1, 0, -1),
-    '-': () => stage?.camera.zoom(1.15),
-    '.': () => steps.move(1),
-  },
-);
+shortcuts({ stage, view, steps, seed, variations, togglePanel, escape });
 
 /** For tests: to look, not to touch. */
 window.burgeon = Object.freeze({

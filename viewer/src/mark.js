@@ -1,12 +1,36 @@
 // Triangles shown in the marking colour: of a picked module, or of a line of the script.
 
-import { BufferAttribute, BufferGeometry, InstancedBufferAttribute, InstancedMesh, Mesh, MeshBasicMaterial } from 'three';
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Mesh,
+  MeshBasicMaterial,
+} from 'three';
 
 export class Mark {
   #meshes = [];
   // Seen where nothing is in front; and faintly where something is.
-  #front = new MeshBasicMaterial({ transparent: true, opacity: 0.72, depthWrite: false, polygonOffset: true, polygonOffsetFactor: -2, polygonOffsetUnits: -2, toneMapped: false });
-  #behind = new MeshBasicMaterial({ transparent: true, opacity: 0.16, depthWrite: false, depthTest: false, toneMapped: false });
+  #front = new MeshBasicMaterial({
+    side: DoubleSide,
+    transparent: true,
+    opacity: 0.72,
+    depthWrite: false,
+    polygonOffset: true,
+    polygonOffsetFactor: -2,
+    polygonOffsetUnits: -2,
+    toneMapped: false,
+  });
+  #behind = new MeshBasicMaterial({
+    side: DoubleSide,
+    transparent: true,
+    opacity: 0.12,
+    depthWrite: false,
+    depthTest: false,
+    toneMapped: false,
+  });
 
   theme(dark) {
     for (const material of [this.#front, this.#behind]) material.color.set(dark ? 0xff5c9a : 0xe0246e);
@@ -28,7 +52,9 @@ export class Mark {
       for (const alike of byInstances(own)) {
         const geometry = pieces(part.geometry, alike);
         if (!geometry) continue;
-        const instances = part.isInstancedMesh ? (alike[0].instances?.filter((i) => i >= 0 && i < part.count) ?? null) : null;
+        const instances = part.isInstancedMesh
+          ? (alike[0].instances?.filter((i) => i >= 0 && i < part.count) ?? null)
+          : null;
         for (const material of [this.#behind, this.#front]) this.#add(model, part, geometry, material, instances);
       }
     }

@@ -1,7 +1,14 @@
 // Materials that live from model to model, so that a reload compiles no shaders and uploads no picture twice.
 
 import {
-  DoubleSide, FrontSide, LinearFilter, LinearMipmapLinearFilter, MeshStandardMaterial, RepeatWrapping, SRGBColorSpace, Texture,
+  DoubleSide,
+  FrontSide,
+  LinearFilter,
+  LinearMipmapLinearFilter,
+  MeshStandardMaterial,
+  RepeatWrapping,
+  SRGBColorSpace,
+  Texture,
 } from 'three';
 
 export class Materials {

@@ -1,7 +1,17 @@
 // What a file shows, as meshes of three.js that remember where in the file they come from.
 
 import {
-  Box3, BufferAttribute, BufferGeometry, Group, InstancedBufferAttribute, InstancedMesh, Matrix4, Mesh, Quaternion, Sphere, Vector3,
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  Group,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  Quaternion,
+  Sphere,
+  Vector3,
 } from 'three';
 
 const ONE = new Vector3(1, 1, 1);
@@ -21,7 +31,11 @@ export function build(glb, made, plain) {
       const instances = placed && transforms(glb, placed);
       glb.json.meshes[node.mesh].primitives.forEach((given, primitive) => {
         const material = made[given.material] ?? plain;
-        model.add(geometries[node.mesh][primitive], material, matrix, instances, { node: index, mesh: node.mesh, primitive });
+        model.add(geometries[node.mesh][primitive], material, matrix, instances, {
+          node: index,
+          mesh: node.mesh,
+          primitive,
+        });
       });
     }
     for (const child of node.children ?? []) visit(child, matrix);
@@ -90,8 +104,10 @@ function geometry(glb, { attributes, indices }) {
   const made = new BufferGeometry();
   const { min, max } = glb.json.accessors[attributes.POSITION];
   made.setAttribute('position', new BufferAttribute(glb.array(attributes.POSITION), 3));
-  if (attributes.NORMAL !== undefined) made.setAttribute('normal', new BufferAttribute(glb.array(attributes.NORMAL), 3));
-  if (attributes.TEXCOORD_0 !== undefined) made.setAttribute('uv', new BufferAttribute(glb.array(attributes.TEXCOORD_0), 2));
+  if (attributes.NORMAL !== undefined)
+    made.setAttribute('normal', new BufferAttribute(glb.array(attributes.NORMAL), 3));
+  if (attributes.TEXCOORD_0 !== undefined)
+    made.setAttribute('uv', new BufferAttribute(glb.array(attributes.TEXCOORD_0), 2));
   made.setIndex(new BufferAttribute(indices === undefined ? counting(made) : glb.array(indices), 1));
   made.boundingBox = new Box3(new Vector3(...min), new Vector3(...max));
   made.boundingSphere = made.boundingBox.getBoundingSphere(new Sphere());

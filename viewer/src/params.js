@@ -40,7 +40,16 @@ export class Params {
       before = row.element;
       row.update(param);
     }
-    if (params.length === 0) this.#place.replaceChildren(make('p', { class: 'none' }, 'The script has none. ', make('code', { text: 'param("size", { default = 1 })' }), ' makes one.'));
+    if (params.length === 0)
+      this.#place.replaceChildren(
+        make(
+          'p',
+          { class: 'none' },
+          'The script has none. ',
+          make('code', { text: 'param("size", { default = 1 })' }),
+          ' makes one.',
+        ),
+      );
     else this.#place.querySelector(':scope > .none')?.remove();
     this.#all.hidden = !params.some((param) => param.changed);
   }
@@ -48,7 +57,11 @@ export class Params {
 
 /** Rows of one kind can be changed into each other without new elements. */
 function kind({ control }) {
-  return control.type === 'choice' ? `choice ${JSON.stringify(control.choices)}` : control.type === 'number' ? `number ${slides(control)}` : control.type;
+  return control.type === 'choice'
+    ? `choice ${JSON.stringify(control.choices)}`
+    : control.type === 'number'
+      ? `number ${slides(control)}`
+      : control.type;
 }
 
 const slides = ({ min, max }) => Number.isFinite(min) && Number.isFinite(max) && min < max;
@@ -64,15 +77,33 @@ class Row {
     this.unit = make('span', { class: 'unit' });
     this.help = make('p', { class: 'help', id: `${this.id}-help` });
     this.note = make('p', { class: 'note' });
-    this.resetter = make('button', {
-      class: 'tool reset', 'data-testid': `${this.id}-reset`, 'aria-label': `Reset ${name}`, onclick: () => {
-        this.changes.set(name, null);
-        this.reset();
+    this.resetter = make(
+      'button',
+      {
+        class: 'tool reset',
+        'data-testid': `${this.id}-reset`,
+        'aria-label': `Reset ${name}`,
+        onclick: () => {
+          this.changes.set(name, null);
+          this.reset();
+        },
       },
-    }, icon('reset'));
-    this.element = make('div', { class: `param param-${param.control.type}` },
-      make('div', { class: 'param-head' }, make('label', { for: this.id, text: name }), this.resetter, make('span', { class: 'value' }, this.input.field, this.unit)),
-      this.input.below ?? null, this.help, this.note);
+      icon('reset'),
+    );
+    this.element = make(
+      'div',
+      { class: `param param-${param.control.type}` },
+      make(
+        'div',
+        { class: 'param-head' },
+        make('label', { for: this.id, text: name }),
+        this.resetter,
+        make('span', { class: 'value' }, this.input.field, this.unit),
+      ),
+      this.input.below ?? null,
+      this.help,
+      this.note,
+    );
   }
 
   update(param) {
@@ -102,7 +133,11 @@ class Row {
 
   number({ control }) {
     const field = make('input', {
-      type: 'number', id: this.id, 'data-testid': this.id, 'aria-describedby': `${this.id}-help`, autocomplete: 'off',
+      type: 'number',
+      id: this.id,
+      'data-testid': this.id,
+      'aria-describedby': `${this.id}-help`,
+      autocomplete: 'off',
       oninput: () => (this.typing = true),
       onblur: () => (this.typing = false),
       onchange: () => {
@@ -114,18 +149,23 @@ class Row {
         this.send(plain(value));
       },
     });
-    const slider = slides(control) && make('input', {
-      type: 'range', 'data-testid': `${this.id}-slider`, 'aria-label': this.name, 'aria-describedby': `${this.id}-help`,
-      oninput: () => {
-        field.value = plain(slider.valueAsNumber);
-        fill();
-        this.send(field.value);
-      },
-      onpointerdown: () => (this.busy = true),
-      onpointerup: () => (this.busy = false),
-      onpointercancel: () => (this.busy = false),
-      ondblclick: () => this.param.changed && this.resetter.click(),
-    });
+    const slider =
+      slides(control) &&
+      make('input', {
+        type: 'range',
+        'data-testid': `${this.id}-slider`,
+        'aria-label': this.name,
+        'aria-describedby': `${this.id}-help`,
+        oninput: () => {
+          field.value = plain(slider.valueAsNumber);
+          fill();
+          this.send(field.value);
+        },
+        onpointerdown: () => (this.busy = true),
+        onpointerup: () => (this.busy = false),
+        onpointercancel: () => (this.busy = false),
+        ondblclick: () => this.param.changed && this.resetter.click(),
+      });
     const fill = () => {
       if (!slider) return;
       const { min, max, default: rest } = { ...this.limitsNow, default: this.param?.default };
@@ -151,14 +191,24 @@ class Row {
   }
 
   switch() {
-    const field = make('input', { type: 'checkbox', role: 'switch', id: this.id, 'data-testid': this.id, 'aria-describedby': `${this.id}-help`, onchange: () => this.send(field.checked) });
+    const field = make('input', {
+      type: 'checkbox',
+      role: 'switch',
+      id: this.id,
+      'data-testid': this.id,
+      'aria-describedby': `${this.id}-help`,
+      onchange: () => this.send(field.checked),
+    });
     return { field, put: (value) => (field.checked = value === true) };
   }
 
   color() {
     const code = make('code', { class: 'color-code' });
     const input = make('input', {
-      type: 'color', id: this.id, 'data-testid': this.id, 'aria-describedby': `${this.id}-help`,
+      type: 'color',
+      id: this.id,
+      'data-testid': this.id,
+      'aria-describedby': `${this.id}-help`,
       oninput: () => {
         code.textContent = input.value;
         this.send(input.value);
@@ -177,20 +227,50 @@ class Row {
 
   choice({ control: { choices } }) {
     if (choices.length > SEGMENTS || choices.join('').length > 30) {
-      const field = make('select', { id: this.id, 'data-testid': this.id, 'aria-describedby': `${this.id}-help`, onchange: () => this.send(field.value) },
-        ...choices.map((choice) => make('option', { value: String(choice), text: String(choice) })));
+      const field = make(
+        'select',
+        {
+          id: this.id,
+          'data-testid': this.id,
+          'aria-describedby': `${this.id}-help`,
+          onchange: () => this.send(field.value),
+        },
+        ...choices.map((choice) => make('option', { value: String(choice), text: String(choice) })),
+      );
       return { field, put: (value) => (field.value = String(value)) };
     }
-    const radios = choices.map((choice, i) => make('input', {
-      type: 'radio', name: this.id, id: i === 0 ? this.id : `${this.id}-${i}`, value: String(choice), 'data-testid': `${this.id}-${choice}`, onchange: () => this.send(choice),
-    }));
-    const below = make('div', { class: 'segments', role: 'radiogroup', 'aria-label': this.name, 'data-testid': this.id },
-      ...radios.map((radio) => make('label', {}, radio, make('span', { text: radio.value }))));
-    return { field: make('span'), below, put: (value) => radios.forEach((radio) => (radio.checked = radio.value === String(value))) };
+    const radios = choices.map((choice, i) =>
+      make('input', {
+        type: 'radio',
+        name: this.id,
+        id: i === 0 ? this.id : `${this.id}-${i}`,
+        value: String(choice),
+        'data-testid': `${this.id}-${choice}`,
+        onchange: () => this.send(choice),
+      }),
+    );
+    const below = make(
+      'div',
+      { class: 'segments', role: 'radiogroup', 'aria-label': this.name, 'data-testid': this.id },
+      ...radios.map((radio) => make('label', {}, radio, make('span', { text: radio.value }))),
+    );
+    return {
+      field: make('span'),
+      below,
+      put: (value) => radios.forEach((radio) => (radio.checked = radio.value === String(value))),
+    };
   }
 
   text() {
-    const below = make('input', { type: 'text', id: this.id, 'data-testid': this.id, 'aria-describedby': `${this.id}-help`, autocomplete: 'off', spellcheck: 'false', onchange: () => this.send(below.value) });
+    const below = make('input', {
+      type: 'text',
+      id: this.id,
+      'data-testid': this.id,
+      'aria-describedby': `${this.id}-help`,
+      autocomplete: 'off',
+      spellcheck: 'false',
+      onchange: () => this.send(below.value),
+    });
     const put = (value) => {
       if (document.activeElement !== below || below.value === below.defaultValue) below.value = value;
       below.defaultValue = value;
@@ -209,10 +289,12 @@ function set(input, name, value) {
 /** A step of a slider that has none: a power of ten, some hundreds to its length. */
 const fineness = (length) => plain(10 ** Math.floor(Math.log10(length / 300)));
 
-const shown = (value) => (typeof value === 'number' ? plain(value) : typeof value === 'boolean' ? (value ? 'on' : 'off') : String(value));
+const shown = (value) =>
+  typeof value === 'number' ? plain(value) : typeof value === 'boolean' ? (value ? 'on' : 'off') : String(value);
 
 function hex(value) {
   if (/^#[0-9a-f]{6}$/i.test(value)) return value.toLowerCase();
-  if (/^#[0-9a-f]{3}$/i.test(value)) return `#${[...value.slice(1)].map((digit) => digit + digit).join('')}`.toLowerCase();
+  if (/^#[0-9a-f]{3}$/i.test(value))
+    return `#${[...value.slice(1)].map((digit) => digit + digit).join('')}`.toLowerCase();
   return '#000000';
 }

@@ -16,11 +16,25 @@ export class Places {
     const short = this.files().find((name) => name && (file === name || file.endsWith(`/${name}`))) ?? file;
     const text = line ? `${short}:${line}` : short;
     if (!this.editor) return make('span', { class: 'place', text });
-    return make('button', { class: 'place', title: 'Open in the editor', onclick: () => this.socket.send({ type: 'open', file, line: line ?? 1 }) }, icon('open'), text);
+    return make(
+      'button',
+      {
+        class: 'place',
+        title: 'Open in the editor',
+        onclick: () => this.socket.send({ type: 'open', file, line: line ?? 1 }),
+      },
+      icon('open'),
+      text,
+    );
   }
 
   /** A button that shows what the line makes. */
   show(file, line) {
-    return make('button', { class: 'place', text: `${file}:${line}`, title: 'Show in the model what this line makes', onclick: () => this.highlight(file, line) });
+    return make('button', {
+      class: 'place',
+      text: `${file}:${line}`,
+      title: 'Show in the model what this line makes',
+      onclick: () => this.highlight(file, line),
+    });
   }
 }

@@ -48,7 +48,8 @@ export function listen(canvas, camera, { clicked, doubled }) {
     down.delete(event.pointerId);
     spread = 0;
     if (down.size === 0) canvas.classList.remove('held');
-    if (first && event.type === 'pointerup' && event.button === 0 && wandered < STILL) clicked(event.clientX, event.clientY);
+    if (first && event.type === 'pointerup' && event.button === 0 && wandered < STILL)
+      clicked(event.clientX, event.clientY);
   };
   canvas.addEventListener('pointerup', release);
   canvas.addEventListener('pointercancel', release);

@@ -34,7 +34,9 @@ export class Presets {
       this.#form.hidden = true;
       find('#save-preset').focus();
     });
-    this.#delete.addEventListener('click', () => socket.send({ type: 'preset', action: 'delete', name: this.#select.value }));
+    this.#delete.addEventListener('click', () =>
+      socket.send({ type: 'preset', action: 'delete', name: this.#select.value }),
+    );
   }
 
   #wanted = null;

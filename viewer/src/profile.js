@@ -5,7 +5,7 @@ import { count, many, milliseconds } from './format.js';
 import { icon } from './icons.js';
 
 const COLUMNS = { applied: 'applied', made: 'made', ms: 'time' };
-const MOST = 12; // symbols shown of each system before the rest is folded
+const MOST = 8; // symbols shown of each system before the rest is folded
 
 export class Profile {
   #panel = find('#derivation');
@@ -20,7 +20,10 @@ export class Profile {
     this.#panel.addEventListener('toggle', () => this.#draw());
     find('#line-form').addEventListener('submit', (event) => {
       event.preventDefault();
-      const [, file, line] = find('#line').value.trim().match(/^(?:(.*?):)?(\d+)$/) ?? [];
+      const [, file, line] =
+        find('#line')
+          .value.trim()
+          .match(/^(?:(.*?):)?(\d+)$/) ?? [];
       if (line) highlight(file || this.script, Number(line));
       else find('#line').select();
     });
@@ -40,14 +43,18 @@ export class Profile {
     const found = answer.ranges?.length > 0;
     place.replaceChildren(
       make('span', { class: 'swatch' }),
-      make('span', { text: `${answer.file}:${answer.line}${answer.what ? `, ${answer.what}` : ''}: ${found || answer.modules ? many(answer.modules, 'module') : 'nothing in the model'}` }),
+      make('span', {
+        text: `${answer.file}:${answer.line}${answer.what ? `, ${answer.what}` : ''}: ${found || answer.modules ? many(answer.modules, 'module') : 'nothing in the model'}`,
+      }),
     );
   }
 
   #draw() {
     if (!this.#panel.open || !this.#model) return;
     const { systems, rules } = this.#model;
-    this.#systems.replaceChildren(...systems.map((system) => this.#system(system)));
+    this.#systems.replaceChildren(
+      ...[...systems].sort((a, b) => b.modules - a.modules).map((system) => this.#system(system)),
+    );
     this.#rules.replaceChildren(...(rules.length ? [this.#table(rules)] : []));
   }
 
@@ -58,37 +65,92 @@ export class Profile {
     const rows = (all ? sorted : sorted.slice(0, MOST)).map(({ name, count: number }) => {
       const bar = make('i', { class: 'bar' });
       bar.style.width = `${(number / most) * 100}%`;
-      return make('li', {}, make('code', { text: name }), make('span', { class: 'cell' }, bar, make('b', { text: count(number) })));
+      return make(
+        'li',
+        {},
+        make('code', { text: name }),
+        make('span', { class: 'cell' }, bar, make('b', { text: count(number) })),
+      );
     });
-    const more = all ? null : make('button', { class: 'link', text: `${sorted.length - MOST} more`, onclick: () => {
-      this.#all.add(system);
-      this.#draw();
-    } });
+    const more = all
+      ? null
+      : make('button', {
+          class: 'link',
+          text: `${sorted.length - MOST} more`,
+          onclick: () => {
+            this.#all.add(system);
+            this.#draw();
+          },
+        });
     const [file, line] = split(place);
-    return make('section', { class: 'system' },
+    return make(
+      'section',
+      { class: 'system' },
       make('h3', {}, `System ${system + 1} `, line ? this.places.show(file, line) : null),
       make('p', { class: 'where', text: `${many(chains, 'chain')}, ${many(modules, 'module')}` }),
-      make('ul', { class: 'symbols' }, ...rows), more);
+      make('ul', { class: 'symbols' }, ...rows),
+      more,
+    );
   }
 
   #table(rules) {
-    const most = Object.fromEntries(Object.keys(COLUMNS).map((key) => [key, Math.max(1e-9, ...rules.map((rule) => rule[key] ?? 0))]));
-    const heads = Object.entries(COLUMNS).map(([key, title]) => make('th', { scope: 'col', 'aria-sort': key === this.#by ? 'descending' : 'none' },
-      make('button', { class: 'sort', text: title, 'data-testid': `sort-${key}`, onclick: () => {
-        this.#by = key;
-        this.#draw();
-        find(`[data-testid=sort-${key}]`).focus();
-      } })));
+    const most = Object.fromEntries(
+      Object.keys(COLUMNS).map((key) => [key, Math.max(1e-9, ...rules.map((rule) => rule[key] ?? 0))]),
+    );
+    const heads = Object.entries(COLUMNS).map(([key, title]) =>
+      make(
+        'th',
+        { scope: 'col', 'aria-sort': key === this.#by ? 'descending' : 'none' },
+        make('button', {
+          class: 'sort',
+          text: title,
+          'data-testid': `sort-${key}`,
+          onclick: () => {
+            this.#by = key;
+            this.#draw();
+            find(`[data-testid=sort-${key}]`).focus();
+          },
+        }),
+      ),
+    );
     const sorted = [...rules].sort((a, b) => (b[this.#by] ?? 0) - (a[this.#by] ?? 0));
-    const body = sorted.map((rule) => make('tr', {},
-      make('th', { scope: 'row' }, make('code', { text: rule.text, title: rule.text }), make('span', { class: 'by' }, rule.file ? this.places.show(rule.file, rule.line) : null, rule.kind === 'interpretation' ? make('span', { title: 'Interpretation: it draws', 'aria-label': 'interpretation' }, icon('draw')) : null)),
-      ...Object.keys(COLUMNS).map((key) => {
-        const bar = make('i', { class: 'bar' });
-        bar.style.width = `${((rule[key] ?? 0) / most[key]) * 100}%`;
-        const text = rule[key] === null || rule[key] === undefined ? '–' : key === 'ms' ? milliseconds(rule.ms).replace(' ms', '') : short(rule[key]);
-        return make('td', { title: key === 'ms' ? '' : count(rule[key] ?? 0) }, bar, make('b', { text }));
-      })));
-    return make('table', { class: 'rules' }, make('caption', { text: 'Rules (time in ms)' }), make('thead', {}, make('tr', {}, make('th', { scope: 'col', text: 'rule' }), ...heads)), make('tbody', {}, ...body));
+    const body = sorted.map((rule) =>
+      make(
+        'tr',
+        {},
+        make(
+          'th',
+          { scope: 'row' },
+          make('code', { text: rule.text, title: rule.text }),
+          make(
+            'span',
+            { class: 'by' },
+            rule.file ? this.places.show(rule.file, rule.line) : null,
+            rule.kind === 'interpretation'
+              ? make('span', { title: 'Interpretation: it draws', 'aria-label': 'interpretation' }, icon('draw'))
+              : null,
+          ),
+        ),
+        ...Object.keys(COLUMNS).map((key) => {
+          const bar = make('i', { class: 'bar' });
+          bar.style.width = `${((rule[key] ?? 0) / most[key]) * 100}%`;
+          const text =
+            rule[key] === null || rule[key] === undefined
+              ? '–'
+              : key === 'ms'
+                ? milliseconds(rule.ms).replace(' ms', '')
+                : short(rule[key]);
+          return make('td', { title: key === 'ms' ? '' : count(rule[key] ?? 0) }, bar, make('b', { text }));
+        }),
+      ),
+    );
+    return make(
+      'table',
+      { class: 'rules' },
+      make('caption', { text: 'Rules (time in ms)' }),
+      make('thead', {}, make('tr', {}, make('th', { scope: 'col', text: 'rule' }), ...heads)),
+      make('tbody', {}, ...body),
+    );
   }
 }
 

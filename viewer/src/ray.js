@@ -18,12 +18,22 @@ export function nearest(model, ray) {
       // Not normalised, so that distances along the ray are those of the scene.
       inside.origin.copy(ray.origin).applyMatrix4(inverse);
       inside.direction.copy(ray.direction).transformDirection(inverse);
-      if (!inside.intersectBox(part.geometry.boundingBox, meet) && !part.geometry.boundingBox.containsPoint(inside.origin)) continue;
+      if (
+        !inside.intersectBox(part.geometry.boundingBox, meet) &&
+        !part.geometry.boundingBox.containsPoint(inside.origin)
+      )
+        continue;
       const stretch = new Vector3().copy(ray.direction).applyMatrix4(linear(inverse)).length();
       const flips = matrix.determinant() < 0;
       const both = part.userData.material.side === DoubleSide;
       const found = cross(part.geometry, inside, both ? 0 : flips ? -1 : 1, hit.distance * stretch);
-      if (found) Object.assign(hit, { part, triangle: found.triangle, distance: found.distance / stretch, instance: part.isInstancedMesh ? instance : null });
+      if (found)
+        Object.assign(hit, {
+          part,
+          triangle: found.triangle,
+          distance: found.distance / stretch,
+          instance: part.isInstancedMesh ? instance : null,
+        });
     }
   }
   if (!hit.part) return null;
@@ -43,16 +53,28 @@ function cross(geometry, { origin, direction }, side, limit) {
   let [best, found] = [limit, -1];
   for (let i = 0; i < index.length; i += 3) {
     const [a, b, c] = [index[i] * 3, index[i + 1] * 3, index[i + 2] * 3];
-    const ax = at[a], ay = at[a + 1], az = at[a + 2];
-    const ux = at[b] - ax, uy = at[b + 1] - ay, uz = at[b + 2] - az;
-    const vx = at[c] - ax, vy = at[c + 1] - ay, vz = at[c + 2] - az;
-    const px = dy * vz - dz * vy, py = dz * vx - dx * vz, pz = dx * vy - dy * vx;
+    const ax = at[a],
+      ay = at[a + 1],
+      az = at[a + 2];
+    const ux = at[b] - ax,
+      uy = at[b + 1] - ay,
+      uz = at[b + 2] - az;
+    const vx = at[c] - ax,
+      vy = at[c + 1] - ay,
+      vz = at[c + 2] - az;
+    const px = dy * vz - dz * vy,
+      py = dz * vx - dx * vz,
+      pz = dx * vy - dy * vx;
     const volume = ux * px + uy * py + uz * pz;
     if (volume === 0 || volume * side < 0) continue;
-    const sx = ox - ax, sy = oy - ay, sz = oz - az;
+    const sx = ox - ax,
+      sy = oy - ay,
+      sz = oz - az;
     const u = (sx * px + sy * py + sz * pz) / volume;
     if (u < 0 || u > 1) continue;
-    const qx = sy * uz - sz * uy, qy = sz * ux - sx * uz, qz = sx * uy - sy * ux;
+    const qx = sy * uz - sz * uy,
+      qy = sz * ux - sx * uz,
+      qz = sx * uy - sy * ux;
     const v = (dx * qx + dy * qy + dz * qz) / volume;
     if (v < 0 || u + v > 1) continue;
     const distance = (vx * qx + vy * qy + vz * qz) / volume;

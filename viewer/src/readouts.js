@@ -33,14 +33,30 @@ export function times(message, own) {
   const rest = total - known;
   const rows = stages.map(([key, name]) => [key, name, all[key]]);
   if (rest > 0.5) rows.push(['other', 'other', rest]);
-  const band = make('div', { class: 'band', 'aria-hidden': 'true' }, ...rows.map(([key, , ms]) => {
-    const part = make('i', { 'data-stage': key });
-    part.style.width = `${(ms / whole) * 100}%`;
-    return part;
-  }));
-  const list = rows.flatMap(([key, name, ms]) => [make('dt', {}, make('i', { 'data-stage': key }), name), make('dd', { text: milliseconds(ms) })]);
-  find('#times').replaceChildren(band, make('dl', {}, ...list, make('dt', { class: 'sum', text: 'in all' }), make('dd', { class: 'sum', text: milliseconds(total) })),
-    message.bytes ? make('p', { class: 'where', text: `${bytes(message.bytes)} sent` }) : '');
+  const band = make(
+    'div',
+    { class: 'band', 'aria-hidden': 'true' },
+    ...rows.map(([key, , ms]) => {
+      const part = make('i', { 'data-stage': key });
+      part.style.width = `${(ms / whole) * 100}%`;
+      return part;
+    }),
+  );
+  const list = rows.flatMap(([key, name, ms]) => [
+    make('dt', {}, make('i', { 'data-stage': key }), name),
+    make('dd', { text: milliseconds(ms) }),
+  ]);
+  find('#times').replaceChildren(
+    band,
+    make(
+      'dl',
+      {},
+      ...list,
+      make('dt', { class: 'sum', text: 'in all' }),
+      make('dd', { class: 'sum', text: milliseconds(total) }),
+    ),
+    message.bytes ? make('p', { class: 'where', text: `${bytes(message.bytes)} sent` }) : '',
+  );
   return total;
 }
 

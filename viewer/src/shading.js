@@ -1,8 +1,16 @@
 // The ways to show surfaces: lit, as wires, by their normals, by their texture coordinates.
 
 import {
-  CanvasTexture, DoubleSide, InstancedMesh, LinearMipmapLinearFilter, Mesh, MeshBasicMaterial, MeshLambertMaterial, MeshNormalMaterial,
-  RepeatWrapping, SRGBColorSpace,
+  CanvasTexture,
+  DoubleSide,
+  InstancedMesh,
+  LinearMipmapLinearFilter,
+  Mesh,
+  MeshBasicMaterial,
+  MeshLambertMaterial,
+  MeshNormalMaterial,
+  RepeatWrapping,
+  SRGBColorSpace,
 } from 'three';
 
 export const MODES = ['lit', 'wire', 'normals', 'uv'];
@@ -10,7 +18,13 @@ export const MODES = ['lit', 'wire', 'normals', 'uv'];
 export class Shading {
   mode = 'lit';
   #wires = [];
-  #under = new MeshLambertMaterial({ color: 0x9aa2aa, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
+  #under = new MeshLambertMaterial({
+    color: 0x9aa2aa,
+    side: DoubleSide,
+    polygonOffset: true,
+    polygonOffsetFactor: 1,
+    polygonOffsetUnits: 1,
+  });
   #line = new MeshBasicMaterial({ wireframe: true, toneMapped: false, transparent: true, opacity: 0.5 });
   #normals = byNormal(true);
   #normalsBoth = byNormal(false);
@@ -46,8 +60,11 @@ export class Shading {
   }
 
   #addWire(model, part) {
-    const wire = part.isInstancedMesh ? new InstancedMesh(part.geometry, this.#line, 0) : new Mesh(part.geometry, this.#line);
-    if (part.isInstancedMesh) Object.assign(wire, { count: part.count, instanceMatrix: part.instanceMatrix, frustumCulled: false });
+    const wire = part.isInstancedMesh
+      ? new InstancedMesh(part.geometry, this.#line, 0)
+      : new Mesh(part.geometry, this.#line);
+    if (part.isInstancedMesh)
+      Object.assign(wire, { count: part.count, instanceMatrix: part.instanceMatrix, frustumCulled: false });
     wire.matrixAutoUpdate = false;
     wire.matrix.copy(part.matrix);
     model.group.add(wire);
@@ -59,7 +76,8 @@ export class Shading {
 function byNormal(inside) {
   const material = new MeshNormalMaterial({ side: DoubleSide });
   material.onBeforeCompile = (shader) => {
-    const color = 'vec3 n = normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );\n  vec3 shown = vec3( n.x, -n.z, n.y ) * 0.5 + 0.5;\n';
+    const color =
+      'vec3 n = normalize( ( vec4( normal, 0.0 ) * viewMatrix ).xyz );\n  vec3 shown = vec3( n.x, -n.z, n.y ) * 0.5 + 0.5;\n';
     const back = inside ? '  if ( ! gl_FrontFacing ) shown = vec3( 0.9, 0.08, 0.2 );\n' : '';
     shader.fragmentShader = shader.fragmentShader
       .replace('gl_FragColor = ', `${color}${back}  gl_FragColor = `)

@@ -4,8 +4,21 @@
 // finer frame follows as soon as they rest.
 
 import {
-  Box3, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, InstancedMesh, Mesh, MeshStandardMaterial,
-  PCFShadowMap, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
+  Box3,
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  FrontSide,
+  Group,
+  InstancedMesh,
+  Mesh,
+  MeshStandardMaterial,
+  PCFShadowMap,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
 } from 'three';
 import { Camera } from './camera.js';
 import { Ground } from './grid.js';
@@ -35,7 +48,12 @@ export class Stage {
   constructor(canvas) {
     this.canvas = canvas;
     this.camera = new Camera(() => this.invalidate());
-    const context = canvas.getContext('webgl2', { alpha: true, antialias: !software(), depth: true, powerPreference: 'high-performance' });
+    const context = canvas.getContext('webgl2', {
+      alpha: true,
+      antialias: !software(),
+      depth: true,
+      powerPreference: 'high-performance',
+    });
     if (!context) throw new Error('no WebGL 2');
     this.slow = software(context);
     this.renderer = new WebGLRenderer({ canvas, context });
@@ -118,7 +136,7 @@ export class Stage {
     }, REST);
   }
 
-  #draw(fine, still = false) {
+  #draw(fine, still = false, ratio = null) {
     const { renderer, camera, model, light } = this;
     const [width, height] = this.size;
     if (width === 0 || height === 0) return;
@@ -130,7 +148,7 @@ export class Stage {
     // Only a uniform of the same shaders, so that nothing has to be compiled.
     for (const part of model.parts) part.receiveShadow = shadows;
     this.ground.shade.visible = shadows && !model.box.isEmpty();
-    this.#scale(still);
+    this.#scale(ratio ?? this.#ratio(still));
     const grid = this.ground.follow(camera, height);
     const [center, radius] = this.#extent(grid);
     renderer.render(this.scene, camera.place(center, radius));
@@ -145,13 +163,23 @@ export class Stage {
     all.expandByPoint(ground);
     const radius = box.isEmpty() ? 0 : box.getSize(new Vector3()).length() / 2;
     const center = all.getCenter(new Vector3());
-    return [center, Math.max(radius + center.distanceTo(box.isEmpty() ? center : box.getCenter(new Vector3())), center.distanceTo(ground) + grid * 0.9)];
+    return [
+      center,
+      Math.max(
+        radius + center.distanceTo(box.isEmpty() ? center : box.getCenter(new Vector3())),
+        center.distanceTo(ground) + grid * 0.9,
+      ),
+    ];
   }
 
   /** Pixels of the drawing for each of the page's; without a graphics card edges are smoothed only at rest. */
-  #scale(still) {
-    let ratio = Math.min(devicePixelRatio, 2);
-    if (this.slow) ratio = !still ? (this.#cost > 2 * SLOW ? 0.6 : 1) : this.#cost < FINE / 5 ? 2 : 1;
+  #ratio(still) {
+    if (!this.slow) return Math.min(devicePixelRatio, 2);
+    if (still) return this.#cost < FINE / 5 ? 2 : 1;
+    return this.#cost > 2 * SLOW ? 0.6 : 1;
+  }
+
+  #scale(ratio) {
     if (this.renderer.getPixelRatio() !== ratio) this.renderer.setPixelRatio(ratio);
   }
 
@@ -182,7 +210,8 @@ export class Stage {
     for (const side of [FrontSide, DoubleSide]) {
       const material = new MeshStandardMaterial({ side });
       const meshes = [new Mesh(geometry, material), new InstancedMesh(geometry, material, 1)];
-      for (const mesh of meshes) warm.add(Object.assign(mesh, { castShadow: true, receiveShadow: true, frustumCulled: false }));
+      for (const mesh of meshes)
+        warm.add(Object.assign(mesh, { castShadow: true, receiveShadow: true, frustumCulled: false }));
     }
     this.scene.add(warm);
     this.light.sun.shadow.needsUpdate = true;
@@ -201,7 +230,10 @@ export class Stage {
   #ray(x, y) {
     const box = this.canvas.getBoundingClientRect();
     const caster = new Raycaster();
-    caster.setFromCamera(new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2), this.camera.active);
+    caster.setFromCamera(
+      new Vector2(((x - box.left) / box.width) * 2 - 1, 1 - ((y - box.top) / box.height) * 2),
+      this.camera.active,
+    );
     return caster.ray;
   }
 
@@ -220,7 +252,8 @@ export class Stage {
 
   /** A picture of what is seen, on `background` (two colours, top and bottom). */
   picture(background) {
-    this.#draw(true, true);
+    this.#draw(true, true, Math.max(devicePixelRatio, 2));
+    this.#later();
     const { width, height } = this.canvas;
     const paper = document.createElement('canvas');
     [paper.width, paper.height] = [width, height];

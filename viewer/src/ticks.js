@@ -26,10 +26,13 @@ export class Ticks {
       for (const axis of ['x', 'z']) {
         for (let i = -SIDE; i <= SIDE; i++) {
           if (i === 0) continue;
-          const at = new Vector3(axis === 'x' ? i * cell : 0, 0, axis === 'z' ? -i * cell : 0).sub(model.origin).setY(ground.height);
+          const at = new Vector3(axis === 'x' ? i * cell : 0, 0, axis === 'z' ? -i * cell : 0)
+            .sub(model.origin)
+            .setY(ground.height);
           const { min, max } = model.box;
           const margin = cell * 0.3;
-          if (at.x > min.x - margin && at.x < max.x + margin && at.z > min.z - margin && at.z < max.z + margin) continue;
+          if (at.x > min.x - margin && at.x < max.x + margin && at.z > min.z - margin && at.z < max.z + margin)
+            continue;
           if (at.distanceTo(camera.target) > camera.distance * 1.6) continue;
           const pixel = stage.pixel(at);
           if (!pixel) continue;
@@ -58,7 +61,9 @@ export class Ticks {
     const { box } = stage.model;
     if (box.isEmpty()) return null;
     const { min, max } = box;
-    const corners = Array.from({ length: 8 }, (_, i) => stage.pixel(new Vector3(i & 1 ? min.x : max.x, i & 2 ? min.y : max.y, i & 4 ? min.z : max.z))).filter(Boolean);
+    const corners = Array.from({ length: 8 }, (_, i) =>
+      stage.pixel(new Vector3(i & 1 ? min.x : max.x, i & 2 ? min.y : max.y, i & 4 ? min.z : max.z)),
+    ).filter(Boolean);
     const [xs, ys] = [0, 1].map((k) => corners.map((corner) => corner[k]));
     const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
     const { back } = stage.camera;

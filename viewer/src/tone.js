@@ -19,6 +19,9 @@ const MAPPING = /* glsl */ `vec3 CustomToneMapping( vec3 color ) {
 
 /** The mapping for a renderer. */
 export function toneMapping() {
-  ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.replace('vec3 CustomToneMapping( vec3 color ) { return color; }', MAPPING);
+  ShaderChunk.tonemapping_pars_fragment = ShaderChunk.tonemapping_pars_fragment.replace(
+    'vec3 CustomToneMapping( vec3 color ) { return color; }',
+    MAPPING,
+  );
   return CustomToneMapping;
 }

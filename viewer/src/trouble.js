@@ -20,10 +20,23 @@ export class Trouble {
   error({ errors }, drawn) {
     this.#waiting.hidden = true;
     const items = errors.map((error) => this.#describe(error));
-    const close = make('button', { class: 'tool', 'aria-label': 'Fold', title: 'Fold', 'aria-expanded': 'true', onclick: () => close.setAttribute('aria-expanded', String(!this.#error.classList.toggle('folded'))) }, icon('fold'));
+    const close = make(
+      'button',
+      {
+        class: 'tool',
+        'aria-label': 'Fold',
+        title: 'Fold',
+        'aria-expanded': 'true',
+        onclick: () => close.setAttribute('aria-expanded', String(!this.#error.classList.toggle('folded'))),
+      },
+      icon('fold'),
+    );
     const title = errors.length > 1 ? `${errors.length} errors` : 'Error';
     this.#error.classList.remove('folded');
-    this.#error.replaceChildren(make('div', { class: 'error-head' }, make('strong', { text: title }), close), make('div', { class: 'error-list' }, ...items));
+    this.#error.replaceChildren(
+      make('div', { class: 'error-head' }, make('strong', { text: title }), close),
+      make('div', { class: 'error-list' }, ...items),
+    );
     this.#error.hidden = false;
     this.#age(drawn);
   }
@@ -60,16 +73,35 @@ export class Trouble {
     if (rule) facts.push(['rule', rule]);
     if (module) facts.push(['module', module]);
     if (step !== null && step !== undefined) facts.push(['step', String(step)]);
-    return make('article', {},
+    return make(
+      'article',
+      {},
       file ? make('div', { class: 'error-place' }, this.places.open(file, line)) : null,
       make('p', { class: 'error-message', text: message }),
-      facts.length ? make('dl', {}, ...facts.flatMap(([name, value]) => [make('dt', { text: name }), make('dd', {}, make('code', { text: value }))])) : null,
+      facts.length
+        ? make(
+            'dl',
+            {},
+            ...facts.flatMap(([name, value]) => [
+              make('dt', { text: name }),
+              make('dd', {}, make('code', { text: value })),
+            ]),
+          )
+        : null,
       help ? make('p', { class: 'error-help', text: help }) : null,
-      more ? make('pre', { text: Array.isArray(more) ? more.join('\n') : String(more) }) : null);
+      more ? make('pre', { text: Array.isArray(more) ? more.join('\n') : String(more) }) : null,
+    );
   }
 }
 
-const CAUSES = { start: 'Running', save: 'Saved', parameters: 'New values', seed: 'New seed', steps: 'Steps', preset: 'Preset' };
+const CAUSES = {
+  start: 'Running',
+  save: 'Saved',
+  parameters: 'New values',
+  seed: 'New seed',
+  steps: 'Steps',
+  preset: 'Preset',
+};
 const PATIENCE = 120; // ms of work that show nothing, so that quick models do not flicker
 
 /** The thin bar while the server works or a model is on its way. */

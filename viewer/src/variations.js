@@ -46,18 +46,81 @@ export class Variations {
   }
 
   #build() {
-    const of = make('select', { 'aria-label': 'Vary', 'data-testid': 'variations-of', onchange: () => (this.#range(), this.#ask()) }, make('option', { value: '', text: 'seeds' }));
-    const number = make('div', { class: 'segments', role: 'radiogroup', 'aria-label': 'How many' }, ...NUMBERS.map((n) => make('label', {},
-      make('input', { type: 'radio', name: 'variations-number', value: n, checked: n === this.#number, 'data-testid': `variations-${n}`, onchange: () => ((this.#number = n), this.#ask()) }), make('span', { text: n }))));
-    const from = make('input', { type: 'number', step: 'any', 'aria-label': 'From', 'data-testid': 'variations-from', onchange: () => this.#ask() });
-    const to = make('input', { type: 'number', step: 'any', 'aria-label': 'To', 'data-testid': 'variations-to', onchange: () => this.#ask() });
+    const of = make(
+      'select',
+      { 'aria-label': 'Vary', 'data-testid': 'variations-of', onchange: () => (this.#range(), this.#ask()) },
+      make('option', { value: '', text: 'seeds' }),
+    );
+    const number = make(
+      'div',
+      { class: 'segments', role: 'radiogroup', 'aria-label': 'How many' },
+      ...NUMBERS.map((n) =>
+        make(
+          'label',
+          {},
+          make('input', {
+            type: 'radio',
+            name: 'variations-number',
+            value: n,
+            checked: n === this.#number,
+            'data-testid': `variations-${n}`,
+            onchange: () => ((this.#number = n), this.#ask()),
+          }),
+          make('span', { text: n }),
+        ),
+      ),
+    );
+    const from = make('input', {
+      type: 'number',
+      step: 'any',
+      'aria-label': 'From',
+      'data-testid': 'variations-from',
+      onchange: () => this.#ask(),
+    });
+    const to = make('input', {
+      type: 'number',
+      step: 'any',
+      'aria-label': 'To',
+      'data-testid': 'variations-to',
+      onchange: () => this.#ask(),
+    });
     const range = make('span', { class: 'range' }, from, make('span', { text: 'to' }), to);
-    const list = make('div', { class: 'pictures', role: 'listbox', 'aria-label': 'Variations', 'data-testid': 'variations-list', onkeydown: (event) => this.#move(event) });
-    const again = make('button', { class: 'small', text: 'More', 'data-testid': 'variations-again', title: 'Make others', onclick: () => this.#ask() });
+    const list = make('div', {
+      class: 'pictures',
+      role: 'listbox',
+      'aria-label': 'Variations',
+      'data-testid': 'variations-list',
+      onkeydown: (event) => this.#move(event),
+    });
+    const again = make('button', {
+      class: 'small',
+      text: 'More',
+      'data-testid': 'variations-again',
+      title: 'Make others',
+      onclick: () => this.#ask(),
+    });
     const state = make('span', { class: 'where', role: 'status' });
-    const close = make('button', { class: 'tool', 'aria-label': 'Close', title: 'Close (Esc)', onclick: () => this.toggle(false) }, icon('close'));
+    const close = make(
+      'button',
+      { class: 'tool', 'aria-label': 'Close', title: 'Close (Esc)', onclick: () => this.toggle(false) },
+      icon('close'),
+    );
     this.#parts = { of, from, to, range, list, again, state };
-    this.#tray.append(make('div', { class: 'tray-head' }, make('strong', { text: 'Variations' }), of, range, number, again, state, make('span', { class: 'push' }), close), list);
+    this.#tray.append(
+      make(
+        'div',
+        { class: 'tray-head' },
+        make('strong', { text: 'Variations' }),
+        of,
+        range,
+        number,
+        again,
+        state,
+        make('span', { class: 'push' }),
+        close,
+      ),
+      list,
+    );
     this.#range();
   }
 
@@ -77,7 +140,15 @@ export class Variations {
     if (param) Object.assign(message, { param: param.name, values: this.#values(param) });
     else message.seeds = Array.from({ length: this.#number }, () => String(Math.floor(Math.random() * 1e6)));
     const number = (message.seeds ?? message.values).length;
-    list.replaceChildren(...Array.from({ length: number }, (_, i) => make('button', { class: 'picture', role: 'option', 'aria-selected': 'false', tabindex: i ? -1 : 0, disabled: true }, make('span', { class: 'label', text: '…' }))));
+    list.replaceChildren(
+      ...Array.from({ length: number }, (_, i) =>
+        make(
+          'button',
+          { class: 'picture', role: 'option', 'aria-selected': 'false', tabindex: i ? -1 : 0, disabled: true },
+          make('span', { class: 'label', text: '…' }),
+        ),
+      ),
+    );
     let made = 0;
     say(state, `0 of ${number}`);
     const id = (this.#id = this.socket.ask(message, (answer) => {
@@ -105,7 +176,9 @@ export class Variations {
     if (!place) return;
     place.disabled = false;
     place.title = error ?? label;
-    const shown = error ? make('span', { class: 'failed', text: error }) : make('img', { src: url, alt: '', draggable: 'false' });
+    const shown = error
+      ? make('span', { class: 'failed', text: error })
+      : make('img', { src: url, alt: '', draggable: 'false' });
     place.replaceChildren(shown, make('span', { class: 'label', text: label }));
     if (error) return;
     place.onclick = () => {
@@ -113,7 +186,8 @@ export class Variations {
       const swept = this.#parts.of.value;
       for (const [name, value] of Object.entries(params)) {
         const now = this.#all.find((param) => param.name === name)?.value;
-        if (name === swept || (now !== undefined && String(now) !== String(value))) this.changes.set(name, String(value));
+        if (name === swept || (now !== undefined && String(now) !== String(value)))
+          this.changes.set(name, String(value));
       }
       if (seed !== this.seed.value) this.seed.use(seed);
     };
