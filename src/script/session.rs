@@ -147,8 +147,8 @@ impl Progress {
         let left = match (step, steps) {
             (1.., steps) if steps != usize::MAX && steps > step => {
                 #[allow(clippy::cast_precision_loss, reason = "an estimate")]
-                let share = (steps - step) as f64 / step as f64;
-                format!(", at least {:.0} s left", elapsed.as_secs_f64() * share)
+                let seconds = elapsed.as_secs_f64() * (steps - step) as f64 / step as f64;
+                if seconds < 1.0 { String::new() } else { format!(", at least {seconds:.0} s left") }
             }
             _ => String::new(),
         };
@@ -294,5 +294,30 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Error {
             Error::new(format!("{shown} is a folder")).help("name a script in it")
         }
         _ => Error::new(format!("cannot read {shown}: {error}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_tells_the_time_left_once_there_is_some() {
+        let progress = Progress::default();
+        progress.note(5, 20, 1_000_000);
+        let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
+        assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");
+        assert_eq!(after(4.0), "step 5 of 20, 1000000 modules, 0.2 M modules/s, at least 12 s left");
+    }
+
+    #[test]
+    fn a_stop_under_another_stops_with_its_reason() {
+        let parent = Arc::new(Stop::default());
+        let (child, other) = (Stop::under(Some(Arc::clone(&parent))), Stop::under(Some(Arc::clone(&parent))));
+        other.stop(Error::new("mine"));
+        assert!(!child.is_stopped() && !parent.is_stopped());
+        parent.stop(Error::new("all"));
+        assert_eq!(child.check().unwrap_err().message(), "all");
+        assert_eq!(other.check().unwrap_err().message(), "mine");
     }
 }
