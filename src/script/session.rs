@@ -1,5 +1,6 @@
 //! What all virtual machines of one run share: options, limits, source files, parameters.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -13,6 +14,9 @@ use super::preset::Preset;
 use crate::error::{Error, Result};
 use crate::objects::Kind;
 use crate::rules::Values;
+
+/// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
+const LARGEST: u64 = 4_000_000;
 
 /// How much a run may use.
 #[derive(Debug, Clone)]
@@ -271,7 +275,14 @@ impl Session {
         if let Some(source) = sources.get(path) {
             return Ok(Arc::clone(source));
         }
-        let bytes = std::fs::read(path).map_err(|error| unreadable(Path::new(name), &error))?;
+        let mut bytes = Vec::new();
+        std::fs::File::open(path)
+            .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+            .map_err(|error| unreadable(Path::new(name), &error))?;
+        if bytes.len() as u64 > LARGEST {
+            return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require"));
+        }
         let text = String::from_utf8(bytes).map_err(|_| {
             Error::new(format!("{name} is not a text file"))
                 .help("scripts are UTF-8 text; check the file's name")
