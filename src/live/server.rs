@@ -180,6 +180,10 @@ fn decoded(name: &str) -> Option<String> {
             continue;
         }
         let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
+        // A sign would be read as a part of the number.
+        if digits.starts_with('+') {
+            return None;
+        }
         bytes.push(u8::from_str_radix(digits, 16).ok()?);
         rest = &rest[2..];
     }
