@@ -9,8 +9,8 @@ export class Card {
   #dot = find('#dot');
   #point = null;
 
-  constructor({ stage, socket, places, closed }) {
-    Object.assign(this, { stage, socket, places, closed });
+  constructor({ stage, socket, places, picking, closed }) {
+    Object.assign(this, { stage, socket, places, picking, closed });
     stage?.onDraw(() => this.#follow());
   }
 
@@ -25,6 +25,7 @@ export class Card {
     const { mesh, primitive, node } = hit.part.userData;
     this.#point = hit.point;
     this.#follow();
+    this.picking();
     this.socket.ask({ type: 'pick', mesh, primitive, triangle: hit.triangle, instance: hit.instance, node }, (answer) => {
       if (answer.type === 'refused') return;
       if (!answer.found) return this.#fill(make('p', { class: 'none', text: 'No module is known for this triangle.' }));

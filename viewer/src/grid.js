@@ -13,6 +13,7 @@ const FRAGMENT = /* glsl */ `
 varying vec2 at;
 uniform vec2 origin;
 uniform float cell, blend, radius, opacity;
+uniform vec2 axes;
 uniform vec3 color, east, north;
 
 float lines(vec2 p, float size, float width) {
@@ -33,7 +34,7 @@ void main() {
   float coarsest = lines(p, cell * 100.0, 1.0) * 0.62 * blend;
   float a = max(max(fine, coarse), coarsest);
   vec2 w = fwidth(p) * 1.2;
-  vec2 axis = 1.0 - smoothstep(w * 0.5, w * 1.6, abs(p));
+  vec2 axis = (1.0 - smoothstep(w * 0.5, w * 1.6, abs(p))) * axes;
   vec3 c = mix(mix(color, east, axis.y), north, axis.x);
   a = max(a, max(axis.x, axis.y) * 1.3);
   gl_FragColor = vec4(c, a * fade * opacity);
@@ -51,6 +52,7 @@ export class Ground {
     cell: { value: 1 },
     blend: { value: 0 },
     radius: { value: 1 },
+    axes: { value: new Vector2(1, 1) },
     opacity: { value: 0.4 },
     color: { value: new Color() },
     east: { value: new Color() },
@@ -121,9 +123,11 @@ export class Ground {
     this.grid.position.z = z;
     this.grid.scale.set(radius, radius, 1);
     const origin = this.origin ?? { x: 0, z: 0 };
-    // Exact in doubles; what reaches the shader is small, but for the axes, which are only near zero.
-    const wrap = (value) => (Math.abs(value) > cell * 2e4 ? value % (cell * 100) : value);
-    uniforms.origin.value.set(wrap(x + origin.x), wrap(-(z + origin.z)));
+    // The remainder is exact in doubles and small enough for the shader; zero and its axes are then far away.
+    const middle = [x + origin.x, -(z + origin.z)];
+    const far = middle.map((value) => Math.abs(value) > cell * 2e4);
+    uniforms.origin.value.set(...middle.map((value, i) => (far[i] ? value % (cell * 100) : value)));
+    uniforms.axes.value.set(far[0] ? 0 : 1, far[1] ? 0 : 1);
     this.cell = blend > 0.6 ? cell * 10 : cell;
     return radius;
   }

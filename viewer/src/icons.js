@@ -23,6 +23,7 @@ const PATHS = {
   locked: 'M4 7.2h8v6H4zM5.7 7.2V5a2.3 2.3 0 0 1 4.6 0v2.2',
   unlocked: 'M4 7.2h8v6H4zM5.7 7.2V4.6a2.3 2.3 0 0 1 4.5-.6',
   reset: 'M3.2 5.2A5.4 5.4 0 1 1 2.6 9M3 2.4v3h3',
+  fold: 'M4 10l4-4 4 4',
   close: 'M4 4l8 8M12 4l-8 8',
   save: 'M8 3.2v9.6M3.2 8h9.6',
   trash: 'M3 4.5h10M6.2 4.5V3h3.6v1.5M4.4 4.5 5 13h6l.6-8.5',

@@ -10,8 +10,9 @@ const SUN = new Vector3(-0.62, 0.72, 0.42).normalize();
 
 export class Light {
   constructor(scene, { slow }) {
-    this.sky = new HemisphereLight(0xdfe8f5, 0x9a948a, 1.1);
-    this.sun = new DirectionalLight(0xfff3e0, 2.7);
+    // Without a graphics card there are no reflections (they take seconds to prepare), so the sky gives all light.
+    this.sky = new HemisphereLight(0xdfe8f5, 0x9a948a, slow ? 2.2 : 1.0);
+    this.sun = new DirectionalLight(0xfff3e0, 2.3);
     this.sun.castShadow = true;
     this.sun.shadow.mapSize.setScalar(slow ? 1024 : 2048);
     this.sun.shadow.autoUpdate = false;

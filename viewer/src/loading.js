@@ -7,13 +7,14 @@ import { Model, build } from './model.js';
 const STREAMED = 4e6; // bytes from which the download tells how far it is
 
 export class Loading {
-  #materials = new Materials();
+  #materials;
   #newest = 0;
   #abort = null;
 
   /** `progress(part)` is called during long downloads with 0 to 1, and with null at their end. */
   constructor(stage, progress) {
     this.stage = stage;
+    this.#materials = new Materials(stage.slow);
     this.progress = progress;
   }
 

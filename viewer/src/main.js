@@ -41,6 +41,7 @@ try {
   stage = new Stage(canvas);
 } catch {
   find('#stage').classList.add('blind');
+  find('#screenshot').hidden = find('#scale').hidden = true;
   find('#stage').append(make('p', { class: 'no-webgl', 'data-testid': 'no-webgl', text: 'This browser has no WebGL, so the model cannot be shown here. Parameters, errors and exports work all the same.' }));
 }
 
@@ -53,20 +54,22 @@ const trouble = new Trouble(places);
 const working = new Working(socket);
 const profile = new Profile({ places, highlight });
 const variations = new Variations({ socket, changes, seed });
-const card = new Card({ stage, socket, places, closed: clearMark });
+const card = new Card({ stage, socket, places, picking: clearMark, closed: clearMark });
 const loading = stage && new Loading(stage, (part) => working.download(part));
 
-function highlight(file, line) {
+function highlight(file, line, again = false) {
+  state.marked = { file, line };
   socket.ask({ type: 'highlight', file, line }, (answer) => {
     if (answer.type === 'refused') return;
     profile.highlighted(answer);
     stage?.mark.show(stage.model, answer.ranges ?? []);
     stage?.invalidate();
-    if (!answer.ranges?.length) toast(`${answer.file}:${answer.line} makes nothing in this model`);
+    if (!answer.ranges?.length && !again) toast(`${answer.file}:${answer.line} makes nothing in this model`);
   });
 }
 
 function clearMark() {
+  state.marked = null;
   stage?.mark.clear();
   stage?.invalidate();
   profile.highlighted(null);
@@ -97,8 +100,9 @@ async function show(message) {
       return socket.open ? toast(error.message) : undefined;
     }
     if (!own) return;
+    const { marked } = state;
     if (card.open) card.close();
-    profile.highlighted(null);
+    if (marked) highlight(marked.file, marked.line, true);
     if (!state.fitted && message.url) {
       state.fitted = true;
       if (!restoreCamera()) stage.camera.go(stage.camera.fitted(stage.model.box, ...Object.values(firstView(stage.model.box))), true);

@@ -8,6 +8,11 @@ export class Materials {
   #materials = new Map();
   #textures = [];
 
+  /** `dull`: there are no reflections, without which metal would be black. */
+  constructor(dull) {
+    this.dull = dull;
+  }
+
   /** The materials of a file; `release` lets go of what no later call has used. */
   async of(glb) {
     const { materials = [], textures = [] } = glb.json;
@@ -16,7 +21,7 @@ export class Materials {
     const made = materials.map((given) => {
       const picture = pictures[given.pbrMetallicRoughness?.baseColorTexture?.index];
       const key = JSON.stringify([{ ...given, name: undefined }, picture?.id]);
-      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture));
+      if (!used.has(key)) used.set(key, this.#materials.get(key) ?? material(given, picture, this.dull));
       return used.get(key);
     });
     return { made, keep: () => this.#keep(used, new Set(pictures)) };
@@ -54,10 +59,10 @@ export class Materials {
   }
 }
 
-function material(given, picture) {
+function material(given, picture, dull) {
   const { baseColorFactor = [1, 1, 1, 1], metallicFactor = 1, roughnessFactor = 1 } = given.pbrMetallicRoughness ?? {};
   const [r, g, b, opacity] = baseColorFactor;
-  const made = new MeshStandardMaterial({ roughness: roughnessFactor, metalness: metallicFactor });
+  const made = new MeshStandardMaterial({ roughness: roughnessFactor, metalness: metallicFactor * (dull ? 0.3 : 1) });
   made.color.setRGB(r, g, b);
   made.emissive.setRGB(...(given.emissiveFactor ?? [0, 0, 0]));
   made.emissiveIntensity = given.extensions?.KHR_materials_emissive_strength?.emissiveStrength ?? 1;

@@ -92,6 +92,7 @@ class Row {
   }
 
   reset() {
+    this.typing = false;
     if (this.param) this.input.put(this.param.default);
   }
 
@@ -102,7 +103,10 @@ class Row {
   number({ control }) {
     const field = make('input', {
       type: 'number', id: this.id, 'data-testid': this.id, 'aria-describedby': `${this.id}-help`, autocomplete: 'off',
+      oninput: () => (this.typing = true),
+      onblur: () => (this.typing = false),
       onchange: () => {
+        this.typing = false;
         const { min, max } = this.param.control;
         if (field.value === '' || !Number.isFinite(field.valueAsNumber)) return put(this.param.value);
         const value = Math.min(Math.max(field.valueAsNumber, min ?? -Infinity), max ?? Infinity);
@@ -130,7 +134,7 @@ class Row {
       if (Number.isFinite(rest)) slider.style.setProperty('--rest', part(rest));
     };
     const put = (value) => {
-      if (document.activeElement !== field || Number(field.value) !== value) field.value = plain(value);
+      if (!this.typing) field.value = plain(value);
       if (slider) slider.value = value;
       fill();
     };

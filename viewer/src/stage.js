@@ -4,7 +4,7 @@
 // finer frame follows as soon as they rest.
 
 import {
-  Box3, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, InstancedMesh, Mesh, MeshStandardMaterial, NeutralToneMapping,
+  Box3, BufferAttribute, BufferGeometry, DoubleSide, FrontSide, Group, InstancedMesh, Mesh, MeshStandardMaterial,
   PCFShadowMap, Raycaster, Scene, Vector2, Vector3, WebGLRenderer,
 } from 'three';
 import { Camera } from './camera.js';
@@ -14,6 +14,7 @@ import { Mark } from './mark.js';
 import { Model } from './model.js';
 import { Shading } from './shading.js';
 import { nearest } from './ray.js';
+import { toneMapping } from './tone.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
 const SLOW = 40; // ms for a frame above which moving frames are plainer
@@ -38,13 +39,13 @@ export class Stage {
     if (!context) throw new Error('no WebGL 2');
     this.slow = software(context);
     this.renderer = new WebGLRenderer({ canvas, context });
-    this.renderer.toneMapping = NeutralToneMapping;
-    this.renderer.toneMappingExposure = 1;
+    this.renderer.toneMapping = toneMapping();
+    this.renderer.toneMappingExposure = 1.15;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(0, 0);
     this.light = new Light(this.scene, this);
-    this.light.reflect(this.renderer, this.scene);
+    if (!this.slow) this.light.reflect(this.renderer, this.scene);
     this.ground = new Ground(this.scene);
     this.ground.under(this.model.box, this.model.origin);
     this.scene.add(this.model.group);
@@ -72,6 +73,9 @@ export class Stage {
     this.shading.clear();
     this.scene.remove(old.group);
     this.model = model;
+    // The camera stays where it is in the scene, also if the page's own zero moves.
+    if (model.box.isEmpty()) model.origin.copy(old.origin);
+    this.camera.target.add(old.origin).sub(model.origin);
     this.scene.add(model.group);
     this.shading.apply(model);
     this.ground.under(model.box, model.origin);

@@ -22,6 +22,7 @@ export class Ticks {
     const cell = low || !ground.grid.visible ? 0 : this.#cell();
     if (cell) {
       const box = stage.canvas.getBoundingClientRect();
+      const cover = this.#cover();
       for (const axis of ['x', 'z']) {
         for (let i = -SIDE; i <= SIDE; i++) {
           if (i === 0) continue;
@@ -33,6 +34,7 @@ export class Ticks {
           const pixel = stage.pixel(at);
           if (!pixel) continue;
           const [x, y] = [pixel[0] - box.left, pixel[1] - box.top];
+          if (cover && cover(pixel, at)) continue;
           if (x < 8 || y < 8 || x > box.width - 8 || y > box.height - 8) continue;
           if (shown.some((other) => Math.abs(other.x - x) < APART && Math.abs(other.y - y) < 18)) continue;
           shown.push({ x, y, text: label(Math.abs(i * cell)), axis });
@@ -48,6 +50,20 @@ export class Ticks {
       tick.style.transform = `translate(${x.toFixed(1)}px, ${y.toFixed(1)}px)`;
     });
     for (const tick of this.#pool.slice(shown.length)) tick.hidden = true;
+  }
+
+  /** Tells whether the model may stand in front of a point, by the rectangle that its box fills. */
+  #cover() {
+    const { stage } = this;
+    const { box } = stage.model;
+    if (box.isEmpty()) return null;
+    const { min, max } = box;
+    const corners = Array.from({ length: 8 }, (_, i) => stage.pixel(new Vector3(i & 1 ? min.x : max.x, i & 2 ? min.y : max.y, i & 4 ? min.z : max.z))).filter(Boolean);
+    const [xs, ys] = [0, 1].map((k) => corners.map((corner) => corner[k]));
+    const [left, right, top, bottom] = [Math.min(...xs), Math.max(...xs), Math.min(...ys), Math.max(...ys)];
+    const { back } = stage.camera;
+    const middle = box.getCenter(new Vector3()).dot(back);
+    return ([x, y], at) => x > left - 30 && x < right && y > top - 16 && y < bottom && at.dot(back) < middle;
   }
 
   /** A multiple of the grid's cell far enough apart to be read. */

@@ -20,7 +20,7 @@ export class Trouble {
   error({ errors }, drawn) {
     this.#waiting.hidden = true;
     const items = errors.map((error) => this.#describe(error));
-    const close = make('button', { class: 'tool', 'aria-label': 'Fold', title: 'Fold', 'aria-expanded': 'true', onclick: () => close.setAttribute('aria-expanded', String(!this.#error.classList.toggle('folded'))) }, icon('panel'));
+    const close = make('button', { class: 'tool', 'aria-label': 'Fold', title: 'Fold', 'aria-expanded': 'true', onclick: () => close.setAttribute('aria-expanded', String(!this.#error.classList.toggle('folded'))) }, icon('fold'));
     const title = errors.length > 1 ? `${errors.length} errors` : 'Error';
     this.#error.classList.remove('folded');
     this.#error.replaceChildren(make('div', { class: 'error-head' }, make('strong', { text: title }), close), make('div', { class: 'error-list' }, ...items));

@@ -3,7 +3,6 @@
 import { find, make, say } from './dom.js';
 import { plain } from './format.js';
 import { icon } from './icons.js';
-import { randomSeed } from './seed.js';
 
 const NUMBERS = [4, 9, 16];
 
@@ -74,7 +73,7 @@ export class Variations {
     const param = this.#params.find(({ name }) => name === of.value);
     const message = { type: 'variations' };
     if (param) Object.assign(message, { param: param.name, values: this.#values(param) });
-    else message.seeds = Array.from({ length: this.#number }, randomSeed);
+    else message.seeds = Array.from({ length: this.#number }, () => String(Math.floor(Math.random() * 1e6)));
     const number = (message.seeds ?? message.values).length;
     list.replaceChildren(...Array.from({ length: number }, (_, i) => make('button', { class: 'picture', role: 'option', 'aria-selected': 'false', tabindex: i ? -1 : 0, disabled: true }, make('span', { class: 'label', text: '…' }))));
     let made = 0;
