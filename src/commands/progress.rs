@@ -41,7 +41,8 @@ impl Progress {
                     return;
                 }
             }
-            let style = ProgressStyle::with_template("{spinner} {msg}");
+            // A wide message is cut where the terminal ends; another would leave its lines behind.
+            let style = ProgressStyle::with_template("{spinner} {wide_msg}");
             let bar = ProgressBar::new_spinner()
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
             while !done.load(Ordering::Relaxed) {

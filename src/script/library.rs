@@ -1,6 +1,7 @@
 //! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
 
 use std::cell::RefCell;
+use std::io::IsTerminal;
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, LazyLock};
 
@@ -319,7 +320,9 @@ fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
     }
     let tostring: Function = lua.globals().get("tostring")?;
     let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
-    eprintln!("{}", texts.join("\t"));
+    // On a terminal, what is printed takes the place of the progress that may stand in the line.
+    let clear = if std::io::stderr().is_terminal() { "\r\u{1b}[2K" } else { "" };
+    eprintln!("{clear}{}", texts.join("\t"));
     Ok(())
 }
 

@@ -1,6 +1,7 @@
 //! What all virtual machines of one run share: options, limits, source files, parameters.
 
 use std::collections::BTreeSet;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -15,6 +16,9 @@ use crate::derive::{Trace, Traced};
 use crate::error::{Error, Result};
 use crate::objects::Kind;
 use crate::rules::Values;
+
+/// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
+const LARGEST: u64 = 4_000_000;
 
 /// How much a run may use.
 #[derive(Debug, Clone)]
@@ -169,8 +173,8 @@ impl Progress {
         let left = match (step, steps) {
             (1.., steps) if steps != usize::MAX && steps > step => {
                 #[allow(clippy::cast_precision_loss, reason = "an estimate")]
-                let share = (steps - step) as f64 / step as f64;
-                format!(", at least {:.0} s left", elapsed.as_secs_f64() * share)
+                let seconds = elapsed.as_secs_f64() * (steps - step) as f64 / step as f64;
+                if seconds < 1.0 { String::new() } else { format!(", at least {seconds:.0} s left") }
             }
             _ => String::new(),
         };
@@ -340,7 +344,14 @@ impl Session {
         if let Some(source) = sources.get(path) {
             return Ok(Arc::clone(source));
         }
-        let bytes = std::fs::read(path).map_err(|error| unreadable(Path::new(name), &error))?;
+        let mut bytes = Vec::new();
+        std::fs::File::open(path)
+            .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+            .map_err(|error| unreadable(Path::new(name), &error))?;
+        if bytes.len() as u64 > LARGEST {
+            return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require"));
+        }
         let text = String::from_utf8(bytes).map_err(|_| {
             Error::new(format!("{name} is not a text file"))
                 .help("scripts are UTF-8 text; check the file's name")
@@ -376,5 +387,30 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Error {
             Error::new(format!("{shown} is a folder")).help("name a script in it")
         }
         _ => Error::new(format!("cannot read {shown}: {error}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_tells_the_time_left_once_there_is_some() {
+        let progress = Progress::default();
+        progress.note(5, 20, 1_000_000);
+        let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
+        assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");
+        assert_eq!(after(4.0), "step 5 of 20, 1000000 modules, 0.2 M modules/s, at least 12 s left");
+    }
+
+    #[test]
+    fn a_stop_under_another_stops_with_its_reason() {
+        let parent = Arc::new(Stop::default());
+        let (child, other) = (Stop::under(Some(Arc::clone(&parent))), Stop::under(Some(Arc::clone(&parent))));
+        other.stop(Error::new("mine"));
+        assert!(!child.is_stopped() && !parent.is_stopped());
+        parent.stop(Error::new("all"));
+        assert_eq!(child.check().unwrap_err().message(), "all");
+        assert_eq!(other.check().unwrap_err().message(), "mine");
     }
 }

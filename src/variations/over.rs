@@ -117,9 +117,8 @@ fn rounded(number: f64) -> f64 {
 /// Refuses no variations at all, and too many.
 pub(super) fn check_count(count: f64, help: &str) -> Result<()> {
     if count > MOST as f64 {
-        return Err(
-            Error::new(format!("{count} variations are more than {MOST}, the most at once")).help(help)
-        );
+        let many = if count < 1e9 { format!("{count} variations") } else { "so many variations".to_owned() };
+        return Err(Error::new(format!("{many} are more than {MOST}, the most at once")).help(help));
     }
     if count < 1.0 {
         return Err(Error::new("there is nothing to vary").help("give a seed or a value"));

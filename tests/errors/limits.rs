@@ -241,3 +241,15 @@ fn branches_are_not_nested_without_end() {
     );
     assert!(said.starts_with("error: s.lua:") && said.contains("nested"), "{said}");
 }
+
+#[test]
+fn a_script_that_is_too_large_is_refused_before_it_is_read() {
+    let large = "local x = 1 -- a line\n".repeat(200_000);
+    let folder = Folder::new().with("s.lua", &large).with("t.lua", "require(\"s\")\n");
+    assert_snapshot!(folder.refuses(&["run", "s.lua"]), @r"
+    error: s.lua is larger than 4 MB
+      help: divide it; other files of its folder come in with require
+    ");
+    let said = folder.refuses(&["run", "t.lua"]);
+    assert!(said.starts_with("error: t.lua:1: ") && said.contains("s.lua is larger than 4 MB"), "{said}");
+}
