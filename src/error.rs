@@ -83,6 +83,15 @@ impl Error {
         self
     }
 
+    /// Says where more exactly than is known so far.
+    #[must_use]
+    pub(crate) fn rather_at(mut self, place: Option<Place>) -> Self {
+        if place.is_some() {
+            self.0.place = place;
+        }
+        self
+    }
+
     /// Names the rule, unless it is named already.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {

@@ -37,6 +37,10 @@ pub(crate) struct Applier {
     ends: Vec<u32>,
     /// The time that the calls of each entry took, if that is measured.
     times: Vec<Duration>,
+    /// How many recorded calls of the entry `next` have been applied already.
+    applied: usize,
+    /// The entry and the number of the call that failed.
+    failed: Option<(usize, usize)>,
 }
 
 impl Applier {
@@ -64,6 +68,8 @@ impl Applier {
             numbers: Vec::new(),
             ends: Vec::new(),
             times: Vec::new(),
+            applied: 0,
+            failed: None,
         })
     }
 
@@ -75,6 +81,12 @@ impl Applier {
         self.entries.extend_from_slice(entries);
         self.next = 0;
         self.times.clear();
+        (self.applied, self.failed) = (0, None);
+    }
+
+    /// The entry of the batch whose call failed, and the number of that call.
+    pub(crate) fn failed(&self) -> Option<(usize, usize)> {
+        self.failed
     }
 
     /// The times of the entries that have been applied.
@@ -216,6 +228,8 @@ impl Flusher for Applier {
             self.walk(module)?;
             let begin = self.pass.plan.profiled.then(Instant::now);
             let end = if index < entry { self.ends[index] as usize } else { called };
+            let earlier = if index == self.next { self.applied } else { 0 };
+            let first = call_at;
             // A method that runs at once follows, so the pass must have begun even without calls.
             if call_at < end || index == entry {
                 let objects = Arc::clone(&self.objects);
@@ -236,8 +250,12 @@ impl Flusher for Applier {
                     }
                     Ok(())
                 });
-                applied.map_err(|error| self.blame(error, index))?;
+                if let Err(error) = applied {
+                    self.failed = Some((index, earlier + call_at - first));
+                    return Err(self.blame(error, index));
+                }
             }
+            self.applied = earlier + call_at - first;
             if let Some(begin) = begin {
                 self.times.resize(index + 1, Duration::ZERO);
                 self.times[index] += begin.elapsed();

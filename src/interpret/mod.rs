@@ -174,16 +174,35 @@ impl Interpreting {
                 let at: usize = prelude.at.call(()).unwrap_or(0);
                 // A machine that cannot even end the batch is thrown away with the run.
                 let _ = prelude.finish.call::<()>(());
-                return Err(self.blame(machine, machine.translate(error), entries.get(at).copied()));
+                let error = self.blame(machine, machine.translate(error), entries.get(at).copied());
+                return Err(self.find_line(machine, error));
             }
         };
         let mut applying = Vec::new();
-        with_applier(&mut |applier| {
+        let applied = with_applier(&mut |applier| {
             applier.finish_entries(called, until)?;
             applying = applier.take_times();
             Ok(())
-        })?;
-        Ok(applying)
+        });
+        match applied {
+            Ok(()) => Ok(applying),
+            Err(error) => Err(self.find_line(machine, error)),
+        }
+    }
+
+    /// An error of a recorded call with the line of the call: the rule runs once more to find it.
+    fn find_line(&self, machine: &Machine, error: Error) -> Error {
+        let flusher =
+            machine.current.flusher.borrow_mut().as_mut().and_then(|flusher| flusher.applier()?.failed());
+        let Some((entry, call)) = flusher else { return error };
+        let prelude = machine.prelude();
+        let place = match prelude.relive.call::<()>((entry, call)) {
+            Err(raised) => machine.translate(raised).place().cloned(),
+            Ok(()) => None,
+        };
+        // A machine that cannot even end the batch is thrown away with the run.
+        let _ = prelude.finish.call::<()>(());
+        error.rather_at(place)
     }
 
     /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`

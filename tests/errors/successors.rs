@@ -163,8 +163,8 @@ fn a_length_that_is_no_finite_number_is_refused_by_turtle_and_extruder() {
       module: A(1), step 0
     ");
     assert_snapshot!(refused_rules("s:interpret(\"A(x)\", function(this, x)\n  this:forward(x / 0)\nend)"), @r#"
-    error: s.lua:3: rule A(x) (interpretation): turtle:forward: length must be a finite number, not infinity
-      | s:interpret("A(x)", function(this, x)
+    error: s.lua:4: rule A(x) (interpretation): turtle:forward: length must be a finite number, not infinity
+      | this:forward(x / 0)
       module: A(1), step 0
     "#);
     let extruded = |length: &str| {
@@ -178,8 +178,8 @@ fn a_length_that_is_no_finite_number_is_refused_by_turtle_and_extruder() {
       module: A(nan), step 0
     ");
     assert_snapshot!(extruded("-1 / 0"), @r#"
-    error: s.lua:4: rule A(length) (interpretation): extruder:extrude: length must be a finite number, not infinity
-      | s:interpret("A(length)", function(this, length)
+    error: s.lua:5: rule A(length) (interpretation): extruder:extrude: length must be a finite number, not infinity
+      | this:extrude(length)
       module: A(-inf), step 0
     "#);
     assert_snapshot!(extruded("\"long\""), @r#"
@@ -248,13 +248,13 @@ fn a_method_tells_what_it_takes() {
       module: A(1), step 0
     ");
     assert_snapshot!(interpreted("this:width()"), @r#"
-    error: s.lua:3: rule A(x) (interpretation): turtle:width: width must be a number, not nothing
-      | s:interpret("A(x)", function(this, x)
+    error: s.lua:4: rule A(x) (interpretation): turtle:width: width must be a number, not nothing
+      | this:width()
       module: A(1), step 0
     "#);
     assert_snapshot!(interpreted("this:width(-1)"), @r#"
-    error: s.lua:3: rule A(x) (interpretation): turtle:width: width must not be negative, and is -1
-      | s:interpret("A(x)", function(this, x)
+    error: s.lua:4: rule A(x) (interpretation): turtle:width: width must not be negative, and is -1
+      | this:width(-1)
       module: A(1), step 0
     "#);
     assert_snapshot!(interpreted("this:color(\"#12\")"), @r##"
@@ -273,8 +273,8 @@ fn a_method_tells_what_it_takes() {
       module: A(1), step 0
     ");
     assert_snapshot!(interpreted("this:end_polygon()"), @r#"
-    error: s.lua:3: rule A(x) (interpretation): turtle:end_polygon: no polygon has been begun
-      | s:interpret("A(x)", function(this, x)
+    error: s.lua:4: rule A(x) (interpretation): turtle:end_polygon: no polygon has been begun
+      | this:end_polygon()
       module: A(1), step 0
       help: begin it with BeginPolygon()
     "#);

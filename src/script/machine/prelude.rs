@@ -26,6 +26,8 @@ pub(crate) struct Prelude {
     pub direct: Function,
     /// `(count)`: interprets a batch; gives the calls and arguments recorded last.
     pub interpret: Function,
+    /// `(entry, call)`: runs an interpretation rule again, and fails at one of its recorded calls.
+    pub relive: Function,
     /// Ends a batch that failed.
     pub finish: Function,
     /// The application at hand.
@@ -65,6 +67,7 @@ impl Prelude {
             recorder: table.get("recorder")?,
             direct: table.get("direct")?,
             interpret: table.get("interpret")?,
+            relive: table.get("relive")?,
             finish: table.get("finish")?,
             at: table.get("current")?,
             set_this: table.get("set_this")?,
