@@ -36,10 +36,11 @@ impl State {
                 let mut inner = self.lock();
                 let waiting = inner.due.take().is_some();
                 let running = inner.stop("it was cancelled");
-                if waiting || running {
-                    return None;
+                if waiting && !running {
+                    self.say(&Say::Cancelled { run: inner.runs + 1 });
                 }
-                refused(None, &Error::new("nothing is running"))
+                let idle = !waiting && !running;
+                idle.then(|| Say::Refused { id: None, text: "nothing is running".into() })
             }
             Ok(Ask::Set { params }) => {
                 self.change(Cause::Parameters, |inner| inner.wish.set(&params, inner.params.as_deref()))

@@ -1,7 +1,7 @@
 //! The present model as a file to keep, in any format that `run` writes.
 
-use std::fs;
-use std::io::{Cursor, Write};
+use std::fs::{self, File};
+use std::io::{BufReader, Cursor};
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
@@ -51,9 +51,9 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture) -> Result<D
         .large_file(true);
     for (name, path) in files {
         archive.start_file(name, options).map_err(|error| Error::new(error.to_string()))?;
-        archive.write_all(&fs::read(&path).map_err(failed)?).map_err(failed)?;
-        // Both would not fit in memory where models are large.
-        fs::remove_file(&path).map_err(failed)?;
+        // A large model in memory besides its archive would be too much.
+        let mut file = BufReader::with_capacity(1 << 18, File::open(&path).map_err(failed)?);
+        std::io::copy(&mut file, &mut archive).map_err(failed)?;
     }
     let bytes = archive.finish().map_err(|error| Error::new(error.to_string()))?.into_inner();
     Ok(Download { name: format!("{stem}.{}.zip", format.extension()), media_type: "application/zip", bytes })

@@ -9,6 +9,7 @@ use axum::extract::{FromRequestParts, Request, State as Extract};
 use axum::http::header::{self, HeaderMap, HeaderName, HeaderValue};
 use axum::http::{Method, StatusCode};
 use axum::response::{IntoResponse, Response};
+use axum::serve::ListenerExt;
 use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
@@ -40,6 +41,8 @@ pub(super) struct Site {
 /// Answers requests until it is dropped.
 pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
     let routes = Router::new().fallback(answer).with_state(site);
+    // Messages are small, and none is to wait for the next. A connection that refuses is only slower.
+    let listener = listener.tap_io(|connection| drop(connection.set_nodelay(true)));
     // It ends only with the runtime.
     let _ = axum::serve(listener, routes).await;
 }
@@ -180,6 +183,10 @@ fn decoded(name: &str) -> Option<String> {
             continue;
         }
         let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
+        // A sign would be read as a part of the number.
+        if digits.starts_with('+') {
+            return None;
+        }
         bytes.push(u8::from_str_radix(digits, 16).ok()?);
         rest = &rest[2..];
     }

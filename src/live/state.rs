@@ -200,8 +200,12 @@ impl State {
         if path == self.script {
             return self.script_name();
         }
-        let root = self.script.canonicalize().ok().and_then(|path| path.parent().map(Path::to_path_buf));
-        let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok());
+        let script = self.script.canonicalize().ok();
+        if script.as_deref() == Some(path) {
+            return self.script_name();
+        }
+        let root = script.as_deref().and_then(Path::parent);
+        let inner = root.and_then(|root| path.strip_prefix(root).ok());
         inner.unwrap_or(path).display().to_string()
     }
 

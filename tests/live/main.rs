@@ -5,5 +5,6 @@
 mod requests;
 mod saves;
 mod support;
+mod tracing;
 mod watching;
 mod wishes;
