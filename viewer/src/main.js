@@ -226,6 +226,9 @@ window.burgeon = Object.freeze({
   get run() {
     return state.run;
   },
+  get model() {
+    return state.model;
+  },
   get camera() {
     return stage && { ...stage.camera.state(), target: stage.camera.target.toArray(), flat: stage.camera.flat };
   },
