@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, Weak};
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::thread::JoinHandle;
 
@@ -13,11 +13,11 @@ use crate::error::{Error, Result};
 use crate::interpret::Interpreting;
 use crate::script::{Declared, Machine, Session, Watchdog};
 
-/// Work for all threads.
+/// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
 #[derive(Clone)]
 pub(crate) enum Job {
-    Rewrite(Arc<Rewriting>),
-    Interpret(Arc<Interpreting>),
+    Rewrite(Weak<Rewriting>),
+    Interpret(Weak<Interpreting>),
 }
 
 enum Message {
@@ -163,19 +163,23 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
             declared = Some(systems[index].prepare(machine)?);
         }
         if let Some(declared) = &declared {
+            // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
             match job {
                 Job::Rewrite(rewriting) => {
+                    let Some(rewriting) = rewriting.upgrade() else { continue };
                     machine.current.objects.replace(rewriting.plan.objects.clone());
                     machine.refresh();
                     while rewriting.work(machine, declared, &mut scratch) {}
+                    machine.current.objects.replace(None);
                 }
                 Job::Interpret(interpreting) => {
+                    let Some(interpreting) = interpreting.upgrade() else { continue };
                     machine.current.objects.replace(interpreting.plan.objects.clone());
                     machine.refresh();
                     while interpreting.work(machine) {}
+                    machine.current.objects.replace(None);
                 }
             }
-            machine.current.objects.replace(None);
         }
     }
 }

@@ -137,7 +137,7 @@ impl Stepper {
             results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
             ready: Condvar::new(),
         });
-        machine.crew.hand_out(machine, count, || Job::Rewrite(Arc::clone(&rewriting)))?;
+        machine.crew.hand_out(machine, count, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
         let result = self.merge(machine, declared, &rewriting);
         if result.is_err() {
             rewriting.abandon();

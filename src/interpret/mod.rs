@@ -64,7 +64,7 @@ impl Interpreting {
             failure: Mutex::new(None),
             uses: Mutex::new(vec![Use::default(); uses.len()]),
         });
-        machine.crew.hand_out(machine, count, || Job::Interpret(Arc::clone(&interpreting)))?;
+        machine.crew.hand_out(machine, count, || Job::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = machine.crew.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
