@@ -1,6 +1,6 @@
 // The live page in a real browser: what a person does and what they see.
 //
-//   node --test tests/page/
+//   node --test tests/page/page.test.mjs
 
 import assert from "node:assert/strict";
 import { rmSync, writeFileSync } from "node:fs";
