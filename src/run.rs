@@ -143,8 +143,9 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     for texture in scene.materials.iter_mut().filter_map(|material| material.texture.as_mut()) {
         let shown = texture.path.display().to_string();
         let path = session.root().join(&texture.path);
-        session.seek(&path);
-        let path = path.canonicalize().map_err(|_| {
+        let found = path.canonicalize();
+        session.seek(&path, found.is_ok());
+        let path = found.map_err(|_| {
             Error::new(format!("there is no texture {shown}")).help("textures are files beside the script")
         })?;
         if !path.starts_with(session.root()) {

@@ -62,14 +62,16 @@ struct File {
 
 /// Works until the state is over.
 pub(super) fn work(state: &State, watch: &Watch) {
-    let mut followed: Vec<PathBuf> = always(state);
+    let mut followed: Vec<(PathBuf, bool)> = Vec::new();
     while let Some(job) = next(state) {
         let since = SystemTime::now();
         let mut session = None;
         let attempt = catch_unwind(AssertUnwindSafe(|| attempt(state, &job, &mut session)));
         let outcome = attempt.unwrap_or_else(|panic| Outcome::Failed(internal(panic.as_ref())));
         // Files that were looked for in vain are watched too: the run may succeed once they are there.
-        let files = session.as_ref().map_or_else(|| always(state), |session| session.sought());
+        let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
+        // These are watched from the beginning.
+        files.extend(always(state).into_iter().map(|path| (path, true)));
         if matches!(outcome, Outcome::Cancelled) {
             // It has not come to all of its files.
             followed.extend(files);

@@ -453,8 +453,9 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
         if !path.starts_with(session.root()) {
             return Err(outside());
         }
-        session.seek(&path);
-        if let Ok(path) = path.canonicalize() {
+        let found = path.canonicalize();
+        session.seek(&path, found.is_ok());
+        if let Ok(path) = found {
             if !path.starts_with(session.root()) {
                 return Err(outside());
             }

@@ -1,6 +1,6 @@
 //! What all virtual machines of one run share: options, limits, source files, parameters.
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
@@ -205,7 +205,7 @@ pub struct Session {
     root: PathBuf,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
-    sought: Mutex<BTreeSet<PathBuf>>,
+    sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
     /// Counts the shapes of the rules' returns.
@@ -259,19 +259,18 @@ impl Session {
         files
     }
 
-    /// Every file that decides what the run makes, there or not: the script, the standard library's
+    /// Every file that decides what the run makes, and whether it was there: the script, the standard library's
     /// replacement, and all that was read or looked for, in the order of their paths.
-    pub fn sought(&self) -> Vec<PathBuf> {
+    pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        files.extend(self.files());
-        files.insert(self.script.clone());
-        files.extend(self.options.stdlib.clone());
+        let read = self.files().into_iter().chain([self.script.clone()]).chain(self.options.stdlib.clone());
+        files.extend(read.map(|path| (path, true)));
         files.into_iter().collect()
     }
 
-    /// Takes notice of a file that is about to be looked for.
-    pub(crate) fn seek(&self, path: &Path) {
-        self.sought.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf());
+    /// Takes notice of a file that was looked for, and whether it was there.
+    pub(crate) fn seek(&self, path: &Path, there: bool) {
+        self.sought.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf(), there);
     }
 
     /// The name and the text of the file in the place of the standard library, if there is one.

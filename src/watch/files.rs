@@ -74,17 +74,28 @@ impl Seen {
             _ => None,
         }
     }
+
+    /// Whether it is probably not what someone found at the time `since`, when it was there or not.
+    fn is_newer(&self, since: SystemTime, there: bool) -> bool {
+        let modified = self.stamp.and_then(|stamp| stamp.modified);
+        let written = self.place().is_some() && modified.is_some_and(|modified| modified + GRAIN > since);
+        written || there == (self.content == Content::Missing)
+    }
 }
 
 impl Files {
-    /// Watches `files` from now on. Returns whether one that is new was changed after `since`.
-    pub(super) fn follow(&mut self, files: Vec<PathBuf>, since: Option<SystemTime>) -> bool {
+    /// Watches `files` from now on. Returns whether one that is new has changed since someone looked at it, at the
+    /// time `since`, when it was there or not.
+    pub(super) fn follow(&mut self, files: Vec<(PathBuf, bool)>, since: Option<SystemTime>) -> bool {
         let mut late = false;
         let mut known = BTreeMap::new();
         // The same file by another name is no new one.
         let places: BTreeMap<PathBuf, Seen> =
             self.known.values().filter_map(|seen| Some((seen.place()?.clone(), seen.clone()))).collect();
-        for path in files {
+        for (path, there) in files {
+            if known.contains_key(&path) {
+                continue;
+            }
             let seen = match self.known.remove(&path) {
                 Some(seen) => seen,
                 None => {
@@ -93,14 +104,9 @@ impl Files {
                         known.insert(path, same.clone());
                         continue;
                     }
-                    let modified = seen.stamp.and_then(|stamp| stamp.modified);
-                    if let (Some(since), Some(modified)) = (since, modified)
-                        && modified + GRAIN > since
-                        && fs::metadata(&path).is_ok_and(|it| it.is_file())
-                    {
+                    if since.is_some_and(|since| seen.is_newer(since, there)) {
                         late = true;
-                        seen.content = Content::Unknown;
-                        seen.stamp = None;
+                        seen = Seen { content: Content::Unknown, stamp: None };
                     }
                     seen
                 }
@@ -228,7 +234,7 @@ mod tests {
         let path = folder.path().join("a.lua");
         fs::write(&path, "one").unwrap();
         let mut files = Files::default();
-        files.follow(vec![path.clone()], None);
+        files.follow(vec![(path.clone(), true)], None);
         fs::write(&path, "one").unwrap();
         assert_eq!(changed(&mut files), 0);
         fs::write(&path, "two").unwrap();
@@ -245,7 +251,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.lua");
         let mut files = Files::default();
-        files.follow(vec![path.clone()], None);
+        files.follow(vec![(path.clone(), true)], None);
         let mut unfinished = || {
             let found = files.changed(false);
             let answer = found.iter().any(Found::looks_unfinished);
@@ -271,11 +277,15 @@ mod tests {
         let before = SystemTime::now();
         fs::write(&path, "one").unwrap();
         let mut files = Files::default();
-        assert!(files.follow(vec![path.clone()], Some(before)));
+        assert!(files.follow(vec![(path.clone(), true)], Some(before)));
         assert_eq!((changed(&mut files), changed(&mut files)), (1, 0));
         let mut files = Files::default();
-        assert!(!files.follow(vec![path.clone()], Some(SystemTime::now() + Duration::from_secs(1))));
-        assert!(!files.follow(vec![folder.path().join("none")], Some(before)));
+        let later = Some(SystemTime::now() + Duration::from_secs(1));
+        let none = folder.path().join("none");
+        assert!(!files.follow(vec![(path.clone(), true), (none.clone(), false)], later));
+        // Whatever their times are, one that came and one that went have changed.
+        assert!(Files::default().follow(vec![(path, false)], later));
+        assert!(Files::default().follow(vec![(none, true)], later));
     }
 
     #[test]
@@ -284,7 +294,7 @@ mod tests {
         let at = |name: &str| folder.path().join(name);
         fs::create_dir(at("sub")).unwrap();
         let mut files = Files::default();
-        files.follow(vec![at("sub/a.lua")], None);
+        files.follow(vec![(at("sub/a.lua"), true)], None);
         assert!(files.concerned_by(&[at("sub/a.lua")]) && files.concerned_by(&[at("sub")]));
         assert!(files.concerned_by(&[]));
         assert!(!files.concerned_by(&[at("sub/b.lua"), at("a.lua")]));
@@ -302,7 +312,7 @@ mod tests {
         std::os::unix::fs::symlink("one/a.lua", at("link")).unwrap();
         std::os::unix::fs::symlink("link", at("chain")).unwrap();
         let mut files = Files::default();
-        files.follow(vec![at("chain")], None);
+        files.follow(vec![(at("chain"), true)], None);
         assert!(files.concerned_by(&[at("one/a.lua")]) && files.concerned_by(&[at("link")]));
         fs::remove_file(at("link")).unwrap();
         std::os::unix::fs::symlink("two/a.lua", at("link")).unwrap();

@@ -56,7 +56,7 @@ pub struct Watch {
 enum Signal {
     /// Something happened to these paths; none if the system lost count. And whether a save ends so.
     Event(Vec<PathBuf>, Instant, bool),
-    Follow(Vec<PathBuf>, SystemTime),
+    Follow(Vec<(PathBuf, bool)>, SystemTime),
     Over,
 }
 
@@ -84,7 +84,7 @@ impl Watch {
             }),
             first: None,
         };
-        watcher.files.follow(files, None);
+        watcher.files.follow(files.into_iter().map(|path| (path, true)).collect(), None);
         let watch = move || {
             watcher.folders.cover(&watcher.files);
             if let Some(why) = watcher.folders.failure() {
@@ -99,9 +99,9 @@ impl Watch {
         Ok(Self { signals, thread: Some(thread) })
     }
 
-    /// Watches `files` and no others from now on. Those that are new to it and were changed after `since`, when
-    /// they were read, count as changed.
-    pub fn follow(&self, files: Vec<PathBuf>, since: SystemTime) {
+    /// Watches `files` and no others from now on. Each comes with whether it was there when someone last looked, not
+    /// before `since`; those that are new to the watch and have changed by now are told as changed.
+    pub fn follow(&self, files: Vec<(PathBuf, bool)>, since: SystemTime) {
         // The thread ends only when this is dropped.
         let _ = self.signals.send(Signal::Follow(files, since));
     }

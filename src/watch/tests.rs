@@ -23,7 +23,7 @@ impl Trial {
         let changed = move |change| teller.send(change).unwrap();
         let watch = Watch::new(files, changed, |why| panic!("{why}")).unwrap();
         // The first folders are watched when this has been answered.
-        watch.follow(vec![folder.path().join("sub/a.lua")], SystemTime::now());
+        watch.follow(vec![(folder.path().join("sub/a.lua"), true)], SystemTime::now());
         std::thread::sleep(Duration::from_millis(20));
         Self { folder, told, watch }
     }
@@ -96,12 +96,12 @@ fn a_folder_that_is_deleted_and_made_again_is_watched_again() {
 fn a_file_that_is_not_there_yet_is_told_when_it_comes() {
     let trial = Trial::new();
     let path = |name: &str| Path::new(&trial.at(name)).to_path_buf();
-    trial.watch.follow(vec![path("sub/a.lua"), path("deep/er/b.lua")], SystemTime::now());
+    trial.watch.follow(vec![(path("sub/a.lua"), true), (path("deep/er/b.lua"), false)], SystemTime::now());
     std::thread::sleep(QUIET);
     fs::create_dir_all(trial.at("deep/er")).unwrap();
     trial.write("deep/er/b.lua", "here");
     trial.tells("deep/er/b.lua");
-    trial.watch.follow(vec![path("deep/er/b.lua")], SystemTime::now());
+    trial.watch.follow(vec![(path("deep/er/b.lua"), true)], SystemTime::now());
     std::thread::sleep(QUIET);
     trial.write("sub/a.lua", "not watched any more");
     trial.tells_nothing();

@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 /// How long anything may take; most takes a hundredth of it.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(20);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
 
 /// A script of `count` segments, with a parameter and a random turn.
 pub(crate) fn script(count: usize) -> String {
@@ -118,7 +118,7 @@ impl Server {
         let address = format!("ws://127.0.0.1:{}/{}/socket", self.port, self.token);
         let (socket, _) = tungstenite::client(&address[..], stream).unwrap();
         socket.get_ref().set_read_timeout(Some(Duration::from_millis(50))).unwrap();
-        let mut page = Page { socket };
+        let mut page = Page { socket, last: String::new() };
         let hello = page.next("hello");
         assert_eq!(hello["script"], "s.lua");
         page
@@ -158,6 +158,8 @@ pub(crate) struct Answer {
 /// A page's end of the socket.
 pub(crate) struct Page {
     socket: WebSocket<TcpStream>,
+    /// What was said last, for those who wonder why nothing comes.
+    last: String,
 }
 
 impl Page {
@@ -172,7 +174,10 @@ impl Page {
     /// The next message, whatever it is.
     #[track_caller]
     pub(crate) fn any(&mut self) -> Value {
-        self.within(PATIENCE).expect("the server says nothing")
+        match self.within(PATIENCE) {
+            Some(message) => message,
+            None => panic!("the server says nothing after {}", self.last),
+        }
     }
 
     /// The next message within `time`, if there is one.
@@ -180,7 +185,10 @@ impl Page {
         let begin = Instant::now();
         while begin.elapsed() < time {
             match self.socket.read() {
-                Ok(Message::Text(text)) => return Some(serde_json::from_str(&text).unwrap()),
+                Ok(Message::Text(text)) => {
+                    self.last = text.to_string();
+                    return Some(serde_json::from_str(&text).unwrap());
+                }
                 Ok(_) => {}
                 Err(tungstenite::Error::Io(error)) if error.kind() == std::io::ErrorKind::WouldBlock => {}
                 Err(error) => panic!("{error}"),

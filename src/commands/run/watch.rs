@@ -1,5 +1,6 @@
 //! `burgeon run --watch`: the outputs follow the script.
 
+use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -45,9 +46,12 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
     let now = Now::default();
     let (wake, changes) = channel();
     let (seen, waker) = (now.clone(), wake.clone());
-    let mut files = command.script.files();
-    let watch =
-        Watch::new(files.clone(), move |_| seen.stop(&waker), |why| report::eprint(&format!("{why}\n")))?;
+    let mut files: Vec<(PathBuf, bool)> = Vec::new();
+    let watch = Watch::new(
+        command.script.files(),
+        move |_| seen.stop(&waker),
+        |why| report::eprint(&format!("{why}\n")),
+    )?;
     let interrupted = now.clone();
     on_interrupt(move || {
         interrupted.over.store(true, Ordering::Release);
@@ -69,7 +73,8 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
         };
         now.session.lock().unwrap_or_else(PoisonError::into_inner).take();
         let mut sought = session.map(|session| session.sought()).unwrap_or_default();
-        sought.extend(command.script.files());
+        // These are watched from the beginning.
+        sought.extend(command.script.files().into_iter().map(|path| (path, true)));
         let stale = now.is_stale();
         // A run that was stopped has not come to all of its files.
         if stale {
