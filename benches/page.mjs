@@ -45,7 +45,7 @@ async function measure(name, text, flags) {
     const parts = { script: [], rewriting: [], interpretation: [], scene: [], encode: [], total: [] };
     let triangles = 0;
     for (let save = 0; save < saves; save += 1) {
-      await new Promise((done) => setTimeout(done, 300));
+      await new Promise((done) => setTimeout(done, 1200));
       const begin = Date.now();
       writeFileSync(path, `${text}-- ${save}\n`);
       run = await drawn(page, run);

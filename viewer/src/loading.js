@@ -4,7 +4,7 @@ import { Glb } from './glb.js';
 import { Materials } from './materials.js';
 import { Model, build } from './model.js';
 
-const STREAMED = 4e6; // bytes from which the download tells how far it is
+const STREAMED = 32e6; // bytes from which the download tells how far it is
 
 export class Loading {
   #materials;
@@ -41,7 +41,8 @@ export class Loading {
   }
 
   async #fetch({ url, bytes }, signal) {
-    const answer = await fetch(url, { signal });
+    // The browser's own store would cost more than fetching the model again.
+    const answer = await fetch(url, { signal, cache: 'no-store' });
     if (!answer.ok)
       throw Object.assign(new Error(`the model cannot be fetched (${answer.status})`), { status: answer.status });
     if (!(bytes > STREAMED)) return answer.arrayBuffer();
