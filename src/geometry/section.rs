@@ -61,6 +61,12 @@ impl Section {
         Self::with_rings(rings.iter().map(|ring| knots(ring)).collect(), false)
     }
 
+    /// A ring of points that is known to be counter-clockwise, convex and sound.
+    pub(super) fn convex<const N: usize>(points: [SectionPoint; N]) -> Self {
+        let cap = (1..N - 1).map(|corner| [0, corner, corner + 1]).collect();
+        Self { rings: vec![knots(&points)], open: false, cap }
+    }
+
     /// A ring of sharp points (m) with holes, otherwise like [`Section::new`].
     pub fn polygon(outer: &[DVec2], holes: &[Vec<DVec2>]) -> Result<Self> {
         let sharp = |ring: &[DVec2]| ring.iter().copied().map(SectionPoint::sharp).collect::<Vec<_>>();

@@ -44,7 +44,12 @@ impl Section {
     pub fn rectangle(width: f64, height: f64) -> Result<Self> {
         refuse_flat(width, height)?;
         let half = DVec2::new(width, height) / 2.0;
-        Self::polygon(&[-half, DVec2::new(half.x, -half.y), half, DVec2::new(-half.x, half.y)], &[])
+        let corners = [-half, DVec2::new(half.x, -half.y), half, DVec2::new(-half.x, half.y)];
+        // As thin as a line to the checks of other polygons.
+        if width.min(height) < 1e-6 * width.max(height).max(1.0) {
+            return Self::polygon(&corners, &[]);
+        }
+        Ok(Self::convex(corners.map(SectionPoint::sharp)))
     }
 
     /// A rectangle of `width` by `height` (m) whose corners are arcs of `radius` (m) in `steps` straight pieces.

@@ -1,5 +1,7 @@
 //! The extruder: sweeps a cross-section along segments, straight or curved.
 
+use std::sync::Arc;
+
 use glam::{DVec2, DVec3};
 
 use super::{Color, Kind, Object, Table, Vector};
@@ -47,7 +49,7 @@ const CREASE: f64 = 40.0;
 #[derive(Clone)]
 pub struct Extruder {
     options: Options,
-    first_section: Section,
+    first_section: Arc<Section>,
     state: State,
     stack: Vec<State>,
     drawing: Drawing,
@@ -57,7 +59,7 @@ pub struct Extruder {
 #[derive(Clone)]
 struct State {
     frame: Frame,
-    section: Section,
+    section: Arc<Section>,
     scale: DVec2,
     taper: DVec2,
     bend: f64,
@@ -77,7 +79,7 @@ struct Run {
     stations: Vec<Station>,
     /// The modules that led to each station.
     makers: Vec<u32>,
-    section: Section,
+    section: Arc<Section>,
     end: Frame,
     scale: DVec2,
     smooth: bool,
@@ -89,19 +91,19 @@ methods! {
     Extruder = "extruder" {
         /// Sets the cross-section to a regular polygon with `sides` and radius 1.
         pub fn regular(&mut self, sides: u32) -> Result<()> {
-            self.state.section = Section::regular(sides as usize)?;
+            self.state.section = Arc::new(Section::regular(sides as usize)?);
             Ok(())
         }
 
         /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
         pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
-            self.state.section = Section::star(points as usize, inner)?;
+            self.state.section = Arc::new(Section::star(points as usize, inner)?);
             Ok(())
         }
 
         /// Sets the cross-section to a rectangle around the middle (m).
         pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
-            self.state.section = Section::rectangle(width, height)?;
+            self.state.section = Arc::new(Section::rectangle(width, height)?);
             Ok(())
         }
 
@@ -109,7 +111,7 @@ methods! {
         pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
             let flat = |ring: &[Vector]| ring.iter().map(|point| point.0.truncate()).collect::<Vec<DVec2>>();
             let holes: Vec<Vec<DVec2>> = holes.unwrap_or_default().iter().map(|ring| flat(ring)).collect();
-            self.state.section = shaded(Section::polygon(&flat(&outer), &holes)?, self.state.smooth);
+            self.state.section = Arc::new(shaded(Section::polygon(&flat(&outer), &holes)?, self.state.smooth));
             Ok(())
         }
 
@@ -267,6 +269,7 @@ impl Extruder {
             let points: Vec<DVec2> = options.shape.iter().map(|point| point.0.truncate()).collect();
             shaded(Section::polygon(&points, &[])?, options.smooth)
         };
+        let section = Arc::new(section);
         let state = State::begin(&options, &section);
         Ok(Self {
             options,
@@ -281,9 +284,9 @@ impl Extruder {
     fn segment(&mut self, length: f64) -> Result<()> {
         let state = &mut self.state;
         let section = if state.around > 0 {
-            state.section.resampled(state.around as usize)?
+            Arc::new(state.section.resampled(state.around as usize)?)
         } else {
-            state.section.clone()
+            Arc::clone(&state.section)
         };
         let mut segment = Segment {
             length,
@@ -301,7 +304,7 @@ impl Extruder {
         let continues = state.run.as_ref().is_some_and(|run| {
             run.end == state.frame
                 && run.scale == state.scale
-                && run.section == section
+                && (Arc::ptr_eq(&run.section, &section) || run.section == section)
                 && run.smooth == state.smooth
                 && run.caps == state.caps
                 && run.material == state.material
@@ -361,7 +364,7 @@ impl Extruder {
 }
 
 impl State {
-    fn begin(options: &Options, section: &Section) -> Self {
+    fn begin(options: &Options, section: &Arc<Section>) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
         #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
@@ -373,7 +376,7 @@ impl State {
         };
         Self {
             frame,
-            section: section.clone(),
+            section: Arc::clone(section),
             scale: DVec2::ONE,
             taper: DVec2::ONE,
             bend: 0.0,
