@@ -263,6 +263,7 @@ fn help_reads_well() {
 
     Commands:
       run          Runs a script and writes what it makes
+      live         Shows what a script makes in the browser, and shows it anew on every save
       check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       new          Makes a script to start from
@@ -275,6 +276,7 @@ fn help_reads_well() {
 
     To begin:
       burgeon new tree
+      burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
     ");
     assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r"
@@ -291,9 +293,11 @@ fn help_reads_well() {
           --seed <N>            The seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
           --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
+          --stdlib <FILE>       Reads this file in the place of the built-in standard library
           --json                Prints one JSON document, for machines, in place of text for people
       -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
+          --watch               Runs and writes again whenever a file of the script changes, until interrupted
           --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded
       -h, --help                Print help (see more with '--help')
 
