@@ -327,6 +327,7 @@ fn help_reads_well() {
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
           --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]
+          --stdlib <FILE>     Reads this file in the place of the built-in standard library
           --json              Prints one JSON document, for machines, in place of text for people
       -h, --help              Print help
 
