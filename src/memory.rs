@@ -1,9 +1,10 @@
 //! Memory for arrays of many megabytes: fresh pages cost more than what is written to them.
 
 /// Arrays from this size (bytes) on are given huge pages.
-const LARGE: usize = 8 << 20;
+const LARGE: usize = 2 << 20;
 
-/// Makes room for `more` items in `array`, which at least doubles where it grows.
+/// Makes room for `more` items in `array`, which at least doubles where it grows, and grows fourfold once it is large:
+/// memory that is not touched costs nothing, and moving what is there does.
 ///
 /// A large array is laid on huge pages where the system has them, so that it is faulted in and cleared in pieces
 /// of megabytes.
@@ -16,7 +17,8 @@ pub(crate) fn make_room<T>(array: &mut Vec<T>, more: usize) {
 
 #[cold]
 fn grow<T>(array: &mut Vec<T>, more: usize) {
-    array.reserve(more);
+    let large = array.capacity() * size_of::<T>() >= LARGE;
+    array.reserve(if large { more.max(3 * array.capacity()) } else { more });
     let bytes = array.capacity() * size_of::<T>();
     if bytes >= LARGE {
         advise(array.as_ptr() as usize, bytes);

@@ -34,20 +34,35 @@ impl Frame {
 
     /// Turns to the left about `up`.
     pub fn turn(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        self.turn_by(angle.sin_cos());
+    }
+
+    /// As [`Frame::turn`], by the sine and cosine of the angle.
+    #[inline]
+    pub fn turn_by(&mut self, (sin, cos): (f64, f64)) {
         (self.heading, self.left) =
             (self.heading * cos + self.left * sin, self.left * cos - self.heading * sin);
     }
 
     /// Pitches down about `left`.
     pub fn pitch(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        self.pitch_by(angle.sin_cos());
+    }
+
+    /// As [`Frame::pitch`], by the sine and cosine of the angle.
+    #[inline]
+    pub fn pitch_by(&mut self, (sin, cos): (f64, f64)) {
         (self.heading, self.up) = (self.heading * cos - self.up * sin, self.up * cos + self.heading * sin);
     }
 
     /// Rolls about `heading`, from `left` towards -`up`.
     pub fn roll(&mut self, angle: f64) {
-        let (sin, cos) = angle.sin_cos();
+        self.roll_by(angle.sin_cos());
+    }
+
+    /// As [`Frame::roll`], by the sine and cosine of the angle.
+    #[inline]
+    pub fn roll_by(&mut self, (sin, cos): (f64, f64)) {
         (self.left, self.up) = (self.left * cos - self.up * sin, self.up * cos + self.left * sin);
     }
 

@@ -46,7 +46,30 @@ pub struct Turtle {
     state: State,
     stack: Vec<State>,
     drawing: Drawing,
+    angles: Angles,
     polygons: Vec<Vec<DVec3>>,
+}
+
+/// The sines and cosines of angles used lately: most systems turn by the same few over and over.
+#[derive(Clone, Default)]
+struct Angles {
+    /// The bits of an angle (degrees), its sine and its cosine, at a place that the bits decide.
+    known: [(u64, f64, f64); 16],
+}
+
+impl Angles {
+    #[inline]
+    fn sin_cos(&mut self, angle: f64) -> (f64, f64) {
+        // One more, since an empty place has the bits of 0.
+        let bits = angle.to_bits().wrapping_add(1);
+        let place = bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 60;
+        let known = &mut self.known[place as usize];
+        if known.0 != bits {
+            let (sin, cos) = angle.to_radians().sin_cos();
+            *known = (bits, sin, cos);
+        }
+        (known.1, known.2)
+    }
 }
 
 #[derive(Clone)]
@@ -85,37 +108,37 @@ methods! {
         /// Turns to the left by `angle` (degrees); a negative one turns right.
         pub fn turn(&mut self, angle: Option<f64>) {
             let angle = self.angle(angle);
-            self.state.frame.turn(angle);
+            self.state.frame.turn_by(angle);
         }
 
         /// Pitches down by `angle` (degrees); a negative one pitches up.
         pub fn pitch(&mut self, angle: Option<f64>) {
             let angle = self.angle(angle);
-            self.state.frame.pitch(angle);
+            self.state.frame.pitch_by(angle);
         }
 
         /// Rolls about the heading by `angle` (degrees), the left side up; a negative one rolls back.
         pub fn roll(&mut self, angle: Option<f64>) {
             let angle = self.angle(angle);
-            self.state.frame.roll(angle);
+            self.state.frame.roll_by(angle);
         }
 
         /// Turns to the right by `angle` (degrees).
         pub fn turn_right(&mut self, angle: Option<f64>) {
             let angle = self.angle(angle);
-            self.state.frame.turn(-angle);
+            self.state.frame.turn_by((-angle.0, angle.1));
         }
 
         /// Pitches up by `angle` (degrees).
         pub fn pitch_up(&mut self, angle: Option<f64>) {
             let angle = self.angle(angle);
-            self.state.frame.pitch(-angle);
+            self.state.frame.pitch_by((-angle.0, angle.1));
         }
 
         /// Rolls about the heading by `angle` (degrees), the right side up.
         pub fn roll_back(&mut self, angle: Option<f64>) {
             let angle = self.angle(angle);
-            self.state.frame.roll(-angle);
+            self.state.frame.roll_by((-angle.0, angle.1));
         }
 
         /// Turns around.
@@ -282,11 +305,20 @@ impl Turtle {
         }
         let mut drawing = Drawing::default();
         let state = State::begin(&options, &mut drawing);
-        Ok(Self { options, state, stack: Vec::new(), drawing, polygons: Vec::new() })
+        Ok(Self {
+            options,
+            state,
+            stack: Vec::new(),
+            drawing,
+            angles: Angles::default(),
+            polygons: Vec::new(),
+        })
     }
 
-    fn angle(&self, angle: Option<f64>) -> f64 {
-        angle.unwrap_or(self.options.angle).to_radians()
+    /// The sine and cosine of `angle` (degrees), or of the usual one.
+    #[inline]
+    fn angle(&mut self, angle: Option<f64>) -> (f64, f64) {
+        self.angles.sin_cos(angle.unwrap_or(self.options.angle))
     }
 
     fn paint_with(&mut self, color: Color) {
