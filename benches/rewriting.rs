@@ -1,5 +1,5 @@
-//! Six rewriting workloads, beside the crate `symbios` in one process: CPU time of one thread, wall time of two,
-//! once both are running, and the memory at the peak. `cargo bench --bench rewriting [-- WORKLOAD...]`.
+//! Six rewriting workloads, beside the crate `symbios` in one process: CPU time of one thread, wall time of two
+//! once both are running and with the second one's start, and the memory at the peak. `cargo bench --bench rewriting [-- WORKLOAD...]`.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
@@ -233,8 +233,9 @@ fn peak() -> usize {
     line.and_then(|line| line.split_whitespace().next()?.parse::<usize>().ok()).unwrap_or(0) * 1024
 }
 
-/// Bytes for each final symbol at the peak, measured in a process of its own against a run without steps.
-fn memory(workload: &Workload) -> f64 {
+/// Bytes for each final symbol at the peak, measured in a process of its own against a run without steps. `None` if there
+/// are too few symbols for it to be seen.
+fn memory(workload: &Workload) -> Option<f64> {
     let run = |steps: usize| -> (f64, f64) {
         let program = std::env::current_exe().expect("the bench knows its own file");
         let output = std::process::Command::new(program)
@@ -247,7 +248,7 @@ fn memory(workload: &Workload) -> f64 {
     };
     let (empty, _) = run(0);
     let (full, modules) = run(workload.steps);
-    (full - empty) / modules
+    (modules > 100_000.0).then(|| (full - empty) / modules)
 }
 
 fn main() {
@@ -263,9 +264,9 @@ fn main() {
     }
     println!("Rewriting, million symbols read per second; the best of five.");
     println!(
-        "| workload | symbols read | Burgeon, 1 thread | symbios | ratio | 2 threads / 1 | bytes/symbol |"
+        "| workload | symbols read | Burgeon, 1 thread | symbios | ratio | 2 threads / 1 | with its start | bytes/symbol |"
     );
-    println!("|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|");
     for workload in WORKLOADS {
         if !arguments.is_empty() && !arguments.iter().any(|name| workload.name.starts_with(name.as_str())) {
             continue;
@@ -274,6 +275,7 @@ fn main() {
         let (mut one, mut other) = (0.0f64, 0.0f64);
         let (mut wall_one, mut read) = (Duration::MAX, 0);
         let mut wall_two = Duration::MAX;
+        let (mut first_one, mut first_two) = (Duration::MAX, Duration::MAX);
         for _ in 0..5 {
             let measure = ours(workload, 1, workload.steps, 1);
             one = one.max(rate(measure.read, measure.cpu.saturating_sub(start)));
@@ -281,17 +283,20 @@ fn main() {
             wall_one = wall_one.min(ours(workload, 1, workload.steps, 2).wall);
             let measure = ours(workload, 2, workload.steps, 2);
             wall_two = wall_two.min(measure.wall);
+            first_one = first_one.min(ours(workload, 1, workload.steps, 1).wall);
+            first_two = first_two.min(ours(workload, 2, workload.steps, 1).wall);
             let measure = theirs(workload);
             other = other.max(rate(measure.read, measure.cpu));
         }
         let speedup = wall_one.as_secs_f64() / wall_two.as_secs_f64();
+        let first = first_one.as_secs_f64() / first_two.as_secs_f64();
+        let bytes = memory(workload).map_or_else(|| "few".to_owned(), |bytes| format!("{bytes:.1}"));
         println!(
-            "| {}: {} | {:.1} M | {one:.1} | {other:.1} | {:.2} | {speedup:.2} | {:.1} |",
+            "| {}: {} | {:.1} M | {one:.1} | {other:.1} | {:.2} | {speedup:.2} | {first:.2} | {bytes} |",
             workload.name,
             workload.about,
             read as f64 / 1e6,
             one / other,
-            memory(workload),
         );
     }
 }
