@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
-use super::batch::Use;
+use super::output::Use;
 use super::trace::RuleName;
 use crate::error::{Place, Result};
 use crate::objects::{Model, Object};

@@ -6,12 +6,13 @@
 mod batch;
 mod crew;
 mod derived;
+mod output;
 mod step;
 mod trace;
 
-pub use batch::Use;
 pub(crate) use crew::{Crew, Job};
 pub use derived::{Derived, RuleReport, Times};
+pub use output::Use;
 pub(crate) use trace::around;
 pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
 

@@ -4,8 +4,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use super::Plan;
-use super::batch::{Batch, Output, Piece, Scratch, Use};
+use super::batch::{Batch, Piece, Scratch};
 use super::crew::Job;
+use super::output::{Output, Use};
 use crate::error::{Error, Result};
 use crate::rules::{Chain, Links, Mark};
 use crate::script::{Declared, Machine};
