@@ -8,11 +8,10 @@ use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
 
 /// The file in the folder of shared data; tells that the test is skipped where there is none.
 fn shared(name: &str) -> Option<PathBuf> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let places = [folder.join("../shared/data"), folder.join("../../work/shared/data")];
-    let found = places.iter().map(|place| place.join(name)).find(|path| path.is_file());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
+    let found = path.is_file().then_some(path);
     if found.is_none() {
-        println!("skipped: there is no ../shared/data/{name}");
+        eprintln!("skipped: there is no ../shared/data/{name}");
     }
     found
 }

@@ -1,6 +1,6 @@
 //! What scripts get of data files: which they may read, and how a run reads each of them once.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Component, Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -19,6 +19,7 @@ pub(crate) struct Data {
 struct Known {
     /// The projection and the origin, which the first source decides.
     frame: Option<Frame>,
+    told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
 }
 
@@ -32,21 +33,22 @@ impl Data {
         }
         let stop = Arc::clone(&session.stop);
         wanted.stopped = Some(Arc::new(move || stop.is_stopped()));
-        let loaded = read(session, text, wanted, &mut known.frame);
+        let loaded = read(session, text, wanted, &mut known);
         session.stop.check()?;
         known.loaded.insert(key, loaded.clone());
         loaded
     }
 }
 
-fn read(session: &Session, text: &str, mut wanted: Wanted, frame: &mut Option<Frame>) -> Result<Arc<Layer>> {
+fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {
     let (name, layer) = split_name(text);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
     let path = find(session, name)?;
     let table = Source::open(&path, name)?.read(name, &wanted)?;
     let shown = table.shown.clone();
-    let layer = Layer::new(table, frame).map_err(|error| error.about(&shown))?;
-    if layer.empty > 0 && !session.options.quiet {
+    let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
+    // A layer that is read in parts is told of once.
+    if layer.empty > 0 && known.told.insert(shown.clone()) && !session.options.quiet {
         let features = if layer.empty == 1 { "feature" } else { "features" };
         eprintln!("{shown}: left out {} {features} without a geometry", layer.empty);
     }

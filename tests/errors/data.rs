@@ -368,7 +368,12 @@ fn a_rule_reads_no_data() {
     let script = format!(
         "{HEAD}s:rule(\"A(x)\", function(this, x) source(\"village.geojson\") return nil end)\ns:derive(1)\n"
     );
-    assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @"RULE");
+    assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @r#"
+    error: in/s.lua:3: rule A(x): source belongs at the top level of the script, not in a rule
+      | s:rule("A(x)", function(this, x) source("village.geojson") return nil end)
+      module: A(1), step 1
+      help: make it before derive, and let the rule use it
+    "#);
 }
 
 #[test]
@@ -376,7 +381,10 @@ fn a_mistake_in_the_axioms_function_names_the_feature() {
     let script = format!(
         "{HEAD}s:axiom(source(\"town.gpkg:roads\", {{ id = \"name\" }}), function(f)\n  return A(#f.geometry.rings)\nend)\ns:derive(1)\n"
     );
-    assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @"FEATURE");
+    assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @r#"
+    error: in/s.lua:4: attempt to get length of a nil value (feature lane)
+      | return A(#f.geometry.rings)
+    "#);
 }
 
 #[test]
@@ -384,7 +392,10 @@ fn a_folder_that_is_given_is_read_and_one_that_is_not_there_is_told() {
     let script = "print(#source(\"far.geojson\"), #source(\"village.geojson\"))\n";
     assert_eq!(printed(script, &["--data", "data"]), "1\t1\n");
     let folder = folder().with("in/s.lua", script);
-    assert_snapshot!(folder.refuses(&["run", "in/s.lua", "--data", "nothing"]), @"NOTHING");
+    assert_snapshot!(folder.refuses(&["run", "in/s.lua", "--data", "nothing"]), @r#"
+    error: there is no folder nothing
+      help: --data names a folder of data files
+    "#);
 }
 
 #[test]
@@ -400,7 +411,17 @@ for index, feature in town do print(index, feature.id) end
 print(#source("town.gpkg:buildings", { where = "height > 10 or name = 'none'" }), #source("town.gpkg:buildings", { limit = 1 }))
 print(source("town.gpkg:buildings", { id = "name" }).features[1].id)
 "#;
-    assert_snapshot!(printed(script, &[]), @"PRINTED");
+    assert_snapshot!(printed(script, &[]), @r#"
+    town.gpkg:buildings: left out 1 feature without a geometry
+    2	buildings	EPSG:3067	385500	6671500	0
+    1	5	mill	true	buildings	nil	false
+    point	-77	-37	0
+    false	in/s.lua:7: attempt to modify a readonly table
+    1	1
+    2	2
+    1	1
+    mill
+    "#);
 }
 
 #[test]
@@ -415,7 +436,22 @@ fn a_condition_that_never_ends_is_stopped() {
 #[test]
 fn sources_are_listed_for_people_and_machines() {
     let folder = folder();
-    assert_snapshot!(folder.burgeon(&["sources", "in/town.gpkg", "in/village.geojson"]).done().stdout, @"LISTED");
+    assert_snapshot!(folder.burgeon(&["sources", "in/town.gpkg", "in/village.geojson"]).done().stdout, @r#"
+    in/town.gpkg: GeoPackage
+      buildings: 2 points, 1 without geometry; EPSG:3067
+        from 385423, 6671463 to 385500, 6671500
+        height  number of 2, 5 to 15
+        name    text of 1, such as "mill"
+        listed  boolean of 2
+      roads: 1 line; EPSG:3067
+        from 385423, 6671463 to 385433, 6671463
+        name  text of 1, such as "lane"
+    in/village.geojson: GeoJSON
+      village: 1 polygon; EPSG:4326
+        from 6.1, 45.9 to 6.1001, 45.9001
+        height  number of 1, 7 to 7
+        name    text of 1, such as "mill"
+    "#);
     let document = folder.burgeon(&["sources", "in/town.gpkg", "--json"]).done().json();
     let layer = &document["files"][0]["layers"][0];
     assert_eq!(
@@ -423,5 +459,8 @@ fn sources_are_listed_for_people_and_machines() {
         (Some(2), Some(1), Some("EPSG:3067"))
     );
     assert_eq!(layer["attributes"][0]["range"], serde_json::json!([5.0, 15.0]));
-    assert_snapshot!(folder.refuses(&["sources", "in/vilage.geojson"]), @"MISSING");
+    assert_snapshot!(folder.refuses(&["sources", "in/vilage.geojson"]), @r#"
+    error: there is no data file in/vilage.geojson
+      help: did you mean village.geojson?
+    "#);
 }
