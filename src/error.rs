@@ -67,6 +67,22 @@ impl Error {
         self
     }
 
+    /// Says what it is about, unless the message says that already.
+    #[must_use]
+    pub(crate) fn about(mut self, what: &str) -> Self {
+        if !self.0.message.contains(what) {
+            self.0.message = format!("{what}: {}", self.0.message);
+        }
+        self
+    }
+
+    /// Says which feature was being read when it happened.
+    #[must_use]
+    pub(crate) fn feature(mut self, id: &str) -> Self {
+        self.0.message = format!("{} (feature {id})", self.0.message);
+        self
+    }
+
     /// Says what to do about it.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {

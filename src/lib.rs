@@ -15,6 +15,7 @@
 //! - [`error`]: what a person is told when something is wrong.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
+//! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres.
 //! - [`objects`]: what rules ask and interpretations change: each an [`Object`](objects::Object), listed in
 //!   [`KINDS`](objects::KINDS).
 //! - [`rules`]: a [`Grammar`](rules::Grammar) of [`Pattern`](rules::Pattern)s that match along a
@@ -81,6 +82,7 @@ pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
+pub mod sources;
 pub mod trace;
 pub mod variations;
 pub mod watch;

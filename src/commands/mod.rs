@@ -12,6 +12,7 @@ mod progress;
 mod report;
 mod run;
 mod shared;
+mod sources;
 mod variations;
 
 use std::process::ExitCode;
@@ -39,6 +40,7 @@ enum Command {
     Check(check::Check),
     Variations(Box<variations::Variations>),
     New(new::New),
+    Sources(sources::Sources),
     Completions(completions::Completions),
 }
 
@@ -55,6 +57,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
+        Command::Sources(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),
     };
     match result {

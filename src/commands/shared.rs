@@ -23,6 +23,10 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "NAME")]
     preset: Option<String>,
 
+    /// Lets the script read data files in this folder and below it; may be repeated
+    #[arg(long, value_name = "FOLDER")]
+    data: Vec<PathBuf>,
+
     /// The seed of all random numbers [default: 0]
     #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
@@ -96,6 +100,7 @@ impl ScriptFlags {
                 modules: self.module_limit as usize,
                 triangles: self.triangle_limit as usize,
             },
+            data: self.data.clone(),
             stdlib: self.stdlib.clone(),
             ..Options::default()
         })

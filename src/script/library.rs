@@ -278,10 +278,14 @@ impl Library {
                 create().map_err(mlua::Error::external)
             })?,
         )?;
+        let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "source",
-            lua.create_function(|_, features: LuaValue| {
-                SourceHandle::new(features).map_err(mlua::Error::external)
+            lua.create_function(move |_, (what, options): (LuaValue, LuaValue)| {
+                let made = library
+                    .at_top_level("source")
+                    .and_then(|()| SourceHandle::new(&*library.machine()?, &what, &options));
+                made.map_err(mlua::Error::external)
             })?,
         )?;
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));

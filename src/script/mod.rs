@@ -5,6 +5,7 @@
 
 mod analysis;
 mod convert;
+mod data;
 mod freeze;
 mod handles;
 mod library;

@@ -10,6 +10,7 @@ use std::time::Duration;
 use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, analyse};
+use super::data::Data;
 use super::param::Param;
 use super::preset::Preset;
 use crate::derive::{Trace, Traced};
@@ -62,6 +63,8 @@ pub struct Options {
     pub quiet: bool,
     /// Ends this run, too, when it is stopped.
     pub stop: Option<Arc<Stop>>,
+    /// Folders besides the script's whose data files it may read.
+    pub data: Vec<PathBuf>,
     /// Types of objects that scripts can construct besides the built-in ones.
     pub kinds: Vec<&'static Kind>,
     /// A file in the place of the built-in standard library.
@@ -88,6 +91,7 @@ impl Default for Options {
             check: false,
             quiet: false,
             stop: None,
+            data: Vec::new(),
             kinds: Vec::new(),
             stdlib: None,
             forgiving: false,
@@ -203,6 +207,9 @@ pub struct Session {
     pub(crate) values: Arc<Values>,
     script: PathBuf,
     root: PathBuf,
+    data_roots: Vec<PathBuf>,
+    /// The data files that were read.
+    pub(crate) data: Data,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
@@ -222,6 +229,7 @@ impl Session {
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
+        let data_roots = options.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
         Ok(Arc::new(Self {
             stop: Arc::new(Stop::under(options.stop.clone())),
             options,
@@ -229,6 +237,8 @@ impl Session {
             values: Arc::default(),
             script: script.to_path_buf(),
             root,
+            data_roots,
+            data: Data::default(),
             stdlib,
             sources: Mutex::default(),
             sought: Mutex::default(),
@@ -249,6 +259,11 @@ impl Session {
     /// The folder that holds the script and all that it may read.
     pub fn root(&self) -> &Path {
         &self.root
+    }
+
+    /// The folders besides the script's whose data files it may read.
+    pub(crate) fn data_roots(&self) -> &[PathBuf] {
+        &self.data_roots
     }
 
     /// Every file that was read, in the order of their paths.
@@ -361,6 +376,15 @@ impl Session {
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
+}
+
+/// A folder of data files, without links in its path.
+fn data_root(folder: &Path) -> Result<PathBuf> {
+    let found = folder.canonicalize().ok().filter(|found| found.is_dir());
+    found.ok_or_else(|| {
+        Error::new(format!("there is no folder {}", folder.display()))
+            .help("--data names a folder of data files")
+    })
 }
 
 /// The name and the text of a file in the place of the standard library.

@@ -5,6 +5,8 @@ use std::sync::LazyLock;
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Table};
 
+use crate::script::system::GEOMETRY;
+
 const TEMPLATE: &str = include_str!("prelude.luau");
 
 /// The template written out and compiled, once for all machines.
@@ -44,6 +46,7 @@ pub(crate) struct Prelude {
     pub phase: Function,
     /// `(value)`: whether it is a module made outside of rules.
     pub is_module: Function,
+    geometry: Function,
     input: Function,
     counts: Function,
     randoms: Function,
@@ -76,6 +79,7 @@ impl Prelude {
             globals: table.get("globals")?,
             phase: table.get("phase")?,
             is_module: table.get("is_module")?,
+            geometry: table.get("geometry")?,
             input: table.get("input")?,
             counts: table.get("counts")?,
             randoms: table.get("randoms")?,
@@ -83,6 +87,11 @@ impl Prelude {
             outputs: table.get("outputs")?,
             recorded: table.get("recorded")?,
         })
+    }
+
+    /// Keeps what makes features' geometries where sources find it.
+    pub(super) fn keep_geometry(&self, lua: &Lua) -> mlua::Result<()> {
+        lua.set_named_registry_value(GEOMETRY, &self.geometry)
     }
 
     /// The column of arguments, at least `size` bytes long.

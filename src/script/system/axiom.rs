@@ -11,7 +11,8 @@ use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
 
-use super::{DeclaredAxiom, SourceHandle, System};
+use super::source::each_feature;
+use super::{DeclaredAxiom, System};
 
 impl System {
     /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes.
@@ -50,20 +51,22 @@ impl System {
         random: bool,
         axiom: &mut Axiom,
     ) -> Result<()> {
-        let LuaValue::UserData(data) = source else { return Ok(()) };
-        let handle = data.borrow::<SourceHandle>().map_err(|error| machine.translate(error))?;
-        let LuaValue::Table(features) = &handle.0 else { return Ok(()) };
-        for (index, feature) in features.sequence_values::<LuaValue>().enumerate() {
-            let feature = feature.map_err(|error| machine.translate(error))?;
-            let id = match &feature {
-                LuaValue::Table(feature) => match feature.raw_get::<LuaValue>("id") {
-                    Ok(LuaValue::Nil) | Err(_) => (index + 1).to_string(),
+        let LuaValue::UserData(source) = source else { return Ok(()) };
+        let each = |index: usize, feature: LuaValue, id: Option<&str>| {
+            let from_file = id.is_some();
+            let id = match (id, &feature) {
+                (Some(id), _) => id.to_owned(),
+                (None, LuaValue::Table(feature)) => match feature.raw_get::<LuaValue>("id") {
+                    Ok(LuaValue::Nil) | Err(_) => index.to_string(),
                     Ok(id) => id.to_string().unwrap_or_default(),
                 },
-                _ => (index + 1).to_string(),
+                (None, _) => index.to_string(),
             };
             let key = key.feature(&id);
-            let made: MultiValue = function.call(feature).map_err(|error| machine.translate(error))?;
+            let made: MultiValue = function.call(feature).map_err(|error| {
+                let error = machine.translate(error);
+                if from_file { error.feature(&id) } else { error }
+            })?;
             let mut made: Vec<LuaValue> = made.into_iter().collect();
             let own = match made.first() {
                 Some(LuaValue::UserData(data)) => {
@@ -89,8 +92,9 @@ impl System {
             let mut builder = Builder { machine, chain: &mut axiom.chain, random };
             builder.list(&made, key)?;
             builder.push(END, &[], key);
-        }
-        Ok(())
+            Ok(())
+        };
+        each_feature(machine.lua(), source, each, |error| machine.translate(error))
     }
 }
 

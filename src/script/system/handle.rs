@@ -24,21 +24,6 @@ pub(crate) struct SystemHandle {
     index: usize,
 }
 
-/// The features of a data source as a script holds them.
-pub(crate) struct SourceHandle(pub(super) LuaValue);
-
-impl UserData for SourceHandle {}
-
-impl SourceHandle {
-    pub(crate) fn new(features: LuaValue) -> Result<Self> {
-        match features {
-            LuaValue::Table(_) => Ok(Self(features)),
-            _ => Err(Error::new("source takes a list of features")
-                .help("write source { { id = \"a\", ... }, ... }")),
-        }
-    }
-}
-
 impl SystemHandle {
     pub(crate) fn create(
         library: &Rc<Library>,

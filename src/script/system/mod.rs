@@ -3,8 +3,10 @@
 mod axiom;
 mod declare;
 mod handle;
+mod source;
 
-pub(crate) use handle::{SourceHandle, SystemHandle};
+pub(crate) use handle::SystemHandle;
+pub(crate) use source::{GEOMETRY, SourceHandle};
 
 use std::sync::Arc;
 

@@ -1,0 +1,117 @@
+//! What scripts get of data files: which they may read, and how a run reads each of them once.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::path::{Component, Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::session::Session;
+use crate::error::{Error, Result};
+use crate::sources::{Frame, Layer, Source, Wanted, nearest_file, split_name};
+
+/// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
+/// that another would decide otherwise; and what was read once is not read again.
+#[derive(Default)]
+pub(crate) struct Data {
+    known: Mutex<Known>,
+}
+
+#[derive(Default)]
+struct Known {
+    /// The projection and the origin, which the first source decides.
+    frame: Option<Frame>,
+    told: BTreeSet<String>,
+    loaded: BTreeMap<String, Result<Arc<Layer>>>,
+}
+
+impl Data {
+    /// The features that `source(text, wanted)` means.
+    pub(crate) fn load(&self, session: &Arc<Session>, text: &str, mut wanted: Wanted) -> Result<Arc<Layer>> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = format!("{text:?} {wanted:?}");
+        if let Some(loaded) = known.loaded.get(&key) {
+            return loaded.clone();
+        }
+        let stop = Arc::clone(&session.stop);
+        wanted.stopped = Some(Arc::new(move || stop.is_stopped()));
+        let loaded = read(session, text, wanted, &mut known);
+        session.stop.check()?;
+        known.loaded.insert(key, loaded.clone());
+        loaded
+    }
+}
+
+fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {
+    let (name, layer) = split_name(text);
+    wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
+    let path = find(session, name)?;
+    let table = Source::open(&path, name)?.read(name, &wanted)?;
+    let shown = table.shown.clone();
+    let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
+    // A layer that is read in parts is told of once.
+    if layer.empty > 0 && known.told.insert(shown.clone()) && !session.options.quiet {
+        let features = if layer.empty == 1 { "feature" } else { "features" };
+        eprintln!("{shown}: left out {} {features} without a geometry", layer.empty);
+    }
+    Ok(Arc::new(layer))
+}
+
+/// The file that a script means by `name`: in its own folder, or in one of those given with `--data`.
+fn find(session: &Session, name: &str) -> Result<PathBuf> {
+    let outside = || {
+        Error::new(format!("the data file {name} lies outside the script's folder")).help(
+            "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
+        )
+    };
+    if name.is_empty() {
+        return Err(Error::new("source needs the name of a file").help("write source(\"village.geojson\")"));
+    }
+    let relative = Path::new(name);
+    if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
+        return Err(Error::new(format!("the data file {name} is named by a path from the root"))
+            .help("name it from the script's folder, or from one that is given: --data FOLDER"));
+    }
+    let roots = || std::iter::once(session.root()).chain(session.data_roots().iter().map(PathBuf::as_path));
+    let mut near = None;
+    let mut inside = false;
+    for root in roots() {
+        let mut path = root.to_path_buf();
+        for part in relative.components() {
+            match part {
+                Component::ParentDir => {
+                    path.pop();
+                }
+                Component::Normal(part) => path.push(part),
+                _ => {}
+            }
+        }
+        if !path.starts_with(root) {
+            continue;
+        }
+        inside = true;
+        let found = path.canonicalize();
+        session.seek(&path, found.is_ok());
+        match found {
+            // A link may lead from one of the folders into another.
+            Ok(found) if roots().any(|root| found.starts_with(root)) => return Ok(found),
+            Ok(_) => return Err(outside()),
+            Err(_) => {
+                let (folder, file) = (path.parent(), path.file_name());
+                if let (None, Some(folder), Some(file)) = (&near, folder, file)
+                    && folder.canonicalize().is_ok_and(|folder| roots().any(|root| folder.starts_with(root)))
+                {
+                    near = nearest_file(folder, &file.to_string_lossy());
+                }
+            }
+        }
+    }
+    if !inside {
+        return Err(outside());
+    }
+    let error = Error::new(format!("there is no data file {name}"));
+    Err(match near {
+        Some(near) => error.help(format!("did you mean {near}?")),
+        None if session.data_roots().is_empty() => error
+            .help("it is looked for from the script's folder; other folders are given with --data FOLDER"),
+        None => error.help("it is looked for from the script's folder and from those given with --data"),
+    })
+}

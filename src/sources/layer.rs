@@ -1,0 +1,90 @@
+//! A layer in metres, as scripts get it.
+
+use super::frame::Frame;
+use super::table::{Feature, Table};
+use crate::error::Result;
+
+/// Features of a data file, in metres around the run's origin.
+#[derive(Debug)]
+pub struct Layer {
+    /// The layer's name.
+    pub name: String,
+    /// The projection that its coordinates are in.
+    pub crs: String,
+    /// Where the origin lies in that projection (m).
+    pub origin: [f64; 2],
+    /// The names of attributes, in the order of the file.
+    pub names: Vec<String>,
+    /// The features in the order of the file; rings are counter-clockwise, holes clockwise.
+    pub features: Vec<Feature>,
+    /// The least and the greatest coordinates (m).
+    pub bounds: [[f64; 3]; 2],
+    /// How many features had no geometry, or one without extent, and were left out.
+    pub empty: usize,
+}
+
+impl Layer {
+    /// Brings `table` into `frame`, which is made for it unless there is one already.
+    pub fn new(mut table: Table, frame: &mut Option<Frame>) -> Result<Self> {
+        let frame = match frame {
+            Some(frame) => frame,
+            None => frame.insert(Frame::new(&table)?),
+        };
+        frame.bring(&mut table)?;
+        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        for feature in &mut table.features {
+            if let super::Geometry::Polygon(rings) = &mut feature.geometry {
+                for (index, ring) in rings.iter_mut().enumerate() {
+                    if (doubled_area(ring) > 0.0) != (index == 0) {
+                        ring.reverse();
+                    }
+                }
+            }
+            for point in feature.geometry.points() {
+                for axis in 0..3 {
+                    bounds[0][axis] = bounds[0][axis].min(point[axis]);
+                    bounds[1][axis] = bounds[1][axis].max(point[axis]);
+                }
+            }
+        }
+        Ok(Self {
+            name: table.layer,
+            crs: frame.name.clone(),
+            origin: frame.origin,
+            names: table.names,
+            features: table.features,
+            bounds,
+            empty: table.empty,
+        })
+    }
+}
+
+/// Twice the area within a ring (m²), negative if it is clockwise.
+fn doubled_area(ring: &[[f64; 3]]) -> f64 {
+    let Some(first) = ring.first() else { return 0.0 };
+    let from_first = |point: &[f64; 3]| [point[0] - first[0], point[1] - first[1]];
+    ring.windows(2)
+        .map(|pair| {
+            let ([ax, ay], [bx, by]) = (from_first(&pair[0]), from_first(&pair[1]));
+            ax * by - ay * bx
+        })
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Crs, Geometry};
+    use super::*;
+
+    #[test]
+    fn outer_rings_turn_left_and_holes_turn_right() {
+        let square = |size: f64| vec![[0.0, 0.0, 0.0], [0.0, size, 0.0], [size, size, 0.0], [size, 0.0, 0.0]];
+        let hole = square(1.0).into_iter().rev().collect();
+        let mut table = Table::new("a", "a", Crs::epsg(3067));
+        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new());
+        let layer = Layer::new(table, &mut None).unwrap();
+        let Geometry::Polygon(rings) = &layer.features[0].geometry else { panic!("a polygon") };
+        assert_eq!((doubled_area(&rings[0]), doubled_area(&rings[1])), (32.0, -2.0));
+        assert_eq!(layer.bounds, [[0.0; 3], [4.0, 4.0, 0.0]]);
+    }
+}

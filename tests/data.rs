@@ -1,0 +1,90 @@
+//! Real data files, where they are beside the repository, against numbers that were computed with other programs.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+
+use std::path::{Path, PathBuf};
+
+use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
+
+/// The file in the folder of shared data; tells that the test is skipped where there is none.
+fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
+    let found = path.is_file().then_some(path);
+    if found.is_none() {
+        eprintln!("skipped: there is no ../shared/data/{name}");
+    }
+    found
+}
+
+fn layer(path: &Path, name: &str, condition: Option<&str>) -> Layer {
+    let wanted =
+        Wanted { layer: Some(name.to_owned()), condition: condition.map(str::to_owned), ..Wanted::default() };
+    let table = Source::open(path, "file").unwrap().read("file", &wanted).unwrap();
+    Layer::new(table, &mut None).unwrap()
+}
+
+/// The area (m²) within a polygon, of which holes are taken away since they turn the other way.
+fn area(geometry: &Geometry) -> f64 {
+    let Geometry::Polygon(rings) = geometry else { return 0.0 };
+    let ring = |ring: &Vec<[f64; 3]>| -> f64 {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter()
+            .zip(next)
+            .map(|(a, b)| {
+                (a[0] - ring[0][0]) * (b[1] - ring[0][1]) - (b[0] - ring[0][0]) * (a[1] - ring[0][1])
+            })
+            .sum::<f64>()
+            / 2.0
+    };
+    rings.iter().map(ring).sum()
+}
+
+#[test]
+fn the_buildings_of_france_are_all_there_with_their_areas() {
+    let Some(path) = shared("france_buildings.gpkg") else { return };
+    let france = layer(&path, "buildings", None);
+    // 15,608 records, some of several parts; counted with Python's sqlite3 and struct.
+    assert_eq!(france.features.len(), 15_617);
+    let rings = |feature: &burgeon::sources::Feature| match &feature.geometry {
+        Geometry::Polygon(rings) => rings.len(),
+        _ => 0,
+    };
+    assert_eq!(france.features.iter().map(|feature| rings(feature) - 1).sum::<usize>(), 919);
+    assert_eq!(france.features.iter().flat_map(|feature| feature.geometry.points()).count(), 152_657);
+    let total: f64 = france.features.iter().map(|feature| area(&feature.geometry)).sum();
+    assert!((total - 3_280_464.638_6).abs() < 0.01, "{total}");
+    assert_eq!((france.crs.as_str(), france.origin), ("EPSG:2154", [586_700.0, 6_659_500.0]));
+    assert_eq!(france.features[0].id, "BATIMENT0000000049603363-1");
+    let high = layer(&path, "buildings", Some("height > 50")).features.len();
+    assert!((1..100).contains(&high), "{high}");
+}
+
+#[test]
+fn every_layer_of_helsinki_and_monaco_is_read() {
+    for (name, counts) in
+        [("helsinki.gpkg", [572, 2510, 649, 2046, 105]), ("monaco.gpkg", [1220, 2379, 415, 980, 69])]
+    {
+        let Some(path) = shared(name) else { return };
+        let names = ["buildings", "roads", "trees", "furniture", "green"];
+        let kinds = [Kind::Polygon, Kind::Line, Kind::Point, Kind::Point, Kind::Polygon];
+        for ((layer_name, count), kind) in names.into_iter().zip(counts).zip(kinds) {
+            let layer = layer(&path, layer_name, None);
+            assert_eq!(layer.features.len(), count, "{name}:{layer_name}");
+            assert!(layer.features.iter().all(|feature| feature.geometry.kind() == kind));
+            let [low, high] = layer.bounds;
+            assert!((0..2).all(|axis| low[axis] > -5000.0 && high[axis] < 5000.0), "{low:?} {high:?}");
+            assert!(
+                layer.features.iter().all(|feature| kind != Kind::Polygon || area(&feature.geometry) > 0.0)
+            );
+        }
+    }
+}
+
+#[test]
+fn the_village_has_what_its_script_draws() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/data/village.geojson");
+    let village = layer(&path, "village", None);
+    let count = |kind| village.features.iter().filter(|feature| feature.geometry.kind() == kind).count();
+    assert_eq!(Kind::ALL.map(count), [110, 4, 72]);
+    assert!(path.metadata().unwrap().len() < 60_000);
+}

@@ -1,0 +1,466 @@
+//! Data files: those that are not there, not to be read, not what they seem, or without what is wanted.
+
+use insta::assert_snapshot;
+use rusqlite::Connection;
+
+use crate::support::{Folder, HEAD};
+
+const RING: &str = "[[[6.1,45.9],[6.1001,45.9],[6.1001,45.9001],[6.1,45.9]]]";
+
+/// GeoJSON of one feature, with another member behind its features.
+fn geojson(kind: &str, coordinates: &str, member: &str) -> String {
+    format!(
+        r#"{{"type":"FeatureCollection","features":[{{"type":"Feature","properties":{{"height":7,"name":"mill"}},"geometry":{{"type":"{kind}","coordinates":{coordinates}}}}}]{member}}}"#
+    )
+}
+
+/// A geometry of a GeoPackage: a point, or a line of several.
+fn blob(points: &[[f64; 2]]) -> Vec<u8> {
+    let mut bytes = b"GP\0\x01\0\0\0\0\x01".to_vec();
+    let single = points.len() == 1;
+    bytes.extend(if single { 1u32 } else { 2 }.to_le_bytes());
+    if !single {
+        bytes.extend(u32::try_from(points.len()).unwrap().to_le_bytes());
+    }
+    bytes.extend(points.iter().flatten().flat_map(|value| value.to_le_bytes()));
+    bytes
+}
+
+/// A GeoPackage with buildings, of which one lies at `north` and one nowhere, and a road.
+fn package(crs: i32, north: f64) -> Vec<u8> {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.gpkg");
+    let connection = Connection::open(&path).unwrap();
+    connection
+        .execute_batch(
+            "CREATE TABLE gpkg_contents(table_name TEXT PRIMARY KEY, data_type TEXT);
+             CREATE TABLE gpkg_geometry_columns(table_name TEXT, column_name TEXT, srs_id INT);
+             CREATE TABLE gpkg_spatial_ref_sys(srs_name TEXT, srs_id INT, organization TEXT, organization_coordsys_id INT);
+             INSERT INTO gpkg_spatial_ref_sys VALUES ('a', 3067, 'EPSG', 3067), ('odd', 5000, 'ME', 1), ('n', -1, 'NONE', -1);
+             CREATE TABLE buildings(fid INTEGER PRIMARY KEY, geom BLOB, height REAL, name TEXT, listed BOOLEAN);
+             CREATE TABLE roads(fid INTEGER PRIMARY KEY, geom BLOB, name TEXT);",
+        )
+        .unwrap();
+    for layer in ["buildings", "roads"] {
+        connection.execute("INSERT INTO gpkg_contents VALUES (?1, 'features')", [layer]).unwrap();
+        connection
+            .execute("INSERT INTO gpkg_geometry_columns VALUES (?1, 'geom', ?2)", (layer, crs))
+            .unwrap();
+    }
+    let mill = blob(&[[385_423.0, 6_671_463.0]]);
+    connection.execute("INSERT INTO buildings VALUES (1, ?1, 5, 'mill', 1)", [mill]).unwrap();
+    let inn = blob(&[[385_500.0, north]]);
+    connection.execute("INSERT INTO buildings VALUES (2, ?1, 15, NULL, 0)", [inn]).unwrap();
+    connection.execute("INSERT INTO buildings VALUES (3, NULL, 1, 'ruin', NULL)", []).unwrap();
+    let lane = blob(&[[385_423.0, 6_671_463.0], [385_433.0, 6_671_463.0]]);
+    connection.execute("INSERT INTO roads VALUES (1, ?1, 'lane')", [lane]).unwrap();
+    connection.close().unwrap();
+    std::fs::read(path).unwrap()
+}
+
+/// Data files that do well, and such that do not.
+fn folder() -> Folder {
+    let point = |coordinates: &str, member: &str| geojson("Point", coordinates, member);
+    let town = package(3067, 6_671_500.0);
+    let other = {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a");
+        Connection::open(&path).unwrap().execute_batch("CREATE TABLE a(b)").unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let village = geojson("Polygon", RING, "");
+    let folder = Folder::new()
+        .with("in/village.geojson", village.as_str())
+        .with("in/cut.geojson", &village[..150])
+        .with("in/empty.geojson", "")
+        .with("in/broken.geojson", "{\n\"type\": \"FeatureCollection\",\n\"features\": [ oops ]\n}")
+        .with("in/plain.json", "{\"a\": 1}")
+        .with("in/none.geojson", r#"{"type":"FeatureCollection","features":[]}"#)
+        .with("in/collection.geojson", r#"{"type":"FeatureCollection","features":[{"type":"Feature","id":"x","properties":{},"geometry":{"type":"GeometryCollection","geometries":[]}}]}"#)
+        .with("in/metres.geojson", point("[385423, 6671463]", ""))
+        .with("in/huge.geojson", point("[1e999, 1]", ""))
+        .with("in/crs.geojson", point("[1, 1]", r#","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::99999"}}"#))
+        .with("in/nowhere.geojson", point("[1, 1]", r#","crs":{"type":"link"}"#))
+        .with("in/text.geojson", r#"{"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":{"type":"Point","coordinates":["a",1]}}]}"#)
+        .with("in/binary.geojson", [0xff, 0xfe, 0, 1])
+        .with("in/folder/a.txt", "")
+        .with("in/town.gpkg", town.as_slice())
+        .with("in/cut.gpkg", &town[..9000])
+        .with("in/local.gpkg", package(-1, 6_671_500.0))
+        .with("in/odd.gpkg", package(5000, 6_671_500.0))
+        .with("in/nan.gpkg", package(3067, f64::INFINITY))
+        .with("in/other.gpkg", other)
+        .with("outside.geojson", village.as_str())
+        .with("data/far.geojson", village.as_str());
+    std::os::unix::fs::symlink("../outside.geojson", folder.path().join("in/link.geojson")).unwrap();
+    folder
+}
+
+/// What a script is told whose second line is `line`.
+fn told(line: &str) -> String {
+    folder().with("in/s.lua", format!("local a = 1\n{line}\n")).refuses(&["run", "in/s.lua"])
+}
+
+/// What a script prints that succeeds.
+fn printed(script: &str, flags: &[&str]) -> String {
+    let folder = folder().with("in/s.lua", script);
+    let before = folder.files();
+    let said = folder.burgeon(&[&["run", "in/s.lua", "--json"], flags].concat()).done();
+    assert_eq!(folder.files(), before, "reading leaves nothing behind");
+    said.stderr
+}
+
+#[test]
+fn a_data_file_that_is_missing_or_lies_outside_is_told() {
+    assert_snapshot!(told(r#"source("vilage.geojson")"#), @r#"
+    error: in/s.lua:2: there is no data file vilage.geojson
+      | source("vilage.geojson")
+      help: did you mean village.geojson?
+    "#);
+    assert_snapshot!(told(r#"source("zzz_nothing_like_it.gpkg")"#), @r#"
+    error: in/s.lua:2: there is no data file zzz_nothing_like_it.gpkg
+      | source("zzz_nothing_like_it.gpkg")
+      help: it is looked for from the script's folder; other folders are given with --data FOLDER
+    "#);
+    assert_snapshot!(told(r#"source("")"#), @r#"
+    error: in/s.lua:2: source needs the name of a file
+      | source("")
+      help: write source("village.geojson")
+    "#);
+    assert_snapshot!(told(r#"source("folder")"#), @r#"
+    error: in/s.lua:2: folder is a folder
+      | source("folder")
+      help: name a .geojson or .gpkg file in it
+    "#);
+    assert_snapshot!(told(r#"source("../outside.geojson")"#), @r#"
+    error: in/s.lua:2: the data file ../outside.geojson lies outside the script's folder
+      | source("../outside.geojson")
+      help: a script reads data in its own folder and below it, and in those that are given: --data FOLDER
+    "#);
+    assert_snapshot!(told(r#"source("link.geojson")"#), @r#"
+    error: in/s.lua:2: the data file link.geojson lies outside the script's folder
+      | source("link.geojson")
+      help: a script reads data in its own folder and below it, and in those that are given: --data FOLDER
+    "#);
+    assert_snapshot!(told(r#"source("/etc/passwd")"#), @r#"
+    error: in/s.lua:2: the data file /etc/passwd is named by a path from the root
+      | source("/etc/passwd")
+      help: name it from the script's folder, or from one that is given: --data FOLDER
+    "#);
+    assert_snapshot!(told(r#"source("unknown_region.geojson")"#), @r#"
+    error: in/s.lua:2: there is no data file unknown_region.geojson
+      | source("unknown_region.geojson")
+      help: it is looked for from the script's folder; other folders are given with --data FOLDER
+    "#);
+}
+
+#[test]
+fn a_file_that_is_no_data_file_is_told() {
+    assert_snapshot!(told(r#"source("cut.geojson")"#), @r#"
+    error: in/s.lua:2: cut.geojson is not GeoJSON: it ends at line 1, column 150, where more should follow
+      | source("cut.geojson")
+      help: the file is cut short; get it again
+    "#);
+    assert_snapshot!(told(r#"source("empty.geojson")"#), @r#"
+    error: in/s.lua:2: empty.geojson is not GeoJSON: it ends at line 1, column 0, where more should follow
+      | source("empty.geojson")
+      help: it is empty; get it again
+    "#);
+    assert_snapshot!(told(r#"source("broken.geojson")"#), @r#"
+    error: in/s.lua:2: broken.geojson is not GeoJSON: expected value (line 3, column 15)
+      | source("broken.geojson")
+      help: GeoJSON is described in RFC 7946
+    "#);
+    assert_snapshot!(told(r#"source("plain.json")"#), @r#"
+    error: in/s.lua:2: plain.json is JSON, but not GeoJSON
+      | source("plain.json")
+      help: it needs "type": "FeatureCollection" and "features": [ ... ]
+    "#);
+    assert_snapshot!(told(r#"source("text.geojson")"#), @r#"
+    error: in/s.lua:2: text.geojson is not GeoJSON: invalid type: string "a", expected coordinates: numbers in lists (line 1, column 119)
+      | source("text.geojson")
+      help: GeoJSON is described in RFC 7946
+    "#);
+    assert_snapshot!(told(r#"source("binary.geojson")"#), @r#"
+    error: in/s.lua:2: binary.geojson is a binary file, neither GeoJSON nor a GeoPackage
+      | source("binary.geojson")
+      help: convert it: ogr2ogr out.gpkg FILE
+    "#);
+    assert_snapshot!(told(r#"source("cut.gpkg")"#), @r#"
+    error: in/s.lua:2: cannot read cut.gpkg: database disk image is malformed
+      | source("cut.gpkg")
+      help: the file is damaged or cut short; get it again
+    "#);
+    assert_snapshot!(told(r#"source("other.gpkg")"#), @r#"
+    error: in/s.lua:2: other.gpkg is an SQLite database, but no GeoPackage
+      | source("other.gpkg")
+      help: a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns
+    "#);
+}
+
+#[test]
+fn a_layer_that_is_not_there_is_told() {
+    assert_snapshot!(told(r#"source("town.gpkg:bulidings")"#), @r#"
+    error: in/s.lua:2: town.gpkg has no layer called bulidings
+      | source("town.gpkg:bulidings")
+      help: did you mean buildings? It has buildings, roads
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg")"#), @r#"
+    error: in/s.lua:2: town.gpkg has several layers
+      | source("town.gpkg")
+      help: name one behind a colon: "town.gpkg:buildings"; it has buildings, roads
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson:roads")"#), @r#"
+    error: in/s.lua:2: village.geojson has no layer called roads
+      | source("village.geojson:roads")
+      help: it has village
+    "#);
+}
+
+#[test]
+fn coordinates_that_cannot_be_used_are_told() {
+    assert_snapshot!(told(r#"source("metres.geojson")"#), @r#"
+    error: in/s.lua:2: feature 1 of metres.geojson lies at 385423, 6671463, which is no longitude and latitude
+      | source("metres.geojson")
+      help: name the coordinate system of the file: source(file, { crs = 3067 })
+    "#);
+    assert_snapshot!(told(r#"source("huge.geojson")"#), @r#"
+    error: in/s.lua:2: huge.geojson is not GeoJSON: number out of range (line 1, column 145)
+      | source("huge.geojson")
+      help: GeoJSON is described in RFC 7946
+    "#);
+    assert_snapshot!(told(r#"source("crs.geojson")"#), @r#"
+    error: in/s.lua:2: crs.geojson: the coordinate system EPSG:99999 is not known
+      | source("crs.geojson")
+      help: name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326
+    "#);
+    assert_snapshot!(told(r#"source("nowhere.geojson")"#), @r#"
+    error: in/s.lua:2: nowhere.geojson: the coordinate system {"type":"link"} of GeoJSON's crs member is not known
+      | source("nowhere.geojson")
+      help: name it: source(file, { crs = 4326 })
+    "#);
+    assert_snapshot!(told(r#"source("local.gpkg:roads")"#), @r#"
+    error: in/s.lua:2: local.gpkg:roads: the layer has no coordinate system
+      | source("local.gpkg:roads")
+      help: name its EPSG code: source(file, { crs = 3067 })
+    "#);
+    assert_snapshot!(told(r#"source("odd.gpkg:roads")"#), @r#"
+    error: in/s.lua:2: odd.gpkg:roads: the layer's coordinate system "odd" is none of EPSG's
+      | source("odd.gpkg:roads")
+      help: name its EPSG code: source(file, { crs = 3067 })
+    "#);
+    assert_snapshot!(told(r#"source("nan.gpkg:buildings")"#), @r#"
+    error: in/s.lua:2: feature 2 of nan.gpkg:buildings has a coordinate that is not a finite number
+      | source("nan.gpkg:buildings")
+      help: repair the file, or leave the feature out
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson") source("metres.geojson", { crs = 32601 })"#), @r#"
+    error: in/s.lua:2: feature 1 of metres.geojson lies more than 2,000 km from the middle, at 385423, 6671463
+      | source("village.geojson") source("metres.geojson", { crs = 32601 })
+      help: all sources of a run share one model; check the coordinates and the coordinate system, or read a part
+    "#);
+}
+
+#[test]
+fn features_that_are_not_there_are_told() {
+    assert_snapshot!(told(r#"source("none.geojson")"#), @r#"
+    error: in/s.lua:2: none.geojson has no features
+      | source("none.geojson")
+      help: check the file: burgeon sources FILE
+    "#);
+    assert_snapshot!(told(r#"source("collection.geojson")"#), @r#"
+    error: in/s.lua:2: feature x of collection.geojson is a geometry collection
+      | source("collection.geojson")
+      help: points, lines and polygons are read, single or as multi-geometries
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg:buildings", { where = "height > 99" })"#), @r#"
+    error: in/s.lua:2: no feature of town.gpkg:buildings meets where height > 99
+      | source("town.gpkg:buildings", { where = "height > 99" })
+      help: burgeon sources FILE lists attributes and their values
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg:roads", { kind = "polygon" })"#), @r#"
+    error: in/s.lua:2: town.gpkg:roads has geometries of kind line, none of kind polygon
+      | source("town.gpkg:roads", { kind = "polygon" })
+      help: name another layer, or leave kind out
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg:roads", { id = "nam" })"#), @r#"
+    error: in/s.lua:2: town.gpkg:roads has no attribute called nam
+      | source("town.gpkg:roads", { id = "nam" })
+      help: did you mean name?
+    "#);
+}
+
+#[test]
+fn a_condition_that_is_no_sql_or_no_question_is_told() {
+    assert_snapshot!(told(r#"source("town.gpkg:buildings", { where = "heigt > 1" })"#), @r#"
+    error: in/s.lua:2: where "heigt > 1" of town.gpkg:buildings: no such column: heigt
+      | source("town.gpkg:buildings", { where = "heigt > 1" })
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg:buildings", { where = "height >" })"#), @r#"
+    error: in/s.lua:2: where "height >" of town.gpkg:buildings: near ")": syntax error
+      | source("town.gpkg:buildings", { where = "height >" })
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg:buildings", { where = "1); DROP TABLE roads; --" })"#), @r#"
+    error: in/s.lua:2: where "1); DROP TABLE roads; --" of town.gpkg:buildings: not authorized
+      | source("town.gpkg:buildings", { where = "1); DROP TABLE roads; --" })
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
+    "#);
+    assert_snapshot!(told(r#"source("town.gpkg:buildings", { where = "load_extension('x')" })"#), @r#"
+    error: in/s.lua:2: where "load_extension('x')" of town.gpkg:buildings: not authorized to use function: load_extension
+      | source("town.gpkg:buildings", { where = "load_extension('x')" })
+      help: write an SQL condition on the layer's columns, such as where = "height > 10"
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson", { where = "height > 1" })"#), @r#"
+    error: in/s.lua:2: village.geojson is GeoJSON, which takes no where
+      | source("village.geojson", { where = "height > 1" })
+      help: where is for GeoPackages; take what you need out of source(...).features in Lua: source(chosen)
+    "#);
+}
+
+#[test]
+fn options_of_a_source_are_checked() {
+    assert_snapshot!(told(r#"source("village.geojson", { limt = 1 })"#), @r#"
+    error: in/s.lua:2: source has no option called limt
+      | source("village.geojson", { limt = 1 })
+      help: did you mean limit?
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson", { limit = -1 })"#), @r#"
+    error: in/s.lua:2: source: limit must be a whole number from 0, not -1
+      | source("village.geojson", { limit = -1 })
+      help: write { limit = 100 }
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson", { kind = "poligon" })"#), @r#"
+    error: in/s.lua:2: source: there is no kind "poligon" of geometry
+      | source("village.geojson", { kind = "poligon" })
+      help: did you mean polygon?
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson", 7)"#), @r#"
+    error: in/s.lua:2: source takes a table of options, not a number
+      | source("village.geojson", 7)
+      help: write source("town.gpkg:buildings", { limit = 100 })
+    "#);
+    assert_snapshot!(told("source({}, { limit = 1 })"), @r#"
+    error: in/s.lua:2: a list of features takes no options
+      | source({}, { limit = 1 })
+      help: choose among them in Lua: where, limit and the like are for files
+    "#);
+    assert_snapshot!(told("source(7)"), @r#"
+    error: in/s.lua:2: source takes the name of a data file or a list of features
+      | source(7)
+      help: write source("village.geojson") or source({ { id = "a", ... }, ... })
+    "#);
+    assert_snapshot!(told(r#"local f = source("village.geojson").feature"#), @r#"
+    error: in/s.lua:2: a source has no field called feature
+      | local f = source("village.geojson").feature
+      help: did you mean features?
+    "#);
+    assert_snapshot!(told(r#"source("village.geojson").bounds = 1"#), @r#"
+    error: in/s.lua:2: bounds of a source cannot be assigned
+      | source("village.geojson").bounds = 1
+      help: make a list of what you need, and a source of it: source(list)
+    "#);
+}
+
+#[test]
+fn a_rule_reads_no_data() {
+    let script = format!(
+        "{HEAD}s:rule(\"A(x)\", function(this, x) source(\"village.geojson\") return nil end)\ns:derive(1)\n"
+    );
+    assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @r#"
+    error: in/s.lua:3: rule A(x): source belongs at the top level of the script, not in a rule
+      | s:rule("A(x)", function(this, x) source("village.geojson") return nil end)
+      module: A(1), step 1
+      help: make it before derive, and let the rule use it
+    "#);
+}
+
+#[test]
+fn a_mistake_in_the_axioms_function_names_the_feature() {
+    let script = format!(
+        "{HEAD}s:axiom(source(\"town.gpkg:roads\", {{ id = \"name\" }}), function(f)\n  return A(#f.geometry.rings)\nend)\ns:derive(1)\n"
+    );
+    assert_snapshot!(folder().with("in/s.lua", script).refuses(&["run", "in/s.lua"]), @r#"
+    error: in/s.lua:4: attempt to get length of a nil value (feature lane)
+      | return A(#f.geometry.rings)
+    "#);
+}
+
+#[test]
+fn a_folder_that_is_given_is_read_and_one_that_is_not_there_is_told() {
+    let script = "print(#source(\"far.geojson\"), #source(\"village.geojson\"))\n";
+    assert_eq!(printed(script, &["--data", "data"]), "1\t1\n");
+    let folder = folder().with("in/s.lua", script);
+    assert_snapshot!(folder.refuses(&["run", "in/s.lua", "--data", "nothing"]), @r#"
+    error: there is no folder nothing
+      help: --data names a folder of data files
+    "#);
+}
+
+#[test]
+fn what_was_read_is_frozen_and_known_by_its_names() {
+    let script = r#"
+local town = source("town.gpkg:buildings")
+local mill, inn = town.features[1], town.features[2]
+print(#town, town.layer, town.crs, town.origin[1], town.origin[2], town.bounds.max[1])
+print(mill.id, mill.height, mill.name, mill.listed, mill.layer, inn.name, inn.listed)
+print(mill.geometry.kind, mill.geometry.points[1][1], mill.geometry.points[1][2], mill.geometry.points[1][3])
+print(pcall(function() mill.geometry.points[1][1] = 0 end))
+for index, feature in town do print(index, feature.id) end
+print(#source("town.gpkg:buildings", { where = "height > 10 or name = 'none'" }), #source("town.gpkg:buildings", { limit = 1 }))
+print(source("town.gpkg:buildings", { id = "name" }).features[1].id)
+"#;
+    assert_snapshot!(printed(script, &[]), @r#"
+    town.gpkg:buildings: left out 1 feature without a geometry
+    2	buildings	EPSG:3067	385500	6671500	0
+    1	5	mill	true	buildings	nil	false
+    point	-77	-37	0
+    false	in/s.lua:7: attempt to modify a readonly table
+    1	1
+    2	2
+    1	1
+    mill
+    "#);
+}
+
+#[test]
+fn a_condition_that_never_ends_is_stopped() {
+    let line = "source(\"town.gpkg:buildings\", { where = \"(WITH RECURSIVE c(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM c) SELECT count(*) FROM c) > 0\" })";
+    let folder = folder().with("in/s.lua", line);
+    let begin = std::time::Instant::now();
+    let said = folder.burgeon(&["run", "in/s.lua", "--time-limit", "0.5"]).failed();
+    assert!(begin.elapsed().as_secs() < 10 && said.contains("--time-limit"), "{said}");
+}
+
+#[test]
+fn sources_are_listed_for_people_and_machines() {
+    let folder = folder();
+    assert_snapshot!(folder.burgeon(&["sources", "in/town.gpkg", "in/village.geojson"]).done().stdout, @r#"
+    in/town.gpkg: GeoPackage
+      buildings: 2 points, 1 without geometry; EPSG:3067
+        from 385423, 6671463 to 385500, 6671500
+        height  number of 2, 5 to 15
+        name    text of 1, such as "mill"
+        listed  boolean of 2
+      roads: 1 line; EPSG:3067
+        from 385423, 6671463 to 385433, 6671463
+        name  text of 1, such as "lane"
+    in/village.geojson: GeoJSON
+      village: 1 polygon; EPSG:4326
+        from 6.1, 45.9 to 6.1001, 45.9001
+        height  number of 1, 7 to 7
+        name    text of 1, such as "mill"
+    "#);
+    let document = folder.burgeon(&["sources", "in/town.gpkg", "--json"]).done().json();
+    let layer = &document["files"][0]["layers"][0];
+    assert_eq!(
+        (layer["records"].as_u64(), layer["empty"].as_u64(), layer["crs"].as_str()),
+        (Some(2), Some(1), Some("EPSG:3067"))
+    );
+    assert_eq!(layer["attributes"][0]["range"], serde_json::json!([5.0, 15.0]));
+    assert_snapshot!(folder.refuses(&["sources", "in/vilage.geojson"]), @r#"
+    error: there is no data file in/vilage.geojson
+      help: did you mean village.geojson?
+    "#);
+}
