@@ -97,14 +97,12 @@ fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<Ring> 
     }
     let [a, b] = [points[0].point.at, points[1].point.at];
     if points.iter().all(|point| orientation(a, b, point.point.at) == Orientation::Collinear) {
-        return Err(Error::new(format!(
-            "{name} of the {owner} has no area: its points lie on one line"
-        ))
-        .help(if manner.straight > 0.0 {
-            "move a point off the line"
-        } else {
-            "move a point off the line, or use an open cross-section"
-        }));
+        return Err(Error::new(format!("{name} of the {owner} has no area: its points lie on one line"))
+            .help(if manner.straight > 0.0 {
+                "move a point off the line"
+            } else {
+                "move a point off the line, or use an open cross-section"
+            }));
     }
     drop_straight(&mut points, true, manner);
     if points.len() < 3 {

@@ -41,7 +41,8 @@ impl Plan {
         }) {
             if !(point.z.abs() <= 20_000.0) {
                 let name = if ring == 0 { "the outer ring".to_owned() } else { format!("hole {ring}") };
-                let message = format!("point {number} of {name} of the footprint has the height {} m", point.z);
+                let message =
+                    format!("point {number} of {name} of the footprint has the height {} m", point.z);
                 return Err(Error::new(message).help("give heights from -20000 to 20000 m"));
             }
         }
@@ -49,7 +50,8 @@ impl Plan {
         let clean = numbered_rings(&sharp(outer), &holes, &PLAN)?;
         let places: Vec<Vec<usize>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
-        let rings = places.iter().zip(rings).map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
+        let rings =
+            places.iter().zip(rings).map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
         let rings: Vec<Vec<DVec3>> = rings.collect();
         Ok(Self { rings, places })
     }
@@ -104,7 +106,8 @@ impl Plan {
             let begin = hull.len();
             for point in pass {
                 while hull.len() > begin + 1
-                    && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 1]) <= 0.0
+                    && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 1])
+                        <= 0.0
                 {
                     hull.pop();
                 }

@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
-use super::skeleton::Skeleton;
 use super::cap;
+use super::skeleton::Skeleton;
 use crate::error::{Error, Result};
 use crate::scene::Part;
 
@@ -88,7 +88,8 @@ fn divide(piece: &[usize], level: f64, points: &mut Vec<DVec3>, above: &mut Vec<
         ring.push(a);
         let b = piece[(index + 1) % piece.len()];
         // From the same end for both neighbours, so that they agree to the last bit.
-        let [low, high] = if points[a].z < points[b].z { [points[a], points[b]] } else { [points[b], points[a]] };
+        let [low, high] =
+            if points[a].z < points[b].z { [points[a], points[b]] } else { [points[b], points[a]] };
         if low.z < level && high.z > level {
             let at = low.truncate().lerp(high.truncate(), (level - low.z) / (high.z - low.z));
             ring.push(points.len());
@@ -191,7 +192,8 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
         [ring] if ring.len() == 4 && is_convex(ring) => vec![[0, 1, 2], [0, 2, 3]],
         _ => cap::triangulate(&flats)?,
     };
-    let base = u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
+    let base =
+        u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
     for (point, flat) in rings.iter().flatten().zip(flats.iter().flatten()) {
         part.positions.push(point.as_vec3());
         part.normals.push(normal.as_vec3());
@@ -205,7 +207,9 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
 /// The sum of the normals of a ring's triangles, each as long as twice its area.
 fn newell(ring: &[DVec3]) -> DVec3 {
     let from = ring[0];
-    ring.windows(2).map(|edge| (edge[0] - from).cross(edge[1] - from)).fold(DVec3::ZERO, |sum, normal| sum + normal)
+    ring.windows(2)
+        .map(|edge| (edge[0] - from).cross(edge[1] - from))
+        .fold(DVec3::ZERO, |sum, normal| sum + normal)
 }
 
 fn is_convex(ring: &[DVec2]) -> bool {

@@ -24,7 +24,7 @@ pub use boxed::Boxed;
 pub use declare::{Argument, Call, Field, Kind, Method};
 pub use drawing::Drawing;
 pub use extruder::Extruder;
-pub use footprint::Footprint;
+pub use footprint::{Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};

@@ -5,6 +5,7 @@
 mod command_line;
 mod determinism;
 mod files;
+mod footprints;
 mod limits;
 mod params;
 mod patterns;

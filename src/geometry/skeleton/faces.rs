@@ -43,7 +43,8 @@ fn merge(peaks: &[Peak], fixed: usize) -> Vec<usize> {
             if peaks[b].at.x - peaks[a].at.x > MERGED {
                 break;
             }
-            let near = peaks[a].at.distance(peaks[b].at) <= MERGED && (peaks[a].time - peaks[b].time).abs() <= MERGED;
+            let near = peaks[a].at.distance(peaks[b].at) <= MERGED
+                && (peaks[a].time - peaks[b].time).abs() <= MERGED;
             let [a, b] = [a, b].map(|peak| leader(&merged, peak));
             if near && a.max(b) >= fixed {
                 merged[a.max(b)] = a.min(b);

@@ -50,7 +50,9 @@ impl Skeleton {
         let mut failure = None;
         for (attempt, by) in MOVES.into_iter().enumerate() {
             let moved: Vec<Vec<DVec2>> = if by > 0.0 { shaken(rings, by, attempt) } else { rings.to_vec() };
-            match wavefront::propagate(&moved, speeds).and_then(|traced| faces::assemble(&moved, speeds, traced)) {
+            match wavefront::propagate(&moved, speeds)
+                .and_then(|traced| faces::assemble(&moved, speeds, traced))
+            {
                 Ok(mut skeleton) => {
                     for (peak, &at) in skeleton.peaks.iter_mut().zip(rings.iter().flatten()) {
                         peak.at = at;

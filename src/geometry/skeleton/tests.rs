@@ -52,7 +52,9 @@ fn orthogonal(random: &mut Random) -> Vec<DVec2> {
 
 fn star(random: &mut Random) -> Vec<DVec2> {
     let count = random.whole(3, 24);
-    let at = |index: u32, radius: f64| DVec2::from_angle(std::f64::consts::TAU * f64::from(index) / count) * radius;
+    let at = |index: u32, radius: f64| {
+        DVec2::from_angle(std::f64::consts::TAU * f64::from(index) / count) * radius
+    };
     (0..count as u32).map(|index| at(index, 3.0 + 9.0 * random.next())).collect()
 }
 
@@ -68,10 +70,11 @@ fn random_plans_have_sound_roofs_with_few_repairs() {
         };
         let half = 0.2 + 0.7 * random.next();
         let hole = [(-half, -half), (-half, half), (half, half), (half, -half)].map(DVec2::from);
-        let offset = if round % 2 == 0 { DVec2::new(plain[0].x.max(0.0) + 0.95, 0.0) } else { DVec2::ZERO };
-        let hole: Vec<DVec2> = hole.iter().map(|&at| at * if round % 2 == 0 { 0.5 } else { 1.0 } + offset).collect();
+        let offset = if round % 2 == 0 { DVec2::new(0.5, 0.0) } else { DVec2::ZERO };
+        let hole: Vec<DVec2> =
+            hole.iter().map(|&at| at * if round % 2 == 0 { 0.5 } else { 1.0 } + offset).collect();
         let plans = [vec![turned(&plain)], vec![turned(&plain), turned(&hole)]];
-        let rings = &plans[usize::from(round % 3 == 0 && hole.iter().all(|at| at.x < 1.5))];
+        let rings = &plans[usize::from(round % 3 == 0)];
         let speeds = vec![1.0; rings.iter().map(Vec::len).sum()];
         let found = Skeleton::new(rings, &speeds).unwrap_or_else(|error| panic!("{error}: {rings:?}"));
         moved += u32::from(found.moved);
@@ -91,34 +94,8 @@ fn a_comb_of_400_teeth_is_roofed() {
     comb.pop();
     comb.pop();
     comb.extend([(799.0, 5.0), (0.0, 5.0)]);
-    let begin = std::time::Instant::now();
     let found = hip(&[ring(&comb)]);
-    println!("a comb of 400 teeth: {:?}", begin.elapsed());
     assert_eq!((found.faces.len(), found.moved), (comb.len(), false));
-}
-
-#[test]
-fn trial() {
-    let Ok(text) = std::fs::read_to_string("/tmp/rings.txt") else { return };
-    let mut counts = std::collections::BTreeMap::new();
-    for line in text.lines() {
-        let rings: Vec<Vec<DVec2>> = line
-            .split(';')
-            .map(|ring| {
-                let n: Vec<f64> = ring.split(' ').map(|n| n.parse().unwrap()).collect();
-                n.chunks(2).map(|p| DVec2::new(p[0], p[1])).collect()
-            })
-            .collect();
-        let speeds = vec![1.0; rings.iter().map(Vec::len).sum()];
-        let Ok(hip) = Skeleton::new(&rings, &speeds) else { continue };
-        let name = match Skeleton::new(&rings, &crate::geometry::gables(&rings, &hip)) {
-            Ok(s) if !s.moved => "ok".to_owned(),
-            Ok(_) => "moved".into(),
-            Err(e) => e.to_string(),
-        };
-        *counts.entry(name).or_insert(0) += 1;
-    }
-    println!("gables {counts:?}");
 }
 
 #[test]

@@ -192,7 +192,11 @@ impl Wavefront {
         }
         let count = edges.len();
         let mut front = Self {
-            traced: Traced { edges, peaks: Vec::with_capacity(3 * count), arcs: Vec::with_capacity(3 * count) },
+            traced: Traced {
+                edges,
+                peaks: Vec::with_capacity(3 * count),
+                arcs: Vec::with_capacity(3 * count),
+            },
             corners: Vec::with_capacity(3 * count),
             pieces: vec![Vec::new(); count],
             events: BinaryHeap::with_capacity(3 * count),
@@ -320,7 +324,8 @@ impl Wavefront {
                 if !corner.alive {
                     return false;
                 }
-                let ends = [corner.before, corner.after].map(|end| (end, self.corners[end].place(event.time)));
+                let ends =
+                    [corner.before, corner.after].map(|end| (end, self.corners[end].place(event.time)));
                 let [one, two] = ends.map(|(_, place)| place.distance(corner.at));
                 let (end, place) = if one < two { ends[0] } else { ends[1] };
                 let (a, b) = (self.spot(index, false, place), self.spot(end, false, place));
@@ -351,7 +356,8 @@ impl Wavefront {
                 continue;
             }
             let b = &self.corners[a.after];
-            let born_together = (a.peak == corner.peak || b.peak == corner.peak) && time - corner.time < TOGETHER;
+            let born_together =
+                (a.peak == corner.peak || b.peak == corner.peak) && time - corner.time < TOGETHER;
             if from == index || a.after == index || born_together {
                 continue;
             }

@@ -14,6 +14,7 @@ use super::{Color, Drawing, Kind, Object, Parameter, Surface, Table, Value, Vect
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
+pub use roof::Roof;
 use shell::Shell;
 
 /// The rings of a geometry: the outer one, then the holes.
@@ -26,7 +27,9 @@ impl Parameter for Rings {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }");
+        let what = || {
+            Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
+        };
         let Value::Table(table) = &value else { return Err(what()) };
         let rings = match (table.get("rings"), table.get("kind")) {
             (Some(rings), _) => rings.clone(),
@@ -105,7 +108,7 @@ methods! {
 
         /// Puts on the roof: { kind, height, slope, overhang, slab, border, color, material, gable, ... }.
         pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
-            let options = roof::Roof::from_table(&options.unwrap_or_default())?;
+            let options = Roof::from_table(&options.unwrap_or_default())?;
             self.cover(&options)
         }
 
@@ -179,7 +182,8 @@ impl Footprint {
             Some(_) => {
                 let plan = Plan::new(&options.geometry.0)?;
                 let low = plan.rings().iter().flatten().fold(DVec3::INFINITY, |low, point| low.min(*point));
-                let high = plan.rings().iter().flatten().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
+                let high =
+                    plan.rings().iter().flatten().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
                 let origin = low.midpoint(high).truncate().extend(low.z).floor();
                 (plan.moved(-origin), origin)
             }
@@ -196,9 +200,7 @@ impl Footprint {
     fn part(&mut self, color: Option<Color>, material: Option<&Surface>) -> Result<usize> {
         let material = match material {
             Some(surface) => surface.material()?,
-            None => {
-                Material { base_color: color.unwrap_or(self.options.color).0, ..Material::default() }
-            }
+            None => Material { base_color: color.unwrap_or(self.options.color).0, ..Material::default() },
         };
         Ok(self.drawing.material(&material))
     }

@@ -62,9 +62,13 @@ impl Footprint {
             return Err(Error::new(format!("footprint:roof: slope is {} degrees", options.slope))
                 .help("give degrees above 0, up to 85"));
         }
-        for (name, length) in [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)] {
+        for (name, length) in
+            [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)]
+        {
             if !(0.0..=100.0).contains(&length) {
-                return Err(Error::new(format!("footprint:roof: {name} is {length} m")).help("give 0 to 100 m"));
+                return Err(
+                    Error::new(format!("footprint:roof: {name} is {length} m")).help("give 0 to 100 m")
+                );
             }
         }
         if !(0.05..=100.0).contains(&options.border_width) {
@@ -114,7 +118,8 @@ impl Footprint {
             profile.push(DVec2::new(wide, options.slab));
         } else {
             let rise = options.height.unwrap_or(options.slope.to_radians().tan() * wide);
-            let corner = |&(width, height): &(f64, f64)| DVec2::new(width * wide, options.slab + height * rise);
+            let corner =
+                |&(width, height): &(f64, f64)| DVec2::new(width * wide, options.slab + height * rise);
             profile.extend(bends(kind).iter().chain([&(1.0, 1.0)]).map(corner));
         }
         self.draw(options, patches(&skeleton, &speeds, &profile, base))

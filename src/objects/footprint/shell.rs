@@ -59,7 +59,10 @@ impl Footprint {
         }
         // Seen from below, rings run the other way.
         let floor = plan.rings().iter().map(|ring| {
-            ring.iter().rev().map(|point| if kind == "extruded" { *point } else { point.with_z(base) }).collect()
+            ring.iter()
+                .rev()
+                .map(|point| if kind == "extruded" { *point } else { point.with_z(base) })
+                .collect()
         });
         fill(part, &floor.collect::<Vec<Vec<DVec3>>>(), DVec3::X, DVec3::ZERO)
     }

@@ -8,7 +8,8 @@ fn plan(rings: &[&[(f64, f64)]]) -> Rings {
 }
 
 fn table(entries: &[(&str, Value)]) -> Option<Arc<Table>> {
-    let entries = entries.iter().map(|(name, value)| (super::super::Key::Name((*name).into()), value.clone()));
+    let entries =
+        entries.iter().map(|(name, value)| (super::super::Key::Name((*name).into()), value.clone()));
     Some(Arc::new(Table { class: None, entries: entries.collect() }))
 }
 
@@ -20,7 +21,11 @@ fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
     house.walls(table(&[("height", Value::Number(3.0))])).expect("walls");
     house.roof(table(roof)).expect("a roof");
     let check = solid::check(house.drawing.parts());
-    assert!(check.is_solid(), "{:?}: {check:?}", roof.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>());
+    assert!(
+        check.is_solid(),
+        "{:?}: {check:?}",
+        roof.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>()
+    );
     assert_eq!(house.repair, "");
     solid::volume(house.drawing.parts())
 }
@@ -60,8 +65,18 @@ fn every_roof_closes_every_plan() {
         (
             "cross",
             plan(&[&[
-                (4., 0.), (8., 0.), (8., 4.), (12., 4.), (12., 8.), (8., 8.),
-                (8., 12.), (4., 12.), (4., 8.), (0., 8.), (0., 4.), (4., 4.),
+                (4., 0.),
+                (8., 0.),
+                (8., 4.),
+                (12., 4.),
+                (12., 8.),
+                (8., 8.),
+                (8., 12.),
+                (4., 12.),
+                (4., 8.),
+                (0., 8.),
+                (0., 4.),
+                (4., 4.),
             ]]),
         ),
         (
@@ -71,7 +86,10 @@ fn every_roof_closes_every_plan() {
                 &[(6., 6.), (6., 10.), (14., 10.), (14., 6.)],
             ]),
         ),
-        ("irregular", plan(&[&[(0., 0.), (14., -2.), (19., 5.), (13., 8.), (14., 15.), (3., 13.), (5., 6.)]])),
+        (
+            "irregular",
+            plan(&[&[(0., 0.), (14., -2.), (19., 5.), (13., 8.), (14., 15.), (3., 13.), (5., 6.)]]),
+        ),
     ];
     let mut count = 0;
     for (name, geometry) in plans {
