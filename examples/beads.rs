@@ -55,6 +55,7 @@ impl Beads {
         name: "beads",
         doc: "Balls on top of one another.",
         fields: Options::FIELDS,
+        first: None,
         methods: Self::METHODS,
         construct: |table: &Table| {
             let options = Options::from_table(table)?;

@@ -11,6 +11,8 @@ pub struct Kind {
     pub doc: &'static str,
     /// What its constructor takes.
     pub fields: &'static [Field],
+    /// The field that may be given before the table, as `geometry` in `footprint(geometry, { ... })`.
+    pub first: Option<&'static str>,
     /// What scripts may call.
     pub methods: &'static [Method],
     /// Makes one from the constructor's table.

@@ -253,6 +253,7 @@ impl Extruder {
         name: "extruder",
         doc: "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
         fields: Options::FIELDS,
+        first: None,
         methods: Self::METHODS,
         construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
     };

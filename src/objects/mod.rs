@@ -12,6 +12,7 @@ pub mod declare;
 mod distance;
 mod drawing;
 mod extruder;
+mod footprint;
 mod makers;
 mod model;
 mod parameter;
@@ -23,6 +24,7 @@ pub use boxed::Boxed;
 pub use declare::{Argument, Call, Field, Kind, Method};
 pub use drawing::Drawing;
 pub use extruder::Extruder;
+pub use footprint::{Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};
@@ -36,7 +38,7 @@ use crate::error::Result;
 use crate::scene::Scene;
 
 /// The built-in types that scripts can construct.
-pub static KINDS: &[&Kind] = &[&Extruder::KIND, &Turtle::KIND];
+pub static KINDS: &[&Kind] = &[&Extruder::KIND, &Footprint::KIND, &Turtle::KIND];
 
 /// Something that a script can make and ask, and that the modules of a chain may draw with.
 ///

@@ -34,6 +34,7 @@ impl Model {
         name: "model",
         doc: "What a derived system has drawn, for placing elsewhere.",
         fields: &[],
+        first: None,
         methods: Self::METHODS,
         construct: |_: &Table| {
             Err(Error::new("a model is not made, it is what derive returns")

@@ -229,6 +229,23 @@ impl Parameter for Value {
     }
 }
 
+impl Parameter for Arc<Table> {
+    fn luau() -> String {
+        "{ [string]: any }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Table(table) => Ok(table),
+            _ => Err(Expected::new("a table of named fields")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(self)
+    }
+}
+
 impl Parameter for Arc<dyn Object> {
     fn luau() -> String {
         "any".into()

@@ -288,6 +288,7 @@ impl Turtle {
         name: "turtle",
         doc: "A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.",
         fields: Options::FIELDS,
+        first: None,
         methods: Self::METHODS,
         construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
     };

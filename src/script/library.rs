@@ -363,12 +363,38 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
     }
     globals.raw_set(
         kind.name,
-        lua.create_function(move |_, options: LuaValue| {
-            let table = named_fields(kind.name, options).map_err(mlua::Error::external)?;
+        lua.create_function(move |_, given: MultiValue| {
+            let table = constructor_fields(kind, given).map_err(mlua::Error::external)?;
             let object = (kind.construct)(&table).map_err(mlua::Error::external)?;
             Ok(ObjectHandle(Arc::from(object)))
         })?,
     )
+}
+
+/// The named fields that a constructor takes: a table, before which one of them may stand by itself.
+fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>> {
+    let mut given = given.into_iter();
+    let one = given.next().unwrap_or(LuaValue::Nil);
+    let two = given.next().unwrap_or(LuaValue::Nil);
+    let Some(first) = kind.first else { return named_fields(kind.name, one) };
+    let alone = match (&one, &two) {
+        (LuaValue::Nil, LuaValue::Nil) => true,
+        (LuaValue::Table(table), LuaValue::Nil) => {
+            table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
+                kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == field.name))
+            })
+        }
+        _ => false,
+    };
+    if alone {
+        return named_fields(kind.name, one);
+    }
+    let mut table = ValueTable::clone(&*named_fields(kind.name, two)?);
+    if table.get(first).is_some() {
+        return Err(Error::new(format!("{} is given its {first} twice", kind.name)));
+    }
+    table.entries.push((crate::objects::Key::Name(first.into()), to_value(&one, false)?));
+    Ok(Arc::new(table))
 }
 
 /// The one table of named fields that a constructor takes; nothing is an empty one.

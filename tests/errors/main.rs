@@ -6,6 +6,7 @@ mod command_line;
 mod data;
 mod determinism;
 mod files;
+mod footprints;
 mod limits;
 mod params;
 mod patterns;

@@ -1,0 +1,167 @@
+//! Plans: the outline of a building on the ground, made clean or refused.
+
+use glam::{DVec2, DVec3};
+
+use super::outline::{Manner, numbered_rings};
+use super::section::{MOST_POINTS, SectionPoint};
+use crate::error::{Error, Result};
+
+const PLAN: Manner = Manner { owner: "footprint", near: 0.01, straight: 2e-3 };
+
+/// The outline of a building: an outer ring and holes whose points have heights.
+///
+/// The outer ring is counter-clockwise, the holes are clockwise, seen from above.
+#[derive(Debug, Clone, Default)]
+pub struct Plan {
+    rings: Vec<Vec<DVec3>>,
+    /// For each point the place, counted from 0, that it had in its ring.
+    places: Vec<Vec<usize>>,
+}
+
+impl Plan {
+    /// The plan inside the first ring and outside the others, whichever way they run.
+    ///
+    /// Points within 1 cm of the one before are dropped, and so are points within 2 mm of the line between
+    /// their neighbours and the tips of spikes. Fails, with the place, if a ring has too few points or no area,
+    /// if rings cross or touch themselves or each other, and if a hole is not inside the outer ring.
+    pub fn new(rings: &[Vec<DVec3>]) -> Result<Self> {
+        let count: usize = rings.iter().map(Vec::len).sum();
+        if count > MOST_POINTS {
+            return Err(Error::new(format!("the footprint has {count} points"))
+                .help(format!("simplify it to at most {MOST_POINTS} points")));
+        }
+        let Some((outer, holes)) = rings.split_first() else {
+            return Err(Error::new("the footprint has no ring").help("give it at least 3 points"));
+        };
+        let sharp = |ring: &Vec<DVec3>| -> Vec<SectionPoint> {
+            ring.iter().map(|point| SectionPoint::sharp(point.truncate())).collect()
+        };
+        for (ring, number, point) in rings.iter().enumerate().flat_map(|(ring, points)| {
+            points.iter().enumerate().map(move |(number, point)| (ring, number + 1, point))
+        }) {
+            if !(point.z.abs() <= 20_000.0) {
+                let name = if ring == 0 { "the outer ring".to_owned() } else { format!("hole {ring}") };
+                let message =
+                    format!("point {number} of {name} of the footprint has the height {} m", point.z);
+                return Err(Error::new(message).help("give heights from -20000 to 20000 m"));
+            }
+        }
+        let holes: Vec<Vec<SectionPoint>> = holes.iter().map(sharp).collect();
+        let clean = numbered_rings(&sharp(outer), &holes, &PLAN)?;
+        let places: Vec<Vec<usize>> =
+            clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
+        let rings =
+            places.iter().zip(rings).map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
+        let rings: Vec<Vec<DVec3>> = rings.collect();
+        Ok(Self { rings, places })
+    }
+
+    /// The rings (m), with the heights of the ground.
+    pub fn rings(&self) -> &[Vec<DVec3>] {
+        &self.rings
+    }
+
+    /// For each point of each ring, its place in the ring that was given, counted from 0.
+    pub fn places(&self) -> &[Vec<usize>] {
+        &self.places
+    }
+
+    /// The plan moved by `offset` (m).
+    pub fn moved(mut self, offset: DVec3) -> Self {
+        self.rings.iter_mut().flatten().for_each(|point| *point += offset);
+        self
+    }
+
+    /// The rings as seen from above (m).
+    pub fn flat(&self) -> Vec<Vec<DVec2>> {
+        self.rings.iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect()
+    }
+
+    /// The number of edges.
+    pub fn edges(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
+    }
+
+    /// The area (m²) without the holes.
+    pub fn area(&self) -> f64 {
+        self.flat().iter().map(|ring| twice_area(ring)).sum::<f64>() / 2.0
+    }
+
+    /// The length (m) of all edges, seen from above.
+    pub fn perimeter(&self) -> f64 {
+        let length = |ring: &Vec<DVec2>| -> f64 {
+            (0..ring.len()).map(|index| ring[index].distance(ring[(index + 1) % ring.len()])).sum()
+        };
+        self.flat().iter().map(length).sum()
+    }
+
+    /// The area as a part of its convex hull's: 1 if it is convex and has no holes.
+    ///
+    /// Method: the hull by A. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
+    pub fn convexity(&self) -> f64 {
+        let mut points: Vec<DVec2> = self.flat().into_iter().next().unwrap_or_default();
+        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        let mut hull: Vec<DVec2> = Vec::new();
+        for pass in [points.clone(), points.into_iter().rev().collect()] {
+            let begin = hull.len();
+            for point in pass {
+                while hull.len() > begin + 1
+                    && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 1])
+                        <= 0.0
+                {
+                    hull.pop();
+                }
+                hull.push(point);
+            }
+            hull.pop();
+        }
+        let whole = twice_area(&hull) / 2.0;
+        if whole > 0.0 { self.area() / whole } else { 0.0 }
+    }
+
+    /// The lowest and the highest ground (m).
+    pub fn ground(&self) -> (f64, f64) {
+        let heights = self.rings.iter().flatten().map(|point| point.z);
+        heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
+    }
+
+    /// The rings with all edges moved outwards by `distance` (m), or by half of it, a quarter, or not at all where
+    /// there is no room, and that distance.
+    pub fn outset(&self, distance: f64) -> (Vec<Vec<DVec2>>, f64) {
+        let flat = self.flat();
+        for distance in [distance, distance / 2.0, distance / 4.0] {
+            let rings: Vec<Vec<DVec2>> = flat.iter().map(|ring| outset(ring, distance)).collect();
+            let sharp = |ring: &Vec<DVec2>| -> Vec<SectionPoint> {
+                ring.iter().copied().map(SectionPoint::sharp).collect()
+            };
+            let runs_on = flat.iter().zip(&rings).all(|(old, new)| {
+                (0..old.len()).all(|index| {
+                    let next = (index + 1) % old.len();
+                    (old[next] - old[index]).dot(new[next] - new[index]) > 1e-3
+                })
+            });
+            let holes: Vec<Vec<SectionPoint>> = rings[1..].iter().map(sharp).collect();
+            let apart = Manner { near: 1e-9, straight: 0.0, ..PLAN };
+            if distance > 0.0 && runs_on && numbered_rings(&sharp(&rings[0]), &holes, &apart).is_ok() {
+                return (rings, distance);
+            }
+        }
+        (flat, 0.0)
+    }
+}
+
+/// The ring with its edges moved to the right by `distance` (m).
+fn outset(ring: &[DVec2], distance: f64) -> Vec<DVec2> {
+    let count = ring.len();
+    let normal = |index: usize| (ring[(index + 1) % count] - ring[index]).normalize_or_zero().perp();
+    let corner = |index: usize| {
+        let (a, b) = (normal((index + count - 1) % count), normal(index));
+        ring[index] - (a + b) * (distance / (1.0 + a.dot(b)).max(0.05))
+    };
+    (0..count).map(corner).collect()
+}
+
+fn twice_area(ring: &[DVec2]) -> f64 {
+    let Some(&from) = ring.first() else { return 0.0 };
+    ring.windows(2).map(|edge| (edge[0] - from).perp_dot(edge[1] - from)).sum()
+}

@@ -1,0 +1,147 @@
+//! The faces of a skeleton: put together from their borders, and verified.
+
+use glam::DVec2;
+
+use super::wavefront::{Edge, Traced};
+use super::{Peak, Skeleton};
+use crate::error::{Error, Result};
+
+/// Peaks nearer to each other than this (m) are one.
+const MERGED: f64 = 1e-3;
+/// How far (m) a corner may be off the plane of its face.
+const OFF_PLANE: f64 = 5e-3;
+
+/// Puts the faces together; fails if they are not those of a roof over `rings`.
+pub(super) fn assemble(rings: &[Vec<DVec2>], speeds: &[f64], traced: Traced) -> Result<Skeleton> {
+    let Traced { edges, peaks, arcs } = traced;
+    let merged = merge(&peaks, speeds.len());
+    let mut borders: Vec<Vec<[usize; 2]>> = Vec::with_capacity(edges.len());
+    let mut first = 0;
+    for ring in rings {
+        borders.extend((0..ring.len()).map(|index| vec![[first + index, first + (index + 1) % ring.len()]]));
+        first += ring.len();
+    }
+    for arc in &arcs {
+        let [from, to] = arc.ends.map(|peak| merged[peak]);
+        if from != to && arc.edges[0] != arc.edges[1] {
+            borders[arc.edges[0]].push([from, to]);
+            borders[arc.edges[1]].push([to, from]);
+        }
+    }
+    let faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
+    verify(rings, &edges, &peaks, &faces)?;
+    Ok(Skeleton { peaks, faces, moved: false })
+}
+
+/// For each peak the one that stands for it; the first `fixed` stand for themselves.
+fn merge(peaks: &[Peak], fixed: usize) -> Vec<usize> {
+    let mut merged: Vec<usize> = (0..peaks.len()).collect();
+    let mut order = merged.clone();
+    order.sort_by(|&a, &b| peaks[a].at.x.total_cmp(&peaks[b].at.x));
+    for (rank, &a) in order.iter().enumerate() {
+        for &b in &order[rank + 1..] {
+            if peaks[b].at.x - peaks[a].at.x > MERGED {
+                break;
+            }
+            let near = peaks[a].at.distance(peaks[b].at) <= MERGED
+                && (peaks[a].time - peaks[b].time).abs() <= MERGED;
+            let [a, b] = [a, b].map(|peak| leader(&merged, peak));
+            if near && a.max(b) >= fixed {
+                merged[a.max(b)] = a.min(b);
+            }
+        }
+    }
+    (0..peaks.len()).map(|peak| leader(&merged, peak)).collect()
+}
+
+fn leader(merged: &[usize], mut peak: usize) -> usize {
+    while merged[peak] != peak {
+        peak = merged[peak];
+    }
+    peak
+}
+
+/// The closed ring that directed borders form, beginning with the first of them.
+fn chain(mut borders: Vec<[usize; 2]>) -> Result<Vec<usize>> {
+    // What runs both ways bounds nothing.
+    let mut index = 1;
+    while index < borders.len() {
+        let [from, to] = borders[index];
+        match borders[index + 1..].iter().position(|&border| border == [to, from]) {
+            Some(back) => {
+                borders.remove(index + 1 + back);
+                borders.remove(index);
+            }
+            None => index += 1,
+        }
+    }
+    let [first, mut at] = borders[0];
+    let mut ring = vec![first];
+    let mut left = borders.len() - 1;
+    borders.swap(0, left);
+    while at != first {
+        ring.push(at);
+        let Some(next) = borders[..left].iter().position(|border| border[0] == at) else {
+            return Err(Error::new("a face of the roof is not closed"));
+        };
+        at = borders[next][1];
+        left -= 1;
+        borders.swap(next, left);
+    }
+    if left > 0 {
+        return Err(Error::new("a face of the roof is in several pieces"));
+    }
+    Ok(ring)
+}
+
+/// Fails unless `faces` cover the polygon once, each in the plane of its edge.
+fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
+    let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().copied())).sum();
+    let mut sum = 0.0;
+    for (edge, face) in edges.iter().zip(faces) {
+        if face.len() < 3 {
+            return Err(Error::new("a face of the roof has no corners but its edge's"));
+        }
+        if face.iter().any(|&peak| edge.ahead(peaks[peak].at, peaks[peak].time).abs() > OFF_PLANE) {
+            return Err(Error::new("a face of the roof is not flat"));
+        }
+        let area = twice_area(face.iter().map(|&peak| peaks[peak].at));
+        if area < -1e-9 * whole - OFF_PLANE * 1e-3 || (edge.speed > 0.0 && area <= 0.0) {
+            return Err(Error::new("a face of the roof is turned over"));
+        }
+        sum += area;
+        if !monotone(edge, peaks, face) {
+            return Err(Error::new("a face of the roof overlaps itself"));
+        }
+    }
+    if (sum - whole).abs() > 1e-6 * whole {
+        return Err(Error::new("the faces of the roof do not cover the plan"));
+    }
+    Ok(())
+}
+
+/// Whether the ring goes once there and once back along its edge.
+fn monotone(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
+    let along = |index: usize| peaks[face[index % face.len()]].at.dot(edge.along);
+    let mut last = 0.0f64;
+    let mut first = 0.0f64;
+    let mut turns = 0;
+    for index in 0..face.len() {
+        let step = along(index + 1) - along(index);
+        if step.abs() > 2.0 * MERGED {
+            if first == 0.0 {
+                first = step;
+            }
+            turns += usize::from(last * step < 0.0);
+            last = step;
+        }
+    }
+    turns + usize::from(last * first < 0.0) <= 2
+}
+
+/// Twice the area of a ring, negative if it is clockwise.
+pub(super) fn twice_area(ring: impl Iterator<Item = DVec2> + Clone) -> f64 {
+    let Some(first) = ring.clone().next() else { return 0.0 };
+    let shifted = ring.clone().skip(1).chain([first]);
+    ring.zip(shifted).map(|(a, b)| (a - first).perp_dot(b - first)).sum()
+}

@@ -1,0 +1,285 @@
+//! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
+
+mod roof;
+mod shell;
+#[cfg(test)]
+mod tests;
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::parameter::Expected;
+use super::{Color, Drawing, Kind, Object, Parameter, Surface, Table, Value, Vector};
+use crate::error::{Error, Result, nearest};
+use crate::geometry::Plan;
+use crate::scene::{Material, Scene};
+pub use roof::Roof;
+use shell::Shell;
+
+/// The rings of a geometry: the outer one, then the holes.
+#[derive(Debug, Clone, Default)]
+pub struct Rings(pub Vec<Vec<DVec3>>);
+
+impl Parameter for Rings {
+    fn luau() -> String {
+        "Geometry".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || {
+            Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
+        };
+        let Value::Table(table) = &value else { return Err(what()) };
+        let rings = match (table.get("rings"), table.get("kind")) {
+            (Some(rings), _) => rings.clone(),
+            (None, Some(Value::Text(kind))) => {
+                return Err(Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")));
+            }
+            _ => value.clone(),
+        };
+        let rings = Vec::<Vec<Vector>>::from_value(rings.clone())
+            .or_else(|error| Vec::<Vector>::from_value(rings).map(|ring| vec![ring]).map_err(|_| error))?;
+        Ok(Self(rings.into_iter().map(|ring| ring.into_iter().map(|point| point.0).collect()).collect()))
+    }
+
+    fn into_value(self) -> Value {
+        let rings: Vec<Vec<Vector>> =
+            self.0.into_iter().map(|ring| ring.into_iter().map(Vector).collect()).collect();
+        rings.into_value()
+    }
+}
+
+fields! {
+    /// What `footprint(geometry, { ... })` takes.
+    pub struct Options for "footprint" {
+        /// The polygon on the ground (m): a feature's geometry, or rings of points, the holes after the outer one.
+        pub geometry: Rings = Rings::default(),
+        /// Words that say what kind of building it is, such as "shop".
+        pub keywords: Vec<String> = Vec::new(),
+        /// Height of the walls (m), where they are not given one.
+        pub height: Option<f64> = None,
+        /// Colour of what is drawn, where it is given none.
+        pub color: Color = Color([0.62, 0.58, 0.52, 1.0]),
+    }
+}
+
+fields! {
+    /// What `footprint:walls { ... }` takes.
+    pub struct Walls for "footprint:walls" {
+        /// How high they are (m); as high as the footprint says if left out.
+        pub height: Option<f64> = None,
+        /// Their colour.
+        pub color: Option<Color> = None,
+        /// Their material, in place of the colour.
+        pub material: Option<Surface> = None,
+    }
+}
+
+/// The highest walls and roofs (m).
+const HIGHEST: f64 = 2000.0;
+
+/// A plan on the ground, from which groundwork, walls and a roof rise as one closed solid.
+///
+/// Walls stand on the groundwork or on earlier walls, the roof stands on the walls and ends the building.
+#[derive(Clone)]
+pub struct Footprint {
+    options: Arc<Options>,
+    plan: Arc<Plan>,
+    /// Where the mesh has its origin (m): a whole number of metres near the plan.
+    origin: DVec3,
+    shell: Shell,
+    drawing: Drawing,
+    repair: &'static str,
+}
+
+methods! {
+    Footprint = "footprint" {
+        /// Lays the ground: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down from it.
+        pub fn groundwork(&mut self, kind: String, material: Option<Surface>) -> Result<()> {
+            self.lay(&kind, material)
+        }
+
+        /// Raises plain walls: { height, color, material }.
+        pub fn walls(&mut self, options: Option<Arc<Table>>) -> Result<()> {
+            let options = Walls::from_table(&options.unwrap_or_default())?;
+            self.raise(&options)
+        }
+
+        /// Puts on the roof: { kind, height, slope, overhang, slab, border, color, material, gable, ... }.
+        pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
+            let options = Roof::from_table(&options.unwrap_or_default())?;
+            self.cover(&options)
+        }
+
+        /// Its area (m²) without the holes.
+        pub fn area(&self) -> f64 {
+            self.plan.area()
+        }
+
+        /// The length (m) of its edges.
+        pub fn perimeter(&self) -> f64 {
+            self.plan.perimeter()
+        }
+
+        /// The number of its edges, once points that do not matter are dropped.
+        pub fn edges(&self) -> u32 {
+            u32::try_from(self.plan.edges()).unwrap_or(u32::MAX)
+        }
+
+        /// Its area as a part of its convex hull's: 1 if it is convex.
+        pub fn convexity(&self) -> f64 {
+            self.plan.convexity()
+        }
+
+        /// The lowest ground at its points (m).
+        pub fn lowest(&self) -> f64 {
+            self.origin.z + self.plan.ground().0
+        }
+
+        /// The highest ground at its points (m).
+        pub fn highest(&self) -> f64 {
+            self.origin.z + self.plan.ground().1
+        }
+
+        /// How high the walls are that it was made with (m); 0 if it was not told.
+        pub fn height(&self) -> f64 {
+            self.options.height.unwrap_or(0.0)
+        }
+
+        /// Whether it has this keyword.
+        pub fn has(&self, keyword: String) -> bool {
+            self.options.keywords.contains(&keyword)
+        }
+
+        /// What the last roof had to be replaced with, as no right one was found: "", "moved", "hip" or "flat".
+        pub fn repair(&self) -> String {
+            self.repair.to_owned()
+        }
+
+        /// Distance (m) from a place to the nearest point of what it has drawn.
+        pub fn distance(&self, place: Vector) -> f64 {
+            self.drawing.distance(place.0 - self.origin)
+        }
+    }
+}
+
+impl Footprint {
+    /// The type, as scripts see it.
+    pub const KIND: Kind = Kind {
+        name: "footprint",
+        doc: "A building: groundwork, walls and a roof over a polygon on the ground.",
+        fields: Options::FIELDS,
+        first: Some("geometry"),
+        methods: Self::METHODS,
+        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
+    };
+
+    /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
+    pub fn new(options: Options) -> Result<Self> {
+        let (plan, origin) = match options.geometry.0.first() {
+            None => (Plan::default(), DVec3::ZERO),
+            Some(_) => {
+                let plan = Plan::new(&options.geometry.0)?;
+                let low = plan.rings().iter().flatten().fold(DVec3::INFINITY, |low, point| low.min(*point));
+                let high =
+                    plan.rings().iter().flatten().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
+                let origin = low.midpoint(high).truncate().extend(low.z).floor();
+                (plan.moved(-origin), origin)
+            }
+        };
+        if let Some(height) = options.height {
+            check_height("footprint: height", height)?;
+        }
+        let shell = Shell::new(&plan);
+        let (options, plan) = (Arc::new(options), Arc::new(plan));
+        Ok(Self { options, plan, origin, shell, drawing: Drawing::default(), repair: "" })
+    }
+
+    /// The part with this material, or with this colour, or with the footprint's own.
+    fn part(&mut self, color: Option<Color>, material: Option<&Surface>) -> Result<usize> {
+        let material = match material {
+            Some(surface) => surface.material()?,
+            None => Material { base_color: color.unwrap_or(self.options.color).0, ..Material::default() },
+        };
+        Ok(self.drawing.material(&material))
+    }
+
+    /// Fails if nothing can be built, or `what` comes too late.
+    fn check_open(&self, what: &str) -> Result<()> {
+        if self.plan.rings().is_empty() {
+            return Err(Error::new(format!("footprint:{what}: the footprint has no geometry"))
+                .help("make it with one: footprint(feature.geometry)"));
+        }
+        if self.shell.closed {
+            return Err(Error::new(format!("footprint:{what}: the building has its roof already"))
+                .help("the roof comes last"));
+        }
+        Ok(())
+    }
+}
+
+/// Fails if a height (m) is not above 0 or is absurd.
+fn check_height(what: &str, height: f64) -> Result<()> {
+    if height > 0.0 && height <= HIGHEST {
+        return Ok(());
+    }
+    Err(Error::new(format!("{what} is {height} m")).help(format!("give metres above 0, up to {HIGHEST}")))
+}
+
+/// The error for a kind that there is not.
+fn unknown(what: &str, kind: &str, known: &[&'static str]) -> Error {
+    let error = Error::new(format!("{what} has no kind called {kind:?}"));
+    match nearest(kind, known.iter().copied()) {
+        Some(near) => error.help(format!("did you mean {near:?}?")),
+        None => error.help(format!("there are {}", known.join(", "))),
+    }
+}
+
+/// The edges of rings, each with its two points.
+fn edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = [T; 2]> + '_ {
+    (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
+}
+
+/// The direction of an edge on the ground.
+fn along(from: DVec2, to: DVec2) -> DVec3 {
+    (to - from).normalize_or_zero().extend(0.0)
+}
+
+impl Object for Footprint {
+    fn kind(&self) -> &'static Kind {
+        const { &Self::KIND }
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self) {
+        self.shell = Shell::new(&self.plan);
+        self.drawing.clear();
+        self.repair = "";
+    }
+
+    fn begins_empty(&self) -> bool {
+        true
+    }
+
+    fn triangles(&self) -> usize {
+        self.drawing.triangles()
+    }
+
+    fn drawing(&mut self) -> Option<&mut Drawing> {
+        Some(&mut self.drawing)
+    }
+
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        self.drawing.clone().show(scene, self.origin, name, feature);
+        Ok(())
+    }
+
+    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        std::mem::take(&mut self.drawing).show(scene, self.origin, name, feature);
+        Ok(())
+    }
+}
