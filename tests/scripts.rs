@@ -27,8 +27,7 @@ fn scripts() -> Vec<PathBuf> {
 }
 
 fn run(script: &Path, threads: usize) -> Run {
-    let data = vec![root().join("examples/data")];
-    let options = Options { threads: Some(threads), data, ..Options::default() };
+    let options = Options { threads: Some(threads), ..Options::default() };
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
@@ -48,10 +47,10 @@ fn named(before: &str, after: &str) -> BTreeSet<String> {
 fn the_gallery_shows_every_script_and_no_other() {
     let shipped: BTreeSet<String> =
         scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(shipped.len(), 14);
+    assert_eq!(shipped.len(), 13);
     assert_eq!(named("](scripts/", ".lua)"), shipped);
     let mut shown = named("](docs/pictures/", ".png)");
-    assert!(shown.remove("variations") && shown.remove("live"));
+    assert!(["variations", "live", "village"].iter().all(|name| shown.remove(*name)));
     assert_eq!(shown, shipped);
     for name in &shipped {
         assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
@@ -138,4 +137,10 @@ fn the_readme_names_every_object_its_fields_and_its_methods() {
             assert!(words.contains(name), "{}: {name} is not in README.md", kind.name);
         }
     }
+}
+
+#[test]
+fn the_village_of_the_examples_stands() {
+    let run = run(&root().join("examples/village.lua"), 2);
+    assert!(run.scene.triangles() > 1000 && run.systems.iter().any(|system| system.features.len() > 40));
 }

@@ -1,6 +1,6 @@
 --!strict
 -- A village from a data file: walls by height, roofs by shape, colours by use, streets and trees.
--- Its data lies elsewhere: burgeon run scripts/village.lua --data examples/data -o village.glb
+-- burgeon run examples/village.lua -o village.glb
 local storey = param("storey", { default = 1, min = 0.5, max = 2, step = 0.1, text = "heights, as multiples of the data's" })
 local pitch = param("pitch", { default = 42, min = 10, max = 60, unit = "deg", text = "slope of the roofs" })
 local eaves = param("eaves", { default = 0.5, min = 0, max = 1.2, unit = "m", text = "overhang of the roofs" })
@@ -9,7 +9,7 @@ local trees = param("trees", { default = true, text = "whether trees are shown" 
 local walls = { house = "#d9cdb8", shop = "#cdb79b", farm = "#b8a88f", barn = "#8d7358", church = "#c9c4b8", public = "#d3c3a5" }
 local roofs = { house = "#a4583f", shop = "#94503c", farm = "#8a5443", barn = "#6d625a", church = "#4f5960", public = "#5f666b" }
 
-local village = source("village.geojson")
+local village = source("data/village.geojson")
 local buildings, streets, plants = {}, {}, {}
 for _, feature in village do
   if feature.use == "tree" then
