@@ -39,7 +39,7 @@ impl Plan {
         for (ring, number, point) in rings.iter().enumerate().flat_map(|(ring, points)| {
             points.iter().enumerate().map(move |(number, point)| (ring, number + 1, point))
         }) {
-            if !(point.z.abs() <= 20_000.0) {
+            if point.z.is_nan() || point.z.abs() > 20_000.0 {
                 let name = if ring == 0 { "the outer ring".to_owned() } else { format!("hole {ring}") };
                 let message =
                     format!("point {number} of {name} of the footprint has the height {} m", point.z);

@@ -267,6 +267,7 @@ fn help_reads_well() {
       check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       new          Makes a script to start from
+      sources      Lists the layers of data files, with their attributes, coordinate systems and extents
       completions  Prints a script that completes the command line in a shell
       help         Print this message or the help of the given subcommand(s)
 
@@ -290,6 +291,7 @@ fn help_reads_well() {
     Options:
           --set <NAME=VALUE>    Sets a parameter of the script
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
+          --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
           --seed <N>            The seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
           --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
@@ -324,6 +326,7 @@ fn help_reads_well() {
     Options:
           --set <NAME=VALUE>  Sets a parameter of the script
           --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
+          --data <FOLDER>     Lets the script read data files in this folder and below it; may be repeated
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
           --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]

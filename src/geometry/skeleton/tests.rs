@@ -47,7 +47,7 @@ fn orthogonal(random: &mut Random) -> Vec<DVec2> {
     ring.dedup();
     let kept = (0..count).filter(|&index| low[index] != low[(index + 1) % count] && corner(index));
     let kept: Vec<DVec2> = kept.map(|index| low[index]).collect();
-    if kept.len() >= 4 && kept.len() % 2 == 0 { kept } else { ring }
+    if kept.len() >= 4 && kept.len().is_multiple_of(2) { kept } else { ring }
 }
 
 fn star(random: &mut Random) -> Vec<DVec2> {
