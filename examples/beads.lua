@@ -7,7 +7,11 @@ local string_of_beads = lsystem({ object = beads({ radius = 0.3, color = "#b03a2
 
 string_of_beads:axiom(Thread())
 
-string_of_beads:rule("Thread", { when = function(this) return this:height() < 7 end }, function()
+string_of_beads:rule("Thread", {
+  when = function(this)
+    return this:height() < 7
+  end,
+}, function()
   return Bead(), Thread()
 end)
 

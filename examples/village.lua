@@ -1,13 +1,31 @@
 --!strict
 -- A village from a data file: walls by height, roofs by shape, colours by use, streets and trees.
 -- burgeon run examples/village.lua -o village.glb
-local storey = param("storey", { default = 1, min = 0.5, max = 2, step = 0.1, text = "heights, as multiples of the data's" })
+local storey = param(
+  "storey",
+  { default = 1, min = 0.5, max = 2, step = 0.1, text = "heights, as multiples of the data's" }
+)
 local pitch = param("pitch", { default = 42, min = 10, max = 60, unit = "deg", text = "slope of the roofs" })
-local eaves = param("eaves", { default = 0.5, min = 0, max = 1.2, unit = "m", text = "overhang of the roofs" })
+local eaves =
+  param("eaves", { default = 0.5, min = 0, max = 1.2, unit = "m", text = "overhang of the roofs" })
 local trees = param("trees", { default = true, text = "whether trees are shown" })
 
-local walls = { house = "#d9cdb8", shop = "#cdb79b", farm = "#b8a88f", barn = "#8d7358", church = "#c9c4b8", public = "#d3c3a5" }
-local roofs = { house = "#a4583f", shop = "#94503c", farm = "#8a5443", barn = "#6d625a", church = "#4f5960", public = "#5f666b" }
+local walls = {
+  house = "#d9cdb8",
+  shop = "#cdb79b",
+  farm = "#b8a88f",
+  barn = "#8d7358",
+  church = "#c9c4b8",
+  public = "#d3c3a5",
+}
+local roofs = {
+  house = "#a4583f",
+  shop = "#94503c",
+  farm = "#8a5443",
+  barn = "#6d625a",
+  church = "#4f5960",
+  public = "#5f666b",
+}
 
 local village = source("data/village.geojson")
 local buildings, streets, plants = {}, {}, {}
@@ -100,35 +118,43 @@ houses:axiom(source(buildings), function(feature)
     Building(turned[1], holes, math.deg(angle), feature.height * storey, feature.use)
 end)
 
-houses:interpret("Building(outline, holes, turned, height, use)", function(this, outline, holes, turned, height, use)
-  local width, depth = 0, 0
-  for _, point in outline do
-    width, depth = math.max(width, math.abs(point[1]) * 2), math.max(depth, math.abs(point[2]) * 2)
+houses:interpret(
+  "Building(outline, holes, turned, height, use)",
+  function(this, outline, holes, turned, height, use)
+    local width, depth = 0, 0
+    for _, point in outline do
+      width, depth = math.max(width, math.abs(point[1]) * 2), math.max(depth, math.abs(point[2]) * 2)
+    end
+    this:roll(turned):polygon(outline, holes)
+    this:color("#9c958a"):scale(1.015):extrude(0.5)
+    this:color(walls[use] or walls.house):scale(1):extrude(height - 0.5)
+    -- The eaves, and from there on the roof: gabled on a rectangle, else towards the middle.
+    local x, y = 1 + 2 * eaves / width, 1 + 2 * eaves / depth
+    this:color(roofs[use] or roofs.house):scale(x, y):extrude(0.22)
+    local rise = depth / 2 * math.tan(math.rad(pitch))
+    if #holes > 0 then
+      this:taper(x * 0.93, y * 0.93):extrude(rise * 0.16)
+    elseif use == "church" and #outline == 4 then
+      this:taper(0.02, 0.02):extrude(depth * 1.7)
+    elseif #outline == 4 then
+      this:taper(x * (use == "farm" and 0.55 or 1), 0.02):extrude(rise)
+    else
+      this:taper(x * 0.42, y * 0.42):extrude(rise * 0.55)
+    end
   end
-  this:roll(turned):polygon(outline, holes)
-  this:color("#9c958a"):scale(1.015):extrude(0.5)
-  this:color(walls[use] or walls.house):scale(1):extrude(height - 0.5)
-  -- The eaves, and from there on the roof: gabled on a rectangle, else towards the middle.
-  local x, y = 1 + 2 * eaves / width, 1 + 2 * eaves / depth
-  this:color(roofs[use] or roofs.house):scale(x, y):extrude(0.22)
-  local rise = depth / 2 * math.tan(math.rad(pitch))
-  if #holes > 0 then
-    this:taper(x * 0.93, y * 0.93):extrude(rise * 0.16)
-  elseif use == "church" and #outline == 4 then
-    this:taper(0.02, 0.02):extrude(depth * 1.7)
-  elseif #outline == 4 then
-    this:taper(x * (use == "farm" and 0.55 or 1), 0.02):extrude(rise)
-  else
-    this:taper(x * 0.42, y * 0.42):extrude(rise * 0.55)
-  end
-end)
+)
 houses:derive()
 
 -- Every tree is the same model, in its own size and turn.
 if trees then
   local Trunk, Crown = module("Trunk"), module("Crown", "radius")
   local tree = lsystem({ object = turtle({ color = "#6b563f", width = 0.05 }) })
-  tree:axiom(Trunk(), { Pitch(-12), Crown(0.26) }, { Pitch(14), Crown(0.22) }, { Roll(90), Pitch(15), Crown(0.2) })
+  tree:axiom(
+    Trunk(),
+    { Pitch(-12), Crown(0.26) },
+    { Pitch(14), Crown(0.22) },
+    { Roll(90), Pitch(15), Crown(0.2) }
+  )
   tree:interpret("Trunk", function(this)
     this:forward(0.4)
   end)

@@ -7,7 +7,8 @@ local kind = param("kind", {
 })
 local pitch = param("pitch", { default = 38, min = 5, max = 70, unit = "deg", text = "Slope of the roofs" })
 local floors = param("floors", { default = 2, min = 1, max = 6, step = 1, text = "Storeys" })
-local overhang = param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", text = "Width of the eaves" })
+local overhang =
+  param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", text = "Width of the eaves" })
 
 local House = module("House", "roof")
 local Ground = module("Ground")
@@ -18,8 +19,18 @@ local rectangle = { { 0, 0 }, { 13, 0 }, { 13, 8 }, { 0, 8 } }
 local l = { { 0, 0 }, { 15, 0 }, { 15, 7 }, { 7, 7 }, { 7, 15 }, { 0, 15 } }
 local t = { { 0, 8 }, { 5.5, 8 }, { 5.5, 0 }, { 11.5, 0 }, { 11.5, 8 }, { 17, 8 }, { 17, 15 }, { 0, 15 } }
 local cross = {
-  { 5, 0 }, { 11, 0 }, { 11, 5 }, { 16, 5 }, { 16, 11 }, { 11, 11 },
-  { 11, 16 }, { 5, 16 }, { 5, 11 }, { 0, 11 }, { 0, 5 }, { 5, 5 },
+  { 5, 0 },
+  { 11, 0 },
+  { 11, 5 },
+  { 16, 5 },
+  { 16, 11 },
+  { 11, 11 },
+  { 11, 16 },
+  { 5, 16 },
+  { 5, 11 },
+  { 0, 11 },
+  { 0, 5 },
+  { 5, 5 },
 }
 local block = { { 0, 0 }, { 14, -2 }, { 19, 5 }, { 13, 8 }, { 14, 15 }, { 3, 13 }, { 5, 6 } }
 local court = { { 0, 0 }, { 20, 0 }, { 20, 17 }, { 0, 17 } }
