@@ -15,6 +15,7 @@ mod extruder;
 mod footprint;
 mod makers;
 mod model;
+mod note;
 mod parameter;
 mod surface;
 mod turtle;
@@ -27,6 +28,7 @@ pub use extruder::Extruder;
 pub use footprint::{Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
+pub use note::Note;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};
 pub use surface::Surface;
 pub use turtle::Turtle;
@@ -69,6 +71,14 @@ pub trait Object: Any + Send + Sync {
     /// Closes what is still open at the end of a pass.
     fn end(&mut self) -> Result<()> {
         Ok(())
+    }
+
+    /// Takes the number that its random choices come from; chains with other seeds or features get other ones.
+    fn seed(&mut self, _: u64) {}
+
+    /// What it had to do otherwise than it was asked since the pass began.
+    fn notes(&self) -> &[Note] {
+        &[]
     }
 
     /// The number of triangles drawn so far, for the limit.

@@ -6,6 +6,7 @@ use mlua::{Function, MultiValue, Value as LuaValue};
 
 use crate::derive::Axiom;
 use crate::error::{Error, Result};
+use crate::objects::Object;
 use crate::rules::{CLOSE, Chain, END, Key, OPEN, Symbol};
 use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
@@ -32,7 +33,7 @@ impl System {
             Some(DeclaredAxiom::Modules(modules)) => {
                 builder.list(modules, key)?;
                 builder.push(END, &[], key);
-                axiom.objects.extend(self.object.as_ref().map(|object| object.boxed()));
+                axiom.objects.extend(self.object.as_ref().map(|object| seeded(&**object, key)));
                 axiom.features.push(None);
             }
             Some(DeclaredAxiom::Source(source, function)) => {
@@ -87,7 +88,7 @@ impl System {
                     expected.kind().name
                 )));
             }
-            axiom.objects.extend(object.map(|object| object.boxed()));
+            axiom.objects.extend(object.map(|object| seeded(&*object, key)));
             axiom.features.push(Some(id));
             let mut builder = Builder { machine, chain: &mut axiom.chain, random };
             builder.list(&made, key)?;
@@ -96,6 +97,13 @@ impl System {
         };
         each_feature(machine.lua(), source, each, |error| machine.translate(error))
     }
+}
+
+/// A copy of `object` for the chain with this key.
+fn seeded(object: &dyn Object, key: Key) -> Box<dyn Object> {
+    let mut object = object.boxed();
+    object.seed(key.0);
+    object
 }
 
 /// Writes modules that were made outside of rules into a chain.
