@@ -1,6 +1,6 @@
 //! Tests of sweeps: volumes against formulas, closedness over random input, normals, textures and errors.
 
-use std::f64::consts::{FRAC_PI_2, PI, TAU};
+use std::f64::consts::{FRAC_PI_2, FRAC_PI_3, PI, TAU};
 
 use glam::{DVec2, DVec3, Vec3};
 use proptest::prelude::*;
@@ -480,7 +480,8 @@ proptest! {
 
     #[test]
     fn every_gentle_sweep_has_normals_that_look_outwards(
-        section in any_section(),
+        // No normal could look out of both faces of a smooth spike.
+        section in any_section().prop_map(|section| section.creased(FRAC_PI_3)),
         segments in any_segments(0.15, 0.5),
         (around, along, mirror) in any::<(bool, bool, bool)>(),
     ) {
