@@ -35,6 +35,11 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
     steps: Option<usize>,
 
+    /// Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything
+    #[arg(long, value_name = "N", default_value_t = 3, value_parser = clap::value_parser!(u8).range(0..=3),
+          allow_negative_numbers = true)]
+    lod: u8,
+
     /// Works with N threads; the result does not depend on it [default: one for each core]
     #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
     threads: Option<u16>,
@@ -92,6 +97,7 @@ impl ScriptFlags {
             preset,
             seed: seed.unwrap_or(0),
             steps: self.steps,
+            lod: self.lod,
             threads: self.threads.map(usize::from),
             batch: self.batch as usize,
             limits: Limits {

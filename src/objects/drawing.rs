@@ -73,25 +73,70 @@ impl Drawing {
         self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
     }
 
-    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
-    pub fn place(&mut self, model: Arc<dyn Object>, frame: DAffine3) {
-        self.placed_triangles += model.triangles();
-        let index = match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, &model)) {
+    /// The number of `model` among those that are placed.
+    pub fn model(&mut self, model: &Arc<dyn Object>) -> usize {
+        match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, model)) {
             Some(index) => index,
             None => {
-                self.placed.push((model, Vec::new()));
+                self.placed.push((Arc::clone(model), Vec::new()));
                 self.placed.len() - 1
             }
-        };
-        self.placed[index].1.push(frame);
+        }
+    }
+
+    /// Places the model with this number, as [`Drawing::model`] gave it, at `frame`.
+    pub fn place_again(&mut self, index: usize, frame: DAffine3) {
+        let (model, frames) = &mut self.placed[index];
+        self.placed_triangles += model.triangles();
+        frames.push(frame);
         if let Some(makers) = &mut self.makers {
             makers.place(index);
+        }
+    }
+
+    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
+    pub fn place(&mut self, model: &Arc<dyn Object>, frame: DAffine3) {
+        let index = self.model(model);
+        self.place_again(index, frame);
+    }
+
+    /// Draws the faces of `model` at `frame`, as if they were its own.
+    pub fn draw_model(&mut self, model: &Arc<dyn Object>, frame: &DAffine3) {
+        let any: &dyn std::any::Any = &**model;
+        let Some(model) = any.downcast_ref::<Model>() else { return };
+        for (mesh, transform) in model.meshes() {
+            let frame = *frame * transform;
+            let turned = frame.matrix3.inverse().transpose();
+            let mirrored = frame.matrix3.determinant() < 0.0;
+            for (part, material) in &mesh {
+                let index = self.material(material);
+                let into = self.part(index);
+                let Ok(base) = u32::try_from(into.positions.len()) else { return };
+                into.make_room(part.positions.len(), part.triangles.len());
+                into.positions
+                    .extend(part.positions.iter().map(|at| frame.transform_point3(at.as_dvec3()).as_vec3()));
+                into.normals.extend(
+                    part.normals
+                        .iter()
+                        .map(|normal| (turned * normal.as_dvec3()).normalize_or_zero().as_vec3()),
+                );
+                into.uvs.extend_from_slice(&part.uvs);
+                into.triangles.extend(part.triangles.iter().map(|corners| {
+                    let [a, b, c] = corners.map(|corner| corner + base);
+                    if mirrored { [a, c, b] } else { [a, b, c] }
+                }));
+            }
         }
     }
 
     /// The number of triangles, those of placed models included.
     pub fn triangles(&self) -> usize {
         self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.placed_triangles
+    }
+
+    /// The number of triangles of the part with this number.
+    pub fn triangles_of(&self, index: usize) -> usize {
+        self.parts.get(index).map_or(0, |part| part.triangles.len())
     }
 
     /// The symbol of the chain that draws at present, while a chain is traced.

@@ -12,6 +12,7 @@ pub mod declare;
 mod distance;
 mod drawing;
 mod extruder;
+pub mod facade;
 mod footprint;
 mod makers;
 mod model;
@@ -25,6 +26,7 @@ pub use boxed::Boxed;
 pub use declare::{Argument, Call, Field, Kind, Method};
 pub use drawing::Drawing;
 pub use extruder::Extruder;
+pub use facade::{Facade, Template, Templates, Wall};
 pub use footprint::{Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
@@ -40,7 +42,18 @@ use crate::error::Result;
 use crate::scene::Scene;
 
 /// The built-in types that scripts can construct.
-pub static KINDS: &[&Kind] = &[&Extruder::KIND, &Footprint::KIND, &Turtle::KIND];
+pub static KINDS: &[&Kind] = &[
+    &Extruder::KIND,
+    &Footprint::KIND,
+    &Turtle::KIND,
+    &facade::PANEL,
+    &facade::BORDERED,
+    &facade::EXTRUDED,
+    &facade::LIST,
+    &facade::GRID,
+    &Template::KIND,
+    &Facade::KIND,
+];
 
 /// Something that a script can make and ask, and that the modules of a chain may draw with.
 ///
@@ -76,6 +89,9 @@ pub trait Object: Any + Send + Sync {
     /// Takes the number that its random choices come from; chains with other seeds or features get other ones.
     fn seed(&mut self, _: u64) {}
 
+    /// Takes the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
+    fn set_detail(&mut self, _: u8) {}
+
     /// What it had to do otherwise than it was asked since the pass began.
     fn notes(&self) -> &[Note] {
         &[]
@@ -97,5 +113,11 @@ pub trait Object: Any + Send + Sync {
     /// As [`Object::show`], but may give away what it has drawn, for nobody will look at the object again.
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.show(scene, name, feature)
+    }
+}
+
+impl std::fmt::Debug for dyn Object {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.kind().name)
     }
 }

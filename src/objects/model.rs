@@ -6,7 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use super::{Kind, Object, Table};
 use crate::error::{Error, Result};
-use crate::scene::{Instance, Scene};
+use crate::scene::{Instance, Material, Part, Scene};
 
 /// The drawing of a derived system. It never changes.
 #[derive(Clone)]
@@ -50,6 +50,14 @@ impl Model {
     /// The number of its triangles.
     pub fn size(&self) -> usize {
         self.scene.triangles()
+    }
+
+    /// Its meshes as often as they are seen, each as parts with their materials, and where it stands.
+    pub fn meshes(&self) -> impl Iterator<Item = (Vec<(&Part, &Material)>, DAffine3)> {
+        self.scene.instances.iter().map(|instance| {
+            let parts = self.scene.meshes[instance.mesh].parts.iter();
+            (parts.map(|part| (part, &self.scene.materials[part.material])).collect(), instance.transform)
+        })
     }
 
     /// Adds an instance of everything to `scene` at each of `frames`; its meshes are added once.

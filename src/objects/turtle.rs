@@ -246,7 +246,7 @@ methods! {
                     .help("place what derive returned"));
             }
             let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
-            self.drawing.place(model, self.state.frame.transform() * scale);
+            self.drawing.place(&model, self.state.frame.transform() * scale);
             Ok(())
         }
 

@@ -255,6 +255,7 @@ impl Library {
                 to_lua(lua, &value, false)
             })?,
         )?;
+        globals.raw_set("lod", machine.session.options.lod)?;
         let quiet = machine.session.options.quiet;
         globals.raw_set(
             "print",

@@ -51,6 +51,8 @@ pub struct Options {
     pub seed: u64,
     /// The greatest number of derivation steps of each system; as the script says if `None`.
     pub steps: Option<usize>,
+    /// The level of detail: 0 ground plans, 1 blocks, 2 roofs, 3 everything. Scripts read it as `lod`.
+    pub lod: u8,
     /// Worker threads; as many as there are cores if `None`.
     pub threads: Option<usize>,
     /// Modules that a worker takes at a time. The result does not depend on it.
@@ -85,6 +87,7 @@ impl Default for Options {
             preset: None,
             seed: 0,
             steps: None,
+            lod: 3,
             threads: None,
             batch: 4096,
             limits: Limits::default(),

@@ -4,18 +4,21 @@ mod roof;
 mod shell;
 #[cfg(test)]
 mod tests;
+mod walls;
 
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
-use super::{Color, Drawing, Kind, Object, Parameter, Surface, Table, Value, Vector};
+use super::{Color, Drawing, Kind, Note, Object, Parameter, Surface, Table, Value, Vector};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
 pub use roof::Roof;
 use shell::Shell;
+use walls::Plain;
+pub use walls::Walls;
 
 /// The rings of a geometry: the outer one, then the holes.
 #[derive(Debug, Clone, Default)]
@@ -64,18 +67,6 @@ fields! {
     }
 }
 
-fields! {
-    /// What `footprint:walls { ... }` takes.
-    pub struct Walls for "footprint:walls" {
-        /// How high they are (m); as high as the footprint says if left out.
-        pub height: Option<f64> = None,
-        /// Their colour.
-        pub color: Option<Color> = None,
-        /// Their material, in place of the colour.
-        pub material: Option<Surface> = None,
-    }
-}
-
 /// The highest walls and roofs (m).
 const HIGHEST: f64 = 2000.0;
 
@@ -91,6 +82,15 @@ pub struct Footprint {
     shell: Shell,
     drawing: Drawing,
     repair: &'static str,
+    /// Where random choices come from.
+    seed: u64,
+    /// The level of detail, from 0 to 3.
+    detail: u8,
+    /// How often walls have been raised.
+    raised: u64,
+    /// Walls that are still to be drawn.
+    plain: Option<Plain>,
+    notes: Vec<Note>,
 }
 
 methods! {
@@ -100,7 +100,7 @@ methods! {
             self.lay(&kind, material)
         }
 
-        /// Raises plain walls: { height, color, material }.
+        /// Raises walls: { height, templates, photo, color, material, expand }.
         pub fn walls(&mut self, options: Option<Arc<Table>>) -> Result<()> {
             let options = Walls::from_table(&options.unwrap_or_default())?;
             self.raise(&options)
@@ -193,7 +193,19 @@ impl Footprint {
         }
         let shell = Shell::new(&plan);
         let (options, plan) = (Arc::new(options), Arc::new(plan));
-        Ok(Self { options, plan, origin, shell, drawing: Drawing::default(), repair: "" })
+        Ok(Self {
+            options,
+            plan,
+            origin,
+            shell,
+            drawing: Drawing::default(),
+            repair: "",
+            seed: 0,
+            detail: 3,
+            raised: 0,
+            plain: None,
+            notes: Vec::new(),
+        })
     }
 
     /// The part with this material, or with this colour, or with the footprint's own.
@@ -259,6 +271,25 @@ impl Object for Footprint {
         self.shell = Shell::new(&self.plan);
         self.drawing.clear();
         self.repair = "";
+        self.raised = 0;
+        self.plain = None;
+        self.notes.clear();
+    }
+
+    fn end(&mut self) -> Result<()> {
+        self.finish_walls()
+    }
+
+    fn seed(&mut self, seed: u64) {
+        self.seed = seed;
+    }
+
+    fn set_detail(&mut self, detail: u8) {
+        self.detail = detail;
+    }
+
+    fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     fn begins_empty(&self) -> bool {

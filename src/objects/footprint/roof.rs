@@ -78,9 +78,19 @@ impl Footprint {
         if !self.shell.begun {
             self.lay("z_min", options.material.clone())?;
         }
+        self.finish_walls()?;
         self.shell.closed = true;
         self.repair = "";
         let base = self.shell.top;
+        if self.detail == 0 {
+            return Ok(());
+        }
+        if self.detail == 1 {
+            let top: Vec<Vec<DVec3>> =
+                self.plan.flat().iter().map(|ring| ring.iter().map(|at| at.extend(base)).collect()).collect();
+            let part = self.part(options.color, options.material.as_ref())?;
+            return fill(self.drawing.part(part), &top, DVec3::X, DVec3::ZERO);
+        }
         let (rings, overhang) = self.plan.outset(options.overhang);
         if overhang > 0.0 {
             self.underside(&rings, base, options)?;

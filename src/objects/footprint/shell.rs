@@ -1,8 +1,8 @@
-//! The lower part of a building: groundwork and plain walls.
+//! The lower part of a building: its groundwork, and how far it has got.
 
 use glam::DVec3;
 
-use super::{Footprint, Surface, Walls, along, check_height, edges, unknown};
+use super::{Footprint, Surface, along, edges, unknown};
 use crate::error::{Error, Result};
 use crate::geometry::{Plan, fill};
 
@@ -42,6 +42,16 @@ impl Footprint {
             _ => return Err(unknown("footprint:groundwork", kind, &GROUNDWORK)),
         };
         let part = self.part(None, material.as_ref())?;
+        if self.detail == 0 {
+            let plan: Vec<Vec<DVec3>> = self
+                .plan
+                .rings()
+                .iter()
+                .map(|ring| ring.iter().map(|at| at.with_z(base)).collect())
+                .collect();
+            self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
+            return fill(self.drawing.part(part), &plan, DVec3::X, DVec3::ZERO);
+        }
         self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
         let plan = std::sync::Arc::clone(&self.plan);
         let part = self.drawing.part(part);
@@ -65,34 +75,5 @@ impl Footprint {
                 .collect()
         });
         fill(part, &floor.collect::<Vec<Vec<DVec3>>>(), DVec3::X, DVec3::ZERO)
-    }
-
-    pub(super) fn raise(&mut self, options: &Walls) -> Result<()> {
-        self.check_open("walls")?;
-        let Some(height) = options.height.or(self.options.height) else {
-            return Err(Error::new("footprint:walls: neither the walls nor the footprint have a height")
-                .help("write this:walls { height = 6 }"));
-        };
-        check_height("footprint:walls: height", height)?;
-        if !self.shell.begun {
-            self.lay("z_min", options.material.clone())?;
-        }
-        let part = self.part(options.color, options.material.as_ref())?;
-        let (from, to) = (self.shell.top, self.shell.top + height);
-        let plan = std::sync::Arc::clone(&self.plan);
-        let part = self.drawing.part(part);
-        for ring in plan.flat() {
-            let mut passed = 0.0;
-            for [a, b] in edges(&ring) {
-                let direction = along(a, b);
-                // Textures run on around the corners.
-                let origin = a.extend(self.shell.bottom) - direction * passed;
-                let corners = vec![a.extend(from), b.extend(from), b.extend(to), a.extend(to)];
-                fill(part, &[corners], direction, origin)?;
-                passed += a.distance(b);
-            }
-        }
-        self.shell.top = to;
-        Ok(())
     }
 }

@@ -33,7 +33,7 @@ impl System {
             Some(DeclaredAxiom::Modules(modules)) => {
                 builder.list(modules, key)?;
                 builder.push(END, &[], key);
-                axiom.objects.extend(self.object.as_ref().map(|object| seeded(&**object, key)));
+                axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
                 axiom.features.push(None);
             }
             Some(DeclaredAxiom::Source(source, function)) => {
@@ -88,7 +88,7 @@ impl System {
                     expected.kind().name
                 )));
             }
-            axiom.objects.extend(object.map(|object| seeded(&*object, key)));
+            axiom.objects.extend(object.map(|object| prepared(machine, &*object, key)));
             axiom.features.push(Some(id));
             let mut builder = Builder { machine, chain: &mut axiom.chain, random };
             builder.list(&made, key)?;
@@ -100,9 +100,10 @@ impl System {
 }
 
 /// A copy of `object` for the chain with this key.
-fn seeded(object: &dyn Object, key: Key) -> Box<dyn Object> {
+fn prepared(machine: &Machine, object: &dyn Object, key: Key) -> Box<dyn Object> {
     let mut object = object.boxed();
     object.seed(key.0);
+    object.set_detail(machine.session.options.lod);
     object
 }
 

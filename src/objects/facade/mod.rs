@@ -1,0 +1,28 @@
+//! Facades by a wall grammar of five rules: panel, bordered, extruded, list and grid.
+//!
+//! Comes in: walls that scripts put together, and a frontage's width and height. Goes out: [`Laid`] faces and models.
+//! It never knows where on a building the frontage is.
+//!
+//! Method: T. Larive and V. Gaildrat, "Wall grammar for building generation", 2006.
+
+pub mod bordered;
+pub mod extruded;
+pub mod fixture;
+pub mod grid;
+pub mod lay;
+pub mod list;
+pub mod panel;
+pub mod size;
+pub mod template;
+#[cfg(test)]
+mod tests;
+pub mod wall;
+
+pub use bordered::KIND as BORDERED;
+pub use extruded::KIND as EXTRUDED;
+pub use grid::KIND as GRID;
+pub use lay::{Face, Laid, Rectangle};
+pub use list::KIND as LIST;
+pub use panel::KIND as PANEL;
+pub use template::{Facade, Template, Templates};
+pub use wall::Wall;
