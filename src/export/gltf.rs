@@ -24,6 +24,7 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use body::Body;
 use gltf_json as json;
+use json::extras::RawValue;
 use std::io::{self, Write};
 
 /// Where the images of a document are.
@@ -120,11 +121,16 @@ impl<'a> Document<'a> {
         let mut body = Body::default();
         let materials = material::write(checked, images, textures, &mut root, &mut body);
         let meshes = mesh::write(checked, measured, &materials, &mut root, &mut body);
-        let (nodes, places) = place::write(checked, &meshes, &mut root, &mut body);
-        root.scenes.push(json::Scene { extensions: None, extras: None, name: None, nodes });
+        let placed = place::write(checked, &meshes, &mut root, &mut body);
+        let extras = (!placed.features.is_empty())
+            .then(|| {
+                RawValue::from_string(serde_json::json!({ "features": placed.features }).to_string()).ok()
+            })
+            .flatten();
+        root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes: placed.nodes });
         body.describe(&mut root)?;
         let meshes = meshes.iter().map(|mesh| mesh.map(|index| index.value())).collect();
-        Ok(Self { root, body, layout: Layout { places, meshes } })
+        Ok(Self { root, body, layout: Layout { places: placed.places, meshes } })
     }
 
     /// All of a `.glb` file but the body: both headers and the description between them.

@@ -33,7 +33,12 @@ fn plaster() -> Material {
 
 /// A row of `count` boxes, turned and scaled and each with a name; the first is not.
 pub(super) fn boxes(count: usize) -> Scene {
-    let mut scene = Scene { materials: vec![plaster()], meshes: vec![cube("box", 0)], instances: vec![] };
+    let mut scene = Scene {
+        materials: vec![plaster()],
+        meshes: vec![cube("box", 0)],
+        instances: vec![],
+        ..Scene::default()
+    };
     for i in 0..count {
         let step = i as f64;
         let transform = DAffine3::from_scale_rotation_translation(
@@ -176,7 +181,8 @@ pub(super) fn hill(n: u32) -> Scene {
     let material =
         Material { name: "grass".into(), base_color: [0.25, 0.4, 0.15, 1.0], ..Material::default() };
     let meshes = vec![Mesh { name: "hill".into(), parts: vec![part], ..Mesh::default() }];
-    Scene { materials: vec![material], meshes, instances: vec![instance(0, "hill", DAffine3::IDENTITY)] }
+    let instances = vec![instance(0, "hill", DAffine3::IDENTITY)];
+    Scene { materials: vec![material], meshes, instances, ..Scene::default() }
 }
 
 /// Blocks of gabled houses on a ground.
@@ -214,7 +220,8 @@ pub(super) fn town(side: usize) -> Scene {
     }
     let mut house = cube("house", 1);
     house.parts.push(roof);
-    let mut scene = Scene { materials, meshes: vec![cube("ground", 0), house], instances: vec![] };
+    let mut scene =
+        Scene { materials, meshes: vec![cube("ground", 0), house], instances: vec![], ..Scene::default() };
     let size = 14.0 * side as f64;
     scene.instances.push(instance(
         0,
@@ -241,7 +248,12 @@ pub(super) fn town(side: usize) -> Scene {
 
 /// The levels of a Koch curve as thin bars in the plane y = 0.
 pub(super) fn standing() -> Scene {
-    let mut scene = Scene { materials: vec![plaster()], meshes: vec![cube("bar", 0)], instances: vec![] };
+    let mut scene = Scene {
+        materials: vec![plaster()],
+        meshes: vec![cube("bar", 0)],
+        instances: vec![],
+        ..Scene::default()
+    };
     let mut turns = vec![0.0_f64];
     for _ in 0..4 {
         turns = turns.iter().flat_map(|turn| [*turn, turn + 60.0, turn - 60.0, *turn]).collect();

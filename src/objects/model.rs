@@ -71,17 +71,9 @@ impl Model {
         name: &str,
         feature: Option<&str>,
     ) {
-        let mut meshes = vec![None; self.scene.meshes.len()];
         for (number, frame) in (first..).zip(frames) {
             for instance in &self.scene.instances {
-                let mesh = *meshes[instance.mesh].get_or_insert_with(|| {
-                    let mut mesh = self.scene.meshes[instance.mesh].clone();
-                    for part in &mut mesh.parts {
-                        part.material = scene.material(&self.scene.materials[part.material]);
-                    }
-                    scene.meshes.push(mesh);
-                    scene.meshes.len() - 1
-                });
+                let mesh = scene.share(&self.scene, instance.mesh);
                 scene.instances.push(Instance {
                     mesh,
                     transform: *frame * instance.transform,

@@ -5,9 +5,11 @@
 
 mod material;
 mod mesh;
+mod shared;
 
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
+pub use shared::Shared;
 
 use glam::{DAffine3, DVec3};
 
@@ -22,6 +24,8 @@ pub struct Scene {
     pub meshes: Vec<Mesh>,
     /// Where the meshes stand. A mesh that no instance names is not shown.
     pub instances: Vec<Instance>,
+    /// Which meshes are those of placed models; leave it to [`Default`].
+    pub shared: Shared,
 }
 
 /// A mesh put somewhere.

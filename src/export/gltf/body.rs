@@ -195,6 +195,10 @@ pub(super) fn y_up(vector: Vec3) -> Vec3 {
 
 /// `normal` at length 1 after rounding; upwards if it has no direction.
 pub(super) fn unit(normal: Vec3) -> Vec3 {
+    // As near as f32 comes to it already.
+    if (normal.length_squared() - 1.0).abs() < 2e-7 {
+        return normal;
+    }
     let exact = normal.as_dvec3();
     match exact.try_normalize() {
         Some(unit) => unit.as_vec3(),

@@ -33,9 +33,14 @@ struct Kind<'a> {
     mirrored: bool,
 }
 
+/// The attribute that tells which feature an instance is of, as `EXT_instance_features` names it: a number in the list
+/// `features` of the scene's extras, or -1.
+const FEATURE: &str = "_FEATURE_ID_0";
+
 #[derive(Default)]
 struct Group {
     count: usize,
+    features: Vec<f32>,
     translations: Vec<f32>,
     rotations: Vec<f32>,
     scales: Vec<f32>,
@@ -50,14 +55,24 @@ pub struct Place {
     pub shared: Option<usize>,
 }
 
-/// Adds the instances. Returns the nodes of the scene's top, and where each instance is; `None` for one that has
-/// nothing to show.
-pub(super) fn write(
-    checked: &Checked<'_>,
+/// What [`write`] has added.
+#[derive(Default)]
+pub(super) struct Placed<'a> {
+    /// The nodes of the scene's top.
+    pub(super) nodes: Vec<Index<Node>>,
+    /// Where each instance is; `None` for one that has nothing to show.
+    pub(super) places: Vec<Option<Place>>,
+    /// The features that instances which share a node are of.
+    pub(super) features: Vec<&'a str>,
+}
+
+/// Adds the instances.
+pub(super) fn write<'a>(
+    checked: &Checked<'a>,
     meshes: &[Option<Index<json::Mesh>>],
     root: &mut json::Root,
-    body: &mut Body<'_>,
-) -> (Vec<Index<Node>>, Vec<Option<Place>>) {
+    body: &mut Body<'a>,
+) -> Placed<'a> {
     let scene = checked.scene;
     let mut groups: Vec<(Kind<'_>, Group)> = Vec::new();
     let mut known = FxHashMap::default();
@@ -72,6 +87,7 @@ pub(super) fn write(
             group
         }));
     }
+    let mut features = Features::default();
     let mut nodes = Vec::new();
     let mut places = vec![None; scene.instances.len()];
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
@@ -85,6 +101,7 @@ pub(super) fn write(
         if let Some((kind, group)) = shared
             && group.take(&kind.mirror(transform))
         {
+            group.features.push(features.number(instance.feature.as_deref()));
             members[at.unwrap_or_default()].push(number);
             continue;
         }
@@ -101,8 +118,9 @@ pub(super) fn write(
             }
         }
     }
+    let features = features.list;
     if checked.origin == DVec3::ZERO || nodes.is_empty() {
-        return (nodes, places);
+        return Placed { nodes, places, features };
     }
     let origin = Node {
         name: Some("origin".into()),
@@ -110,12 +128,13 @@ pub(super) fn write(
         children: Some(nodes),
         ..Node::default()
     };
-    (vec![root.push(origin)], places)
+    Placed { nodes: vec![root.push(origin)], places, features }
 }
 
 impl<'a> Kind<'a> {
+    /// The kind of an instance that may share its node: what is drawn for a feature has its own, which bears its id.
     fn of(instance: &'a Instance) -> Option<Self> {
-        instance.feature.is_none().then(|| Self {
+        (instance.feature.is_none() || instance.placement.is_some()).then(|| Self {
             mesh: instance.mesh,
             name: &instance.name,
             mirrored: instance.transform.matrix3.determinant() < 0.0,
@@ -125,6 +144,25 @@ impl<'a> Kind<'a> {
     /// What is left for the instance if its node mirrors.
     fn mirror(self, transform: DAffine3) -> DAffine3 {
         if self.mirrored { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * transform } else { transform }
+    }
+}
+
+/// The features that are named by number.
+#[derive(Default)]
+struct Features<'a> {
+    list: Vec<&'a str>,
+    numbers: FxHashMap<&'a str, usize>,
+}
+
+impl<'a> Features<'a> {
+    /// The number of a feature; -1 for none.
+    fn number(&mut self, feature: Option<&'a str>) -> f32 {
+        let Some(feature) = feature else { return -1.0 };
+        let number = *self.numbers.entry(feature).or_insert_with(|| {
+            self.list.push(feature);
+            self.list.len() - 1
+        });
+        number as f32
     }
 }
 
@@ -187,6 +225,9 @@ fn together(
             attributes.insert(key.into(), root.push(array).value().into());
         }
     };
+    if group.features.iter().any(|feature| *feature >= 0.0) {
+        add(FEATURE, group.features, 1, Type::Scalar, &[]);
+    }
     // No default, since one array has to be there to tell the number of instances.
     add("TRANSLATION", group.translations, 3, Type::Vec3, &[]);
     add("ROTATION", group.rotations, 4, Type::Vec4, &[0.0, 0.0, 0.0, 1.0]);
