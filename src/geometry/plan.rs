@@ -16,6 +16,8 @@ pub struct Plan {
     rings: Vec<Vec<DVec3>>,
     /// For each point the place, counted from 0, that it had in its ring.
     places: Vec<Vec<usize>>,
+    /// How many points the rings had that were given.
+    sizes: Vec<usize>,
 }
 
 impl Plan {
@@ -47,13 +49,14 @@ impl Plan {
             }
         }
         let holes: Vec<Vec<SectionPoint>> = holes.iter().map(sharp).collect();
+        let sizes = rings.iter().map(Vec::len).collect();
         let clean = numbered_rings(&sharp(outer), &holes, &PLAN)?;
         let places: Vec<Vec<usize>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
         let rings =
             places.iter().zip(rings).map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
-        let rings: Vec<Vec<DVec3>> = rings.collect();
-        Ok(Self { rings, places })
+        let (rings, sizes) = (rings.collect(), sizes);
+        Ok(Self { rings, places, sizes })
     }
 
     /// The rings (m), with the heights of the ground.
@@ -61,9 +64,28 @@ impl Plan {
         &self.rings
     }
 
-    /// For each point of each ring, its place in the ring that was given, counted from 0.
-    pub fn places(&self) -> &[Vec<usize>] {
-        &self.places
+    /// For each edge of all rings, the edges that it stands for: those of the rings that were given, counted from 0
+    /// over all of them. An edge goes from its point to the next one.
+    pub fn given_edges(&self) -> Vec<Vec<usize>> {
+        let mut given = Vec::with_capacity(self.edges());
+        let mut first = 0;
+        for (places, &size) in self.places.iter().zip(&self.sizes) {
+            let next = |index: usize| places[(index + 1) % places.len()];
+            let rising = (0..places.len()).filter(|&index| places[index] < next(index)).count();
+            let forward = rising > places.len() / 2;
+            given.extend(places.iter().enumerate().map(|(index, &place)| {
+                let (from, to) = if forward { (place, next(index)) } else { (next(index), place) };
+                let count = (to + size - from) % size;
+                (0..count).map(|step| first + (from + step) % size).collect()
+            }));
+            first += size;
+        }
+        given
+    }
+
+    /// The number of edges of the rings that were given.
+    pub fn given(&self) -> usize {
+        self.sizes.iter().sum()
     }
 
     /// The plan moved by `offset` (m).

@@ -8,6 +8,7 @@ mod determinism;
 mod files;
 mod footprints;
 mod limits;
+mod neighbors;
 mod params;
 mod patterns;
 mod presets;

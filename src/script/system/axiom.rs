@@ -40,6 +40,9 @@ impl System {
                 self.features(machine, source, function, key, random, &mut axiom)?
             }
         }
+        if let Some(gather) = axiom.objects.first().and_then(|object| object.gathers()) {
+            gather(&mut axiom.objects);
+        }
         Ok(axiom)
     }
 
