@@ -12,6 +12,7 @@ mod neighbors;
 mod params;
 mod patterns;
 mod presets;
+mod reports;
 mod sandbox;
 mod scope;
 mod successors;

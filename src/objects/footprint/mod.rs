@@ -39,7 +39,7 @@ impl Parameter for Rings {
         let rings = match (table.get("rings"), table.get("kind")) {
             (Some(rings), _) => rings.clone(),
             (None, Some(Value::Text(kind))) => {
-                return Err(Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")));
+                return Err(Expected::of_data(format!("a polygon, and this is a geometry of kind {kind:?}")));
             }
             _ => value.clone(),
         };
@@ -233,7 +233,7 @@ impl Footprint {
         let (plan, origin) = match options.geometry.0.first() {
             None => (Plan::default(), DVec3::ZERO),
             Some(_) => {
-                let plan = Plan::new(&options.geometry.0)?;
+                let plan = Plan::new(&options.geometry.0).map_err(Error::of_data)?;
                 let low = plan.rings().iter().flatten().fold(DVec3::INFINITY, |low, point| low.min(*point));
                 let high =
                     plan.rings().iter().flatten().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
@@ -247,7 +247,8 @@ impl Footprint {
         let shell = Shell::new(&plan);
         let (options, plan) = (Arc::new(options), Arc::new(plan));
         let (edges, drawing) = (Arc::default(), Drawing::default());
-        let footprint = Self { options, plan, origin, edges, place: None, shell, drawing, repair: "" };
+        let footprint =
+            Self { options, plan, origin, edges, place: None, shell, drawing, repair: "" };
         footprint.check_edge_keywords()?;
         Ok(footprint)
     }
@@ -280,7 +281,8 @@ fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
-    Err(Error::new(format!("{what} is {height} m")).help(format!("give metres above 0, up to {HIGHEST}")))
+    let error = Error::new(format!("{what} is {height} m"));
+    Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 
 /// The error for a kind that there is not.

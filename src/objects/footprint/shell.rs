@@ -71,7 +71,8 @@ impl Footprint {
         self.check_open("walls")?;
         let Some(height) = options.height.or(self.options.height) else {
             return Err(Error::new("footprint:walls: neither the walls nor the footprint have a height")
-                .help("write this:walls { height = 6 }"));
+                .help("write this:walls { height = 6 }")
+                .of_data());
         };
         check_height("footprint:walls: height", height)?;
         if !self.shell.begun {

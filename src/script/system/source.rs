@@ -153,6 +153,14 @@ fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
     Ok(value)
 }
 
+/// The file and layer of a source; empty for a list that the script made.
+pub(super) fn shown(source: &AnyUserData) -> String {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => layer.shown.clone(),
+        _ => String::new(),
+    }
+}
+
 /// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
 ///
 /// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
