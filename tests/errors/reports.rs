@@ -74,6 +74,25 @@ fn bad_features_are_left_out_and_listed() {
 }
 
 #[test]
+fn rings_that_cross_or_touch_are_repaired_and_listed() {
+    let script = r#"local A = module("A")
+local s = lsystem({ object = footprint })
+s:axiom(source({
+  { id = "hourglass", rings = { { 0, 0 }, { 8, 8 }, { 8, 0 }, { 0, 8 } } },
+  { id = "hole", rings = { { { 0, 0 }, { 8, 0 }, { 0, 8 } }, { { 9, 9 }, { 10, 9 }, { 9, 10 } } } },
+  { id = "sound", rings = { { 0, 0 }, { 4, 0 }, { 8, 0 }, { 0, 8 } } },
+}), function(f)
+  return footprint(f.rings, { height = 3 }), A()
+end)
+s:interpret("A", function(this) this:walls():roof({ kind = "flat" }) end)
+s:derive()
+"#;
+    let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua", "--report", "-"]).done();
+    insta::assert_snapshot!(said.stdout, @"");
+    assert!(said.stderr.ends_with("2 of 3 features simplified\n"), "{}", said.stderr);
+}
+
+#[test]
 fn what_is_left_out_does_not_depend_on_threads_or_batches() {
     let folder = town(400);
     let run = |threads: &str, batch: &str| {

@@ -12,7 +12,7 @@ use std::sync::{Arc, OnceLock};
 use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
-use super::{Color, Drawing, Kind, Object, Parameter, Streets, Surface, Table, Value, Vector};
+use super::{Color, Drawing, Kind, Note, Object, Parameter, Streets, Surface, Table, Value, Vector};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
@@ -107,6 +107,7 @@ pub struct Footprint {
     shell: Shell,
     drawing: Drawing,
     repair: &'static str,
+    notes: Vec<Note>,
 }
 
 methods! {
@@ -248,7 +249,7 @@ impl Footprint {
         let (options, plan) = (Arc::new(options), Arc::new(plan));
         let (edges, drawing) = (Arc::default(), Drawing::default());
         let footprint =
-            Self { options, plan, origin, edges, place: None, shell, drawing, repair: "" };
+            Self { options, plan, origin, edges, place: None, shell, drawing, repair: "", notes: Vec::new() };
         footprint.check_edge_keywords()?;
         Ok(footprint)
     }
@@ -321,6 +322,12 @@ impl Object for Footprint {
         self.shell = Shell::new(&self.plan);
         self.drawing.clear();
         self.repair = "";
+        let (repairs, trouble) = self.plan.repairs();
+        self.notes = repairs.iter().map(|what| Note::new(*what, trouble)).collect();
+    }
+
+    fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     fn begins_empty(&self) -> bool {
