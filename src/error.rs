@@ -41,6 +41,7 @@ struct Parts {
     step: Option<usize>,
     help: Option<String>,
     more: Vec<Error>,
+    of_data: bool,
 }
 
 impl Error {
@@ -81,6 +82,18 @@ impl Error {
     pub(crate) fn feature(mut self, id: &str) -> Self {
         self.0.message = format!("{} (feature {id})", self.0.message);
         self
+    }
+
+    /// Says that the data is at fault: what a feature holds cannot be built, whatever the script does with it.
+    #[must_use]
+    pub fn of_data(mut self) -> Self {
+        self.0.of_data = true;
+        self
+    }
+
+    /// Whether the data is at fault, and not the script: then a run may leave the feature out and go on.
+    pub fn is_of_data(&self) -> bool {
+        self.0.of_data
     }
 
     /// Says what to do about it.

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::derive::{Crew, Derived, Times};
+use crate::derive::{Crew, Derived, Report, Times};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::script::{Machine, Options, Param, Session, Watchdog};
@@ -19,6 +19,17 @@ pub struct Run {
     pub params: Vec<Param>,
     /// Where the time went.
     pub times: RunTimes,
+}
+
+impl Run {
+    /// How many features there were, and what could not be built as the script asked.
+    pub fn report(&self) -> Report {
+        let mut report = Report::default();
+        for system in &self.systems {
+            report.add(system.given, &system.remarks);
+        }
+        report
+    }
 }
 
 /// Where the time of a run went.

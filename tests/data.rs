@@ -4,7 +4,9 @@
 
 use std::path::{Path, PathBuf};
 
+use burgeon::geometry::Plan;
 use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
+use glam::DVec3;
 
 /// The file in the folder of shared data; tells that the test is skipped where there is none.
 fn shared(name: &str) -> Option<PathBuf> {
@@ -87,4 +89,47 @@ fn the_village_has_what_its_script_draws() {
     let count = |kind| village.features.iter().filter(|feature| feature.geometry.kind() == kind).count();
     assert_eq!(Kind::ALL.map(count), [110, 4, 72]);
     assert!(path.metadata().unwrap().len() < 60_000);
+}
+
+/// The rings of one of the polygons that triangulators are tested with.
+fn rings(text: &str) -> Vec<Vec<DVec3>> {
+    let rings: Vec<Vec<Vec<f64>>> = serde_json::from_str(text).unwrap();
+    let point = |at: &Vec<f64>| DVec3::new(at[0], at[1], 0.0);
+    rings.iter().map(|ring| ring.iter().map(point).collect()).collect()
+}
+
+#[test]
+fn bad_polygons_become_valid_plans_or_are_refused_with_a_reason() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/bad_polygons");
+    let Ok(entries) = std::fs::read_dir(&folder) else {
+        eprintln!("skipped: there is no ../shared/data/bad_polygons");
+        return;
+    };
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.retain(|name| !name.starts_with('_'));
+    names.sort();
+    let (mut clean, mut repaired, mut refused) = (0, Vec::new(), Vec::new());
+    for name in &names {
+        match Plan::new(&rings(&std::fs::read_to_string(folder.join(name)).unwrap())) {
+            Ok(plan) => {
+                let again = Plan::new(plan.rings()).unwrap();
+                assert!(again.repairs().0.is_empty() && plan.area() > 0.0, "{name}");
+                assert_eq!(plan.given_edges().len(), plan.edges(), "{name}");
+                if plan.repairs().0.is_empty() {
+                    clean += 1;
+                } else {
+                    repaired.push(name.as_str());
+                }
+            }
+            Err(error) => {
+                assert!(error.remedy().is_some() && error.message().contains("footprint"), "{name}: {error}");
+                refused.push(name.as_str());
+            }
+        }
+    }
+    // A triangulator, too, makes nothing of these.
+    let nothing = ["degenerate", "empty-square", "infinite-loop-jhl", "issue107", "issue83"];
+    assert_eq!(refused, nothing.map(|name| format!("{name}.json")));
+    assert_eq!((names.len(), clean, repaired.len()), (56, 13, 38), "{repaired:?}");
 }

@@ -1,6 +1,7 @@
 //! What commands say: errors with the script's line, and the summary of a run.
 
 use std::fmt::Write as _;
+use std::path::Path;
 use std::time::Duration;
 
 use burgeon::script::{Param, Setting};
@@ -31,7 +32,9 @@ fn line(place: &burgeon::error::Place) -> Option<String> {
 }
 
 /// The summary of a run for a person.
-pub(crate) fn summary(run: &Run, writing: Duration, total: Duration) -> String {
+///
+/// `listed` is the file that lists what was skipped or simplified, if there is one.
+pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Option<&Path>) -> String {
     let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
     let chains: usize = run.systems.iter().map(|system| system.features.len()).sum();
     let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
@@ -64,6 +67,14 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration) -> String {
     if let Some(memory) = peak_memory() {
         let _ = writeln!(text, "{memory} MB of memory at the peak");
     }
+    let report = run.report();
+    if !report.is_clean() {
+        let _ = match listed {
+            Some(path) if path != Path::new("-") => writeln!(text, "{report}: {} lists them", path.display()),
+            Some(_) => writeln!(text, "{report}"),
+            None => writeln!(text, "{report}: --report FILE lists them"),
+        };
+    }
     text
 }
 
@@ -78,6 +89,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "triangles": run.scene.triangles(),
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
+        "features": run.report().counts_json(),
         "params": params_json(&run.params),
         "seconds": {
             "total": seconds(total),

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
 
-use burgeon::derive::Derived;
+use burgeon::derive::{Derived, Report};
 use burgeon::export;
 use burgeon::presets::Presets;
 use burgeon::script::{Param, Preset, Session};
@@ -31,6 +31,10 @@ pub(crate) struct Run {
     /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
     #[arg(long, value_name = "FILE")]
     chain: Option<PathBuf>,
+
+    /// Writes which features were skipped or simplified, and why, as JSON; - is standard output
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
 
     /// Runs and writes again whenever a file of the script changes, until interrupted
     #[arg(long)]
@@ -101,6 +105,9 @@ impl Run {
             if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
                 write_chains(path, &run.systems)?;
             }
+            if let Some(path) = &self.report {
+                write_report(path, &run.report())?;
+            }
             if let Some(name) = &self.save_preset {
                 self.save(name, session, &run.params)?;
             }
@@ -116,7 +123,7 @@ impl Run {
             }
             report::print(&format!("{summary}\n"));
         } else {
-            report::eprint(&report::summary(&run, writing, begin.elapsed()));
+            report::eprint(&report::summary(&run, writing, begin.elapsed(), self.report.as_deref()));
         }
         Ok(Some(run))
     }
@@ -142,27 +149,47 @@ impl Run {
         for output in &self.output {
             export::check_writable(output)?;
         }
-        let Some(chain) = self.chain.as_deref().filter(|chain| *chain != Path::new("-")) else {
-            return Ok(());
-        };
+        self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
+        self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
+        if self.script.json && self.report.as_deref() == Some(Path::new("-")) {
+            return Err(Error::new("standard output cannot take both a report and the JSON document")
+                .help("name a file: --report report.json; the document has the counts"));
+        }
+        Ok(())
+    }
+
+    /// Refuses a file that text could not be written to; - is standard output.
+    fn check_text(&self, path: Option<&Path>, flag: &str, what: &str, example: &str) -> Result<()> {
+        let Some(path) = path.filter(|path| *path != Path::new("-")) else { return Ok(()) };
         let same =
             |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-        let shown = chain.display();
-        if same(chain, &self.script.script) {
-            return Err(Error::new(format!("the chains would overwrite the script {shown}"))
-                .help("name another file: --chain chains.txt, or - for standard output"));
+        let shown = path.display();
+        if same(path, &self.script.script) {
+            return Err(Error::new(format!("{what} would overwrite the script {shown}"))
+                .help(format!("name another file: --{flag} {example}, or - for standard output")));
         }
-        if chain.is_dir() {
+        if path.is_dir() {
             return Err(Error::new(format!("cannot write {shown}: it is a folder"))
-                .help(format!("name a file in it, such as {}", chain.join("chains.txt").display())));
+                .help(format!("name a file in it, such as {}", path.join(example).display())));
         }
-        let folder = chain.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
         if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
             return Err(Error::new(format!("cannot write {shown}: there is no folder {}", folder.display()))
                 .help("make the folder first, or write to one that is there"));
         }
         Ok(())
     }
+}
+
+/// Writes what was skipped or simplified.
+fn write_report(path: &Path, report: &Report) -> Result<()> {
+    if path == Path::new("-") {
+        let mut text = Vec::new();
+        report.write_json(&mut text).map_err(Error::new)?;
+        report::print(&String::from_utf8_lossy(&text));
+        return Ok(());
+    }
+    export::write_file(path, |out| report.write_json(out))
 }
 
 /// Writes the chains of all systems, in the order in which they were derived.

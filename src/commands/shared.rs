@@ -27,6 +27,10 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "FOLDER")]
     data: Vec<PathBuf>,
 
+    /// Ends with an error at the first feature whose data cannot be built, in place of leaving it out
+    #[arg(long)]
+    strict: bool,
+
     /// The seed of all random numbers [default: 0]
     #[arg(long, value_name = "N", value_parser = whole::<u64>, allow_negative_numbers = true)]
     seed: Option<u64>,
@@ -107,6 +111,7 @@ impl ScriptFlags {
                 triangles: self.triangle_limit as usize,
             },
             data: self.data.clone(),
+            strict: self.strict,
             stdlib: self.stdlib.clone(),
             ..Options::default()
         })

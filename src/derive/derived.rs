@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use super::output::Use;
+use super::remark::Remark;
 use super::trace::RuleName;
 use crate::error::{Place, Result};
 use crate::objects::{Model, Object};
@@ -57,6 +58,10 @@ pub struct Derived {
     pub rules: Vec<RuleReport>,
     /// Where the system was made.
     pub place: Option<Place>,
+    /// The number of features that it was given, those that were left out among them.
+    pub given: usize,
+    /// What could not be built as asked: features that got no chain, then the chains in their order.
+    pub remarks: Vec<Remark>,
     modules: usize,
     model: OnceLock<Arc<Model>>,
     placed: AtomicBool,
@@ -88,6 +93,8 @@ impl Derived {
             times,
             rules,
             place,
+            given: 0,
+            remarks: Vec::new(),
             modules,
             model: OnceLock::new(),
             placed: AtomicBool::new(false),

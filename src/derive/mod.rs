@@ -7,12 +7,14 @@ mod batch;
 mod crew;
 mod derived;
 mod output;
+mod remark;
 mod step;
 mod trace;
 
 pub(crate) use crew::{Crew, Job};
 pub use derived::{Derived, RuleReport, Times};
 pub use output::Use;
+pub use remark::{Remark, Report};
 pub(crate) use trace::around;
 pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
 
@@ -34,6 +36,12 @@ pub(crate) struct Axiom {
     pub objects: Vec<Box<dyn Object>>,
     /// The id of each chain's feature.
     pub features: Vec<Option<String>>,
+    /// What the features come from; empty without any, and for a list that the script made.
+    pub source: String,
+    /// How many features there were, those that were left out among them.
+    pub given: usize,
+    /// Features that were left out.
+    pub remarks: Vec<Remark>,
 }
 
 impl Axiom {
@@ -43,6 +51,7 @@ impl Axiom {
             chain: self.chain.only(index, arities),
             objects: self.objects.drain(..).skip(index).take(1).collect(),
             features: self.features.drain(..).skip(index).take(1).collect(),
+            ..self
         }
     }
 }
@@ -94,7 +103,9 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             axiom = axiom.only(chain, grammar.arities());
         }
         let objects = std::mem::take(&mut axiom.objects);
-        let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects)));
+        // Where nothing else would be built, the error tells more.
+        let forgiving = axiom.given > 1 && !options.strict;
+        let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let plan = Plan {
             grammar,
             interpretations: system.interpretations(&machine.library),
@@ -118,7 +129,8 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let limit = if options.check { 0 } else { limit };
 
     let mut times = Times::default();
-    let mut chain = axiom.chain;
+    let mut axiom = axiom;
+    let mut chain = std::mem::take(&mut axiom.chain);
     chain.mark(plan.batch, plan.grammar.arities());
     let mut stepper = Stepper::new(Arc::clone(&plan));
     let interprets = plan.objects.is_some() && !options.check;
@@ -172,7 +184,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let plan = Arc::try_unwrap(plan).map_err(|_| Error::new("a worker still holds the plan"))?;
     let objects = match plan.objects.map(Arc::try_unwrap) {
         Some(Ok(objects)) if trace.is_some() => {
-            let mut objects = objects.into_owned();
+            let mut objects: Vec<_> = objects.into_owned().into_iter().map(|(object, _)| object).collect();
             if let Some(mut trace) = trace {
                 let drawings = objects.iter_mut().map(|object| object.drawing());
                 trace.makers = drawings.map(|drawing| drawing?.take_makers()).collect();
@@ -181,11 +193,17 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             }
             return Err(Error::new("the traced system is derived"));
         }
-        Some(Ok(objects)) => objects.into_owned().into_iter().map(Arc::from).collect(),
+        Some(Ok(objects)) => {
+            let mut remarks = Vec::new();
+            let objects = settle(objects, &axiom, &mut remarks)?;
+            // What was left out before comes first, and the chains follow in their order.
+            axiom.remarks.append(&mut remarks);
+            objects
+        }
         Some(Err(_)) => return Err(Error::new("a worker still holds the objects")),
         None => Vec::new(),
     };
-    Ok(Derived::new(
+    let mut derived = Derived::new(
         index,
         chain,
         Arc::clone(plan.grammar.symbols()),
@@ -196,7 +214,32 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         times,
         rules,
         place,
-    ))
+    );
+    (derived.given, derived.remarks) = (axiom.given, axiom.remarks);
+    Ok(derived)
+}
+
+/// The objects as they are after the last pass, and what is to be remarked on them. Fails if all of them have failed.
+fn settle(objects: Objects, axiom: &Axiom, remarks: &mut Vec<Remark>) -> Result<Vec<Arc<dyn Object>>> {
+    let mut settled: Vec<Arc<dyn Object>> = Vec::new();
+    let (mut failed, mut first) = (0, None);
+    for (index, (mut object, failure)) in objects.into_owned().into_iter().enumerate() {
+        let feature = axiom.features.get(index).and_then(Option::as_deref);
+        if let Some(error) = failure {
+            object.begin();
+            remarks.push(Remark::skipped(&axiom.source, feature, &error));
+            failed += 1;
+            first.get_or_insert(error);
+        } else {
+            let notes = object.notes().iter();
+            remarks.extend(notes.map(|note| Remark::simplified(&axiom.source, feature, note)));
+        }
+        settled.push(Arc::from(object));
+    }
+    match first {
+        Some(error) if failed == settled.len() => Err(error),
+        _ => Ok(settled),
+    }
 }
 
 /// What the rules and interpretation rules have done, in the order of their declaration.

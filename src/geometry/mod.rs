@@ -7,6 +7,7 @@ mod outline;
 mod path;
 mod plan;
 mod quad;
+mod repair;
 mod ring;
 mod roof;
 mod section;

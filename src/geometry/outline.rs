@@ -83,6 +83,11 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     Ok(line.points.into_iter().map(|point| point.point).collect())
 }
 
+/// Whether these points are a ring, so far as it can be told of one alone.
+pub(super) fn is_ring(points: &[SectionPoint], manner: &Manner) -> bool {
+    ring(String::new(), points, manner).is_ok()
+}
+
 fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<Ring> {
     let owner = manner.owner;
     let mut points = numbered(&name, points, manner)?;

@@ -1,8 +1,9 @@
-//! Plans: the outline of a building on the ground, made clean or refused.
+//! Plans: the outline of a building on the ground, made clean, repaired or refused.
 
 use glam::{DVec2, DVec3};
 
 use super::outline::{Manner, numbered_rings};
+use super::repair::{Repaired, repair};
 use super::section::{MOST_POINTS, SectionPoint};
 use crate::error::{Error, Result};
 
@@ -14,16 +15,35 @@ const PLAN: Manner = Manner { owner: "footprint", near: 0.01, straight: 2e-3 };
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     rings: Vec<Vec<DVec3>>,
+    given: Given,
+    /// How many points the rings had that were given.
+    sizes: Vec<usize>,
+    repairs: Vec<&'static str>,
+    trouble: String,
+}
+
+/// What the edges of a plan stand for.
+#[derive(Debug, Clone)]
+enum Given {
     /// For each point the place, counted from 0, that it had in its ring.
-    places: Vec<Vec<usize>>,
+    Places(Vec<Vec<usize>>),
+    /// For each edge the edges that were given, counted from 0 over all rings.
+    Edges(Vec<Vec<usize>>),
+}
+
+impl Default for Given {
+    fn default() -> Self {
+        Self::Places(Vec::new())
+    }
 }
 
 impl Plan {
     /// The plan inside the first ring and outside the others, whichever way they run.
     ///
     /// Points within 1 cm of the one before are dropped, and so are points within 2 mm of the line between
-    /// their neighbours and the tips of spikes. Fails, with the place, if a ring has too few points or no area,
-    /// if rings cross or touch themselves or each other, and if a hole is not inside the outer ring.
+    /// their neighbours and the tips of spikes. Where rings cross or touch themselves or each other, or a hole is
+    /// not inside the outer ring, the greatest part of what they enclose is the plan, and [`Plan::repairs`] tells
+    /// what was done. Fails, with the place, if nothing is enclosed.
     pub fn new(rings: &[Vec<DVec3>]) -> Result<Self> {
         let count: usize = rings.iter().map(Vec::len).sum();
         if count > MOST_POINTS {
@@ -47,13 +67,21 @@ impl Plan {
             }
         }
         let holes: Vec<Vec<SectionPoint>> = holes.iter().map(sharp).collect();
-        let clean = numbered_rings(&sharp(outer), &holes, &PLAN)?;
+        let sizes = rings.iter().map(Vec::len).collect();
+        let clean = match numbered_rings(&sharp(outer), &holes, &PLAN) {
+            Ok(clean) => clean,
+            Err(error) => {
+                let Some(Repaired { rings, given, notes }) = repair(rings, &PLAN) else { return Err(error) };
+                let trouble = error.message().to_owned();
+                return Ok(Self { rings, given: Given::Edges(given), sizes, repairs: notes, trouble });
+            }
+        };
         let places: Vec<Vec<usize>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
         let rings =
             places.iter().zip(rings).map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
-        let rings: Vec<Vec<DVec3>> = rings.collect();
-        Ok(Self { rings, places })
+        let rings = rings.collect();
+        Ok(Self { rings, given: Given::Places(places), sizes, ..Self::default() })
     }
 
     /// The rings (m), with the heights of the ground.
@@ -61,9 +89,37 @@ impl Plan {
         &self.rings
     }
 
-    /// For each point of each ring, its place in the ring that was given, counted from 0.
-    pub fn places(&self) -> &[Vec<usize>] {
-        &self.places
+    /// For each edge of all rings, the edges that it stands for: those of the rings that were given, counted from 0
+    /// over all of them. An edge goes from its point to the next one.
+    pub fn given_edges(&self) -> Vec<Vec<usize>> {
+        let places = match &self.given {
+            Given::Places(places) => places,
+            Given::Edges(edges) => return edges.clone(),
+        };
+        let mut given = Vec::with_capacity(self.edges());
+        let mut first = 0;
+        for (places, &size) in places.iter().zip(&self.sizes) {
+            let next = |index: usize| places[(index + 1) % places.len()];
+            let rising = (0..places.len()).filter(|&index| places[index] < next(index)).count();
+            let forward = rising > places.len() / 2;
+            given.extend(places.iter().enumerate().map(|(index, &place)| {
+                let (from, to) = if forward { (place, next(index)) } else { (next(index), place) };
+                let count = (to + size - from) % size;
+                (0..count).map(|step| first + (from + step) % size).collect()
+            }));
+            first += size;
+        }
+        given
+    }
+
+    /// What was done to make a plan of the rings, if that was needed, and what was wrong with them.
+    pub fn repairs(&self) -> (&[&'static str], &str) {
+        (&self.repairs, &self.trouble)
+    }
+
+    /// The number of edges of the rings that were given.
+    pub fn given(&self) -> usize {
+        self.sizes.iter().sum()
     }
 
     /// The plan moved by `offset` (m).

@@ -113,6 +113,7 @@ impl Applier {
         let methods = &pass.plan.interpretations.methods;
         while self.position < until {
             let mut ended = false;
+            let failed = objects.has_failed(self.chain);
             // One lock for all symbols of a chain.
             let walked = objects.write(self.chain, |object| {
                 if !self.begun {
@@ -126,6 +127,8 @@ impl Applier {
                         follow(object, self.position);
                     }
                     match symbol {
+                        END if failed => ended = true,
+                        _ if failed => {}
                         OPEN => object.push(),
                         CLOSE => object.pop()?,
                         END => {
@@ -144,7 +147,10 @@ impl Applier {
                 }
                 Ok(())
             });
-            walked.map_err(|error| self.blame_at(error, self.position, self.param))?;
+            if let Err(error) = walked {
+                objects.forgive(self.chain, self.blame_at(error, self.position, self.param))?;
+                continue;
+            }
             if ended {
                 self.count()?;
                 self.chain += 1;
@@ -153,6 +159,12 @@ impl Applier {
             }
         }
         Ok(())
+    }
+
+    /// The number of arguments that these recorded calls have together.
+    fn arguments_of(&self, calls: std::ops::Range<usize>) -> usize {
+        let calls = self.calls.get(calls).unwrap_or_default();
+        calls.iter().map(|call| self.methods[usize::from(*call)].arguments.len()).sum()
     }
 
     fn count(&mut self) -> Result<()> {
@@ -231,8 +243,11 @@ impl Flusher for Applier {
             let earlier = if index == self.next { self.applied } else { 0 };
             let first = call_at;
             // A method that runs at once follows, so the pass must have begun even without calls.
-            if call_at < end || index == entry {
-                let objects = Arc::clone(&self.objects);
+            let objects = Arc::clone(&self.objects);
+            if objects.has_failed(self.chain) {
+                number_at += self.arguments_of(call_at..end);
+                call_at = call_at.max(end);
+            } else if call_at < end || index == entry {
                 let applied = objects.write(self.chain, |object| {
                     if !self.begun {
                         object.begin();
@@ -251,8 +266,13 @@ impl Flusher for Applier {
                     Ok(())
                 });
                 if let Err(error) = applied {
-                    self.failed = Some((index, earlier + call_at - first));
-                    return Err(self.blame(error, index));
+                    let error = self.blame(error, index);
+                    if let Err(error) = objects.forgive(self.chain, error) {
+                        self.failed = Some((index, earlier + call_at - first));
+                        return Err(error);
+                    }
+                    number_at += self.arguments_of(call_at..end);
+                    call_at = end;
                 }
             }
             self.applied = earlier + call_at - first;

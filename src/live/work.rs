@@ -313,7 +313,10 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             state.say(&Say::Model(Box::new(message.clone())));
             let left_out = session.map(Session::left_out).unwrap_or_default();
             told.extend(inner.tell_left_out(state, &left_out));
-            if let Some(text) = note {
+            let report = run.report();
+            let remarks = (!report.is_clean())
+                .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
+            for text in remarks.into_iter().chain(note) {
                 state.say(&Say::Refused { id: None, text: text.clone() });
                 told.push(Told::Note(text));
             }

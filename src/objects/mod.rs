@@ -13,11 +13,13 @@ mod distance;
 mod drawing;
 mod extruder;
 pub mod facade;
+mod features;
 mod footprint;
 mod makers;
 mod model;
 mod note;
 mod parameter;
+mod streets;
 mod surface;
 mod turtle;
 mod value;
@@ -27,11 +29,13 @@ pub use declare::{Argument, Call, Field, Kind, Method};
 pub use drawing::Drawing;
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
-pub use footprint::{Footprint, Rings, Roof, Walls};
+pub use features::Features;
+pub use footprint::{EdgeKeywords, Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
 pub use note::Note;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};
+pub use streets::{Lines, Streets};
 pub use surface::Surface;
 pub use turtle::Turtle;
 pub use value::{Key, Table, Value};
@@ -45,6 +49,7 @@ use crate::scene::Scene;
 pub static KINDS: &[&Kind] = &[
     &Extruder::KIND,
     &Footprint::KIND,
+    &Streets::KIND,
     &Turtle::KIND,
     &facade::PANEL,
     &facade::BORDERED,
@@ -64,6 +69,11 @@ pub trait Object: Any + Send + Sync {
 
     /// A copy, for one chain of many.
     fn boxed(&self) -> Box<dyn Object>;
+
+    /// What lets all objects of a system know of one another, once there are all of them and before a rule asks.
+    fn gathers(&self) -> Option<fn(&mut [Box<dyn Object>])> {
+        None
+    }
 
     /// Empties a drawing object before an interpretation pass.
     fn begin(&mut self) {}

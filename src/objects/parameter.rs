@@ -9,12 +9,20 @@ use crate::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
 #[derive(Debug, Clone)]
-pub struct Expected(String);
+pub struct Expected {
+    what: String,
+    of_data: bool,
+}
 
 impl Expected {
     /// Expected `what`, with its article.
     pub fn new(what: impl Into<String>) -> Self {
-        Self(what.into())
+        Self { what: what.into(), of_data: false }
+    }
+
+    /// The same, where what was found instead is a matter of the data, not of the script.
+    pub fn of_data(what: impl Into<String>) -> Self {
+        Self { what: what.into(), of_data: true }
     }
 
     /// The error: `name` of `owner` is not as expected.
@@ -25,7 +33,9 @@ impl Expected {
             Value::Number(_) | Value::Text(_) | Value::Boolean(_) => value.to_string(),
             other => other.describe().to_owned(),
         };
-        Error::new(format!("{owner}: {name} must be {}, not {found}", self.0))
+        let error = Error::new(format!("{owner}: {name} must be {}, not {found}", self.what));
+        let no_number = matches!(value, Value::Number(number) if !number.is_finite());
+        if self.of_data || no_number { error.of_data() } else { error }
     }
 }
 
@@ -279,8 +289,9 @@ impl<T: Parameter> Parameter for Vec<T> {
                 list.into_iter()
                     .enumerate()
                     .map(|(index, value)| {
-                        T::from_value(value).map_err(|Expected(inner)| {
-                            Expected(format!("a list whose item {} is {inner}", index + 1))
+                        T::from_value(value).map_err(|inner| Expected {
+                            what: format!("a list whose item {} is {}", index + 1, inner.what),
+                            ..inner
                         })
                     })
                     .collect()

@@ -24,7 +24,7 @@ pub enum Value {
 }
 
 /// A frozen table of values.
-#[derive(Clone, Default, PartialEq, Eq, Hash)]
+#[derive(Debug, Clone, Default, PartialEq, Eq, Hash)]
 pub struct Table {
     /// The class that gives it operators in scripts, such as the vectors of the standard library.
     pub class: Option<Arc<str>>,
@@ -103,6 +103,12 @@ impl Table {
             }
         }
         list
+    }
+}
+
+impl fmt::Debug for Value {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        fmt::Display::fmt(self, f)
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use mlua::{Lua, Value as LuaValue};
 
 use super::handles::{DerivedHandle, ObjectHandle};
+use super::system::SourceHandle;
 use crate::error::{Error, Result};
 use crate::objects::{Key, Table, Value};
 
@@ -72,6 +73,8 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
                 Value::Object(Arc::clone(&handle.0))
             } else if let Ok(handle) = data.borrow::<DerivedHandle>() {
                 Value::Object(handle.model()?)
+            } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), freeze) {
+                source.value()?
             } else {
                 return Err(Error::new("this object cannot be passed on"));
             }

@@ -1,6 +1,6 @@
 //! Objects and derived systems as scripts hold them.
 
-use std::sync::{Arc, PoisonError, RwLock};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
@@ -11,11 +11,33 @@ use crate::objects::Object;
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
 pub(crate) struct Objects {
     list: Vec<RwLock<Box<dyn Object>>>,
+    /// By object: what its data is at fault for. Nothing more is drawn with such an object.
+    failures: Vec<OnceLock<Error>>,
+    forgiving: bool,
 }
 
 impl Objects {
-    pub(crate) fn new(objects: Vec<Box<dyn Object>>) -> Self {
-        Self { list: objects.into_iter().map(RwLock::new).collect() }
+    /// The objects of chains. With `forgiving`, bad data leaves a chain out and does not end the run.
+    pub(crate) fn new(objects: Vec<Box<dyn Object>>, forgiving: bool) -> Self {
+        let failures = objects.iter().map(|_| OnceLock::new()).collect();
+        Self { list: objects.into_iter().map(RwLock::new).collect(), failures, forgiving }
+    }
+
+    /// Whether the data of a chain was at fault, so that nothing more is done with its object.
+    pub(crate) fn has_failed(&self, chain: usize) -> bool {
+        self.failures.get(chain).is_some_and(|failure| failure.get().is_some())
+    }
+
+    /// Leaves a chain out whose data is at fault; passes every other error on.
+    pub(crate) fn forgive(&self, chain: usize, error: Error) -> Result<()> {
+        match self.failures.get(chain) {
+            Some(failure) if self.forgiving && error.is_of_data() => {
+                // The first one counts.
+                let _ = failure.set(error);
+                Ok(())
+            }
+            _ => Err(error),
+        }
     }
 
     pub(crate) fn read<T>(&self, chain: usize, ask: impl FnOnce(&dyn Object) -> Result<T>) -> Result<T> {
@@ -32,9 +54,14 @@ impl Objects {
         change(&mut **object.write().unwrap_or_else(PoisonError::into_inner))
     }
 
-    pub(crate) fn into_owned(self) -> Vec<Box<dyn Object>> {
-        let objects = self.list.into_iter();
-        objects.map(|object| object.into_inner().unwrap_or_else(PoisonError::into_inner)).collect()
+    /// The objects, each with what its data is at fault for.
+    pub(crate) fn into_owned(self) -> Vec<(Box<dyn Object>, Option<Error>)> {
+        let objects = self.list.into_iter().zip(self.failures);
+        objects
+            .map(|(object, failure)| {
+                (object.into_inner().unwrap_or_else(PoisonError::into_inner), failure.into_inner())
+            })
+            .collect()
     }
 }
 

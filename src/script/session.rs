@@ -76,6 +76,10 @@ pub struct Options {
     pub forgiving: bool,
     /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
     pub profile: bool,
+    /// Whether bad data ends the run; otherwise its features are left out, and [`Derived::remarks`] tells which.
+    ///
+    /// [`Derived::remarks`]: crate::derive::Derived::remarks
+    pub strict: bool,
     /// The chains to note the lineage of; see [`trace`](crate::trace).
     pub trace: Option<Traced>,
 }
@@ -99,6 +103,7 @@ impl Default for Options {
             stdlib: None,
             forgiving: false,
             profile: false,
+            strict: false,
             trace: None,
         }
     }

@@ -9,6 +9,8 @@ use crate::error::Result;
 pub struct Layer {
     /// The layer's name.
     pub name: String,
+    /// File and layer, for messages.
+    pub shown: String,
     /// The projection that its coordinates are in.
     pub crs: String,
     /// Where the origin lies in that projection (m).
@@ -49,6 +51,7 @@ impl Layer {
         }
         Ok(Self {
             name: table.layer,
+            shown: table.shown,
             crs: frame.name.clone(),
             origin: frame.origin,
             names: table.names,

@@ -18,14 +18,12 @@ fn a_plan_that_is_none_is_refused_with_the_place() {
     for (rings, words) in [
         ("{ { 0, 0 }, { 8, 0 } }", "the outer ring of the footprint has 2 distinct points"),
         ("{ { 0, 0 }, { 4, 0 }, { 8, 0 } }", "the outer ring of the footprint has no area"),
-        ("{ { 0, 0 }, { 8, 8 }, { 8, 0 }, { 0, 8 } }", "meet at (4.000, 4.000)"),
         ("{ { 0, 0 }, { 8, 0/0 }, { 8, 8 } }", "must be"),
         ("{ { 0, 0 }, { 8, 0 }, { 8, 1e12 } }", "point 3 of the outer ring of the footprint"),
         (
-            "{ { { 0, 0 }, { 8, 0 }, { 0, 8 } }, { { 9, 9 }, { 10, 9 }, { 9, 10 } } }",
+            "{ { { 1, 1 }, { 2, 1 }, { 1, 2 } }, { { 0, 0 }, { 8, 0 }, { 8, 8 }, { 0, 8 } } }",
             "hole 1 of the footprint is outside",
         ),
-        ("{ { { 0, 0 }, { 8, 0 }, { 0, 8 } }, { { 1, 0 }, { 3, 1 }, { 1, 3 } } }", "meets edge"),
         ("{ kind = \"line\", points = {} }", "a geometry of kind \"line\""),
         ("5", "geometry must be a polygon"),
         ("{ { 0, 0 }, { 8, 0 }, { 0, 8 } }, { hieght = 3 }", "did you mean height?"),
@@ -35,7 +33,7 @@ fn a_plan_that_is_none_is_refused_with_the_place() {
         assert!(said.contains(words), "{words}: {said}");
         count += 1;
     }
-    assert_eq!(count, 11);
+    assert_eq!(count, 9);
 }
 
 #[test]

@@ -1,20 +1,25 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 
+mod edges;
+mod neighbors;
 mod roof;
 mod shell;
 #[cfg(test)]
 mod tests;
 mod walls;
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
-use super::{Color, Drawing, Kind, Note, Object, Parameter, Surface, Table, Value, Vector};
+use super::{Color, Drawing, Kind, Note, Object, Parameter, Streets, Surface, Table, Value, Vector};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
+pub use edges::EdgeKeywords;
+use edges::Edges;
+use neighbors::Neighborhood;
 pub use roof::Roof;
 use shell::Shell;
 use walls::Plain;
@@ -37,7 +42,7 @@ impl Parameter for Rings {
         let rings = match (table.get("rings"), table.get("kind")) {
             (Some(rings), _) => rings.clone(),
             (None, Some(Value::Text(kind))) => {
-                return Err(Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")));
+                return Err(Expected::of_data(format!("a polygon, and this is a geometry of kind {kind:?}")));
             }
             _ => value.clone(),
         };
@@ -60,6 +65,13 @@ fields! {
         pub geometry: Rings = Rings::default(),
         /// Words that say what kind of building it is, such as "shop".
         pub keywords: Vec<String> = Vec::new(),
+        /// Words about single edges, by their numbers: { [2] = { "entry door" } }. Edge 1 goes from the first point
+        /// that was given to the second; those of holes count on after the outer ring's.
+        pub edge_keywords: EdgeKeywords = EdgeKeywords::default(),
+        /// What else is known of it, for `attribute` to tell: any table, such as the feature.
+        pub attributes: Arc<Table> = Arc::default(),
+        /// The streets by which it lies, as `streets(source)` made them.
+        pub streets: Option<Streets> = None,
         /// Height of the walls (m), where they are not given one.
         pub height: Option<f64> = None,
         /// Colour of what is drawn, where it is given none.
@@ -79,6 +91,10 @@ pub struct Footprint {
     plan: Arc<Plan>,
     /// Where the mesh has its origin (m): a whole number of metres near the plan.
     origin: DVec3,
+    /// What is known of the edges, once someone has asked.
+    edges: Arc<OnceLock<Edges>>,
+    /// The footprints of its system, and its number among them.
+    place: Option<(Arc<Neighborhood>, usize)>,
     shell: Shell,
     drawing: Drawing,
     repair: &'static str,
@@ -122,9 +138,46 @@ methods! {
             self.plan.perimeter()
         }
 
-        /// The number of its edges, once points that do not matter are dropped.
+        /// The number of its edges, as they were given: first those of the outer ring, then those of the holes.
         pub fn edges(&self) -> u32 {
-            u32::try_from(self.plan.edges()).unwrap_or(u32::MAX)
+            u32::try_from(self.plan.given()).unwrap_or(u32::MAX)
+        }
+
+        /// The length (m) of an edge, by its number from 1.
+        pub fn edge_length(&self, edge: u32) -> Result<f64> {
+            self.ends("edge_length", edge).map(|[a, b]| a.distance(b))
+        }
+
+        /// The way an edge faces (degrees): 0 is east, 90 is north.
+        pub fn edge_facing(&self, edge: u32) -> Result<f64> {
+            self.facing(edge)
+        }
+
+        /// Whether an edge has this keyword: one it was given, or "blind" (a neighbour covers it by half or more),
+        /// "street" or "entry door".
+        pub fn edge_has(&self, edge: u32, keyword: String) -> Result<bool> {
+            self.words_of(edge).map(|words| words.contains(&keyword))
+        }
+
+        /// The part of an edge, 0 to 1, that neighbours touch.
+        pub fn shared(&self, edge: u32) -> Result<f64> {
+            self.part_shared(edge)
+        }
+
+        /// How many of its system's footprints touch it.
+        pub fn neighbors(&self) -> u32 {
+            self.touching()
+        }
+
+        /// The number of the edge on the street side: the nearest to a street that it faces, without streets the
+        /// longest; no party wall if there is another.
+        pub fn street_edge(&self) -> u32 {
+            self.on_street()
+        }
+
+        /// What its attributes have under this name.
+        pub fn attribute(&self, name: String) -> Value {
+            self.options.attributes.get(&name).cloned().unwrap_or(Value::Nil)
         }
 
         /// Its area as a part of its convex hull's: 1 if it is convex.
@@ -180,7 +233,7 @@ impl Footprint {
         let (plan, origin) = match options.geometry.0.first() {
             None => (Plan::default(), DVec3::ZERO),
             Some(_) => {
-                let plan = Plan::new(&options.geometry.0)?;
+                let plan = Plan::new(&options.geometry.0).map_err(Error::of_data)?;
                 let low = plan.rings().iter().flatten().fold(DVec3::INFINITY, |low, point| low.min(*point));
                 let high =
                     plan.rings().iter().flatten().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
@@ -193,10 +246,12 @@ impl Footprint {
         }
         let shell = Shell::new(&plan);
         let (options, plan) = (Arc::new(options), Arc::new(plan));
-        Ok(Self {
+        let footprint = Self {
             options,
             plan,
             origin,
+            edges: Arc::default(),
+            place: None,
             shell,
             drawing: Drawing::default(),
             repair: "",
@@ -205,7 +260,9 @@ impl Footprint {
             raised: 0,
             plain: None,
             notes: Vec::new(),
-        })
+        };
+        footprint.check_edge_keywords()?;
+        Ok(footprint)
     }
 
     /// The part with this material, or with this colour, or with the footprint's own.
@@ -236,7 +293,8 @@ fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
-    Err(Error::new(format!("{what} is {height} m")).help(format!("give metres above 0, up to {HIGHEST}")))
+    let error = Error::new(format!("{what} is {height} m"));
+    Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 
 /// The error for a kind that there is not.
@@ -267,13 +325,18 @@ impl Object for Footprint {
         Box::new(self.clone())
     }
 
+    fn gathers(&self) -> Option<fn(&mut [Box<dyn Object>])> {
+        Some(neighbors::gather)
+    }
+
     fn begin(&mut self) {
         self.shell = Shell::new(&self.plan);
         self.drawing.clear();
         self.repair = "";
         self.raised = 0;
         self.plain = None;
-        self.notes.clear();
+        let (repairs, trouble) = self.plan.repairs();
+        self.notes = repairs.iter().map(|what| Note::new(*what, trouble)).collect();
     }
 
     fn end(&mut self) -> Result<()> {

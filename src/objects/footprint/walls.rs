@@ -59,7 +59,8 @@ impl Footprint {
         self.check_open("walls")?;
         let Some(height) = options.height.or(self.options.height) else {
             return Err(Error::new("footprint:walls: neither the walls nor the footprint have a height")
-                .help("write this:walls { height = 6 }"));
+                .help("write this:walls { height = 6 }")
+                .of_data());
         };
         check_height("footprint:walls: height", height)?;
         if !self.shell.begun {
@@ -240,8 +241,8 @@ impl Footprint {
     }
 
     /// The words that say what kind of frontage an edge has.
-    fn keywords_of(&self, _edge: usize) -> Vec<&str> {
-        self.options.keywords.iter().map(String::as_str).collect()
+    fn keywords_of(&self, edge: usize) -> Vec<&str> {
+        self.options.keywords.iter().chain(self.edge_keywords(edge)).map(String::as_str).collect()
     }
 }
 

@@ -106,7 +106,11 @@ impl Current {
         let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
         match method.call {
             Call::Read(read) => objects.read(chain, |object| read(object, arguments)),
-            Call::Write { values, .. } => objects.write(chain, |object| values(object, arguments)),
+            Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
+            Call::Write { values, .. } => {
+                let done = objects.write(chain, |object| values(object, arguments));
+                done.or_else(|error| objects.forgive(chain, error).map(|()| Value::Nil))
+            }
         }
     }
 }

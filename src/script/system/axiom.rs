@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use mlua::{Function, MultiValue, Value as LuaValue};
 
-use crate::derive::Axiom;
+use crate::derive::{Axiom, Remark};
 use crate::error::{Error, Result};
 use crate::objects::Object;
 use crate::rules::{CLOSE, Chain, END, Key, OPEN, Symbol};
@@ -12,7 +12,7 @@ use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
 
-use super::source::each_feature;
+use super::source::{each_feature, shown};
 use super::{DeclaredAxiom, System};
 
 impl System {
@@ -40,6 +40,9 @@ impl System {
                 self.features(machine, source, function, key, random, &mut axiom)?
             }
         }
+        if let Some(gather) = axiom.objects.first().and_then(|object| object.gathers()) {
+            gather(&mut axiom.objects);
+        }
         Ok(axiom)
     }
 
@@ -53,6 +56,8 @@ impl System {
         axiom: &mut Axiom,
     ) -> Result<()> {
         let LuaValue::UserData(source) = source else { return Ok(()) };
+        let mut refused: Option<Error> = None;
+        axiom.source = shown(source);
         let each = |index: usize, feature: LuaValue, id: Option<&str>| {
             let from_file = id.is_some();
             let id = match (id, &feature) {
@@ -64,10 +69,20 @@ impl System {
                 (None, _) => index.to_string(),
             };
             let key = key.feature(&id);
-            let made: MultiValue = function.call(feature).map_err(|error| {
-                let error = machine.translate(error);
-                if from_file { error.feature(&id) } else { error }
-            })?;
+            axiom.given += 1;
+            let made: MultiValue = match function.call(feature) {
+                Ok(made) => made,
+                Err(error) => {
+                    let error = machine.translate(error);
+                    let told = if from_file { error.clone().feature(&id) } else { error.clone() };
+                    if !error.is_of_data() || machine.session.options.strict {
+                        return Err(told);
+                    }
+                    axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+                    refused.get_or_insert(told);
+                    return Ok(());
+                }
+            };
             let mut made: Vec<LuaValue> = made.into_iter().collect();
             let own = match made.first() {
                 Some(LuaValue::UserData(data)) => {
@@ -95,7 +110,12 @@ impl System {
             builder.push(END, &[], key);
             Ok(())
         };
-        each_feature(machine.lua(), source, each, |error| machine.translate(error))
+        each_feature(machine.lua(), source, each, |error| machine.translate(error))?;
+        // Where nothing is left, the error tells more.
+        match refused {
+            Some(error) if axiom.features.is_empty() => Err(error),
+            _ => Ok(()),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use crate::error::{Error, Result, nearest};
-use crate::objects::{Table as ValueTable, Value};
+use crate::objects::{Features, Table as ValueTable, Value};
 use crate::script::machine::{Machine, native, write_column};
 use crate::sources::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
 
@@ -46,6 +46,16 @@ impl SourceHandle {
 
     fn load(machine: &Machine, text: &str, wanted: Wanted) -> Result<Self> {
         Ok(Self::Layer(machine.session.data.load(&machine.session, text, wanted)?))
+    }
+
+    /// The source as constructors take it.
+    pub(crate) fn value(&self) -> Result<Value> {
+        match self {
+            Self::List(features) => {
+                crate::script::convert::to_value(&LuaValue::Table(features.clone()), false)
+            }
+            Self::Layer(layer) => Ok(Value::Object(Arc::new(Features(Arc::clone(layer))))),
+        }
     }
 
     fn field(&self, lua: &Lua, maker: &Maker, name: &str) -> mlua::Result<LuaValue> {
@@ -141,6 +151,14 @@ fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
     kept.raw_set(name, value.clone())?;
     this.set_user_value(kept)?;
     Ok(value)
+}
+
+/// The file and layer of a source; empty for a list that the script made.
+pub(super) fn shown(source: &AnyUserData) -> String {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => layer.shown.clone(),
+        _ => String::new(),
+    }
 }
 
 /// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.

@@ -1,0 +1,362 @@
+//! Makes a plan of rings that cross or touch: what they enclose is found anew.
+//!
+//! Method: boolean operations on polygons (i_overlay, through `geo`) around the middle of the rings. Where what they
+//! enclose still touches itself, a notch as wide as a hand is cut out there.
+
+use geo::bool_ops::{BooleanOps, FillRule, unary_union};
+use geo::{Area, Coord, LineString, MultiPolygon, Polygon};
+use glam::{DVec2, DVec3};
+use rstar::primitives::{GeomWithData, Line};
+use rstar::{AABB, PointDistance, RTree};
+
+use super::outline::{Manner, is_ring, numbered_rings};
+use super::ring::MOST;
+use super::section::SectionPoint;
+
+/// Half of the width (m) of the notch where a plan touches itself.
+const NOTCH: f64 = 0.05;
+/// The least area (m²) that matters.
+const LEAST: f64 = 0.01;
+/// How often notches are cut.
+const ROUNDS: usize = 4;
+/// How far (m) from an edge that was given what stands for it lies.
+const ALONG: f64 = 0.02;
+
+/// Rings that became a plan.
+pub(super) struct Repaired {
+    /// The outer ring counter-clockwise, the holes clockwise.
+    pub rings: Vec<Vec<DVec3>>,
+    /// For each edge of all rings, the edges that were given and that it stands for.
+    pub given: Vec<Vec<usize>>,
+    /// What was done.
+    pub notes: Vec<&'static str>,
+}
+
+/// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan.
+pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> {
+    let known = |point: &DVec3| point.is_finite() && point.truncate().abs().max_element() <= MOST;
+    if !given.iter().flatten().all(known) {
+        return None;
+    }
+    let mut points = given.first()?.iter().map(|point| point.truncate());
+    let first = points.next()?;
+    let [low, high] = points.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]);
+    let middle = low.midpoint(high);
+    let local: Vec<Vec<DVec2>> =
+        given.iter().map(|ring| ring.iter().map(|point| point.truncate() - middle).collect()).collect();
+    let mut notes = Vec::new();
+    let mut area = enclosed(&local, &mut notes);
+    for _ in 0..ROUNDS {
+        let whole = greatest(area, &mut notes)?;
+        let rings = rings_of(&whole, manner);
+        let sharp: Vec<Vec<SectionPoint>> =
+            rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
+        let (outer, holes) = sharp.split_first()?;
+        if let Ok(clean) = numbered_rings(outer, holes, manner) {
+            let clean: Vec<Vec<DVec2>> =
+                clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect();
+            if notes.is_empty() {
+                notes.push("edges that cross or touch untangled");
+            }
+            return Some(finish(&clean, &local, given, middle, notes));
+        }
+        let notches = notches(&rings);
+        if notches.is_empty() {
+            return None;
+        }
+        area = whole.difference(&unary_union(&notches));
+        note(&mut notes, "a notch cut where it touches itself");
+    }
+    None
+}
+
+fn note(notes: &mut Vec<&'static str>, what: &'static str) {
+    if !notes.contains(&what) {
+        notes.push(what);
+    }
+}
+
+/// What the first ring encloses without what the others enclose.
+fn enclosed(rings: &[Vec<DVec2>], notes: &mut Vec<&'static str>) -> MultiPolygon {
+    let nothing = MultiPolygon::new(Vec::new());
+    let whole = |ring: &Vec<DVec2>| {
+        polygon(ring).boolean_op_with_fill_rule(&nothing, geo::OpType::Union, FillRule::NonZero)
+    };
+    let Some((outer, holes)) = rings.split_first() else { return nothing };
+    let outer = whole(outer);
+    if outer.0.len() > 1 {
+        note(notes, "loops of the outer ring left out");
+    }
+    let mut cut = Vec::new();
+    for hole in holes {
+        let hole = whole(hole);
+        let size = hole.unsigned_area();
+        if size <= 0.0 {
+            note(notes, "a hole without area left out");
+        } else if outer.intersection(&hole).unsigned_area() <= 1e-6 * size {
+            note(notes, "a hole outside the outer ring left out");
+        } else {
+            cut.extend(hole.0);
+        }
+    }
+    if cut.is_empty() {
+        return outer;
+    }
+    let together = unary_union(&cut);
+    if together.0.len() < cut.len() {
+        note(notes, "holes that touch merged");
+    }
+    let rest = outer.difference(&together);
+    if rest.0.iter().map(|part| part.interiors().len()).sum::<usize>() < together.0.len() {
+        note(notes, "a hole at the outer ring cut out");
+    }
+    rest
+}
+
+/// The greatest of several areas.
+fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<Polygon> {
+    let sized: Vec<(f64, Polygon)> = areas
+        .0
+        .into_iter()
+        .map(|part| (part.unsigned_area(), part))
+        .filter(|(size, _)| *size > LEAST)
+        .collect();
+    if sized.len() > 1 {
+        note(notes, "the greatest part kept");
+    }
+    // Of equal ones the first.
+    let greatest = sized.into_iter().reduce(|best, next| if next.0 > best.0 { next } else { best });
+    greatest.map(|(_, part)| part)
+}
+
+/// The rings of a polygon, without holes that are none.
+fn rings_of(polygon: &Polygon, manner: &Manner) -> Vec<Vec<DVec2>> {
+    let points = |ring: &LineString| -> Vec<DVec2> {
+        let mut points: Vec<DVec2> = ring.coords().map(|at| DVec2::new(at.x, at.y)).collect();
+        points.pop();
+        points
+    };
+    let mut rings = vec![points(polygon.exterior())];
+    for hole in polygon.interiors().iter().map(points) {
+        let sharp: Vec<SectionPoint> = hole.iter().copied().map(SectionPoint::sharp).collect();
+        if is_ring(&sharp, manner) {
+            rings.push(hole);
+        }
+    }
+    rings
+}
+
+fn polygon(ring: &[DVec2]) -> Polygon {
+    Polygon::new(LineString::new(ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect()), Vec::new())
+}
+
+type Edge = GeomWithData<Line<[f64; 2]>, usize>;
+
+/// The edges of rings that have a length, by place, each with its number over all rings.
+fn edges(rings: &[Vec<DVec2>]) -> RTree<Edge> {
+    let ends =
+        rings.iter().flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]));
+    let lines = ends.enumerate().filter(|(_, [from, to])| from.distance_squared(*to) > 0.0);
+    RTree::bulk_load(
+        lines
+            .map(|(number, [from, to])| GeomWithData::new(Line::new(from.to_array(), to.to_array()), number))
+            .collect(),
+    )
+}
+
+/// Squares around the points that lie on an edge which does not begin or end there.
+fn notches(rings: &[Vec<DVec2>]) -> Vec<Polygon> {
+    let tree = edges(rings);
+    for near in [1e-6, 0.012] {
+        let mut found = Vec::new();
+        let mut number = 0;
+        for ring in rings {
+            for index in 0..ring.len() {
+                let own = [number + index, number + (index + ring.len() - 1) % ring.len()];
+                let at = ring[index];
+                let around = AABB::from_corners((at - near).to_array(), (at + near).to_array());
+                let touches = tree.locate_in_envelope_intersecting(&around).any(|edge| {
+                    !own.contains(&edge.data) && edge.geom().distance_2(&at.to_array()) <= near * near
+                });
+                if touches {
+                    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+                    found.push(polygon(&corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH)));
+                }
+            }
+            number += ring.len();
+        }
+        if !found.is_empty() {
+            return found;
+        }
+    }
+    Vec::new()
+}
+
+/// The plan with the heights of the ground and the edges that were given.
+fn finish(
+    clean: &[Vec<DVec2>],
+    local: &[Vec<DVec2>],
+    rings: &[Vec<DVec3>],
+    middle: DVec2,
+    notes: Vec<&'static str>,
+) -> Repaired {
+    let tree = edges(local);
+    let ends: Vec<[DVec3; 2]> = rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
+        .collect();
+    let on_ground = |at: DVec2| {
+        let Some(edge) = tree.nearest_neighbor(&at.to_array()) else { return at.extend(0.0) };
+        let [from, to] = ends[edge.data];
+        // What comes of a point that was given is that point.
+        for given in [from, to] {
+            if (given.truncate() - middle).distance(at) < 1e-4 {
+                return given - middle.extend(0.0);
+            }
+        }
+        let (a, b) = (from.truncate() - middle, to.truncate() - middle);
+        let part = ((at - a).dot(b - a) / a.distance_squared(b)).clamp(0.0, 1.0);
+        at.extend(from.z + (to.z - from.z) * part)
+    };
+    let mut given = Vec::new();
+    for ring in clean {
+        for index in 0..ring.len() {
+            let (a, b) = (ring[index], ring[(index + 1) % ring.len()]);
+            let low = (a.min(b) - ALONG).to_array();
+            let around = AABB::from_corners(low, (a.max(b) + ALONG).to_array());
+            let along = (b - a).normalize_or_zero();
+            let mut stands_for: Vec<usize> = tree
+                .locate_in_envelope_intersecting(&around)
+                .filter(|edge| {
+                    let [from, to] = [edge.geom().from, edge.geom().to].map(DVec2::from);
+                    let beside = |point: DVec2| along.perp_dot(point - a).abs() <= ALONG;
+                    let [one, two] = [from, to].map(|point| along.dot(point - a));
+                    let shared = one.max(two).min(a.distance(b)) - one.min(two).max(0.0);
+                    beside(from) && beside(to) && shared > ALONG
+                })
+                .map(|edge| edge.data)
+                .collect();
+            if stands_for.is_empty() {
+                let nearest = tree.nearest_neighbor(&a.midpoint(b).to_array());
+                stands_for.extend(nearest.map(|edge| edge.data));
+            }
+            stands_for.sort_unstable();
+            given.push(stands_for);
+        }
+    }
+    let rings = clean.iter().map(|ring| ring.iter().map(|at| on_ground(*at) + middle.extend(0.0)).collect());
+    Repaired { rings: rings.collect(), given, notes }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::{DVec2, DVec3};
+    use proptest::prelude::*;
+
+    use super::super::Plan;
+
+    fn ring(points: &[[f64; 2]]) -> Vec<DVec3> {
+        points.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect()
+    }
+
+    fn made(rings: &[&[[f64; 2]]]) -> Plan {
+        Plan::new(&rings.iter().map(|points| ring(points)).collect::<Vec<_>>()).unwrap()
+    }
+
+    /// Whether a plan is one: nothing is left to be repaired, and areas and directions are right.
+    fn assert_valid(plan: &Plan) {
+        let again = Plan::new(plan.rings()).unwrap();
+        assert_eq!(again.repairs().0, [""; 0]);
+        assert!(plan.area() > 0.0 && plan.given_edges().len() == plan.edges());
+        assert!(plan.given_edges().iter().flatten().all(|&edge| edge < plan.given()));
+        assert!(plan.rings().iter().flatten().all(|point| point.is_finite()));
+    }
+
+    const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
+
+    #[test]
+    fn of_an_hourglass_the_greater_half_is_kept_with_its_edges() {
+        let plan = made(&[&[[0.0, 0.0], [6.0, 6.0], [0.0, 6.0], [2.0, 0.0]]]);
+        assert_valid(&plan);
+        assert!(plan.repairs().0.contains(&"loops of the outer ring left out"), "{:?}", plan.repairs());
+        // The lower triangle has 2 m along y = 0, the upper one 6 m along y = 6: they meet at y = 1.5.
+        assert!((plan.area() - 13.5).abs() < 1e-6, "{}", plan.area());
+        let mut given = plan.given_edges();
+        given.sort();
+        assert_eq!(given, [vec![0], vec![1], vec![2]]);
+    }
+
+    #[test]
+    fn holes_outside_are_dropped_and_those_that_overlap_are_merged() {
+        let hole = |x: f64, y: f64| [[x, y], [x + 2.0, y], [x + 2.0, y + 2.0], [x, y + 2.0]];
+        let outside = made(&[&SQUARE, &hole(20.0, 1.0)]);
+        assert_eq!(outside.repairs().0, ["a hole outside the outer ring left out"]);
+        assert_eq!((outside.area(), outside.edges()), (100.0, 4));
+        let merged = made(&[&SQUARE, &hole(2.0, 2.0), &hole(3.0, 3.0)]);
+        assert_eq!(merged.repairs().0, ["holes that touch merged"]);
+        assert!((merged.area() - 93.0).abs() < 1e-6 && merged.rings().len() == 2);
+        let beside = made(&[&SQUARE, &hole(2.0, 2.0), &hole(4.0, 2.0)]);
+        assert!((beside.area() - 92.0).abs() < 1e-6 && beside.rings().len() == 2);
+        let across = made(&[&SQUARE, &hole(-1.0, 2.0)]);
+        assert_eq!(across.repairs().0, ["a hole at the outer ring cut out"]);
+        assert!((across.area() - 98.0).abs() < 1e-6 && across.rings().len() == 1);
+        [outside, merged, beside, across].iter().for_each(assert_valid);
+    }
+
+    #[test]
+    fn where_a_plan_touches_itself_at_a_point_a_notch_is_cut() {
+        let tip = made(&[&SQUARE, &[[0.0, 5.0], [3.0, 4.0], [3.0, 6.0]]]);
+        assert_valid(&tip);
+        assert!((tip.area() - 97.0).abs() < 0.02 && tip.rings().len() == 1, "{}", tip.area());
+        let corners =
+            made(&[&SQUARE, &[[2.0, 2.0], [4.0, 4.0], [2.0, 4.0]], &[[4.0, 4.0], [6.0, 4.0], [6.0, 6.0]]]);
+        assert_valid(&corners);
+        assert!((corners.area() - 96.0).abs() < 0.03 && corners.rings().len() == 2, "{}", corners.area());
+    }
+
+    #[test]
+    fn heights_of_the_ground_are_kept_and_found_between() {
+        let points = [[0.0, 0.0, 1.0], [6.0, 6.0, 7.0], [0.0, 6.0, 3.0], [2.0, 0.0, 1.0]];
+        let plan = Plan::new(&[points.map(DVec3::from).to_vec()]).unwrap();
+        let at = |x: f64, y: f64| {
+            let near = |point: &&DVec3| point.truncate().distance(DVec2::new(x, y)) < 1e-3;
+            plan.rings()[0].iter().find(near).map(|point| point.z)
+        };
+        assert_eq!((at(6.0, 6.0), at(0.0, 6.0)), (Some(7.0), Some(3.0)));
+        assert!((at(1.5, 1.5).unwrap() - 2.5).abs() < 1e-6 || (at(1.5, 1.5).unwrap() - 1.5).abs() < 1e-6);
+    }
+
+    #[test]
+    fn what_encloses_nothing_is_refused() {
+        let refused = |rings: &[&[[f64; 2]]]| {
+            Plan::new(&rings.iter().map(|points| ring(points)).collect::<Vec<_>>()).unwrap_err()
+        };
+        assert!(refused(&[&[[0.0, 0.0], [5.0, 5.0]]]).message().contains("2 distinct points"));
+        assert!(refused(&[&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.0]]]).message().contains("no area"));
+        let all = [[-1.0, -1.0], [11.0, -1.0], [11.0, 11.0], [-1.0, 11.0]];
+        assert!(refused(&[&SQUARE, &all]).message().contains("hole 1"));
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { failure_persistence: None, cases: 400, ..ProptestConfig::default() })]
+
+        #[test]
+        fn random_rings_give_a_valid_plan_or_an_error(
+            rings in prop::collection::vec(prop::collection::vec((-30i32..30, -30i32..30), 0..14), 1..4),
+            scale in prop::sample::select(vec![0.01, 0.5, 1.0, 1e3]),
+            far in prop::sample::select(vec![0.0, 6.6e6]),
+        ) {
+            let point = |&(x, y): &(i32, i32)| {
+                DVec3::new(f64::from(x) * scale + far, f64::from(y) * scale, f64::from(x + y))
+            };
+            let rings: Vec<Vec<DVec3>> =
+                rings.iter().map(|ring| ring.iter().map(point).collect()).collect();
+            if let Ok(plan) = Plan::new(&rings) {
+                let again = Plan::new(plan.rings());
+                prop_assert!(again.as_ref().is_ok_and(|again| again.repairs().0.is_empty()), "{again:?}");
+                prop_assert!(plan.area() > 0.0);
+                prop_assert!(plan.given_edges().iter().flatten().all(|&edge| edge < plan.given()));
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+//! What the footprints of a system learn from one another: which parts of their edges others touch.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec2;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+
+use super::{Footprint, edges};
+use crate::geometry::Plan;
+use crate::objects::Object;
+
+/// How far (m) walls that touch may be apart, or overlap.
+const APART: f64 = 0.3;
+/// The cosine of the angle (8 degrees) by which walls that touch may diverge.
+const OPPOSITE: f64 = 0.990_27;
+/// The least length (m) along which buildings touch.
+const LEAST: f64 = 0.1;
+
+type Boxed = GeomWithData<Rectangle<[f64; 2]>, u32>;
+
+/// All footprints of a system. What is made for all of them together is made when the first one asks.
+pub(super) struct Neighborhood {
+    plans: Vec<(Arc<Plan>, DVec2)>,
+    map: OnceLock<Map>,
+}
+
+/// Where the footprints are.
+struct Map {
+    /// The walls of each.
+    walls: Vec<Vec<Wall>>,
+    boxes: RTree<Boxed>,
+}
+
+/// The two ends (m) of an edge.
+type Wall = [DVec2; 2];
+
+/// What the others touch of a footprint.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Touch {
+    /// By edge, over all rings: the part of its length, 0 to 1.
+    pub shared: Vec<f64>,
+    /// How many others there are.
+    pub neighbors: u32,
+}
+
+/// Tells the footprints among `objects` of one another.
+pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
+    let mut found: Vec<&mut Footprint> = objects
+        .iter_mut()
+        .filter_map(|object| {
+            let any: &mut dyn std::any::Any = &mut **object;
+            any.downcast_mut::<Footprint>()
+        })
+        .collect();
+    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin.truncate()));
+    let all = Arc::new(Neighborhood { plans: plans.collect(), map: OnceLock::new() });
+    for (index, footprint) in found.iter_mut().enumerate() {
+        footprint.place = Some((Arc::clone(&all), index));
+        footprint.edges = Arc::default();
+    }
+}
+
+fn bounds(walls: &[Wall]) -> Option<[DVec2; 2]> {
+    let [first, _] = *walls.first()?;
+    Some(walls.iter().fold([first; 2], |[low, high], [point, _]| [low.min(*point), high.max(*point)]))
+}
+
+impl Neighborhood {
+    fn map(&self) -> &Map {
+        self.map.get_or_init(|| {
+            let placed = |(plan, origin): &(Arc<Plan>, DVec2)| {
+                let flat = plan.flat();
+                let walls = flat.iter().flat_map(|ring| edges(ring));
+                walls.map(|edge| edge.map(|point| point + *origin)).collect()
+            };
+            let walls: Vec<Vec<Wall>> = self.plans.iter().map(placed).collect();
+            let boxes = (0u32..).zip(&walls).filter_map(|(index, walls)| {
+                let [low, high] = bounds(walls)?;
+                let (low, high) = (low - APART, high + APART);
+                Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
+            });
+            Map { boxes: RTree::bulk_load(boxes.collect()), walls }
+        })
+    }
+
+    /// What the others touch of footprint `own`: walls that run the other way, at most 8 degrees askew and 0.3 m away.
+    pub(super) fn touch(&self, own: usize) -> Touch {
+        let map = self.map();
+        let Some(walls) = map.walls.get(own) else { return Touch::default() };
+        let Some([low, high]) = bounds(walls) else { return Touch::default() };
+        let mut covered: Vec<Vec<[f64; 2]>> = vec![Vec::new(); walls.len()];
+        let mut neighbors = 0;
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let found = map.boxes.locate_in_envelope_intersecting(&around).map(|found| found.data as usize);
+        let mut others: Vec<usize> = found.filter(|&other| other != own).collect();
+        others.sort_unstable();
+        for other in others {
+            let near =
+                |[a, b]: &&Wall| a.max(*b).cmpge(low - APART).all() && a.min(*b).cmple(high + APART).all();
+            let theirs: Vec<&Wall> = map.walls[other].iter().filter(near).collect();
+            let mut longest = 0f64;
+            for (wall, covered) in walls.iter().zip(&mut covered) {
+                for part in theirs.iter().filter_map(|their| overlap(*wall, **their)) {
+                    longest = longest.max(part[1] - part[0]);
+                    covered.push(part);
+                }
+            }
+            neighbors += u32::from(longest >= LEAST);
+        }
+        let shared = walls.iter().zip(&mut covered).map(|([a, b], parts)| {
+            let length = a.distance(*b);
+            if length > 0.0 { (union(parts) / length).min(1.0) } else { 0.0 }
+        });
+        Touch { shared: shared.collect(), neighbors }
+    }
+}
+
+/// From where to where (m) along `wall` the wall `their` touches it.
+fn overlap([a, b]: Wall, [c, d]: Wall) -> Option<[f64; 2]> {
+    let low = a.min(b) - APART;
+    let high = a.max(b) + APART;
+    if c.max(d).cmplt(low).any() || c.min(d).cmpgt(high).any() {
+        return None;
+    }
+    let (along, back) = ((b - a).try_normalize()?, (c - d).try_normalize()?);
+    if along.dot(back) < OPPOSITE {
+        return None;
+    }
+    // Theirs from its end to its beginning, which runs as this wall does: distances along it and to its left.
+    let [from, to] = [d - a, c - a].map(|point| DVec2::new(point.dot(along), along.perp_dot(point)));
+    let (mut begin, mut end) = (from.x.max(0.0), to.x.min(a.distance(b)));
+    let slope = (to.y - from.y) / (to.x - from.x);
+    if slope.abs() > 1e-9 {
+        let at = |side: f64| from.x + (side - from.y) / slope;
+        let [one, two] = [at(-APART), at(APART)];
+        begin = begin.max(one.min(two));
+        end = end.min(one.max(two));
+    } else if from.y.abs() > APART {
+        return None;
+    }
+    (end - begin > 1e-3).then_some([begin, end])
+}
+
+/// The length (m) that `parts` cover together.
+fn union(parts: &mut [[f64; 2]]) -> f64 {
+    parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut length, mut reached) = (0.0, f64::NEG_INFINITY);
+    for &mut [begin, end] in parts {
+        if end > reached {
+            length += end - begin.max(reached);
+            reached = end;
+        }
+    }
+    length
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::{Options, Rings};
+    use super::*;
+
+    fn all(rings: &[&[[f64; 2]]]) -> Neighborhood {
+        let plan = |ring: &&[[f64; 2]]| {
+            let ring = ring.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect();
+            (Arc::new(Plan::new(&[ring]).unwrap()), DVec2::ZERO)
+        };
+        Neighborhood { plans: rings.iter().map(plan).collect(), map: OnceLock::new() }
+    }
+
+    fn rectangle(x: f64, y: f64, width: f64, depth: f64) -> Vec<[f64; 2]> {
+        vec![[x, y], [x + width, y], [x + width, y + depth], [x, y + depth]]
+    }
+
+    #[test]
+    fn walls_that_touch_are_shared_as_far_as_they_overlap() {
+        let (a, b) = (rectangle(0.0, 0.0, 10.0, 8.0), rectangle(10.2, 4.0, 10.0, 8.0));
+        let alone = rectangle(0.0, 8.5, 4.0, 4.0);
+        let all = all(&[&a, &b, &alone]);
+        let touch = all.touch(0);
+        assert_eq!(touch.neighbors, 1);
+        assert_eq!(touch.shared, [0.0, 0.5, 0.0, 0.0]);
+        assert_eq!(all.touch(1).shared, [0.0, 0.0, 0.0, 0.5]);
+        assert_eq!(all.touch(2), Touch { shared: vec![0.0; 4], neighbors: 0 });
+    }
+
+    #[test]
+    fn two_neighbours_along_one_wall_cover_it_together_and_once() {
+        let long = rectangle(0.0, 0.0, 20.0, 8.0);
+        let (left, right) = (rectangle(0.0, 8.0, 12.0, 5.0), rectangle(10.0, 8.1, 8.0, 5.0));
+        let touch = all(&[&long, &left, &right]).touch(0);
+        assert_eq!(touch.neighbors, 2);
+        assert!((touch.shared[2] - 0.9).abs() < 1e-9, "{touch:?}");
+    }
+
+    #[test]
+    fn walls_askew_touch_only_where_they_are_near() {
+        let wall = rectangle(0.0, 0.0, 10.0, 8.0);
+        // A twentieth of its length askew: within 0.3 m along 6 of 10 m.
+        let askew = [[0.0, 8.0], [10.0, 8.5], [10.0, 14.0], [0.0, 14.0]];
+        let turned = [[0.0, 8.0], [10.0, 10.0], [10.0, 14.0], [0.0, 14.0]];
+        let shared = |other: &[[f64; 2]]| all(&[&wall, other]).touch(0).shared[2];
+        assert!((shared(&askew) - 0.6).abs() < 1e-6, "{}", shared(&askew));
+        assert_eq!(shared(&turned), 0.0);
+    }
+
+    #[test]
+    fn a_building_that_fills_a_courtyard_touches_its_walls() {
+        let point = |&[x, y]: &[f64; 2]| DVec3::new(x, y, 0.0);
+        let ring = |ring: Vec<[f64; 2]>| ring.iter().map(point).collect::<Vec<_>>();
+        let make = |rings: Vec<Vec<DVec3>>| {
+            let options = Options { geometry: Rings(rings), ..Options::default() };
+            Box::new(Footprint::new(options).unwrap()) as Box<dyn Object>
+        };
+        let outer = make(vec![ring(rectangle(0.0, 0.0, 20.0, 20.0)), ring(rectangle(5.0, 5.0, 10.0, 10.0))]);
+        let inner = make(vec![ring(rectangle(5.0, 5.0, 10.0, 10.0))]);
+        let mut objects = vec![outer, inner];
+        gather(&mut objects);
+        let shared = |object: &dyn Object, edge: f64| {
+            let any: &dyn std::any::Any = object;
+            any.downcast_ref::<Footprint>().unwrap().shared(edge as u32).unwrap()
+        };
+        assert_eq!((1..=8).map(|edge| shared(&*objects[0], f64::from(edge))).sum::<f64>(), 4.0);
+        assert_eq!((1..=4).map(|edge| shared(&*objects[1], f64::from(edge))).sum::<f64>(), 4.0);
+    }
+}

@@ -1,0 +1,209 @@
+//! Streets, for those who ask which way the nearest one lies.
+
+use std::fmt;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rstar::primitives::Line;
+use rstar::{PointDistance, RTree};
+
+use super::parameter::Expected;
+use super::{Features, Kind, Object, Parameter, Table, Value, Vector};
+use crate::error::{Error, Result};
+use crate::scene::Scene;
+use crate::sources::Geometry;
+
+/// The farthest (m) that a street lies from what faces it.
+const FARTHEST: f64 = 300.0;
+/// The cosine of the greatest angle (60 degrees) between the way an edge faces and the way to its street.
+const FACING: f64 = 0.5;
+/// How many pieces of streets are looked at for one that an edge faces.
+const TRIES: usize = 64;
+
+/// Lines of points (m): a source, geometries, or lists of points.
+#[derive(Debug, Clone, Default)]
+pub struct Lines(pub Vec<Vec<DVec3>>);
+
+impl Parameter for Lines {
+    fn luau() -> String {
+        "any".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let mut lines = Vec::new();
+        collect(value, &mut lines, 0)?;
+        Ok(Self(lines))
+    }
+
+    fn into_value(self) -> Value {
+        let lines = self.0.into_iter().map(|line| line.into_iter().map(Vector).collect());
+        lines.collect::<Vec<Vec<Vector>>>().into_value()
+    }
+}
+
+/// Adds the lines of a value: of a source, a feature, a geometry, or a list of these or of points.
+fn collect(value: Value, lines: &mut Vec<Vec<DVec3>>, depth: usize) -> Result<(), Expected> {
+    let what = || Expected::new("a source of lines, a list of lines, or a list of points");
+    match value {
+        Value::Object(object) => {
+            let any: &dyn std::any::Any = &*object;
+            let features = any.downcast_ref::<Features>().ok_or_else(what)?;
+            for feature in &features.0.features {
+                let points = |points: &[[f64; 3]]| points.iter().copied().map(DVec3::from).collect();
+                match &feature.geometry {
+                    Geometry::Line(line) => lines.push(points(line)),
+                    Geometry::Polygon(rings) => {
+                        // A square is walked around.
+                        lines.extend(rings.iter().map(|ring| closed(points(ring))));
+                    }
+                    Geometry::Point(_) => {}
+                }
+            }
+        }
+        Value::Table(table) => {
+            if let Some(geometry) = table.get("geometry") {
+                return collect(geometry.clone(), lines, depth + 1);
+            }
+            if let Some(points) = table.get("points") {
+                return collect(points.clone(), lines, depth + 1);
+            }
+            if let Some(rings) = table.get("rings") {
+                let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).map_err(|_| what())?;
+                lines.extend(rings.into_iter().map(|ring| closed(ring.into_iter().map(|at| at.0).collect())));
+                return Ok(());
+            }
+            if let Ok(points) = Vec::<Vector>::from_value(Value::Table(Arc::clone(&table))) {
+                if !points.is_empty() {
+                    lines.push(points.into_iter().map(|point| point.0).collect());
+                }
+                return Ok(());
+            }
+            let list = table.list();
+            if depth > 4 || list.len() != table.entries.len() {
+                return Err(what());
+            }
+            for item in list {
+                collect(item, lines, depth + 1)?;
+            }
+        }
+        _ => return Err(what()),
+    }
+    Ok(())
+}
+
+fn closed(mut ring: Vec<DVec3>) -> Vec<DVec3> {
+    ring.extend(ring.first().copied());
+    ring
+}
+
+fields! {
+    /// What `streets(source)` takes.
+    pub struct Options for "streets" {
+        /// The streets' lines (m): a source, or lists of points.
+        pub lines: Lines = Lines::default(),
+    }
+}
+
+/// Streets as lines on the ground, to be found by place.
+#[derive(Clone)]
+pub struct Streets {
+    pieces: Arc<RTree<Line<[f64; 2]>>>,
+}
+
+impl fmt::Debug for Streets {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "streets of {} pieces", self.pieces.size())
+    }
+}
+
+methods! {
+    Streets = "streets" {
+        /// Distance (m) from a place on the ground to the nearest street; infinite if there is none.
+        pub fn distance(&self, place: Vector) -> f64 {
+            let place = place.0.truncate().to_array();
+            let nearest = self.pieces.nearest_neighbor(&place);
+            nearest.map_or(f64::INFINITY, |piece| piece.distance_2(&place).sqrt())
+        }
+    }
+}
+
+impl Streets {
+    /// The type, as scripts see it.
+    pub const KIND: Kind = Kind {
+        name: "streets",
+        doc: "Streets, for footprints to know which of their edges is on one.",
+        fields: Options::FIELDS,
+        first: Some("lines"),
+        methods: Self::METHODS,
+        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
+    };
+
+    /// The streets that a script names.
+    pub fn new(options: Options) -> Result<Self> {
+        let lines = options.lines.0;
+        if let Some(wrong) = lines.iter().flatten().find(|point| !point.is_finite()) {
+            return Err(Error::new(format!("streets: a point is ({}, {})", wrong.x, wrong.y))
+                .help("give finite coordinates in metres"));
+        }
+        Ok(Self::over(&lines))
+    }
+
+    /// Streets along `lines` (m).
+    pub fn over(lines: &[Vec<DVec3>]) -> Self {
+        let pieces = lines.iter().flat_map(|line| line.windows(2)).filter_map(|pair| {
+            let [from, to] = [pair[0], pair[1]].map(|point| point.truncate());
+            // A piece without length has no nearest point.
+            (from.distance_squared(to) > 0.0).then(|| Line::new(from.to_array(), to.to_array()))
+        });
+        Self { pieces: Arc::new(RTree::bulk_load(pieces.collect())) }
+    }
+
+    /// Distance (m) from the middle of the edge from `a` to `b`, whose right side faces outwards, to the nearest
+    /// street that it faces; `None` if that is farther than `most`.
+    pub(super) fn faced(&self, a: DVec2, b: DVec2, most: f64) -> Option<f64> {
+        let (middle, out) = (a.midpoint(b), -(b - a).try_normalize()?.perp());
+        let most = most.min(FARTHEST);
+        let near = self.pieces.nearest_neighbor_iter_with_distance_2(&middle.to_array());
+        let mut near = near.take(TRIES).take_while(|(_, squared)| *squared <= most * most);
+        near.find_map(|(piece, squared)| {
+            let to = DVec2::from(piece.nearest_point(&middle.to_array())) - middle;
+            let distance = squared.sqrt();
+            (distance < 1e-9 || to.dot(out) >= FACING * distance).then_some(distance)
+        })
+    }
+}
+
+impl Parameter for Streets {
+    fn luau() -> String {
+        "Streets".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let found = match &value {
+            Value::Object(object) => {
+                let any: &dyn std::any::Any = &**object;
+                any.downcast_ref::<Self>().cloned()
+            }
+            _ => None,
+        };
+        found.ok_or_else(|| Expected::new("streets, made once before: streets(source)"))
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(Arc::new(self))
+    }
+}
+
+impl Object for Streets {
+    fn kind(&self) -> &'static Kind {
+        const { &Self::KIND }
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
+        Ok(())
+    }
+}
