@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::cap;
-use super::skeleton::Skeleton;
+use super::skeleton::{Pace, Skeleton};
 use crate::error::{Error, Result};
 use crate::scene::Part;
 
@@ -32,7 +32,7 @@ const ON_LEVEL: f64 = 2e-3;
 /// The polygons of a roof over `skeleton` at height `base` (m); edges of speed 0 have gables.
 ///
 /// They join without gaps: corners of neighbours are equal to the last bit.
-pub fn patches(skeleton: &Skeleton, speeds: &[f64], profile: &Profile, base: f64) -> Vec<Polygon> {
+pub fn patches(skeleton: &Skeleton, paces: &[Pace], profile: &Profile, base: f64) -> Vec<Polygon> {
     let mut levels: Vec<f64> = profile.iter().map(|corner| corner.x).collect();
     levels.dedup();
     // Points of the plan with their times; crossings with levels are added.
@@ -45,9 +45,9 @@ pub fn patches(skeleton: &Skeleton, speeds: &[f64], profile: &Profile, base: f64
         })
         .collect();
     let mut polygons = Vec::new();
-    for (face, &speed) in skeleton.faces.iter().zip(speeds) {
+    for (face, pace) in skeleton.faces.iter().zip(paces) {
         let along = (points[face[1]] - points[face[0]]).truncate().normalize_or_zero();
-        let kind = if speed > 0.0 { Patch::Slope } else { Patch::Gable };
+        let kind = if pace.moves() { Patch::Slope } else { Patch::Gable };
         let mut pieces = vec![face.clone()];
         for (index, pair) in profile.windows(2).enumerate() {
             let [from, to] = [pair[0], pair[1]];
@@ -116,8 +116,8 @@ fn divide(piece: &[usize], level: f64, points: &mut Vec<DVec3>, above: &mut Vec<
 
 /// The speeds for gables over `rings`, in place of the triangles of a hip roof: the shortest edges first, and
 /// no two neighbours.
-pub fn gables(rings: &[Vec<DVec2>], hip: &Skeleton) -> Vec<f64> {
-    let mut speeds = vec![1.0; hip.faces.len()];
+pub fn gables(rings: &[Vec<DVec2>], hip: &Skeleton) -> Vec<Pace> {
+    let mut speeds = vec![Pace::default(); hip.faces.len()];
     let mut candidates: Vec<(f64, usize, [usize; 2])> = Vec::new();
     let mut first = 0;
     for ring in rings {
@@ -136,8 +136,8 @@ pub fn gables(rings: &[Vec<DVec2>], hip: &Skeleton) -> Vec<f64> {
     }
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     for (_, number, neighbours) in candidates {
-        if neighbours.iter().all(|&neighbour| speeds[neighbour] > 0.0) {
-            speeds[number] = 0.0;
+        if neighbours.iter().all(|&neighbour| speeds[neighbour].moves()) {
+            speeds[number] = Pace::STILL;
         }
     }
     speeds

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::{Color, Footprint, Surface, along, check_height, edges, unknown};
 use crate::error::{Error, Result};
-use crate::geometry::skeleton::Skeleton;
+use crate::geometry::skeleton::{Pace, Skeleton};
 use crate::geometry::{Patch, Polygon, fill, gables, patches, shed};
 
 fields! {
@@ -126,8 +126,8 @@ impl Footprint {
     }
 
     /// The skeleton over `rings`, with gables if they can be made.
-    fn skeleton(&mut self, rings: &[Vec<DVec2>], with_gables: bool) -> Option<(Skeleton, Vec<f64>)> {
-        let equal = vec![1.0; rings.iter().map(Vec::len).sum()];
+    fn skeleton(&mut self, rings: &[Vec<DVec2>], with_gables: bool) -> Option<(Skeleton, Vec<Pace>)> {
+        let equal = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
         let Ok(hip) = Skeleton::new(rings, &equal) else {
             self.repair = "flat";
             return None;
