@@ -25,7 +25,7 @@ pub use boxed::Boxed;
 pub use declare::{Argument, Call, Field, Kind, Method};
 pub use drawing::Drawing;
 pub use extruder::Extruder;
-pub use footprint::{Footprint, Rings, Roof, Walls};
+pub use footprint::{Detail, Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
 pub use note::Note;

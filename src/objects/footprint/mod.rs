@@ -10,11 +10,11 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
-use super::{Color, Drawing, Kind, Object, Parameter, Surface, Table, Value, Vector};
+use super::{Color, Drawing, Kind, Note, Object, Parameter, Surface, Table, Value, Vector};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
-pub use roof::Roof;
+pub use roof::{Detail, Roof};
 use shell::Shell;
 
 /// The rings of a geometry: the outer one, then the holes.
@@ -90,7 +90,9 @@ pub struct Footprint {
     origin: DVec3,
     shell: Shell,
     drawing: Drawing,
-    repair: &'static str,
+    notes: Vec<Note>,
+    /// What random choices come from.
+    seed: u64,
 }
 
 methods! {
@@ -106,7 +108,7 @@ methods! {
             self.raise(&options)
         }
 
-        /// Puts on the roof: { kind, height, slope, overhang, slab, border, color, material, gable, ... }.
+        /// Puts on the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
         pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
             let options = Roof::from_table(&options.unwrap_or_default())?;
             self.cover(&options)
@@ -152,11 +154,6 @@ methods! {
             self.options.keywords.contains(&keyword)
         }
 
-        /// What the last roof had to be replaced with, as no right one was found: "", "moved", "hip" or "flat".
-        pub fn repair(&self) -> String {
-            self.repair.to_owned()
-        }
-
         /// Distance (m) from a place to the nearest point of what it has drawn.
         pub fn distance(&self, place: Vector) -> f64 {
             self.drawing.distance(place.0 - self.origin)
@@ -193,7 +190,7 @@ impl Footprint {
         }
         let shell = Shell::new(&plan);
         let (options, plan) = (Arc::new(options), Arc::new(plan));
-        Ok(Self { options, plan, origin, shell, drawing: Drawing::default(), repair: "" })
+        Ok(Self { options, plan, origin, shell, drawing: Drawing::default(), notes: Vec::new(), seed: 0 })
     }
 
     /// The part with this material, or with this colour, or with the footprint's own.
@@ -258,11 +255,19 @@ impl Object for Footprint {
     fn begin(&mut self) {
         self.shell = Shell::new(&self.plan);
         self.drawing.clear();
-        self.repair = "";
+        self.notes.clear();
     }
 
     fn begins_empty(&self) -> bool {
         true
+    }
+
+    fn seed(&mut self, seed: u64) {
+        self.seed = seed;
+    }
+
+    fn notes(&self) -> &[Note] {
+        &self.notes
     }
 
     fn triangles(&self) -> usize {
