@@ -180,39 +180,48 @@ impl Plan {
         let heights = self.rings.iter().flatten().map(|point| point.z);
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
     }
-
-    /// The rings with all edges moved outwards by `distance` (m), or by half of it, a quarter, or not at all where
-    /// there is no room, and that distance.
-    pub fn outset(&self, distance: f64) -> (Vec<Vec<DVec2>>, f64) {
-        let flat = self.flat();
-        for distance in [distance, distance / 2.0, distance / 4.0] {
-            let rings: Vec<Vec<DVec2>> = flat.iter().map(|ring| outset(ring, distance)).collect();
-            let sharp = |ring: &Vec<DVec2>| -> Vec<SectionPoint> {
-                ring.iter().copied().map(SectionPoint::sharp).collect()
-            };
-            let runs_on = flat.iter().zip(&rings).all(|(old, new)| {
-                (0..old.len()).all(|index| {
-                    let next = (index + 1) % old.len();
-                    (old[next] - old[index]).dot(new[next] - new[index]) > 1e-3
-                })
-            });
-            let holes: Vec<Vec<SectionPoint>> = rings[1..].iter().map(sharp).collect();
-            let apart = Manner { near: 1e-9, straight: 0.0, ..PLAN };
-            if distance > 0.0 && runs_on && numbered_rings(&sharp(&rings[0]), &holes, &apart).is_ok() {
-                return (rings, distance);
-            }
-        }
-        (flat, 0.0)
-    }
 }
 
-/// The ring with its edges moved to the right by `distance` (m).
-fn outset(ring: &[DVec2], distance: f64) -> Vec<DVec2> {
+/// The rings with each edge moved outwards by its distance (m); none if there is no room.
+///
+/// The first ring is counter-clockwise, the holes are clockwise; `distances` has a number for each edge of all.
+pub(super) fn outset(rings: &[Vec<DVec2>], distances: &[f64]) -> Option<Vec<Vec<DVec2>>> {
+    if distances.iter().all(|distance| *distance == 0.0) {
+        return Some(rings.to_vec());
+    }
+    let mut first = 0;
+    let mut moved = Vec::with_capacity(rings.len());
+    for ring in rings {
+        moved.push(outset_ring(ring, distances.get(first..first + ring.len())?));
+        first += ring.len();
+    }
+    let runs_on = rings.iter().zip(&moved).all(|(old, new)| {
+        (0..old.len()).all(|index| {
+            let next = (index + 1) % old.len();
+            (old[next] - old[index]).dot(new[next] - new[index]) > 1e-3
+        })
+    });
+    let sharp =
+        |ring: &Vec<DVec2>| -> Vec<SectionPoint> { ring.iter().copied().map(SectionPoint::sharp).collect() };
+    let holes: Vec<Vec<SectionPoint>> = moved[1..].iter().map(sharp).collect();
+    let apart = Manner { near: 1e-9, straight: 0.0, ..PLAN };
+    (runs_on && numbered_rings(&sharp(&moved[0]), &holes, &apart).is_ok()).then_some(moved)
+}
+
+/// The ring with its edges moved to the right, each by its distance (m).
+#[allow(clippy::float_cmp, reason = "equal distances are given as equal numbers")]
+fn outset_ring(ring: &[DVec2], distances: &[f64]) -> Vec<DVec2> {
     let count = ring.len();
-    let normal = |index: usize| (ring[(index + 1) % count] - ring[index]).normalize_or_zero().perp();
+    let along = |index: usize| (ring[(index + 1) % count] - ring[index]).normalize_or_zero();
     let corner = |index: usize| {
-        let (a, b) = (normal((index + count - 1) % count), normal(index));
-        ring[index] - (a + b) * (distance / (1.0 + a.dot(b)).max(0.05))
+        let before = (index + count - 1) % count;
+        let (a, b) = (along(before), along(index));
+        let (far, near, cross) = (distances[before], distances[index], a.perp_dot(b));
+        if far == near || cross.abs() < 0.1 {
+            ring[index] - (a + b).perp() * (far.max(near) / (1.0 + a.dot(b)).max(0.05))
+        } else {
+            ring[index] + (a * near - b * far) / cross
+        }
     };
     (0..count).map(corner).collect()
 }

@@ -30,7 +30,7 @@ pub use drawing::Drawing;
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
 pub use features::Features;
-pub use footprint::{EdgeKeywords, Footprint, Rings, Roof, Walls};
+pub use footprint::{Detail, EdgeKeywords, Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;
 pub use note::Note;

@@ -2,7 +2,8 @@
 
 use glam::DVec2;
 
-use super::wavefront::{Edge, Traced};
+use super::edge::Edge;
+use super::wavefront::Traced;
 use super::{Peak, Skeleton};
 use crate::error::{Error, Result};
 
@@ -12,9 +13,9 @@ const MERGED: f64 = 1e-3;
 const OFF_PLANE: f64 = 5e-3;
 
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
-pub(super) fn assemble(rings: &[Vec<DVec2>], speeds: &[f64], traced: Traced) -> Result<Skeleton> {
+pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton> {
     let Traced { edges, peaks, arcs } = traced;
-    let merged = merge(&peaks, speeds.len());
+    let merged = merge(&peaks, edges.len());
     let mut borders: Vec<Vec<[usize; 2]>> = Vec::with_capacity(edges.len());
     let mut first = 0;
     for ring in rings {
@@ -106,7 +107,7 @@ fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usi
             return Err(Error::new("a face of the roof is not flat"));
         }
         let area = twice_area(face.iter().map(|&peak| peaks[peak].at));
-        if area < -1e-9 * whole - OFF_PLANE * 1e-3 || (edge.speed > 0.0 && area <= 0.0) {
+        if area < -1e-9 * whole - OFF_PLANE * 1e-3 || (edge.pace.moves() && area <= 0.0) {
             return Err(Error::new("a face of the roof is turned over"));
         }
         sum += area;

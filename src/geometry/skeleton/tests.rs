@@ -7,7 +7,7 @@ fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
 }
 
 fn hip(rings: &[Vec<DVec2>]) -> Skeleton {
-    let speeds = vec![1.0; rings.iter().map(Vec::len).sum()];
+    let speeds = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
     Skeleton::new(rings, &speeds).expect("a skeleton")
 }
 
@@ -75,7 +75,7 @@ fn random_plans_have_sound_roofs_with_few_repairs() {
             hole.iter().map(|&at| at * if round % 2 == 0 { 0.5 } else { 1.0 } + offset).collect();
         let plans = [vec![turned(&plain)], vec![turned(&plain), turned(&hole)]];
         let rings = &plans[usize::from(round % 3 == 0)];
-        let speeds = vec![1.0; rings.iter().map(Vec::len).sum()];
+        let speeds = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
         let found = Skeleton::new(rings, &speeds).unwrap_or_else(|error| panic!("{error}: {rings:?}"));
         moved += u32::from(found.moved);
         count += 1;

@@ -20,7 +20,7 @@ use crate::scene::{Material, Scene};
 pub use edges::EdgeKeywords;
 use edges::Edges;
 use neighbors::Neighborhood;
-pub use roof::Roof;
+pub use roof::{Detail, Roof};
 use shell::Shell;
 use walls::Plain;
 pub use walls::Walls;
@@ -97,7 +97,6 @@ pub struct Footprint {
     place: Option<(Arc<Neighborhood>, usize)>,
     shell: Shell,
     drawing: Drawing,
-    repair: &'static str,
     /// Where random choices come from.
     seed: u64,
     /// The level of detail, from 0 to 3.
@@ -122,7 +121,7 @@ methods! {
             self.raise(&options)
         }
 
-        /// Puts on the roof: { kind, height, slope, overhang, slab, border, color, material, gable, ... }.
+        /// Puts on the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
         pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
             let options = Roof::from_table(&options.unwrap_or_default())?;
             self.cover(&options)
@@ -205,11 +204,6 @@ methods! {
             self.options.keywords.contains(&keyword)
         }
 
-        /// What the last roof had to be replaced with, as no right one was found: "", "moved", "hip" or "flat".
-        pub fn repair(&self) -> String {
-            self.repair.to_owned()
-        }
-
         /// Distance (m) from a place to the nearest point of what it has drawn.
         pub fn distance(&self, place: Vector) -> f64 {
             self.drawing.distance(place.0 - self.origin)
@@ -254,7 +248,6 @@ impl Footprint {
             place: None,
             shell,
             drawing: Drawing::default(),
-            repair: "",
             seed: 0,
             detail: 3,
             raised: 0,
@@ -332,7 +325,6 @@ impl Object for Footprint {
     fn begin(&mut self) {
         self.shell = Shell::new(&self.plan);
         self.drawing.clear();
-        self.repair = "";
         self.raised = 0;
         self.plain = None;
         let (repairs, trouble) = self.plan.repairs();

@@ -26,7 +26,7 @@ fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
         "{:?}: {check:?}",
         roof.iter().map(|(name, value)| format!("{name}={value}")).collect::<Vec<_>>()
     );
-    assert_eq!(house.repair, "");
+    assert_eq!(house.notes, []);
     solid::volume(house.drawing.parts())
 }
 

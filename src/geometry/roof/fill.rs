@@ -1,0 +1,49 @@
+//! Flat polygons as triangles.
+
+use glam::{DVec2, DVec3};
+
+use super::super::cap;
+use crate::error::{Error, Result};
+use crate::scene::Part;
+
+/// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
+///
+/// Texture coordinates are metres: u along `right`, v across, from `origin` on. Every edge of a ring is the edge
+/// of one triangle.
+pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
+    let normal = rings.iter().fold(DVec3::ZERO, |sum, ring| sum + newell(ring)).normalize_or_zero();
+    let right = (right - normal * normal.dot(right)).normalize_or_zero();
+    let up = normal.cross(right);
+    let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
+    let flats: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(flat).collect()).collect();
+    let triangles = match flats.as_slice() {
+        [ring] if ring.len() == 3 => vec![[0, 1, 2]],
+        [ring] if ring.len() == 4 && is_convex(ring) => vec![[0, 1, 2], [0, 2, 3]],
+        _ => cap::triangulate(&flats)?,
+    };
+    let base =
+        u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
+    for (point, flat) in rings.iter().flatten().zip(flats.iter().flatten()) {
+        part.positions.push(point.as_vec3());
+        part.normals.push(normal.as_vec3());
+        part.uvs.push(flat.as_vec2());
+    }
+    #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
+    part.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|corner| corner as u32 + base)));
+    Ok(())
+}
+
+/// The sum of the normals of a ring's triangles, each as long as twice its area.
+fn newell(ring: &[DVec3]) -> DVec3 {
+    let from = ring[0];
+    ring.windows(2)
+        .map(|edge| (edge[0] - from).cross(edge[1] - from))
+        .fold(DVec3::ZERO, |sum, normal| sum + normal)
+}
+
+fn is_convex(ring: &[DVec2]) -> bool {
+    (0..4).all(|index| {
+        let [a, b, c] = [0, 1, 2].map(|offset| ring[(index + offset) % 4]);
+        (b - a).perp_dot(c - b) > 1e-6
+    })
+}

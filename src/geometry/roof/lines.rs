@@ -1,0 +1,87 @@
+//! The lines of a roof along which things stand: ridges, hips, valleys, eaves, the feet of gables.
+
+use glam::DVec3;
+use rustc_hash::FxHashMap;
+
+use super::{Patch, PatchKind, edges};
+
+/// What a line is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum LineKind {
+    /// Both slopes fall away from it, and it is nearly level.
+    Ridge,
+    /// Both slopes fall away from it, and it falls too.
+    Hip,
+    /// Both slopes rise from it.
+    Valley,
+    /// The lower edge of a roof.
+    Eaves,
+}
+
+/// A line of a roof.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Line {
+    /// What it is.
+    pub kind: LineKind,
+    /// Its ends (m); eaves run to the right as seen from outside, hips and valleys upwards.
+    pub ends: [DVec3; 2],
+    /// The upward normals of the slopes to its left and to its right; of the same one for eaves.
+    pub normals: [DVec3; 2],
+}
+
+/// Ridges that rise less than this are nearly level.
+const LEVEL: f64 = 0.15;
+
+/// The lines of a roof, in the order of its patches.
+pub fn lines(patches: &[Patch]) -> Vec<Line> {
+    let key = |at: DVec3| at.as_vec3().to_array().map(f32::to_bits);
+    let mut owner = FxHashMap::default();
+    let slopes = || patches.iter().enumerate().filter(|(_, patch)| patch.kind == PatchKind::Slope);
+    for (number, patch) in slopes() {
+        for [a, b] in patch.rings.iter().flat_map(|ring| edges(ring)) {
+            owner.insert((key(a), key(b)), number);
+        }
+    }
+    let mut lines = Vec::new();
+    for (number, patch) in slopes() {
+        let normal = normal(patch);
+        for [a, b] in patch.rings.iter().flat_map(|ring| edges(ring)) {
+            match owner.get(&(key(b), key(a))) {
+                Some(&other) if other > number && patches[other].edge != patch.edge => {
+                    let away = normal.cross((b - a).normalize_or_zero());
+                    // The area to the right of the edge belongs to the other slope.
+                    let across = self::normal(&patches[other]);
+                    let bend = across.dot(-away);
+                    let level = (b.z - a.z).abs() <= LEVEL * a.truncate().distance(b.truncate());
+                    let kind = match (bend < 0.0, level) {
+                        (true, _) => LineKind::Valley,
+                        (false, true) => LineKind::Ridge,
+                        (false, false) => LineKind::Hip,
+                    };
+                    let (ends, normals) = if b.z < a.z - 1e-9 {
+                        ([b, a], [across, normal])
+                    } else {
+                        ([a, b], [normal, across])
+                    };
+                    if bend.abs() > 1e-3 {
+                        lines.push(Line { kind, ends, normals });
+                    }
+                }
+                None if patch.flap == 0 && (b - a).truncate().normalize_or_zero().dot(patch.along) > 0.99 => {
+                    lines.push(Line { kind: LineKind::Eaves, ends: [a, b], normals: [normal; 2] });
+                }
+                _ => {}
+            }
+        }
+    }
+    lines
+}
+
+/// The unit normal of a patch, upwards for slopes.
+pub fn normal(patch: &Patch) -> DVec3 {
+    let sum = patch.rings.iter().flat_map(|ring| {
+        let from = ring[0];
+        ring.windows(2).map(move |pair| (pair[0] - from).cross(pair[1] - from))
+    });
+    sum.sum::<DVec3>().normalize_or_zero()
+}

@@ -1,0 +1,227 @@
+//! What is going to happen to the wavefront, and when.
+
+use std::cmp::{Ordering, Reverse};
+
+use super::wavefront::{Kind, NEAR, TOGETHER, Wavefront};
+
+/// How far (m) from its line an edge is no longer where it was expected.
+const ASTRAY: f64 = 1e-3;
+/// How many edges that a reflex corner may reach are foreseen at once.
+const FORESEEN: usize = 8;
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum What {
+    /// The edge between two corners shrinks to a point.
+    Collapse(usize, usize),
+    /// A reflex corner reaches the line of an edge.
+    Split(usize, usize),
+    /// A closing corner goes to the nearer end.
+    Close(usize),
+    /// An edge that stood still begins to move.
+    Start(usize),
+}
+
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Event {
+    pub time: f64,
+    pub what: What,
+}
+
+impl Event {
+    fn rank(&self) -> (u8, usize, usize) {
+        match self.what {
+            What::Close(corner) => (0, corner, 0),
+            What::Collapse(a, b) => (1, a, b),
+            What::Split(corner, edge) => (2, corner, edge),
+            What::Start(edge) => (3, edge, 0),
+        }
+    }
+}
+
+impl Eq for Event {}
+
+impl Ord for Event {
+    fn cmp(&self, other: &Self) -> Ordering {
+        self.time.total_cmp(&other.time).then_with(|| self.rank().cmp(&other.rank()))
+    }
+}
+
+impl PartialOrd for Event {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+/// What the wavefront has to do next.
+pub(super) enum Next {
+    /// To resolve what the noted spots meet at this time.
+    Meet(f64),
+    /// To let this edge begin to move at this time.
+    Start(usize, f64),
+    /// Nothing.
+    End,
+}
+
+impl Wavefront {
+    pub(super) fn expect(&mut self, time: f64, what: What) {
+        self.events.push(Reverse(Event { time, what }));
+    }
+
+    pub(super) fn expect_collapse(&mut self, a: usize, b: usize, now: f64) {
+        let (from, to) = (&self.corners[a], &self.corners[b]);
+        let along = self.traced.edges[from.edges[1]].along;
+        let length = (to.place(now) - from.place(now)).dot(along);
+        let shrinks = (from.velocity - to.velocity).dot(along);
+        if from.kind != Kind::Closing && to.kind != Kind::Closing && shrinks > 1e-12 {
+            let time = now + (length / shrinks).max(0.0);
+            self.expect(time, What::Collapse(a, b));
+        }
+    }
+
+    /// Foresees the first edge whose line a reflex corner reaches after (time, edge) `last`.
+    ///
+    /// Few of these lines are reached where the edge is, so the next ones are kept for then.
+    pub(super) fn expect_split(&mut self, index: usize, last: (f64, usize)) {
+        let corner = &self.corners[index];
+        if corner.kind != Kind::Reflex {
+            return;
+        }
+        let now = corner.time.max(self.started);
+        let at = corner.place(now);
+        let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
+        for (number, edge) in self.traced.edges.iter().enumerate() {
+            let nears = edge.speed - edge.inward().dot(corner.velocity);
+            if nears <= 1e-12 {
+                continue;
+            }
+            let ahead = edge.ahead(at, now);
+            let candidate = (now + (ahead / nears).max(0.0), number);
+            if ahead < -NEAR || candidate >= found[FORESEEN - 1] || candidate <= last {
+                continue;
+            }
+            if !corner.edges.contains(&number) {
+                let rank = found.partition_point(|known| *known < candidate);
+                found[rank..].rotate_right(1);
+                found[rank] = candidate;
+            }
+        }
+        let corner = &mut self.corners[index];
+        corner.foreseen.clear();
+        corner.foreseen.extend(found.into_iter().rev().filter(|candidate| candidate.1 != usize::MAX));
+        self.expect_next_split(index);
+    }
+
+    fn expect_next_split(&mut self, index: usize) {
+        if let Some((time, edge)) = self.corners[index].foreseen.pop() {
+            self.expect(time, What::Split(index, edge));
+        }
+    }
+
+    /// Collects what the next simultaneous events move.
+    pub(super) fn gather(&mut self) -> Next {
+        self.spots.clear();
+        let mut begin: Option<f64> = None;
+        while let Some(&Reverse(event)) = self.events.peek() {
+            if begin.is_some_and(|begin| event.time > begin + TOGETHER) {
+                break;
+            }
+            if let What::Start(edge) = event.what {
+                if begin.is_some() {
+                    break;
+                }
+                self.events.pop();
+                return Next::Start(edge, event.time);
+            }
+            self.events.pop();
+            if self.happens(event) && begin.is_none() {
+                begin = Some(event.time);
+            }
+        }
+        begin.map_or(Next::End, Next::Meet)
+    }
+
+    /// Notes what `event` moves; false if it has become void.
+    fn happens(&mut self, event: Event) -> bool {
+        match event.what {
+            What::Start(_) => false,
+            What::Collapse(a, b) => {
+                let (from, to) = (&self.corners[a], &self.corners[b]);
+                if !from.alive || !to.alive || from.after != b {
+                    return false;
+                }
+                // The slower one knows the place better.
+                let slower =
+                    if from.velocity.length_squared() < to.velocity.length_squared() { from } else { to };
+                let place = slower.place(event.time);
+                let (a, b) = (self.spot(a, place), self.spot(b, place));
+                self.join(a, b);
+                true
+            }
+            What::Close(index) => {
+                let corner = &self.corners[index];
+                if !corner.alive {
+                    return false;
+                }
+                let ends =
+                    [corner.before, corner.after].map(|end| (end, self.corners[end].place(event.time)));
+                let [one, two] = ends.map(|(_, place)| place.distance(corner.at));
+                let (end, place) = if one < two { ends[0] } else { ends[1] };
+                let (a, b) = (self.spot(index, place), self.spot(end, place));
+                self.join(a, b);
+                true
+            }
+            What::Split(index, edge) => {
+                let corner = &self.corners[index];
+                let line = &self.traced.edges[edge];
+                // An edge that has begun to move is not where it was expected.
+                let missed = line.ahead(corner.place(event.time), event.time).abs() > ASTRAY;
+                if !corner.alive || missed {
+                    return false;
+                }
+                let hit = self.hit(index, edge, event.time);
+                if !hit && self.corners[index].foreseen.is_empty() {
+                    self.expect_split(index, (event.time, edge));
+                } else if !hit {
+                    self.expect_next_split(index);
+                }
+                hit
+            }
+        }
+    }
+
+    /// Notes that a reflex corner reaches a piece of `edge`; false if there is no piece where it does.
+    fn hit(&mut self, index: usize, edge: usize, time: f64) -> bool {
+        let corner = &self.corners[index];
+        let (place, peak, fresh) = (corner.place(time), corner.peak, time - corner.time < TOGETHER);
+        let along = self.traced.edges[edge].along;
+        for number in 0..self.pieces[edge].len() {
+            let from = self.pieces[edge][number];
+            let a = &self.corners[from];
+            if !a.alive {
+                continue;
+            }
+            let b = &self.corners[a.after];
+            let born_together = (a.peak == peak || b.peak == peak) && fresh;
+            if from == index || a.after == index || born_together {
+                continue;
+            }
+            let [before, behind] = [a, b].map(|end| (place - end.place(time)).dot(along));
+            let [near_a, near_b] = [a, b].map(|end| (NEAR + TOGETHER * end.velocity.length()).min(1e-3));
+            if before < -near_a || behind > near_b {
+                continue;
+            }
+            let to = a.after;
+            let other = if before <= near_a {
+                self.spot(from, place)
+            } else if behind >= -near_b {
+                self.spot(to, place)
+            } else {
+                self.spot_between(from, place)
+            };
+            let own = self.spot(index, place);
+            self.join(own, other);
+            return true;
+        }
+        false
+    }
+}
