@@ -69,7 +69,7 @@ fn measure(script: &Path, data: &Path, settings: &[&str], output: &PathBuf) -> M
         faces: number("triangles"),
         time,
         cpu: children_cpu() - before,
-        memory: number("memory") / 1e6,
+        memory: number("peak_memory_mb"),
         file,
     }
 }

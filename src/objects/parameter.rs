@@ -31,6 +31,7 @@ impl Expected {
             Value::Number(number) if number.is_nan() => "NaN".to_owned(),
             Value::Number(number) if number.is_infinite() => "infinity".to_owned(),
             Value::Number(_) | Value::Text(_) | Value::Boolean(_) => value.to_string(),
+            Value::Table(_) if value.to_string().len() <= 40 => value.to_string(),
             other => other.describe().to_owned(),
         };
         let error = Error::new(format!("{owner}: {name} must be {}, not {found}", self.what));

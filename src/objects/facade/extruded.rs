@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::fixture::Fixture;
+use super::fixture::{Anchor, Fixture};
 use super::size::Size;
 use super::wall::{Rule, Wall};
 use crate::error::{Error, Result};
@@ -28,7 +28,7 @@ fields! {
         /// Whether the model is stretched to the wall's width and height.
         pub stretch: bool = false,
         /// Where the model sits: "bottom", "center" or "top".
-        pub at: String = "center".into(),
+        pub at: Anchor = Anchor::default(),
         /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
         pub width: Option<Size> = None,
         /// Height (m), in the same way.
@@ -62,7 +62,7 @@ fn make(options: &Options) -> Result<Wall> {
     }
     let model = options.model.clone();
     let fixture =
-        model.map(|model| Fixture::new("extruded", model, options.stretch, &options.at)).transpose()?;
+        model.map(|model| Fixture::new("extruded", model, options.stretch, options.at)).transpose()?;
     let sides = [options.left, options.right, options.bottom, options.top];
     let (sizes, targets) = (wall.0.sizes.clone(), wall.0.targets);
     let rule = Rule::Extruded { depth: options.depth, sides, fixture, wall };

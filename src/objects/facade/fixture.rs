@@ -6,7 +6,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use crate::error::{Error, Result};
-use crate::objects::{Model, Object};
+use crate::objects::{Expected, Model, Object, Parameter, Value};
 
 /// A model and how it sits on a wall.
 ///
@@ -26,28 +26,49 @@ pub struct Fixture {
 }
 
 impl Fixture {
-    /// A fixture for the wall `rule`; `at` is "bottom", "center" or "top".
-    pub fn new(rule: &str, model: Arc<dyn Object>, stretch: bool, at: &str) -> Result<Self> {
+    /// A fixture for the wall `rule`.
+    pub fn new(rule: &str, model: Arc<dyn Object>, stretch: bool, at: Anchor) -> Result<Self> {
         let any: &dyn Any = &*model;
         let Some(shape) = any.downcast_ref::<Model>() else {
             return Err(Error::new(format!("{rule}: a {} cannot be placed", model.kind().name))
                 .help("give what derive returned, or model(\"window.glb\")"));
         };
         let (low, high) = (shape.low(), shape.high());
-        let anchor = match at {
-            "bottom" => 0.0,
-            "center" => 0.5,
-            "top" => 1.0,
-            _ => {
-                return Err(Error::new(format!("{rule}: at is {at:?}"))
-                    .help("there are \"bottom\", \"center\" and \"top\""));
-            }
-        };
-        Ok(Self { model, stretch, anchor, low, high })
+        Ok(Self { model, stretch, anchor: at.0, low, high })
     }
 
     /// Its width and height (m).
     pub fn extent(&self) -> [f64; 2] {
         [self.high.x - self.low.x, self.high.z - self.low.z]
+    }
+}
+
+/// Where a model sits on a wall: 0 at the bottom, 1 at the top.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Anchor(pub f64);
+
+impl Default for Anchor {
+    /// In the middle.
+    fn default() -> Self {
+        Self(0.5)
+    }
+}
+
+const ANCHORS: [(&str, f64); 3] = [("bottom", 0.0), ("center", 0.5), ("top", 1.0)];
+
+impl Parameter for Anchor {
+    fn luau() -> String {
+        "string".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let named = ANCHORS.iter().find(|(name, _)| matches!(&value, Value::Text(text) if **text == **name));
+        let what = || Expected::new("\"bottom\", \"center\" or \"top\"");
+        named.map(|(_, height)| Self(*height)).ok_or_else(what)
+    }
+
+    fn into_value(self) -> Value {
+        let nearest = ANCHORS.iter().min_by(|a, b| (a.1 - self.0).abs().total_cmp(&(b.1 - self.0).abs()));
+        nearest.map_or("center", |(name, _)| name).to_owned().into_value()
     }
 }

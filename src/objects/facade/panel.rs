@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::fixture::Fixture;
+use super::fixture::{Anchor, Fixture};
 use super::size::Size;
 use super::wall::{Rule, Wall};
 use crate::error::Result;
@@ -25,7 +25,7 @@ fields! {
         /// Whether the model is stretched to the panel's width and height.
         pub stretch: bool = false,
         /// Where the model sits: "bottom", "center" or "top".
-        pub at: String = "center".into(),
+        pub at: Anchor = Anchor::default(),
         /// Whether it has a face of its own; false where a model leads into the building.
         pub background: bool = true,
     }
@@ -44,8 +44,7 @@ pub static KIND: Kind = Kind {
 fn make(options: &Options) -> Result<Wall> {
     let decoration = options.decoration.as_ref().map(Surface::material).transpose()?;
     let model = options.model.clone();
-    let fixture =
-        model.map(|model| Fixture::new("panel", model, options.stretch, &options.at)).transpose()?;
+    let fixture = model.map(|model| Fixture::new("panel", model, options.stretch, options.at)).transpose()?;
     let extent = fixture.as_ref().map(Fixture::extent);
     // A model that is not stretched needs its room.
     let room = extent.filter(|_| !options.stretch).unwrap_or_default();

@@ -106,3 +106,93 @@ fn every_roof_closes_every_plan() {
     }
     assert_eq!(count, 7 * 8 * 4);
 }
+
+/// A house with a facade of windows that lie back, at this level of detail.
+fn with_facades(detail: u8) -> Footprint {
+    use crate::objects::facade;
+    let object = |made: Result<Box<dyn Object>>| Value::Object(Arc::from(made.expect("a wall")));
+    let make =
+        |kind: &Kind, entries: &[(&str, Value)]| object((kind.construct)(&table(entries).expect("a table")));
+    let size = |low: f64, high: f64| vec![low, high].into_value();
+    let glass = make(&facade::PANEL, &[("width", size(1.0, 1.0)), ("height", size(1.5, 1.5))]);
+    let niche = make(&facade::EXTRUDED, &[("wall", glass), ("depth", Value::Number(-0.2))]);
+    let margins = ["left", "right", "bottom", "top"].map(|side| (side, Value::Number(0.5)));
+    let window = make(&facade::BORDERED, &[&[("wall", niche)], margins.as_slice()].concat());
+    let template = make(&facade::Template::KIND, &[("wall", window)]);
+    let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]]);
+    let keywords = super::EdgeKeywords([(2, vec!["blind".to_owned()])].into_iter().collect());
+    let options = Options { geometry, edge_keywords: keywords, ..Options::default() };
+    let mut house = Footprint::new(options).expect("a clean footprint");
+    house.set_detail(detail);
+    house.begin();
+    house.groundwork("z_min".into(), None).expect("groundwork");
+    for _ in 0..2 {
+        let walls = [("height", Value::Number(3.0)), ("templates", template.clone())];
+        house.walls(table(&walls)).expect("walls");
+    }
+    house.roof(table(&kind("hip"))).expect("a roof");
+    house.end().expect("an end");
+    house
+}
+
+#[test]
+fn each_level_of_detail_shows_less_and_all_but_facades_are_closed() {
+    let count = |detail: u8| with_facades(detail).triangles();
+    // The floor; a block of 6 walls and a lid; the same under a hip roof.
+    assert_eq!((count(0), count(1)), (4, 4 + 12 + 4));
+    assert!(count(1) < count(2) && count(2) < count(3));
+    for (detail, volume) in [(1, 95.0 * 6.0), (2, 95.0 * 6.0)] {
+        let house = with_facades(detail);
+        assert!(solid::check(house.drawing.parts()).is_solid(), "{detail}");
+        assert!(solid::volume(house.drawing.parts()) >= volume - 1e-3, "{detail}");
+    }
+}
+
+#[test]
+fn storeys_of_one_material_are_one_wall_where_detail_is_off() {
+    // 6 walls of two triangles, 4 for the floor; the rest is roof, which rises above 6 m.
+    let house = with_facades(2);
+    let upright = house.drawing.parts().iter().flat_map(|part| {
+        part.triangles.iter().filter(|corners| {
+            let [a, b, c] = corners.map(|corner| part.positions[corner as usize].z);
+            a.max(b).max(c) < 6.001 && a.min(b).min(c) < 0.001 && (a - b).abs().max((b - c).abs()) > 5.0
+        })
+    });
+    assert_eq!(upright.count(), 12);
+}
+
+#[test]
+fn facades_cover_their_walls_and_leave_party_walls_plain() {
+    let house = with_facades(3);
+    assert_eq!(house.notes, []);
+    let (mut front, mut back) = (0.0, 0.0);
+    for part in house.drawing.parts() {
+        for corners in &part.triangles {
+            let [a, b, c] = corners.map(|corner| part.positions[corner as usize].as_dvec3());
+            let area = (b - a).cross(c - a) / 2.0;
+            // Walls of the south side look towards -y; those that lie back by 0.2 m are glass.
+            if area.y < -1e-9 && area.z.abs() < 1e-9 && a.z < 6.0 {
+                let south = house.plan.flat()[0][0].y;
+                let depth = [a.y, b.y, c.y].map(|y| ((y - south) * 1000.0).round());
+                match depth {
+                    [0.0, 0.0, 0.0] => front += area.length(),
+                    [200.0, 200.0, 200.0] => back += area.length(),
+                    _ => {}
+                }
+            }
+        }
+    }
+    near(front, 2.0 * (12.0 * 3.0 - 1.5));
+    near(back, 2.0 * 1.5);
+    // The blind wall in the east is two rectangles, one for each storey.
+    let east = house.plan.flat()[0][1].x as f32;
+    let plain = house.drawing.parts().iter().flat_map(|part| {
+        part.triangles.iter().filter(|corners| {
+            corners.iter().all(|corner| {
+                let at = part.positions[*corner as usize];
+                at.x == east && at.z <= 6.0
+            })
+        })
+    });
+    assert_eq!(plain.count(), 4);
+}
