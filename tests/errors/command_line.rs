@@ -280,7 +280,7 @@ fn help_reads_well() {
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
     ");
-    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r"
+    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r##"
     Runs a script and writes what it makes
 
     Usage: burgeon run [OPTIONS] <SCRIPT>
@@ -293,15 +293,16 @@ fn help_reads_well() {
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
           --strict              Ends with an error at the first feature whose data cannot be built, in place of leaving it out
-      --seed <N>            The seed of all random numbers [default: 0]
+          --seed <N>            The seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
+          --lod <N>             Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
           --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
           --stdlib <FILE>       Reads this file in the place of the built-in standard library
           --json                Prints one JSON document, for machines, in place of text for people
       -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
           --report <FILE>       Writes which features were skipped or simplified, and why, as JSON; - is standard output
-      --watch               Runs and writes again whenever a file of the script changes, until interrupted
+          --watch               Runs and writes again whenever a file of the script changes, until interrupted
           --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded
       -h, --help                Print help (see more with '--help')
 
@@ -316,8 +317,8 @@ fn help_reads_well() {
           --azimuth <DEGREES>        Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
           --elevation <DEGREES>      How high the camera stands above the horizon (degrees) [default: by the model]
           --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
-    ");
-    assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
+    "##);
+    assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r##"
     Loads a script and everything it requires, compiles every rule, and reports all problems at once
 
     Usage: burgeon check [OPTIONS] <SCRIPT>
@@ -329,8 +330,10 @@ fn help_reads_well() {
           --set <NAME=VALUE>  Sets a parameter of the script
           --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>     Lets the script read data files in this folder and below it; may be repeated
+          --strict            Ends with an error at the first feature whose data cannot be built, in place of leaving it out
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
+          --lod <N>           Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
           --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]
           --stdlib <FILE>     Reads this file in the place of the built-in standard library
           --json              Prints one JSON document, for machines, in place of text for people
@@ -341,7 +344,7 @@ fn help_reads_well() {
           --memory-limit <MEGABYTES>  Memory that each thread's script may use [default: 2048]
           --module-limit <N>          Modules that a system's chains may have [default: 50000000]
           --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
-    ");
+    "##);
     let said = Folder::new().burgeon(&[]);
     assert_eq!((said.status, said.stdout.as_str()), (2, ""));
     let version = Folder::new().burgeon(&["--version"]).done().stdout;

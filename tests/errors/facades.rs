@@ -34,7 +34,70 @@ fn walls_and_templates_are_checked_when_they_are_made() {
         "facade({ wall })",
     ];
     let all: Vec<String> = cases.iter().map(|case| format!("{case}\n{}", told(case))).collect();
-    insta::assert_snapshot!(all.join("\n\n"), @"");
+    insta::assert_snapshot!(all.join("\n\n"), @r##"
+    panel({ widht = 2 })
+    error: s.lua:2: panel has no field called widht
+      help: did you mean width?
+
+    panel({ width = { 3, 2 } })
+    error: s.lua:2: panel: width must be a preferred length (m), { least, greatest } or { least, preferred, greatest }, not {3,2}
+
+    panel({ model = wall })
+    error: s.lua:2: panel: a panel cannot be placed
+      help: give what derive returned, or model("window.glb")
+
+    panel({ at = "middle" })
+    error: s.lua:2: panel: at must be "bottom", "center" or "top", not "middle"
+
+    bordered(wall, { left = { 0.5, "most" } })
+    error: s.lua:2: bordered: left must be a size (m), or a size and "min", "max" or "fixed": { 0.5, "max" }, not {0.5,"most"}
+
+    bordered(wall, { left = 2, width = { 1, 2 } })
+    error: s.lua:2: bordered: it can never fit: its parts are at least 3 m wide, and it must be 1 to 2 m wide
+      help: widen what the parts or the wall itself allow
+
+    bordered({ left = 0.5 })
+    error: s.lua:2: bordered: there is no wall between the margins
+      help: write bordered { wall = panel { }, left = 0.5 }
+
+    extruded(wall, { depth = 1000 })
+    error: s.lua:2: extruded: depth is 1000 m
+      help: give metres from -100 to 100
+
+    extruded(wall, { depth = 0 / 0 })
+    error: s.lua:2: extruded: depth must be a finite number, not NaN
+
+    list({ wall, panel({ height = { 4, 5 } }) })
+    error: s.lua:2: list: it can never fit: wall 2 is 4 to 5 m high, the walls before it are 3 m high
+      help: put a margin around one of them: bordered { ... }
+
+    list({ wall, 7 })
+    error: s.lua:2: list: walls must be a list whose item 2 is a wall: panel, bordered, extruded, list or grid, not {panel,7}
+
+    list({ wall }, { direction = "upwards" })
+    error: s.lua:2: list: direction is "upwards"
+      help: there are "horizontal" and "vertical"
+
+    grid(wall, { columns = { 0, 4 } })
+    error: s.lua:2: grid: columns must be a whole number from 1 to 1000, or { least, greatest }, not {0,4}
+
+    grid(wall, { rows = 2.5 })
+    error: s.lua:2: grid: rows must be a whole number from 1 to 1000, or { least, greatest }, not 2.5
+
+    template({ wall = wall, keywords = "blind" })
+    error: s.lua:2: template: keywords must be a list, not "blind"
+
+    template({ wall = wall, weight = -1 })
+    error: s.lua:2: template: weight is -1
+      help: give a number from 0 on
+
+    facade({})
+    error: s.lua:2: facade: there are no templates
+      help: write facade({ template { wall = panel { } } })
+
+    facade({ wall })
+    error: s.lua:2: facade: templates must be a list whose item 1 is a template: template { wall = ... }, not {panel}
+    "##);
 }
 
 #[test]
@@ -46,9 +109,21 @@ fn walls_take_templates_or_a_photo() {
         );
         refused(&script)
     };
-    insta::assert_snapshot!(told("{ height = 3, templates = { 7 } }"), @"");
+    insta::assert_snapshot!(told("{ height = 3, templates = { 7 } }"), @r##"
+    error: s.lua:5: rule House (interpretation): footprint:walls: templates must be a facade, a template or a list of templates, not {7}
+      | this:walls({ height = 3, templates = { 7 } })
+      module: House, step 0
+    "##);
     insta::assert_snapshot!(
-        told("{ height = 3, templates = template({ wall = panel({}) }), photo = { texture = \"front.jpg\" } }"), @""
+        told("{ height = 3, templates = template({ wall = panel({}) }), photo = { texture = \"front.jpg\" } }"), @r##"
+    error: s.lua:5: rule House (interpretation): footprint:walls: there are both templates and a photo
+      | this:walls({ height = 3, templates = template({ wall = panel({}) }), photo = { texture = "front.jpg" } })
+      module: House, step 0
+      help: give one of them
+    "##
     );
-    insta::assert_snapshot!(told("{ height = 3, photo = { texture = \"front.jpg\" } }"), @"");
+    insta::assert_snapshot!(told("{ height = 3, photo = { texture = \"front.jpg\" } }"), @r##"
+    error: there is no texture front.jpg
+      help: textures are files beside the script
+    "##);
 }

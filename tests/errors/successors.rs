@@ -209,22 +209,22 @@ fn a_constructor_refuses_unknown_fields_and_wrong_types() {
       | local t = turtle({ sides = 2.5 })
     ");
     assert_snapshot!(refused("local t = turtle({ color = \"red\" })\n"), @r##"
-    error: s.lua:1: turtle: color must be a colour: "#rrggbb" or { red, green, blue } from 0 to 1, not "red"
-      | local t = turtle({ color = "red" })
-    "##);
-    assert_snapshot!(refused("local t = turtle({ heading = { 1 } })\n"), @r"
-    error: s.lua:1: turtle: heading must be a vector: { x, y, z } or vec(x, y, z), not a table
+        error: s.lua:1: turtle: color must be a colour: "#rrggbb" or { red, green, blue } from 0 to 1, not "red"
+          | local t = turtle({ color = "red" })
+        "##);
+    assert_snapshot!(refused("local t = turtle({ heading = { 1 } })\n"), @r##"
+    error: s.lua:1: turtle: heading must be a vector: { x, y, z } or vec(x, y, z), not {1}
       | local t = turtle({ heading = { 1 } })
-    ");
+    "##);
     assert_snapshot!(refused("local t = turtle({ 3 })\n"), @r"
     error: s.lua:1: turtle takes named fields, but was given 3 without a name
       | local t = turtle({ 3 })
       help: write turtle { step = 3 }
     ");
-    assert_snapshot!(refused("local e = extruder({ shape = { { 0, 0 }, 3 } })\n"), @r"
-    error: s.lua:1: extruder: shape must be a list whose item 2 is a vector: { x, y, z } or vec(x, y, z), not a table
+    assert_snapshot!(refused("local e = extruder({ shape = { { 0, 0 }, 3 } })\n"), @r##"
+    error: s.lua:1: extruder: shape must be a list whose item 2 is a vector: { x, y, z } or vec(x, y, z), not {{0,0},3}
       | local e = extruder({ shape = { { 0, 0 }, 3 } })
-    ");
+    "##);
 }
 
 #[test]
