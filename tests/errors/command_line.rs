@@ -293,7 +293,7 @@ fn help_reads_well() {
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
           --strict              Ends with an error at the first feature whose data cannot be built, in place of leaving it out
-      --seed <N>            The seed of all random numbers [default: 0]
+          --seed <N>            The seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
           --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
           --stdlib <FILE>       Reads this file in the place of the built-in standard library
@@ -301,7 +301,7 @@ fn help_reads_well() {
       -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
           --report <FILE>       Writes which features were skipped or simplified, and why, as JSON; - is standard output
-      --watch               Runs and writes again whenever a file of the script changes, until interrupted
+          --watch               Runs and writes again whenever a file of the script changes, until interrupted
           --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded
       -h, --help                Print help (see more with '--help')
 
