@@ -151,7 +151,8 @@ pub(crate) fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
 
 /// Turns the textures' names into files within the script's folder.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
-    for texture in scene.materials.iter_mut().filter_map(|material| material.texture.as_mut()) {
+    let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
+    for texture in textures.filter(|texture| texture.content.is_none()) {
         let shown = texture.path.display().to_string();
         let path = session.root().join(&texture.path);
         let found = path.canonicalize();

@@ -102,7 +102,7 @@ pub(super) fn textured(folder: &Path) -> Scene {
     let material = |name: &str, file: &str, size| Material {
         name: name.into(),
         base_color: [1.0; 4],
-        texture: Some(Texture { path: folder.join(file), size }),
+        texture: Some(Texture { path: folder.join(file), size, content: None }),
         ..Material::default()
     };
     let materials = vec![

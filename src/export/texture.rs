@@ -4,10 +4,12 @@ use super::check::{Checked, named};
 use super::color::linear;
 use super::file::Files;
 use crate::error::{Error, Result};
+use crate::scene::Texture;
 use image::{ImageDecoder, ImageFormat, ImageReader};
 use std::fs;
 use std::io::Cursor;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// The image files that shown materials use, each once, in the order of the materials.
 pub(super) struct Images {
@@ -20,6 +22,8 @@ pub(super) struct Images {
 /// A PNG or JPEG file as it lies on the disk.
 pub(super) struct ImageFile {
     path: PathBuf,
+    /// What is known of an image without a file, to tell it from others.
+    content: Option<Arc<[u8]>>,
     /// What the file holds, unchanged.
     pub(super) bytes: Vec<u8>,
     /// PNG or JPEG, by its content and not by its name.
@@ -34,15 +38,16 @@ impl Images {
         let mut images = Self { files: Vec::new(), of_material: Vec::new() };
         for (i, material) in checked.scene.materials.iter().enumerate() {
             let texture = material.texture.as_ref().filter(|_| checked.materials[i]);
-            let Some(path) = texture.map(|texture| &texture.path) else {
+            let Some(texture) = texture else {
                 images.of_material.push(None);
                 continue;
             };
-            let known = images.files.iter().position(|file| file.path == *path);
+            let same = |file: &ImageFile| file.path == texture.path && file.content == texture.content;
+            let known = images.files.iter().position(same);
             let index = match known {
                 Some(index) => index,
                 None => {
-                    images.files.push(ImageFile::read(path, &named("material", &material.name, i))?);
+                    images.files.push(ImageFile::read(texture, &named("material", &material.name, i))?);
                     images.files.len() - 1
                 }
             };
@@ -75,12 +80,17 @@ impl Images {
 }
 
 impl ImageFile {
-    fn read(path: &Path, material: &str) -> Result<Self> {
+    fn read(texture: &Texture, material: &str) -> Result<Self> {
+        let path = &texture.path;
         let refused = |why: &dyn std::fmt::Display| {
             Error::new(format!("cannot read the texture {} of {material}: {why}", path.display()))
         };
-        let bytes = fs::read(path)
-            .map_err(|error| refused(&error).help("correct the path, which starts at the script's folder"))?;
+        let bytes = match &texture.content {
+            Some(content) => content.to_vec(),
+            None => fs::read(path).map_err(|error| {
+                refused(&error).help("correct the path, which starts at the script's folder")
+            })?,
+        };
         let remedy = "give a PNG or JPEG file that an image viewer opens";
         let format = match image::guess_format(&bytes) {
             Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
@@ -90,11 +100,15 @@ impl ImageFile {
             .into_decoder()
             .map(|decoder| decoder.color_type().has_alpha())
             .map_err(|error| refused(&error).help(remedy))?;
-        Ok(Self { path: path.into(), bytes, format, has_alpha })
+        let content = texture.content.clone();
+        Ok(Self { path: path.clone(), content, bytes, format, has_alpha })
     }
 
     /// The file's name without folder and extension.
     pub(super) fn stem(&self) -> String {
+        if self.content.is_some() {
+            return self.path.to_string_lossy().into_owned();
+        }
         self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
     }
 

@@ -22,6 +22,9 @@ const ROUNDS: usize = 4;
 /// How far (m) from an edge that was given what stands for it lies.
 const ALONG: f64 = 0.02;
 
+/// What is said of a ring that crosses itself.
+const LOOPS: &str = "loops of the outer ring left out";
+
 /// Rings that became a plan.
 pub(super) struct Repaired {
     /// The outer ring counter-clockwise, the holes clockwise.
@@ -85,7 +88,7 @@ fn enclosed(rings: &[Vec<DVec2>], notes: &mut Vec<&'static str>) -> MultiPolygon
     let Some((outer, holes)) = rings.split_first() else { return nothing };
     let outer = whole(outer);
     if outer.0.len() > 1 {
-        note(notes, "loops of the outer ring left out");
+        note(notes, LOOPS);
     }
     let mut cut = Vec::new();
     for hole in holes {
@@ -121,7 +124,7 @@ fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<Polygo
         .map(|part| (part.unsigned_area(), part))
         .filter(|(size, _)| *size > LEAST)
         .collect();
-    if sized.len() > 1 {
+    if sized.len() > 1 && !notes.contains(&LOOPS) {
         note(notes, "the greatest part kept");
     }
     // Of equal ones the first.

@@ -219,6 +219,7 @@ fn encode(run: &Run) -> Result<(File, Duration)> {
 fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
     let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
     let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
+    let textures = textures.filter(|texture| texture.content.is_none());
     files.extend(textures.map(|texture| state.name(&texture.path)));
     files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
     files.sort();

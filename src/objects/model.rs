@@ -1,4 +1,4 @@
-//! What a derived system has drawn, as one thing that other systems can place.
+//! What a derived system has drawn, or a file holds, as one thing that systems can place.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::{Kind, Object, Table};
 use crate::error::{Error, Result};
 use crate::scene::{Instance, Material, Part, Scene};
 
-/// The drawing of a derived system. It never changes.
+/// The drawing of a derived system, or the content of a file. It never changes.
 #[derive(Clone)]
 pub struct Model {
     scene: Arc<Scene>,
@@ -32,13 +32,13 @@ impl Model {
     /// The type, as scripts see it.
     pub const KIND: Kind = Kind {
         name: "model",
-        doc: "What a derived system has drawn, for placing elsewhere.",
+        doc: "What a derived system has drawn, or a glTF file holds, for placing elsewhere.",
         fields: &[],
         first: None,
         methods: Self::METHODS,
         construct: |_: &Table| {
-            Err(Error::new("a model is not made, it is what derive returns")
-                .help("write local model = system:derive()"))
+            Err(Error::new("a model is what derive returns, or a file")
+                .help("write local model = system:derive(), or model(\"window.glb\")"))
         },
     };
 

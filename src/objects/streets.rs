@@ -8,7 +8,7 @@ use rstar::primitives::Line;
 use rstar::{PointDistance, RTree};
 
 use super::parameter::Expected;
-use super::{Features, Kind, Object, Parameter, Table, Value, Vector};
+use super::{Features, Kind, Object, Parameter, Shape, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::sources::Geometry;
@@ -47,18 +47,12 @@ fn collect(value: Value, lines: &mut Vec<Vec<DVec3>>, depth: usize) -> Result<()
     match value {
         Value::Object(object) => {
             let any: &dyn std::any::Any = &*object;
-            let features = any.downcast_ref::<Features>().ok_or_else(what)?;
-            for feature in &features.0.features {
-                let points = |points: &[[f64; 3]]| points.iter().copied().map(DVec3::from).collect();
-                match &feature.geometry {
-                    Geometry::Line(line) => lines.push(points(line)),
-                    Geometry::Polygon(rings) => {
-                        // A square is walked around.
-                        lines.extend(rings.iter().map(|ring| closed(points(ring))));
-                    }
-                    Geometry::Point(_) => {}
-                }
+            if let Some(shape) = any.downcast_ref::<Shape>() {
+                add(shape.geometry(), lines);
+                return Ok(());
             }
+            let features = any.downcast_ref::<Features>().ok_or_else(what)?;
+            features.0.features.iter().for_each(|feature| add(&feature.geometry, lines));
         }
         Value::Table(table) => {
             if let Some(geometry) = table.get("geometry") {
@@ -89,6 +83,16 @@ fn collect(value: Value, lines: &mut Vec<Vec<DVec3>>, depth: usize) -> Result<()
         _ => return Err(what()),
     }
     Ok(())
+}
+
+fn add(geometry: &Geometry, lines: &mut Vec<Vec<DVec3>>) {
+    let points = |points: &[[f64; 3]]| points.iter().copied().map(DVec3::from).collect();
+    match geometry {
+        Geometry::Line(line) => lines.push(points(line)),
+        // A square is walked around.
+        Geometry::Polygon(rings) => lines.extend(rings.iter().map(|ring| closed(points(ring)))),
+        Geometry::Point(_) => {}
+    }
 }
 
 fn closed(mut ring: Vec<DVec3>) -> Vec<DVec3> {

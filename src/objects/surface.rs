@@ -57,7 +57,7 @@ impl Surface {
         let texture = match (&self.texture, self.texture_size.as_slice()) {
             (None, _) => None,
             (Some(path), [width, height]) if *width > 0.0 && *height > 0.0 => {
-                Some(Texture { path: path.into(), size: [*width, *height] })
+                Some(Texture { path: path.into(), size: [*width, *height], content: None })
             }
             _ => {
                 return Err(Error::new(

@@ -108,7 +108,7 @@ fn a_texture_repeats_at_its_size_in_metres() {
         .save(&path)
         .unwrap();
     let stripes = |width: f64| {
-        let texture = Some(Texture { path: path.clone(), size: [width, 1.0] });
+        let texture = Some(Texture { path: path.clone(), size: [width, 1.0], content: None });
         let scene = wall(Material { base_color: [1.0; 4], texture, ..Material::default() });
         let picture = Picture { width: 200, azimuth: Some(180.0), elevation: Some(0.0), ..small() };
         let image = render(&scene, &picture).unwrap();
@@ -190,7 +190,7 @@ fn a_line_and_a_view_straight_down_or_up_are_no_trouble() {
 
 #[test]
 fn a_missing_texture_is_an_error_that_names_the_file() {
-    let texture = Some(Texture { path: "no/such/brick.png".into(), size: [1.0, 1.0] });
+    let texture = Some(Texture { path: "no/such/brick.png".into(), size: [1.0, 1.0], content: None });
     let error = render(&wall(Material { texture, ..Material::default() }), &small()).unwrap_err();
     assert!(error.to_string().contains("no/such/brick.png"), "{error}");
 }

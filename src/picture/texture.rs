@@ -4,7 +4,6 @@ use super::tone;
 use crate::error::{Error, Result};
 use crate::scene::{self, Material};
 use glam::{Vec2, Vec3};
-use std::path::Path;
 
 /// Lookups along a stretched footprint, at most.
 const STRETCH: f32 = 8.0;
@@ -38,7 +37,7 @@ impl Texture {
             return Err(Error::new(format!("the texture {name} measures {width} m by {height} m"))
                 .help("give the width and height of one repetition in metres"));
         }
-        let image = open(&texture.path).map_err(|error| {
+        let image = open(texture).map_err(|error| {
             Error::new(format!("the texture {name} cannot be read: {error}"))
                 .help("check the path; a texture is a PNG or JPEG file")
         })?;
@@ -80,8 +79,11 @@ impl Texture {
     }
 }
 
-fn open(path: &Path) -> Result<image::RgbImage, image::ImageError> {
-    Ok(image::ImageReader::open(path)?.with_guessed_format()?.decode()?.to_rgb8())
+fn open(texture: &scene::Texture) -> Result<image::RgbImage, image::ImageError> {
+    match &texture.content {
+        Some(content) => Ok(image::load_from_memory(content)?.to_rgb8()),
+        None => Ok(image::ImageReader::open(&texture.path)?.with_guessed_format()?.decode()?.to_rgb8()),
+    }
 }
 
 impl Level {
@@ -129,7 +131,11 @@ mod tests {
 
     #[test]
     fn a_missing_file_is_an_error_that_names_it() {
-        let texture = Some(scene::Texture { path: PathBuf::from("brick/no such.png"), size: [1.0, 1.0] });
+        let texture = Some(scene::Texture {
+            path: PathBuf::from("brick/no such.png"),
+            size: [1.0, 1.0],
+            content: None,
+        });
         let error = load(&[Material { texture, ..Material::default() }]).unwrap_err();
         assert!(error.to_string().contains("brick/no such.png"), "{error}");
     }

@@ -1,6 +1,7 @@
 //! How surfaces look, as physically based materials.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A metallic-roughness material. Colours are linear, 0 to 1.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,13 +22,15 @@ pub struct Material {
     pub double_sided: bool,
 }
 
-/// An image file laid over a surface at its real size.
+/// An image laid over a surface at its real size.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Texture {
-    /// A PNG or JPEG file.
+    /// A PNG or JPEG file; the name of the image if it has no file of its own.
     pub path: PathBuf,
     /// Width and height (m) of one repetition.
     pub size: [f64; 2],
+    /// What the file would hold, if the image came inside another one.
+    pub content: Option<Arc<[u8]>>,
 }
 
 impl Default for Material {

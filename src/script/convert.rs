@@ -5,20 +5,37 @@ use std::sync::Arc;
 use mlua::{Lua, Value as LuaValue};
 
 use super::handles::{DerivedHandle, ObjectHandle};
-use super::system::SourceHandle;
+use super::system::{SourceHandle, shape_of};
 use crate::error::{Error, Result};
-use crate::objects::{Key, Table, Value};
+use crate::objects::{Key, Shape, Table, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
 const DEEPEST: usize = 64;
 
-/// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
-pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
-    convert(value, freeze, 0)
+/// How values are copied.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    /// As they are.
+    Plain,
+    /// Tables are made read-only on the way.
+    Freeze,
+    /// As they are, but sources and the geometries of features stay in Rust.
+    Field,
 }
 
-fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
+/// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
+pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
+    convert(value, if freeze { Manner::Freeze } else { Manner::Plain }, 0)
+}
+
+/// Copies what a constructor takes to Rust, where it may find sources and geometries as
+/// [`Features`](crate::objects::Features) and [`Shape`](crate::objects::Shape).
+pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
+    convert(value, Manner::Field, 0)
+}
+
+fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
     Ok(match value {
         LuaValue::Nil => Value::Nil,
         LuaValue::Boolean(value) => Value::Boolean(*value),
@@ -31,6 +48,13 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
                 return Err(Error::new(format!(
                     "a table is nested more than {DEEPEST} deep, or contains itself"
                 )));
+            }
+            let metatable = table.metatable();
+            if let Some(shape) = metatable.as_ref().and_then(|metatable| shape_of(table, metatable)) {
+                return Ok(match manner {
+                    Manner::Field => Value::Object(Arc::new(shape)),
+                    _ => shape.to_table(),
+                });
             }
             let mut entries = Vec::new();
             for pair in table.pairs::<LuaValue, LuaValue>() {
@@ -47,10 +71,10 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
                             .help("keys of such tables are names or whole numbers"));
                     }
                 };
-                entries.push((key, convert(&value, freeze, depth + 1)?));
+                entries.push((key, convert(&value, manner, depth + 1)?));
             }
             entries.sort_by(|a, b| a.0.cmp(&b.0));
-            let class = match table.metatable() {
+            let class = match metatable {
                 Some(metatable)
                     if metatable.raw_get::<Option<String>>("__type").ok().flatten().as_deref()
                         == Some("module") =>
@@ -63,7 +87,7 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
                 },
                 None => None,
             };
-            if freeze {
+            if manner == Manner::Freeze {
                 table.set_readonly(true);
             }
             Value::Table(Arc::new(Table { class, entries }))
@@ -73,7 +97,7 @@ fn convert(value: &LuaValue, freeze: bool, depth: usize) -> Result<Value> {
                 Value::Object(Arc::clone(&handle.0))
             } else if let Ok(handle) = data.borrow::<DerivedHandle>() {
                 Value::Object(handle.model()?)
-            } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), freeze) {
+            } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), manner == Manner::Freeze) {
                 source.value()?
             } else {
                 return Err(Error::new("this object cannot be passed on"));
@@ -99,7 +123,13 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
         Value::Boolean(value) => LuaValue::Boolean(*value),
         Value::Number(value) => LuaValue::Number(*value),
         Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
-        Value::Object(object) => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
+        Value::Object(object) => {
+            let any: &dyn std::any::Any = &**object;
+            match any.downcast_ref::<Shape>() {
+                Some(shape) => to_lua(lua, &shape.to_table(), freeze)?,
+                None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
+            }
+        }
         Value::Table(table) => {
             let made = lua.create_table_with_capacity(0, table.entries.len())?;
             for (key, value) in &table.entries {

@@ -6,6 +6,8 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::session::Session;
 use crate::error::{Error, Result};
+use crate::objects::Model;
+use crate::objects::import::Wanted as WantedModel;
 use crate::sources::{Frame, Layer, Source, Wanted, nearest_file, split_name};
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
@@ -21,6 +23,7 @@ struct Known {
     frame: Option<Frame>,
     told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
+    models: BTreeMap<PathBuf, Result<Arc<Model>>>,
 }
 
 impl Data {
@@ -40,10 +43,53 @@ impl Data {
     }
 }
 
+impl Data {
+    /// The model that `model(name)` means: the same one each time.
+    pub(crate) fn model(&self, session: &Session, name: &str) -> Result<Arc<Model>> {
+        let example = "write model(\"window.glb\")";
+        if name.is_empty() {
+            return Err(Error::new("model needs the name of a file").help(example));
+        }
+        let path = find(session, "model", name)?;
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        known.models.entry(path.clone()).or_insert_with(|| read_model(session, &path, name)).clone()
+    }
+}
+
+/// The largest file (bytes) of a model.
+const LARGEST: u64 = 1_000_000_000;
+
+fn read_model(session: &Session, path: &Path, name: &str) -> Result<Arc<Model>> {
+    let content = read_file(path, name)?;
+    // Files beside it are named from its own folder.
+    let folder = Path::new(name).parent().map(Path::to_path_buf).unwrap_or_default();
+    let mut beside = |uri: &str| {
+        let name = folder.join(uri).display().to_string();
+        read_file(&find(session, "file of a model", &name)?, &name)
+    };
+    let triangles = session.options.limits.triangles;
+    crate::objects::import::model(&content, &mut WantedModel { name, triangles, beside: &mut beside })
+}
+
+fn read_file(path: &Path, name: &str) -> Result<Vec<u8>> {
+    let cannot = |why: &dyn std::fmt::Display| Error::new(format!("cannot read {name}: {why}"));
+    let meta = path.metadata().map_err(|error| cannot(&error))?;
+    if !meta.is_file() {
+        return Err(cannot(&"it is not a file").help("name a .glb or .gltf file"));
+    }
+    if meta.len() > LARGEST {
+        return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));
+    }
+    std::fs::read(path).map_err(|error| cannot(&error))
+}
+
 fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {
     let (name, layer) = split_name(text);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
-    let path = find(session, name)?;
+    if name.is_empty() {
+        return Err(Error::new("source needs the name of a file").help("write source(\"village.geojson\")"));
+    }
+    let path = find(session, "data file", name)?;
     let table = Source::open(&path, name)?.read(name, &wanted)?;
     let shown = table.shown.clone();
     let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
@@ -55,19 +101,17 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
     Ok(Arc::new(layer))
 }
 
-/// The file that a script means by `name`: in its own folder, or in one of those given with `--data`.
-fn find(session: &Session, name: &str) -> Result<PathBuf> {
+/// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
+/// `--data`.
+fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
     let outside = || {
-        Error::new(format!("the data file {name} lies outside the script's folder")).help(
+        Error::new(format!("the {what} {name} lies outside the script's folder")).help(
             "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
         )
     };
-    if name.is_empty() {
-        return Err(Error::new("source needs the name of a file").help("write source(\"village.geojson\")"));
-    }
     let relative = Path::new(name);
     if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
-        return Err(Error::new(format!("the data file {name} is named by a path from the root"))
+        return Err(Error::new(format!("the {what} {name} is named by a path from the root"))
             .help("name it from the script's folder, or from one that is given: --data FOLDER"));
     }
     let roots = || std::iter::once(session.root()).chain(session.data_roots().iter().map(PathBuf::as_path));
@@ -107,7 +151,7 @@ fn find(session: &Session, name: &str) -> Result<PathBuf> {
     if !inside {
         return Err(outside());
     }
-    let error = Error::new(format!("there is no data file {name}"));
+    let error = Error::new(format!("there is no {what} {name}"));
     Err(match near {
         Some(near) => error.help(format!("did you mean {near}?")),
         None if session.data_roots().is_empty() => error

@@ -9,12 +9,12 @@ use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::analysis::Globals;
-use super::convert::{class_key, to_lua, to_value};
+use super::convert::{class_key, to_field, to_lua};
 use super::handles::{ObjectHandle, methods_key};
 use super::machine::{Machine, compile, native};
 use super::param::Param;
 use super::session::Session;
-use super::system::{SourceHandle, System, SystemHandle};
+use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
 use crate::error::{Error, Result};
 use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
 use crate::rules::{Signature, Symbol, Symbols};
@@ -194,6 +194,8 @@ impl Library {
         coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
         globals.raw_set("resume", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
+        lua.set_app_data(Eager(Arc::clone(&machine.session)));
+        install_lazy(lua, self)?;
         let own = machine.session.options.kinds.clone();
         for kind in KINDS.iter().copied().chain([&crate::objects::Model::KIND]).chain(own) {
             install_kind(machine, &globals, kind)?;
@@ -287,6 +289,18 @@ impl Library {
                     .at_top_level("source")
                     .and_then(|()| SourceHandle::new(&*library.machine()?, &what, &options));
                 made.map_err(mlua::Error::external)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
+            "model",
+            lua.create_function(move |_, name: LuaValue| {
+                let name = match name {
+                    LuaValue::String(name) => name.to_string_lossy(),
+                    _ => String::new(),
+                };
+                let made = library.at_top_level("model").and_then(|()| session.data.model(&session, &name));
+                made.map(|model| ObjectHandle(model)).map_err(mlua::Error::external)
             })?,
         )?;
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
@@ -394,13 +408,13 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     if table.get(first).is_some() {
         return Err(Error::new(format!("{} is given its {first} twice", kind.name)));
     }
-    table.entries.push((crate::objects::Key::Name(first.into()), to_value(&one, false)?));
+    table.entries.push((crate::objects::Key::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))
 }
 
 /// The one table of named fields that a constructor takes; nothing is an empty one.
 fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
-    match to_value(&options, false)? {
+    match to_field(&options)? {
         Value::Nil => Ok(Arc::default()),
         Value::Table(table) => Ok(table),
         _ => Err(no_table(what, &options)),

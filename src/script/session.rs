@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, analyse};
+use super::analysis::{Analysis, Globals, analyse, has_metatables};
 use super::data::Data;
 use super::param::Param;
 use super::preset::Preset;
@@ -226,6 +226,8 @@ pub struct Session {
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
+    peeking: AtomicBool,
+    metatables: AtomicBool,
     kept: Mutex<Vec<f64>>,
     /// The lineage that was asked for, once it is known.
     pub(crate) traced: Mutex<Option<Trace>>,
@@ -254,6 +256,8 @@ impl Session {
             left_out: Mutex::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
+            peeking: AtomicBool::new(false),
+            metatables: AtomicBool::new(false),
             kept: Mutex::default(),
             traced: Mutex::default(),
         }))
@@ -335,9 +339,24 @@ impl Session {
         self.randoms.load(Ordering::Acquire)
     }
 
+    /// Whether any file of the script could tell a table that is made later from one that is there.
+    pub(crate) fn peeks(&self) -> bool {
+        self.peeking.load(Ordering::Acquire)
+    }
+
+    /// Whether the functions that begin in a line of a file leave nothing behind.
+    pub(crate) fn is_quiet(&self, file: &str, line: usize) -> bool {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut named = sources.values().filter(|source| source.name == file);
+        !self.metatables.load(Ordering::Acquire)
+            && named.next().is_some_and(|source| source.analysis.quiet.contains(&line))
+    }
+
     /// Takes notice of what a piece of the script may do.
     pub(crate) fn note(&self, analysis: &Analysis) {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
+        self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
+        self.peeking.fetch_or(super::system::peeks(&analysis.text), Ordering::AcqRel);
     }
 
     /// Keeps the values that `params` names for the rest of the run.

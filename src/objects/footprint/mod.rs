@@ -13,10 +13,11 @@ use std::sync::{Arc, OnceLock};
 use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
-use super::{Color, Drawing, Kind, Note, Object, Parameter, Streets, Surface, Table, Value, Vector};
+use super::{Color, Drawing, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Value, Vector};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
+use crate::sources::Geometry;
 pub use edges::EdgeKeywords;
 use edges::Edges;
 use neighbors::Neighborhood;
@@ -38,12 +39,26 @@ impl Parameter for Rings {
         let what = || {
             Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
         };
-        let Value::Table(table) = &value else { return Err(what()) };
+        let not_this =
+            |kind: &str| Expected::of_data(format!("a polygon, and this is a geometry of kind {kind:?}"));
+        let table = match &value {
+            Value::Table(table) => table,
+            Value::Object(object) => {
+                let any: &dyn std::any::Any = &**object;
+                return match any.downcast_ref::<Shape>().map(Shape::geometry) {
+                    Some(Geometry::Polygon(rings)) => {
+                        let ring = |ring: &Vec<[f64; 3]>| ring.iter().copied().map(DVec3::from).collect();
+                        Ok(Self(rings.iter().map(ring).collect()))
+                    }
+                    Some(other) => Err(not_this(other.kind().name())),
+                    None => Err(what()),
+                };
+            }
+            _ => return Err(what()),
+        };
         let rings = match (table.get("rings"), table.get("kind")) {
             (Some(rings), _) => rings.clone(),
-            (None, Some(Value::Text(kind))) => {
-                return Err(Expected::of_data(format!("a polygon, and this is a geometry of kind {kind:?}")));
-            }
+            (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
             _ => value.clone(),
         };
         let rings = Vec::<Vec<Vector>>::from_value(rings.clone())

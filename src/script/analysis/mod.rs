@@ -6,6 +6,7 @@
 //! outside it is preceded by a check that no rule is running.
 
 mod prepare;
+mod quiet;
 mod syntax;
 mod walk;
 
@@ -19,6 +20,7 @@ use rustc_hash::FxHashMap;
 
 use crate::error::{Error, Place};
 use crate::rules::Signature;
+pub(crate) use quiet::has_metatables;
 use walk::{Facts, Walk};
 
 /// What a script may use without declaring it.
@@ -41,6 +43,8 @@ pub(crate) struct Analysis {
     pub problems: Vec<Error>,
     /// Whether the script names `random`.
     pub random: bool,
+    /// The lines on which functions begin that leave nothing behind.
+    pub quiet: Vec<usize>,
 }
 
 /// What stands before a successor that is given as text: the line on which it begins.
@@ -87,7 +91,7 @@ pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
 
 /// The analysis of a script that is not to be run.
 fn unread(text: &str, problems: Vec<Error>) -> Analysis {
-    Analysis { text: text.to_owned(), problems, random: true }
+    Analysis { text: text.to_owned(), problems, random: true, quiet: Vec::new() }
 }
 
 fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
@@ -106,7 +110,8 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, .. } = second;
+    let Walk { mut edits, mut problems, random, quiet, .. } = second;
+    let quiet = quiet.into_iter().filter_map(|(line, quiet)| quiet.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     // What is put before a token comes before what replaces it.
     edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
@@ -121,5 +126,5 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
         at = edit.end;
     }
     out.push_str(&text[at..]);
-    Analysis { text: out, problems, random }
+    Analysis { text: out, problems, random, quiet }
 }

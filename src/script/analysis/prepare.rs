@@ -100,11 +100,17 @@ impl Walk<'_> {
 
     /// Walks a function, which has a `self` if it `is_method`; gives the shapes of its returns.
     pub(super) fn function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Vec<String> {
+        self.walk_function(body, role, is_method).shapes
+    }
+
+    /// Walks a function; gives what was learned of it.
+    pub(super) fn walk_function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Function {
+        let is_axiom = std::mem::take(&mut self.axiom);
         let outside = self.variables.len();
         let start = first_position(body.block(), body.end_token());
         let mut parameters = body.parameters().iter();
         let rule = if role == Role::Other { None } else { self.rule.clone() };
-        self.functions.push(Function { role, rule, shapes: Vec::new() });
+        self.functions.push(Function { role, rule, shapes: Vec::new(), quiet: true });
         if is_method {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
@@ -113,16 +119,26 @@ impl Walk<'_> {
                 id,
                 function: self.functions.len() - 1,
                 module: None,
+                fresh: false,
+                feature: false,
             });
         }
         for parameter in parameters.by_ref() {
             if let Parameter::Name(name) = parameter {
-                self.declare(name, start);
+                let id = self.declare(name, start);
+                if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
+                    variable.feature = is_axiom;
+                }
             }
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        self.functions.pop().map(|function| function.shapes).unwrap_or_default()
+        let nothing = Function { role, rule: None, shapes: Vec::new(), quiet: false };
+        let function = self.functions.pop().unwrap_or(nothing);
+        if let Some(position) = body.parameters_parentheses().tokens().0.start_position() {
+            *self.quiet.entry(position.line()).or_insert(true) &= function.quiet;
+        }
+        function
     }
 
     pub(super) fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {

@@ -1,5 +1,7 @@
 //! Walks a script: variables and their scopes, names, and the checks that need no running.
 
+use std::collections::BTreeMap;
+
 use full_moon::ast::luau::{ElseIfExpression, IfExpression};
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{
@@ -24,6 +26,8 @@ pub(super) struct Facts {
 pub(super) struct Fact {
     pub(super) assigned: bool,
     pub(super) assigned_inside: bool,
+    /// Whether it is a function that leaves nothing behind.
+    pub(super) quiet: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -41,6 +45,8 @@ pub(super) struct Function {
     pub(super) rule: Option<String>,
     /// What its prepared returns make, as Lua tables.
     pub(super) shapes: Vec<String>,
+    /// Whether it has left nothing behind so far.
+    pub(super) quiet: bool,
 }
 
 pub(super) struct Variable {
@@ -48,6 +54,10 @@ pub(super) struct Variable {
     pub(super) id: usize,
     pub(super) function: usize,
     pub(super) module: Option<Signature>,
+    /// Whether it begins as a new table.
+    pub(super) fresh: bool,
+    /// Whether it is what the function of an axiom is given.
+    pub(super) feature: bool,
 }
 
 pub(super) struct Edit {
@@ -69,6 +79,10 @@ pub(super) struct Walk<'a> {
     pub(super) random: bool,
     /// The rule whose functions are being walked.
     pub(super) rule: Option<String>,
+    /// Whether the next function is that of an axiom.
+    pub(super) axiom: bool,
+    /// By line: whether all functions that begin there leave nothing behind.
+    pub(super) quiet: BTreeMap<usize, bool>,
 }
 
 impl<'a> Walk<'a> {
@@ -78,12 +92,14 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { role: Role::Script, rule: None, shapes: Vec::new() }],
+            functions: vec![Function { role: Role::Script, rule: None, shapes: Vec::new(), quiet: false }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
             random: false,
             rule: None,
+            axiom: false,
+            quiet: BTreeMap::new(),
         }
     }
 
@@ -127,6 +143,7 @@ impl<'a> Walk<'a> {
                     if names.len() == 1 && declaration.name().method_name().is_none() {
                         self.assign_name(first.value(), statement);
                     } else {
+                        self.loud_from(1);
                         self.read(first.value());
                     }
                 }
@@ -138,6 +155,7 @@ impl<'a> Walk<'a> {
             Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions(), statement),
             Stmt::GenericFor(generic) => {
                 self.expressions(generic.expressions());
+                self.iterated(generic.expressions());
                 let outside = self.variables.len();
                 for name in generic.names() {
                     self.declare(name, first_position(generic.block(), generic.end_token()));
@@ -182,8 +200,8 @@ impl<'a> Walk<'a> {
     }
 
     pub(super) fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
-        self.declare(name, end_of(statement).map(|end| end.bytes()));
-        self.function(body, Role::Other, false);
+        let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
+        self.facts.variables[id].quiet = self.walk_function(body, Role::Other, false).quiet;
     }
 
     pub(super) fn local(
@@ -199,6 +217,7 @@ impl<'a> Walk<'a> {
             let module = values.get(index).and_then(|value| declared_module(value));
             if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
                 variable.module = module;
+                variable.fresh = matches!(values.get(index), Some(Expression::TableConstructor(_)));
             }
         }
     }
@@ -213,7 +232,14 @@ impl<'a> Walk<'a> {
             let error = Error::new(format!("a variable cannot be called {text}"));
             self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
         }
-        self.variables.push(Variable { name: text, id, function, module: None });
+        self.variables.push(Variable {
+            name: text,
+            id,
+            function,
+            module: None,
+            fresh: false,
+            feature: false,
+        });
         if function > 0
             && self.fact(id).assigned_inside
             && let Some(at) = behind
@@ -235,6 +261,7 @@ impl<'a> Walk<'a> {
         match variable {
             Var::Name(name) => self.assign_name(name, statement),
             Var::Expression(expression) => {
+                self.field_assigned(expression.prefix());
                 self.prefix(expression.prefix());
                 for suffix in expression.suffixes() {
                     self.suffix(suffix);
@@ -265,6 +292,7 @@ impl<'a> Walk<'a> {
             });
             return;
         };
+        self.loud_from(owner + 1);
         let fact = &mut self.facts.variables[id];
         fact.assigned = true;
         fact.assigned_inside |= owner < here;
@@ -426,6 +454,7 @@ impl<'a> Walk<'a> {
     }
 
     pub(super) fn call(&mut self, call: &FunctionCall) {
+        self.called(call);
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         self.library_field(call.prefix(), suffixes.first().copied());
         if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
@@ -443,6 +472,11 @@ impl<'a> Walk<'a> {
                 Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
                     "rule" => self.rule(method.args(), Role::Rule),
                     "interpret" => self.rule(method.args(), Role::Interpretation),
+                    "axiom" => {
+                        self.axiom = true;
+                        self.suffix(suffix);
+                        self.axiom = false;
+                    }
                     _ => self.suffix(suffix),
                 },
                 _ => self.suffix(suffix),

@@ -3,9 +3,11 @@
 mod axiom;
 mod declare;
 mod handle;
+mod lazy;
 mod source;
 
 pub(crate) use handle::SystemHandle;
+pub(crate) use lazy::{Eager, install as install_lazy, peeks, shape_of};
 pub(crate) use source::{GEOMETRY, SourceHandle};
 
 use std::sync::Arc;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
+use super::lazy;
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Features, Table as ValueTable, Value};
 use crate::script::machine::{Machine, native, write_column};
@@ -72,10 +73,10 @@ impl SourceHandle {
                 // All of it stays, so looking for what does not would be in vain.
                 let collects = lua.gc_is_running();
                 lua.gc_stop();
-                let made = layer
-                    .features
-                    .iter()
-                    .try_for_each(|feature| table.raw_push(maker.feature(lua, &names, feature)?));
+                let features = layer.features.iter().enumerate();
+                let made = features
+                    .map(|(index, feature)| table.raw_push(maker.feature(lua, &names, index, feature)?));
+                let made: mlua::Result<()> = made.collect();
                 if collects {
                     lua.gc_restart();
                 }
@@ -187,7 +188,7 @@ pub(super) fn each_feature(
     for (index, feature) in layer.features.iter().enumerate() {
         let made = match &kept {
             LuaValue::Table(kept) => kept.raw_get(index + 1),
-            _ => maker.feature(lua, &names, feature).map(LuaValue::Table),
+            _ => maker.feature(lua, &names, index, feature).map(LuaValue::Table),
         };
         each(index + 1, made.map_err(&failed)?, Some(&feature.id))?;
     }
@@ -199,21 +200,24 @@ struct Names {
     attributes: Vec<mlua::LuaString>,
     layer: mlua::LuaString,
     fixed: [mlua::LuaString; 3],
+    /// What makes geometries of tables that know only their feature; none where the script could tell.
+    lazy: Option<Table>,
 }
 
 impl Names {
-    fn new(lua: &Lua, layer: &Layer) -> mlua::Result<Self> {
+    fn new(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Self> {
         let text = |text: &str| lua.create_string(text);
         Ok(Self {
             attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
             layer: text(&layer.name)?,
             fixed: [text("id")?, text("geometry")?, text("layer")?],
+            lazy: lazy::metatable(lua, layer)?,
         })
     }
 }
 
 /// Makes features' tables.
-struct Maker {
+pub(super) struct Maker {
     geometry: Function,
     kinds: [mlua::LuaString; 3],
     /// Lists of points on their way to Lua, and the same as bytes.
@@ -222,7 +226,7 @@ struct Maker {
 }
 
 impl Maker {
-    fn new(lua: &Lua) -> mlua::Result<Self> {
+    pub(super) fn new(lua: &Lua) -> mlua::Result<Self> {
         let geometry: Function = lua.named_registry_value(GEOMETRY)?;
         native(lua, &geometry)?;
         let [point, line, polygon] = Kind::ALL.map(|kind| lua.create_string(kind.name()));
@@ -234,7 +238,7 @@ impl Maker {
         })
     }
 
-    fn feature(&self, lua: &Lua, names: &Names, feature: &Feature) -> mlua::Result<Table> {
+    fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
         let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
         for (index, value) in feature.attributes.iter() {
             let name = &names.attributes[*index];
@@ -247,14 +251,17 @@ impl Maker {
         }
         let [id, geometry, layer] = &names.fixed;
         table.raw_set(id, feature.id.as_str())?;
-        table.raw_set(geometry, self.shape(lua, &feature.geometry)?)?;
+        match &names.lazy {
+            Some(metatable) => table.raw_set(geometry, lazy::geometry(lua, metatable, index)?)?,
+            None => table.raw_set(geometry, self.shape(lua, &feature.geometry)?)?,
+        }
         table.raw_set(layer, &names.layer)?;
         table.set_readonly(true);
         Ok(table)
     }
 
     /// A geometry, written into a column and read from there by Lua, which makes its many small tables much faster.
-    fn shape(&self, lua: &Lua, geometry: &Geometry) -> mlua::Result<Table> {
+    pub(super) fn shape(&self, lua: &Lua, geometry: &Geometry) -> mlua::Result<Table> {
         let mut numbers = self.numbers.borrow_mut();
         numbers.clear();
         #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
