@@ -122,7 +122,9 @@ impl Shape {
             let rakes: Vec<Option<Rake>> = over
                 .iter()
                 .enumerate()
-                .map(|(edge, over)| (*over == Over::Raked).then(|| rim.rake(edge, &skeleton, &points)).flatten())
+                .map(|(edge, over)| {
+                    (*over == Over::Raked).then(|| rim.rake(edge, &skeleton, &points)).flatten()
+                })
                 .collect();
             let mut failed = false;
             for (over, rake) in over.iter_mut().zip(&rakes) {

@@ -18,10 +18,11 @@ pub(super) fn patches(
     base: f64,
     slab: f64,
 ) -> Vec<Patch> {
-    let longest = walls.first().into_iter().flat_map(|ring| edges(ring)).fold([DVec2::ZERO; 2], |best, edge| {
-        let [a, b] = [best, edge].map(|[from, to]| from.distance(to));
-        if b > a + 1e-6 { edge } else { best }
-    });
+    let longest =
+        walls.first().into_iter().flat_map(|ring| edges(ring)).fold([DVec2::ZERO; 2], |best, edge| {
+            let [a, b] = [best, edge].map(|[from, to]| from.distance(to));
+            if b > a + 1e-6 { edge } else { best }
+        });
     let inward = (longest[1] - longest[0]).normalize_or_zero().perp();
     let depth = |at: DVec2| inward.dot(at - longest[0]);
     let (near, far) = walls.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), &at| {

@@ -83,9 +83,8 @@ impl Parameter for Detail {
 
     fn from_value(value: Value) -> Result<Self, Expected> {
         match value {
-            Value::Table(table) => {
-                Self::from_table(&table).map_err(|error| Expected::new(format!("a detail ({})", error.message())))
-            }
+            Value::Table(table) => Self::from_table(&table)
+                .map_err(|error| Expected::new(format!("a detail ({})", error.message()))),
             _ => Err(Expected::new("a table of a detail's fields")),
         }
     }
@@ -120,7 +119,8 @@ impl Detail {
                 .help(format!("there are {}", PLACES.join(", "))));
         }
         let positive = [("every", self.every.unwrap_or(1.0)), ("scale", self.scale)];
-        if let Some((name, number)) = positive.into_iter().find(|(_, number)| !(1e-3..=1e4).contains(number)) {
+        if let Some((name, number)) = positive.into_iter().find(|(_, number)| !(1e-3..=1e4).contains(number))
+        {
             return Err(Error::new(format!("{what}: {name} is {number}")).help("give 0.001 to 10000"));
         }
         let lengths = [("margin", self.margin), ("offset", self.offset.unwrap_or(0.0))];
@@ -225,7 +225,8 @@ impl Detail {
             let (along, up) = (patch.along.extend(0.0), normal(patch));
             let inward = patch.along.perp().extend(0.0);
             let depths = || patch.rings.iter().flatten().map(|point| inward.dot(*point));
-            let (low, high) = (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
+            let (low, high) =
+                (depths().fold(f64::INFINITY, f64::min), depths().fold(f64::NEG_INFINITY, f64::max));
             for row in 0..self.rows {
                 let row = f64::from(row);
                 let depth = match self.offset {

@@ -25,9 +25,8 @@ const SLOPED: [Kind; 8] = [
     Kind { name: "dutch_hip", ends: Ends::DutchHips, bends: &[] },
 ];
 
-const KINDS: [&str; 10] = [
-    "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch", "dutch_hip",
-];
+const KINDS: [&str; 10] =
+    ["flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch", "dutch_hip"];
 
 const EAVES: [&str; 3] = ["closed", "open", "slab"];
 
@@ -82,7 +81,8 @@ fn check(options: &Roof) -> Result<()> {
         return Err(Error::new(format!("footprint:roof: slope is {} degrees", options.slope))
             .help("give degrees above 0, up to 85"));
     }
-    for (name, length) in [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)] {
+    for (name, length) in [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)]
+    {
         if !(0.0..=100.0).contains(&length) {
             return Err(Error::new(format!("footprint:roof: {name} is {length} m")).help("give 0 to 100 m"));
         }
@@ -105,7 +105,8 @@ mod tests {
         }
         let error = shape(&Roof { kind: "mansarde".into(), ..Roof::default() }).expect_err("no such kind");
         assert!(error.to_string().contains("mansard"), "{error}");
-        let error = shape(&Roof { eaves: Some("shut".into()), ..Roof::default() }).expect_err("no such eaves");
+        let error =
+            shape(&Roof { eaves: Some("shut".into()), ..Roof::default() }).expect_err("no such eaves");
         assert!(error.to_string().contains("closed, open, slab"), "{error}");
         let both = Roof { eaves: Some("closed".into()), slab: 0.2, ..Roof::default() };
         assert!(shape(&both).is_err());

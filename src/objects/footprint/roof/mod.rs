@@ -3,6 +3,8 @@
 mod detail;
 mod kinds;
 mod replace;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec3;
 
@@ -37,7 +39,7 @@ fields! {
         pub color: Option<Color> = None,
         /// Its material, in place of the colour.
         pub material: Option<Surface> = None,
-        /// The material of gables; the roof's if left out.
+        /// The material of gables; the footprint's colour if left out.
         pub gable: Option<Surface> = None,
         /// The material of slabs and borders; the roof's if left out.
         pub trim: Option<Surface> = None,
@@ -60,7 +62,8 @@ impl Footprint {
         }
         self.shell.closed = true;
         let (walls, base) = (self.plan.flat(), self.shell.top);
-        let made = replace::cover(&shape, &options.kind, &walls, base, &mut |shape, walls| shape.cover(walls, base));
+        let made =
+            replace::cover(&shape, &options.kind, &walls, base, &mut |shape, walls| shape.cover(walls, base));
         let mut note = |what: String, why: String| self.notes.push(Note::new(what, why));
         if let Some((what, why)) = made.replaced {
             note(what, why);
@@ -88,7 +91,7 @@ impl Footprint {
         let material = options.material.as_ref();
         let trim = options.trim.as_ref().or(material);
         let slope = self.part(options.color, material)?;
-        let gable = self.part(options.color, options.gable.as_ref().or(material))?;
+        let gable = self.part(None, options.gable.as_ref())?;
         let fascia = self.part(options.color, trim)?;
         let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
         for patch in patches {

@@ -46,7 +46,8 @@ pub(super) fn cover(
         let text = format!("a {kind} roof over an outline simplified to {distance} m");
         Some((simplified(walls, distance)?, text))
     });
-    let whole = bounding(walls).map(|rectangle| (rectangle, format!("a {kind} roof on the bounding rectangle")));
+    let whole =
+        bounding(walls).map(|rectangle| (rectangle, format!("a {kind} roof on the bounding rectangle")));
     for (outline, text) in simple.chain(whole) {
         if let Ok(mut cover) = make(&flush, &outline) {
             cover.patches.extend([level(walls, true), level(&outline, false)]);
