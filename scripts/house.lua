@@ -120,7 +120,6 @@ houses:interpret("Roof(kind)", function(this, roof)
     slab = if eaves == "closed" then 0 else 0.2,
     border = if flat then 0.6 else 0,
     material = { color = if flat then "#8f8f8b" else "#a3492f", roughness = 0.9, name = "tiles" },
-    gable = { color = "#e4d8c3", name = "gable" },
     trim = { color = "#f1ece2", name = "trim" },
     details = if furnished then details else {},
   })

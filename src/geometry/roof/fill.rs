@@ -19,6 +19,7 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     let triangles = match flats.as_slice() {
         [ring] if ring.len() == 3 => vec![[0, 1, 2]],
         [ring] if ring.len() == 4 && is_convex(ring) => vec![[0, 1, 2], [0, 2, 3]],
+        [ring] => cap::triangulate(&flats).unwrap_or_else(|_| fan(ring)),
         _ => cap::triangulate(&flats)?,
     };
     let base =
@@ -31,6 +32,19 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
     part.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|corner| corner as u32 + base)));
     Ok(())
+}
+
+/// The triangles between a corner and all edges of a ring that almost touches itself; the corner whose thinnest
+/// triangle is the thickest.
+fn fan(ring: &[DVec2]) -> Vec<[usize; 3]> {
+    let count = ring.len();
+    let around = |apex: usize| {
+        (1..count - 1).map(move |step| [apex, (apex + step) % count, (apex + step + 1) % count])
+    };
+    let area = |[a, b, c]: [usize; 3]| (ring[b] - ring[a]).perp_dot(ring[c] - ring[a]);
+    let thinnest = |apex: usize| around(apex).map(area).fold(f64::INFINITY, f64::min);
+    let best = (0..count).max_by(|&a, &b| thinnest(a).total_cmp(&thinnest(b))).unwrap_or(0);
+    around(best).collect()
 }
 
 /// The sum of the normals of a ring's triangles, each as long as twice its area.

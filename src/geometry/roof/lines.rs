@@ -8,9 +8,9 @@ use super::{Patch, PatchKind, edges};
 /// What a line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum LineKind {
-    /// Both slopes fall away from it, and it is nearly level.
+    /// Both slopes fall away from it, to opposite sides, and it is nearly level.
     Ridge,
-    /// Both slopes fall away from it, and it falls too.
+    /// Both slopes fall away from it, as over a corner.
     Hip,
     /// Both slopes rise from it.
     Valley,
@@ -29,8 +29,8 @@ pub struct Line {
     pub normals: [DVec3; 2],
 }
 
-/// Ridges that rise less than this are nearly level.
-const LEVEL: f64 = 0.15;
+/// What rises less than this is nearly level.
+const LEVEL: f64 = 0.2;
 
 /// The lines of a roof, in the order of its patches.
 pub fn lines(patches: &[Patch]) -> Vec<Line> {
@@ -52,7 +52,8 @@ pub fn lines(patches: &[Patch]) -> Vec<Line> {
                     // The area to the right of the edge belongs to the other slope.
                     let across = self::normal(&patches[other]);
                     let bend = across.dot(-away);
-                    let level = (b.z - a.z).abs() <= LEVEL * a.truncate().distance(b.truncate());
+                    let opposite = patch.along.dot(patches[other].along) < -0.5;
+                    let level = opposite && (b.z - a.z).abs() <= LEVEL * a.truncate().distance(b.truncate());
                     let kind = match (bend < 0.0, level) {
                         (true, _) => LineKind::Valley,
                         (false, true) => LineKind::Ridge,

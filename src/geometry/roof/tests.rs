@@ -1,1 +1,190 @@
+//! Tests of roofs: over random plans, each closes its walls into a solid with the volume that it encloses.
 
+use super::super::skeleton::samples::{Random, plan};
+use super::super::skeleton::{Pace, Skeleton};
+use super::super::solid;
+use super::shape::Profile;
+use super::*;
+use crate::scene::Part;
+
+const HEIGHT: f64 = 3.0;
+const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];
+
+/// Walls of 3 m over a floor, and `cover` on them.
+fn building(walls: &[Vec<DVec2>], cover: &Cover) -> Part {
+    let mut part = Part::default();
+    let mut add = |rings: &[Vec<DVec3>]| {
+        let right = rings[0][1] - rings[0][0];
+        fill(&mut part, rings, right, rings[0][0]).expect("a flat face");
+    };
+    add(&floor(walls, 0.0));
+    for [a, b] in walls.iter().flat_map(|ring| edges(ring)) {
+        add(&[vec![a.extend(0.0), b.extend(0.0), b.extend(HEIGHT), a.extend(HEIGHT)]]);
+    }
+    for patch in &cover.patches {
+        add(&patch.rings);
+    }
+    part
+}
+
+fn area(rings: &[Vec<DVec2>]) -> f64 {
+    let twice =
+        |ring: &Vec<DVec2>| edges(ring).map(|[a, b]| (a - ring[0]).perp_dot(b - ring[0])).sum::<f64>();
+    rings.iter().map(twice).sum::<f64>() / 2.0
+}
+
+/// The volume (m³) below the faces of a hip roof, by clipping them at the bends of the profile.
+fn volume_below(rings: &[Vec<DVec2>], shape: &Shape) -> f64 {
+    let paces = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
+    let skeleton = Skeleton::new(rings, &paces).expect("a skeleton");
+    let profile = Profile::new(shape, skeleton.duration(), 0.0);
+    let mut volume = 0.0;
+    for face in &skeleton.faces {
+        let corners: Vec<DVec3> =
+            face.iter().map(|&peak| skeleton.peaks[peak].at.extend(skeleton.peaks[peak].time)).collect();
+        for (index, pair) in profile.corners.windows(2).enumerate() {
+            let above = clipped(&corners, pair[0].x, 1.0);
+            let last = index + 2 == profile.corners.len();
+            let band = if last { above } else { clipped(&above, pair[1].x, -1.0) };
+            let slope = (pair[1].y - pair[0].y) / (pair[1].x - pair[0].x);
+            for [b, c] in band.windows(2).skip(1).map(|pair| [pair[0], pair[1]]) {
+                let a = band[0];
+                let area = (b - a).truncate().perp_dot((c - a).truncate()) / 2.0;
+                volume += area * (pair[0].y + slope * ((a.z + b.z + c.z) / 3.0 - pair[0].x));
+            }
+        }
+    }
+    volume
+}
+
+/// The part of a ring on one side of a level.
+fn clipped(ring: &[DVec3], level: f64, side: f64) -> Vec<DVec3> {
+    let mut kept = Vec::new();
+    for (index, &a) in ring.iter().enumerate() {
+        let b = ring[(index + 1) % ring.len()];
+        let [from, to] = [a, b].map(|point| side * (point.z - level));
+        if from >= 0.0 {
+            kept.push(a);
+        }
+        if (from < 0.0) != (to < 0.0) {
+            kept.push(a.lerp(b, from / (from - to)));
+        }
+    }
+    kept
+}
+
+fn shape(surface: Surface, eaves: Eaves, overhang: f64, slab: f64) -> Shape {
+    Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab }
+}
+
+#[test]
+fn roofs_of_every_shape_close_thousands_of_random_plans() {
+    let border = Border { height: 0.5, width: 0.3 };
+    let surfaces = [
+        Surface::Flat(None),
+        Surface::Flat(Some(border)),
+        Surface::Shed,
+        Surface::Sloped(Ends::Hips, &[]),
+        Surface::Sloped(Ends::Hips, BENT),
+        Surface::Sloped(Ends::Gables, &[]),
+        Surface::Sloped(Ends::Gables, BENT),
+        Surface::Sloped(Ends::DutchHips, &[]),
+    ];
+    let eaves = [(Eaves::Closed, 0.0), (Eaves::Slab, 0.2), (Eaves::Open, 0.15)];
+    let mut random = Random(11);
+    let (mut count, mut hipped) = (0, 0);
+    for round in 0..6000 {
+        let Some(walls) = plan(round, &mut random) else { continue };
+        let (surface, overhang) = (surfaces[round % 8], [0.0, 0.3, 0.8][round / 8 % 3]);
+        let (eaves, slab) = eaves[round / 24 % 3];
+        let thin = matches!(surface, Surface::Flat(_) | Surface::Shed) && overhang > 0.0;
+        let shape = shape(surface, eaves, overhang, if thin { 0.15 } else { slab });
+        let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
+        let part = building(&walls, &cover);
+        let check = solid::check([&part]);
+        assert!(check.is_solid(), "{round}: {shape:?} {check:?} {walls:?}");
+        let volume = solid::volume([&part]);
+        let plain = area(&walls) * HEIGHT;
+        assert!(volume > plain - 1e-3, "{round}: {volume} m³ of {plain} m³");
+        if let (Surface::Sloped(Ends::Hips, _), true) = (surface, cover.overhang == 0.0) {
+            let expected = plain + volume_below(&walls, &Shape { overhang: 0.0, ..shape });
+            assert!((volume - expected).abs() < 1e-3 * expected, "{round}: {volume} m³, not {expected} m³");
+        }
+        hipped += u32::from(cover.hipped);
+        count += 1;
+    }
+    assert!(count > 5000, "{count}");
+    assert!(hipped < 20, "{hipped}");
+}
+
+#[test]
+fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
+    let plans: [(&str, usize, &[(f64, f64)]); 6] = [
+        ("rectangle", 2, &[(0., 0.), (12., 0.), (12., 7.), (0., 7.)]),
+        ("skew", 2, &[(0., 0.), (12., 0.4), (12.6, 7.), (-0.3, 7.2)]),
+        ("L", 2, &[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]),
+        ("T", 3, &[(0., 8.), (6., 8.), (6., 0.), (12., 0.), (12., 8.), (18., 8.), (18., 15.), (0., 15.)]),
+        ("U", 2, &[(0., 0.), (18., 0.), (18., 12.), (13., 12.), (13., 5.), (5., 5.), (5., 12.), (0., 12.)]),
+        (
+            "cross",
+            4,
+            &[
+                (5., 0.),
+                (11., 0.),
+                (11., 5.),
+                (16., 5.),
+                (16., 11.),
+                (11., 11.),
+                (11., 16.),
+                (5., 16.),
+                (5., 11.),
+                (0., 11.),
+                (0., 5.),
+                (5., 5.),
+            ],
+        ),
+    ];
+    for (name, ends, corners) in plans {
+        for step in 0..12 {
+            let turn = DVec2::from_angle(0.31 * f64::from(step));
+            let walls =
+                vec![corners.iter().map(|&corner| turn.rotate(DVec2::from(corner))).collect::<Vec<_>>()];
+            for eaves in [Eaves::Closed, Eaves::Open] {
+                let shape = shape(Surface::Sloped(Ends::Gables, &[]), eaves, 0.5, 0.1);
+                let shape = if eaves == Eaves::Closed { Shape { slab: 0.0, ..shape } } else { shape };
+                let cover = shape.cover(&walls, HEIGHT).expect("a roof");
+                let gables = cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable).count();
+                assert_eq!(
+                    (gables, cover.hipped, cover.overhang),
+                    (ends, false, 0.5),
+                    "{name} {step} {eaves:?}"
+                );
+                let ridges = lines(&cover.patches).iter().filter(|line| line.kind == LineKind::Ridge).count();
+                assert!(ridges >= ends.div_ceil(2), "{name}: {ridges} ridges");
+            }
+        }
+    }
+}
+
+#[test]
+fn open_eaves_of_a_gable_roof_have_the_volume_of_a_plate_beyond_the_walls() {
+    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    let open =
+        Shape { rise: Rise::Height(3.0), ..shape(Surface::Sloped(Ends::Gables, &[]), Eaves::Open, 0.5, 0.2) };
+    let cover = open.cover(&walls, HEIGHT).expect("a roof");
+    // A slope of 1 over walls of 6 m gets a flatter end beyond them, so the plate is 0.2 m high everywhere.
+    let expected = 60.0 * HEIGHT + 10.0 * 6.0 * 3.0 / 2.0 + 11.0 * 7.0 * 0.2;
+    let volume = solid::volume([&building(&walls, &cover)]);
+    assert!((volume - expected).abs() < 1e-3, "{volume} m³, not {expected} m³");
+}
+
+#[test]
+fn a_roof_of_one_slope_is_as_high_as_a_gable_roof_of_the_same_slope() {
+    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    let highest = |surface| {
+        let cover = shape(surface, Eaves::Closed, 0.0, 0.0).cover(&walls, 0.0).expect("a roof");
+        cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|point| point.z).fold(0.0, f64::max)
+    };
+    let [shed, gable] = [Surface::Shed, Surface::Sloped(Ends::Gables, &[])].map(highest);
+    assert!((shed - gable).abs() < 1e-9 && (shed - 2.1).abs() < 1e-9, "{shed} m and {gable} m");
+}

@@ -201,10 +201,11 @@ fn pair(rays: &mut [Ray]) -> Result<()> {
     let count = rays.len();
     for index in 0..count {
         let [before, next, behind] = [index, (index + 1) % count, (index + 2) % count];
-        // Two edges that lie on each other have no area between them: the one that leaves comes first.
+        // Which of two edges that lie on each other comes first is settled by those around them.
         let (a, b) = (rays[next].along, rays[behind].along);
         let aligned = a.dot(b) > 0.0 && a.perp_dot(b).abs() < ALIGNED;
-        if !rays[before].leaves && !rays[next].leaves && rays[behind].leaves && aligned {
+        let odd = rays[before].leaves == rays[next].leaves && rays[next].leaves != rays[behind].leaves;
+        if aligned && odd {
             rays.swap(next, behind);
         }
     }

@@ -7,6 +7,8 @@ mod events;
 mod faces;
 mod meeting;
 #[cfg(test)]
+pub(super) mod samples;
+#[cfg(test)]
 mod tests;
 mod wavefront;
 
@@ -71,7 +73,7 @@ pub struct Skeleton {
 }
 
 /// How far (m) the corners are moved, in turn, where the skeleton fails its checks.
-const MOVES: [f64; 6] = [0.0, 1e-5, 1e-4, 5e-4, 2e-3, 5e-3];
+const MOVES: [f64; 11] = [0.0, 1e-5, 1e-4, 5e-4, 1e-3, 1e-3, 2e-3, 2e-3, 3e-3, 5e-3, 5e-3];
 
 impl Skeleton {
     /// The weighted straight skeleton of the area inside the first of `rings` and outside the others.
@@ -80,7 +82,7 @@ impl Skeleton {
     /// of each edge of all rings how it moves.
     ///
     /// Method: wavefront propagation (O. Aichholzer and F. Aurenhammer, "Straight skeletons for general
-    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-24 m, on which turns and the order
+    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m, on which turns and the order
     /// of directions are exact. What happens at one time and place is resolved at once: the edges that meet there
     /// are sorted around it and paired anew, whatever the kind of the events. Fails if no result passes the
     /// checks: one closed face for each edge, every corner in the plane of its faces, no negative area, areas that

@@ -159,11 +159,12 @@ impl Wavefront {
         let velocity = if dot < 0.0 && cross.abs() < ALIGNED {
             kind = Kind::Closing;
             DVec2::ZERO
-        } else if a.speed == b.speed {
+        } else if a.speed == b.speed && dot > 0.0 {
             (a.inward() + b.inward()) * (a.speed / (1.0 + dot))
         } else if cross.abs() < ALIGNED {
             return Err(Error::new("two edges in one line move at different speeds"));
         } else {
+            // Between edges that almost face each other this loses no digits.
             (b.along * a.speed - a.along * b.speed) / cross
         };
         let index = self.corners.len();

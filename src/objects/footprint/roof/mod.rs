@@ -3,6 +3,8 @@
 mod detail;
 mod kinds;
 mod replace;
+#[cfg(test)]
+mod tests;
 
 use glam::DVec3;
 
@@ -37,7 +39,7 @@ fields! {
         pub color: Option<Color> = None,
         /// Its material, in place of the colour.
         pub material: Option<Surface> = None,
-        /// The material of gables; the roof's if left out.
+        /// The material of gables; the footprint's colour if left out.
         pub gable: Option<Surface> = None,
         /// The material of slabs and borders; the roof's if left out.
         pub trim: Option<Surface> = None,
@@ -107,7 +109,7 @@ impl Footprint {
         let material = options.material.as_ref();
         let trim = options.trim.as_ref().or(material);
         let slope = self.part(options.color, material)?;
-        let gable = self.part(options.color, options.gable.as_ref().or(material))?;
+        let gable = self.part(None, options.gable.as_ref())?;
         let fascia = self.part(options.color, trim)?;
         let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
         for patch in patches {
