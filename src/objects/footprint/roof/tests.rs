@@ -42,6 +42,7 @@ fn model(size: DVec3) -> Arc<dyn Object> {
         placement: None,
     };
     Arc::new(Model::new(Scene {
+        shared: crate::scene::Shared::default(),
         materials: vec![Material::default()],
         meshes: vec![mesh],
         instances: vec![instance],
