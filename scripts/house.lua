@@ -108,10 +108,9 @@ houses:interpret("Walls()", function(this)
 end)
 houses:interpret("Roof(kind)", function(this, roof)
   local flat = roof == "flat"
-  local details = {
-    { model = chimney, on = if flat then "slope" else "ridge", every = 4, margin = 1.5, count = 2, sink = 1 },
-    { model = gutter, on = "eaves", stretch = true },
-  }
+  local stacks =
+    { model = chimney, on = if flat then "slope" else "ridge", every = 4, margin = 1.5, count = 2, sink = 1 }
+  local gutters = { model = gutter, on = "eaves", stretch = true }
   this:roof({
     kind = roof,
     slope = pitch,
@@ -121,7 +120,7 @@ houses:interpret("Roof(kind)", function(this, roof)
     border = if flat then 0.6 else 0,
     material = { color = if flat then "#8f8f8b" else "#a3492f", roughness = 0.9, name = "tiles" },
     trim = { color = "#f1ece2", name = "trim" },
-    details = if furnished then details else {},
+    details = if not furnished then {} elseif flat then { stacks } else { stacks, gutters },
   })
 end)
 

@@ -1,6 +1,6 @@
 //! The lines of a roof along which things stand: ridges, hips, valleys, eaves, the feet of gables.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::{Patch, PatchKind, edges};
@@ -45,6 +45,8 @@ pub fn lines(patches: &[Patch]) -> Vec<Line> {
     let mut lines = Vec::new();
     for (number, patch) in slopes() {
         let normal = normal(patch);
+        // Every edge of a level roof is the lowest one.
+        let is_level = normal.z > 1.0 - 1e-9;
         for [a, b] in patch.rings.iter().flat_map(|ring| edges(ring)) {
             match owner.get(&(key(b), key(a))) {
                 Some(&other) if other > number && patches[other].edge != patch.edge => {
@@ -68,7 +70,7 @@ pub fn lines(patches: &[Patch]) -> Vec<Line> {
                         lines.push(Line { kind, ends, normals });
                     }
                 }
-                None if patch.flap == 0 && (b - a).truncate().normalize_or_zero().dot(patch.along) > 0.99 => {
+                None if patch.flap == 0 && (is_level || along(a, b).dot(patch.along) > 0.99) => {
                     lines.push(Line { kind: LineKind::Eaves, ends: [a, b], normals: [normal; 2] });
                 }
                 _ => {}
@@ -76,6 +78,10 @@ pub fn lines(patches: &[Patch]) -> Vec<Line> {
         }
     }
     lines
+}
+
+fn along(a: DVec3, b: DVec3) -> DVec2 {
+    (b - a).truncate().normalize_or_zero()
 }
 
 /// The unit normal of a patch, upwards for slopes.

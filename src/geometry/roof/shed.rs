@@ -40,7 +40,8 @@ pub(super) fn patches(
     let top = |at: DVec2| if juts_out { at.extend(base + height(at) + slab) } else { wall_top(at) };
 
     let rings = outer.iter().map(|ring| ring.iter().map(|&at| top(at)).collect()).collect();
-    let along = longest[1] - longest[0];
+    // Along the eaves, which are opposite.
+    let along = longest[0] - longest[1];
     let mut patches =
         vec![Patch { kind: PatchKind::Slope, edge: 0, flap: 0, along: along.normalize_or_zero(), rings }];
     let pairs = walls.iter().flat_map(|ring| edges(ring)).zip(outer.iter().flat_map(|ring| edges(ring)));

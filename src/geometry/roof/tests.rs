@@ -119,7 +119,8 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
 
 #[test]
 fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
-    let plans: [(&str, usize, &[(f64, f64)]); 6] = [
+    type Corners = &'static [(f64, f64)];
+    let plans: [(&str, usize, Corners); 6] = [
         ("rectangle", 2, &[(0., 0.), (12., 0.), (12., 7.), (0., 7.)]),
         ("skew", 2, &[(0., 0.), (12., 0.4), (12.6, 7.), (-0.3, 7.2)]),
         ("L", 2, &[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]),

@@ -2,6 +2,8 @@
 
 use std::cmp::{Ordering, Reverse};
 
+use glam::DVec2;
+
 use super::wavefront::{Kind, NEAR, TOGETHER, Wavefront};
 
 /// How far (m) from its line an edge is no longer where it was expected.
@@ -50,6 +52,17 @@ impl PartialOrd for Event {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
+}
+
+/// What becomes of an event.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Outcome {
+    /// It takes place.
+    Now,
+    /// Another one comes before it.
+    Later,
+    /// It does not take place any more.
+    Void,
 }
 
 /// What the wavefront has to do next.
@@ -121,6 +134,7 @@ impl Wavefront {
     pub(super) fn gather(&mut self) -> Next {
         self.spots.clear();
         let mut begin: Option<f64> = None;
+        let mut later = Vec::new();
         while let Some(&Reverse(event)) = self.events.peek() {
             if begin.is_some_and(|begin| event.time > begin + TOGETHER) {
                 break;
@@ -130,45 +144,44 @@ impl Wavefront {
                     break;
                 }
                 self.events.pop();
+                self.events.extend(later.into_iter().map(Reverse));
                 return Next::Start(edge, event.time);
             }
             self.events.pop();
-            if self.happens(event) && begin.is_none() {
-                begin = Some(event.time);
+            match self.happens(event) {
+                Outcome::Void => {}
+                Outcome::Later => later.push(event),
+                Outcome::Now => begin = begin.or(Some(event.time)),
             }
         }
+        self.events.extend(later.into_iter().map(Reverse));
         begin.map_or(Next::End, Next::Meet)
     }
 
-    /// Notes what `event` moves; false if it has become void.
-    fn happens(&mut self, event: Event) -> bool {
+    /// Notes what `event` moves.
+    fn happens(&mut self, event: Event) -> Outcome {
         match event.what {
-            What::Start(_) => false,
+            What::Start(_) => Outcome::Void,
             What::Collapse(a, b) => {
                 let (from, to) = (&self.corners[a], &self.corners[b]);
                 if !from.alive || !to.alive || from.after != b {
-                    return false;
+                    return Outcome::Void;
                 }
                 // The slower one knows the place better.
                 let slower =
                     if from.velocity.length_squared() < to.velocity.length_squared() { from } else { to };
-                let place = slower.place(event.time);
-                let (a, b) = (self.spot(a, place), self.spot(b, place));
-                self.join(a, b);
-                true
+                self.meet([a, b], slower.place(event.time))
             }
             What::Close(index) => {
                 let corner = &self.corners[index];
                 if !corner.alive {
-                    return false;
+                    return Outcome::Void;
                 }
                 let ends =
                     [corner.before, corner.after].map(|end| (end, self.corners[end].place(event.time)));
                 let [one, two] = ends.map(|(_, place)| place.distance(corner.at));
                 let (end, place) = if one < two { ends[0] } else { ends[1] };
-                let (a, b) = (self.spot(index, place), self.spot(end, place));
-                self.join(a, b);
-                true
+                self.meet([index, end], place)
             }
             What::Split(index, edge) => {
                 let corner = &self.corners[index];
@@ -176,21 +189,31 @@ impl Wavefront {
                 // An edge that has begun to move is not where it was expected.
                 let missed = line.ahead(corner.place(event.time), event.time).abs() > ASTRAY;
                 if !corner.alive || missed {
-                    return false;
+                    return Outcome::Void;
                 }
-                let hit = self.hit(index, edge, event.time);
-                if !hit && self.corners[index].foreseen.is_empty() {
+                let outcome = self.hit(index, edge, event.time);
+                if outcome == Outcome::Void && self.corners[index].foreseen.is_empty() {
                     self.expect_split(index, (event.time, edge));
-                } else if !hit {
+                } else if outcome == Outcome::Void {
                     self.expect_next_split(index);
                 }
-                hit
+                outcome
             }
         }
     }
 
-    /// Notes that a reflex corner reaches a piece of `edge`; false if there is no piece where it does.
-    fn hit(&mut self, index: usize, edge: usize, time: f64) -> bool {
+    /// Notes that two corners meet.
+    fn meet(&mut self, corners: [usize; 2], place: DVec2) -> Outcome {
+        if !corners.iter().all(|&corner| self.may_be_at(corner, place)) {
+            return Outcome::Later;
+        }
+        let [a, b] = corners.map(|corner| self.spot(corner, place));
+        self.join(a, b);
+        Outcome::Now
+    }
+
+    /// Notes that a reflex corner reaches a piece of `edge`, if there is one where it does.
+    fn hit(&mut self, index: usize, edge: usize, time: f64) -> Outcome {
         let corner = &self.corners[index];
         let (place, peak, fresh) = (corner.place(time), corner.peak, time - corner.time < TOGETHER);
         let along = self.traced.edges[edge].along;
@@ -211,17 +234,23 @@ impl Wavefront {
                 continue;
             }
             let to = a.after;
-            let other = if before <= near_a {
-                self.spot(from, place)
+            let end = if before <= near_a {
+                Some(from)
             } else if behind >= -near_b {
-                self.spot(to, place)
+                Some(to)
             } else {
-                self.spot_between(from, place)
+                None
             };
-            let own = self.spot(index, place);
+            if let Some(end) = end {
+                return self.meet([index, end], place);
+            }
+            if !self.may_be_at(index, place) {
+                return Outcome::Later;
+            }
+            let (own, other) = (self.spot(index, place), self.spot_between(from, place));
             self.join(own, other);
-            return true;
+            return Outcome::Now;
         }
-        false
+        Outcome::Void
     }
 }

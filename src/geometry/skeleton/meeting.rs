@@ -7,6 +7,9 @@ use super::edge::Direction;
 use super::wavefront::{ALIGNED, NEAR, Wavefront};
 use crate::error::{Error, Result};
 
+/// Places further (m) from each other than this are not one, even where a corner is at both almost at once.
+const APART: f64 = 1e-4;
+
 /// A corner, or a point of an edge (by the corner where the piece of the edge begins), that an event moves.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
@@ -45,12 +48,21 @@ struct Ray {
 impl Wavefront {
     /// The spot of a corner.
     pub(super) fn spot(&mut self, corner: usize, place: DVec2) -> usize {
-        let known = self.corners[corner].spot;
-        if self.spots.get(known).is_some_and(|spot| spot.corner == corner && !spot.cut) {
+        if let Some(known) = self.spot_of(corner) {
             return known;
         }
         self.corners[corner].spot = self.spots.len();
         self.add_spot(corner, false, place)
+    }
+
+    fn spot_of(&self, corner: usize) -> Option<usize> {
+        let known = self.corners[corner].spot;
+        self.spots.get(known).filter(|spot| spot.corner == corner && !spot.cut).map(|_| known)
+    }
+
+    /// Whether a corner is at `place` as far as is known: fast corners come by several places almost at once.
+    pub(super) fn may_be_at(&self, corner: usize, place: DVec2) -> bool {
+        self.spot_of(corner).is_none_or(|spot| self.spots[spot].place.distance(place) <= APART)
     }
 
     /// A new spot on the piece of an edge that begins at a corner.

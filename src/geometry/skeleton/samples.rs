@@ -106,12 +106,12 @@ pub(in crate::geometry) fn plan(round: usize, random: &mut Random) -> Option<Vec
         outer = worn(&outer, random);
     }
     let mut rings = vec![outer];
-    if round % 4 == 0 {
+    if round.is_multiple_of(4) {
         let (half, middle) = (random.between(0.1, 0.9), DVec2::new(0.5 + f64::from(round % 5 == 4), 0.0));
         let corners = [(-half, -half), (-half, half), (half, half), (half, -half)];
         rings.push(corners.iter().map(|&corner| middle + DVec2::from(corner) * 0.5).collect());
     }
-    let turn = DVec2::from_angle(if round % 2 == 0 { 0.0 } else { random.between(0.0, TAU) });
+    let turn = DVec2::from_angle(if round.is_multiple_of(2) { 0.0 } else { random.between(0.0, TAU) });
     let turned = |ring: &Ring| -> Vec<DVec3> { ring.iter().map(|&at| turn.rotate(at).extend(0.0)).collect() };
     let rings: Vec<Vec<DVec3>> = rings.iter().map(turned).collect();
     Plan::new(&rings).ok().map(|plan| plan.flat())

@@ -1,0 +1,129 @@
+//! Roofs over all buildings of real data files, where they are beside the repository.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use burgeon::geometry::skeleton::{Pace, Skeleton};
+use burgeon::geometry::{Plan, solid};
+use burgeon::objects::{Call, Footprint, Key, Object, Parameter, Rings, Table, Value};
+use burgeon::sources::{Geometry, Layer, Source, Wanted};
+use glam::DVec3;
+
+const KINDS: [&str; 10] =
+    ["flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch", "dutch_hip"];
+const EAVES: [&str; 3] = ["closed", "open", "slab"];
+
+/// A file or folder of shared data; tells that the test is skipped where there is none.
+fn shared(name: &str) -> Option<PathBuf> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data").join(name);
+    let found = path.exists().then_some(path);
+    if found.is_none() {
+        eprintln!("skipped: there is no ../shared/data/{name}");
+    }
+    found
+}
+
+/// The rings of all buildings in a file.
+fn buildings(name: &str) -> Option<Vec<Vec<Vec<DVec3>>>> {
+    let wanted = Wanted { layer: Some("buildings".into()), ..Wanted::default() };
+    let table = Source::open(&shared(name)?, "file").unwrap().read("file", &wanted).unwrap();
+    let layer = Layer::new(table, &mut None).unwrap();
+    let rings = layer.features.into_iter().filter_map(|feature| match feature.geometry {
+        Geometry::Polygon(rings) => {
+            Some(rings.into_iter().map(|ring| ring.into_iter().map(DVec3::from).collect()).collect())
+        }
+        _ => None,
+    });
+    Some(rings.collect())
+}
+
+fn table(entries: &[(&str, Value)]) -> Table {
+    let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+    Table { class: None, entries: entries.collect() }
+}
+
+fn call(object: &mut dyn Object, method: &str, argument: Value) {
+    let Call::Write { values, .. } = object.kind().method(method).unwrap().call else { unreachable!() };
+    values(object, &[argument]).unwrap_or_else(|error| panic!("{method}: {error}"));
+}
+
+/// The notes of a building with walls of 3 m, once it has been checked to be a closed solid.
+fn build(rings: &[Vec<DVec3>], kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
+    let geometry = Rings(rings.to_vec()).into_value();
+    let mut house = (Footprint::KIND.construct)(&table(&[("geometry", geometry)])).unwrap();
+    house.begin();
+    call(&mut *house, "groundwork", Value::Text("extruded".into()));
+    call(&mut *house, "walls", Value::Table(Arc::new(table(&[("height", Value::Number(3.0))]))));
+    let roof = table(&[
+        ("kind", Value::Text(kind.into())),
+        ("eaves", Value::Text(eaves.into())),
+        ("overhang", Value::Number(overhang)),
+        ("border", Value::Number(if overhang > 0.0 { 0.0 } else { 0.5 })),
+    ]);
+    call(&mut *house, "roof", Value::Table(Arc::new(roof)));
+    let check = solid::check(house.drawing().unwrap().parts());
+    assert!(check.is_solid(), "{kind} {eaves} {overhang}: {check:?} over {rings:?}");
+    house.notes().iter().map(|note| note.what.clone()).collect()
+}
+
+/// Checks the skeletons of all plans, and a roof on each, of all kinds in turn.
+fn check(name: &str, least: usize) {
+    let Some(buildings) = buildings(name) else { return };
+    let (mut plans, mut moved, mut failed, mut replaced) = (0, 0, 0, 0);
+    for (number, rings) in buildings.iter().enumerate() {
+        // Some cross themselves; they are refused with the place.
+        let Ok(plan) = Plan::new(rings) else { continue };
+        plans += 1;
+        match Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.edges()]) {
+            Ok(skeleton) => moved += usize::from(skeleton.moved),
+            Err(_) => failed += 1,
+        }
+        let (kind, eaves) = (KINDS[number % 10], EAVES[number / 10 % 3]);
+        let notes = build(rings, kind, eaves, [0.0, 0.4, 0.8][number / 30 % 3]);
+        replaced += usize::from(notes.iter().any(|note| !note.contains("overhang")));
+    }
+    eprintln!("{name}: {plans} plans, {moved} moved, {failed} failed, {replaced} roofs replaced");
+    assert!(plans >= least, "{plans} of {}", buildings.len());
+    assert!(
+        failed == 0 && replaced * 1000 < plans,
+        "{failed} skeletons failed, {replaced} roofs were replaced"
+    );
+    assert!(moved * 100 < plans, "{moved} of {plans} plans were moved");
+}
+
+#[test]
+fn every_building_of_a_french_town_is_a_closed_solid_under_roofs_of_all_kinds() {
+    check("france_buildings.gpkg", 15_500);
+}
+
+#[test]
+fn every_building_of_helsinki_and_monaco_is_a_closed_solid_under_roofs_of_all_kinds() {
+    check("helsinki.gpkg", 560);
+    check("monaco.gpkg", 1_200);
+}
+
+#[test]
+fn every_plan_that_is_made_to_be_bad_is_refused_or_roofed() {
+    let Some(folder) = shared("bad_polygons") else { return };
+    let mut names: Vec<PathBuf> = folder.read_dir().unwrap().map(|entry| entry.unwrap().path()).collect();
+    names.sort();
+    let mut roofed = 0;
+    for path in names.iter().filter(|path| path.extension().is_some_and(|extension| extension == "json")) {
+        let text = std::fs::read_to_string(path).unwrap();
+        let Ok(rings) = serde_json::from_str::<Vec<Vec<Vec<f64>>>>(&text) else { continue };
+        let point = |at: &Vec<f64>| DVec3::new(at[0], at[1], 0.0);
+        let rings: Vec<Vec<DVec3>> = rings.iter().map(|ring| ring.iter().map(point).collect()).collect();
+        let Ok(plan) = Plan::new(&rings) else { continue };
+        let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.edges()]);
+        assert!(skeleton.is_ok(), "{}", path.display());
+        // Meshes have no millimetres so far away.
+        let near = plan.rings().iter().flatten().all(|point| point.abs().max_element() < 10_000.0);
+        for kind in KINDS.iter().filter(|_| near) {
+            build(&rings, kind, "closed", 0.0);
+        }
+        roofed += 1;
+    }
+    assert!(roofed >= 10, "{roofed}");
+}
