@@ -115,10 +115,12 @@ pub(super) fn read(bytes: &[u8], path: &Path, name: &str) -> Result<Table> {
             .unwrap_or_else(|| (index + 1).to_string());
         let mut parts = Vec::new();
         if let Some(geometry) = &feature.geometry {
-            geometry.read(&mut parts).map_err(|why| {
-                Error::new(format!("feature {id} of {name} {why}"))
-                    .help("points, lines and polygons are read, single or as multi-geometries")
-            })?;
+            if let Err(why) = geometry.read(&mut parts) {
+                let error = Error::new(format!("feature {id} of {name} {why}"))
+                    .help("points, lines and polygons are read, single or as multi-geometries");
+                table.refused.push((id, error.of_data()));
+                continue;
+            }
         }
         let mut attributes = Vec::new();
         for (key, value) in feature.properties.unwrap_or_default() {

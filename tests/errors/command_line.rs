@@ -329,6 +329,7 @@ fn help_reads_well() {
           --set <NAME=VALUE>  Sets a parameter of the script
           --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>     Lets the script read data files in this folder and below it; may be repeated
+          --strict            Ends with an error at the first feature whose data cannot be built, in place of leaving it out
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
           --threads <N>       Works with N threads; the result does not depend on it [default: one for each core]

@@ -12,7 +12,7 @@ use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
 
-use super::source::{each_feature, shown};
+use super::source::{each_feature, refused_of, shown};
 use super::{DeclaredAxiom, System};
 
 impl System {
@@ -65,6 +65,10 @@ impl System {
         let LuaValue::UserData(source) = source else { return Ok(()) };
         let mut refused: Option<Error> = None;
         axiom.source = shown(source);
+        for (id, error) in refused_of(source) {
+            axiom.given += 1;
+            axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+        }
         let each = |index: usize, feature: LuaValue, id: Option<&str>| {
             let from_file = id.is_some();
             let id = match (id, &feature) {

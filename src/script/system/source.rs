@@ -162,6 +162,14 @@ pub(super) fn shown(source: &AnyUserData) -> String {
     }
 }
 
+/// The features that a source left out, and why.
+pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => layer.refused.clone(),
+        _ => Vec::new(),
+    }
+}
+
 /// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
 ///
 /// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
