@@ -47,6 +47,9 @@ use crate::scene::Scene;
 /// The built-in types that scripts can construct.
 pub static KINDS: &[&Kind] = &[&Extruder::KIND, &Footprint::KIND, &Streets::KIND, &Turtle::KIND];
 
+/// Lets all objects of a system know of one another.
+pub type Gather = fn(&mut [Box<dyn Object>]);
+
 /// Something that a script can make and ask, and that the modules of a chain may draw with.
 ///
 /// A method that takes `&self` may be called while rewriting, one that takes `&mut self` only while interpreting.
@@ -58,7 +61,7 @@ pub trait Object: Any + Send + Sync {
     fn boxed(&self) -> Box<dyn Object>;
 
     /// What lets all objects of a system know of one another, once there are all of them and before a rule asks.
-    fn gathers(&self) -> Option<fn(&mut [Box<dyn Object>])> {
+    fn gathers(&self) -> Option<Gather> {
         None
     }
 

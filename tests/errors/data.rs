@@ -275,7 +275,7 @@ fn a_feature_without_a_place_is_left_out_unless_the_run_is_strict() {
     );
     assert!(said.stderr.ends_with("1 of 2 features skipped\n"), "{}", said.stderr);
     assert!(said.stdout.contains(why), "{}", said.stdout);
-    let text = folder.refuses(&["run", "in/s.lua", "--strict"]);
+    let text = folder.burgeon(&["run", "in/s.lua", "--strict"]).failed();
     assert!(text.contains(&format!("in/s.lua:3: {why}")), "{text}");
 }
 
