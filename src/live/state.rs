@@ -116,6 +116,7 @@ impl State {
         let wish = Wish::new(&settings.options);
         // Its values are a part of the wish from now on.
         settings.options.preset = None;
+        settings.options.cache = Some(std::sync::Arc::default());
         let inner = Inner {
             wish,
             due: None,

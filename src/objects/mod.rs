@@ -61,6 +61,9 @@ pub static KINDS: &[&Kind] = &[
     &Facade::KIND,
 ];
 
+/// Lets all objects of a system know of one another.
+pub type Gather = fn(&mut [Box<dyn Object>]);
+
 /// Something that a script can make and ask, and that the modules of a chain may draw with.
 ///
 /// A method that takes `&self` may be called while rewriting, one that takes `&mut self` only while interpreting.
@@ -72,7 +75,7 @@ pub trait Object: Any + Send + Sync {
     fn boxed(&self) -> Box<dyn Object>;
 
     /// What lets all objects of a system know of one another, once there are all of them and before a rule asks.
-    fn gathers(&self) -> Option<fn(&mut [Box<dyn Object>])> {
+    fn gathers(&self) -> Option<Gather> {
         None
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use mlua::{Lua, Value as LuaValue};
 
 use super::handles::{DerivedHandle, ObjectHandle};
-use super::system::{SourceHandle, shape_of};
+use super::system::{SourceHandle, feature_of, shape_of};
 use crate::error::{Error, Result};
 use crate::objects::{Key, Shape, Table, Value};
 
@@ -55,6 +55,15 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                     Manner::Field => Value::Object(Arc::new(shape)),
                     _ => shape.to_table(),
                 });
+            }
+            if let Some((shape, mut entries)) = metatable.as_ref().and_then(|it| feature_of(table, it)) {
+                let geometry = match manner {
+                    Manner::Field => Value::Object(Arc::new(shape)),
+                    _ => shape.to_table(),
+                };
+                entries.push((Key::Name("geometry".into()), geometry));
+                entries.sort_by(|a, b| a.0.cmp(&b.0));
+                return Ok(Value::Table(Arc::new(Table { class: None, entries })));
             }
             let mut entries = Vec::new();
             for pair in table.pairs::<LuaValue, LuaValue>() {

@@ -8,7 +8,7 @@ use super::session::Session;
 use crate::error::{Error, Result};
 use crate::objects::Model;
 use crate::objects::import::Wanted as WantedModel;
-use crate::sources::{Frame, Layer, Source, Wanted, nearest_file, split_name};
+use crate::sources::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
 /// that another would decide otherwise; and what was read once is not read again.
@@ -90,15 +90,42 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
         return Err(Error::new("source needs the name of a file").help("write source(\"village.geojson\")"));
     }
     let path = find(session, "data file", name)?;
-    let table = Source::open(&path, name)?.read(name, &wanted)?;
-    let shown = table.shown.clone();
-    let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
+    let cache = session.options.cache.as_deref();
+    let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
+    let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
+    let layer = match kept {
+        Some((layer, frame)) => {
+            known.frame = Some(frame);
+            layer
+        }
+        None => {
+            let table = Source::open(&path, name)?.read(name, &wanted)?;
+            let shown = table.shown.clone();
+            let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
+            let layer = Arc::new(layer);
+            if let (Some(cache), Some(key), Some(frame)) = (cache, key, &known.frame) {
+                cache.keep(key, &layer, frame);
+            }
+            layer
+        }
+    };
+    let shown = &layer.shown;
     // A layer that is read in parts is told of once.
     if layer.empty > 0 && known.told.insert(shown.clone()) && !session.options.quiet {
         let features = if layer.empty == 1 { "feature" } else { "features" };
         eprintln!("{shown}: left out {} {features} without a geometry", layer.empty);
     }
-    Ok(Arc::new(layer))
+    if let Some((_, error)) = layer.refused.first() {
+        if session.options.strict {
+            return Err(error.clone());
+        }
+        if known.told.insert(format!("refused {shown}")) && !session.options.quiet {
+            let count = layer.refused.len();
+            let features = if count == 1 { "feature" } else { "features" };
+            eprintln!("{shown}: left out {count} {features} that cannot be read: {}", error.message());
+        }
+    }
+    Ok(layer)
 }
 
 /// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with

@@ -17,6 +17,7 @@ use crate::derive::{Trace, Traced};
 use crate::error::{Error, Result};
 use crate::objects::Kind;
 use crate::rules::Values;
+use crate::sources::Cache;
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
@@ -67,6 +68,8 @@ pub struct Options {
     pub stop: Option<Arc<Stop>>,
     /// Folders besides the script's whose data files it may read.
     pub data: Vec<PathBuf>,
+    /// Layers that earlier runs have read.
+    pub cache: Option<Arc<Cache>>,
     /// Types of objects that scripts can construct besides the built-in ones.
     pub kinds: Vec<&'static Kind>,
     /// A file in the place of the built-in standard library.
@@ -99,6 +102,7 @@ impl Default for Options {
             quiet: false,
             stop: None,
             data: Vec::new(),
+            cache: None,
             kinds: Vec::new(),
             stdlib: None,
             forgiving: false,

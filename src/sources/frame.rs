@@ -72,6 +72,7 @@ impl Crs {
 }
 
 /// The projection and the origin of a run.
+#[derive(Clone)]
 pub struct Frame {
     /// What it is called.
     pub name: String,

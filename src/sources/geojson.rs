@@ -114,11 +114,12 @@ pub(super) fn read(bytes: &[u8], path: &Path, name: &str) -> Result<Table> {
             .or_else(|| feature.properties.as_ref()?.get("id").and_then(id_text))
             .unwrap_or_else(|| (index + 1).to_string());
         let mut parts = Vec::new();
-        if let Some(geometry) = &feature.geometry {
-            geometry.read(&mut parts).map_err(|why| {
-                Error::new(format!("feature {id} of {name} {why}"))
-                    .help("points, lines and polygons are read, single or as multi-geometries")
-            })?;
+        let read = feature.geometry.as_ref().map_or(Ok(()), |geometry| geometry.read(&mut parts));
+        if let Err(why) = read {
+            let error = Error::new(format!("feature {id} of {name} {why}"))
+                .help("points, lines and polygons are read, single or as multi-geometries");
+            table.refused.push((id, error.of_data()));
+            continue;
         }
         let mut attributes = Vec::new();
         for (key, value) in feature.properties.unwrap_or_default() {

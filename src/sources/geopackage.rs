@@ -91,11 +91,23 @@ impl GeoPackage {
             let wrong = |why: &str| {
                 Error::new(format!("the geometry of feature {id} of {} {why}", table.shown))
                     .help("points, lines and polygons are read, single or as multi-geometries")
+                    .of_data()
             };
             let parts = match row.get_ref(1).map_err(error)? {
                 ValueRef::Null => Vec::new(),
-                ValueRef::Blob(blob) => read_blob(blob).map_err(|why| wrong(&why))?,
-                _ => return Err(wrong("is no geometry of a GeoPackage")),
+                ValueRef::Blob(blob) => match read_blob(blob) {
+                    Ok(parts) => parts,
+                    Err(why) => {
+                        let error = wrong(&why);
+                        table.refused.push((id, error));
+                        continue;
+                    }
+                },
+                _ => {
+                    let error = wrong("is no geometry of a GeoPackage");
+                    table.refused.push((id, error));
+                    continue;
+                }
             };
             let mut attributes = Vec::new();
             for index in 0..columns.names.len() {

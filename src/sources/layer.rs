@@ -2,7 +2,7 @@
 
 use super::frame::Frame;
 use super::table::{Feature, Table};
-use crate::error::Result;
+use crate::error::{Error, Result};
 
 /// Features of a data file, in metres around the run's origin.
 #[derive(Debug)]
@@ -23,11 +23,17 @@ pub struct Layer {
     pub bounds: [[f64; 3]; 2],
     /// How many features had no geometry, or one without extent, and were left out.
     pub empty: usize,
+    /// The ids of features whose geometry cannot be read or has no place, and why; they are left out.
+    pub refused: Vec<(String, Error)>,
 }
 
 impl Layer {
     /// Brings `table` into `frame`, which is made for it unless there is one already.
     pub fn new(mut table: Table, frame: &mut Option<Frame>) -> Result<Self> {
+        table.refuse_endless();
+        if let (true, Some((_, error))) = (table.features.is_empty(), table.refused.first()) {
+            return Err(error.clone());
+        }
         let frame = match frame {
             Some(frame) => frame,
             None => frame.insert(Frame::new(&table)?),
@@ -58,6 +64,7 @@ impl Layer {
             features: table.features,
             bounds,
             empty: table.empty,
+            refused: table.refused,
         })
     }
 }

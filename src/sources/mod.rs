@@ -3,6 +3,7 @@
 //! Comes in: a file. Goes out: a [`Listing`] of what it holds, or a [`Layer`] in metres around an origin, ready to
 //! be modelled. Coordinates are projected here, once: everything behind works in metres.
 
+mod cache;
 mod frame;
 mod geojson;
 mod geopackage;
@@ -17,6 +18,7 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::Arc;
 
+pub use cache::Cache;
 pub use frame::{Crs, Frame};
 pub use layer::Layer;
 pub(crate) use listing::nearest_file;
@@ -130,6 +132,9 @@ impl Source {
         table.choose(wanted.kind)?;
         if let Some(limit) = wanted.limit {
             table.features.truncate(limit);
+        }
+        if let (true, Some((_, error))) = (table.features.is_empty(), table.refused.first()) {
+            return Err(error.clone());
         }
         if table.features.is_empty() {
             let what = &table.shown;

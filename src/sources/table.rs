@@ -135,6 +135,8 @@ pub struct Table {
     pub records: usize,
     /// How many features had no geometry, or one without extent, and were left out.
     pub empty: usize,
+    /// The ids of features whose geometry cannot be read, and why; they are left out.
+    pub refused: Vec<(String, Error)>,
     ids: FxHashSet<String>,
 }
 
@@ -148,6 +150,7 @@ impl Table {
             features: Vec::new(),
             records: 0,
             empty: 0,
+            refused: Vec::new(),
             ids: FxHashSet::default(),
         }
     }
@@ -163,6 +166,27 @@ impl Table {
         for geometry in parts {
             let id = self.fresh(id);
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
+        }
+    }
+
+    /// Leaves out features with coordinates that are no finite numbers.
+    pub(super) fn refuse_endless(&mut self) {
+        let endless =
+            |feature: &Feature| feature.geometry.points().any(|point| point.iter().any(|it| !it.is_finite()));
+        if !self.features.iter().any(endless) {
+            return;
+        }
+        for feature in std::mem::take(&mut self.features) {
+            if endless(&feature) {
+                let (id, shown) = (&feature.id, &self.shown);
+                let error = Error::new(format!(
+                    "feature {id} of {shown} has a coordinate that is not a finite number"
+                ));
+                let error = error.help("repair the file, or leave the feature out").of_data();
+                self.refused.push((feature.id, error));
+            } else {
+                self.features.push(feature);
+            }
         }
     }
 

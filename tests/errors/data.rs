@@ -249,16 +249,34 @@ fn coordinates_that_cannot_be_used_are_told() {
       | source("odd.gpkg:roads")
       help: name its EPSG code: source(file, { crs = 3067 })
     "#);
-    assert_snapshot!(told(r#"source("nan.gpkg:buildings")"#), @r#"
-    error: in/s.lua:2: feature 2 of nan.gpkg:buildings has a coordinate that is not a finite number
-      | source("nan.gpkg:buildings")
-      help: repair the file, or leave the feature out
-    "#);
     assert_snapshot!(told(r#"source("village.geojson") source("metres.geojson", { crs = 32601 })"#), @r#"
     error: in/s.lua:2: feature 1 of metres.geojson lies more than 2,000 km from the middle, at 385423, 6671463
       | source("village.geojson") source("metres.geojson", { crs = 32601 })
       help: all sources of a run share one model; check the coordinates and the coordinate system, or read a part
     "#);
+}
+
+#[test]
+fn a_feature_without_a_place_is_left_out_unless_the_run_is_strict() {
+    let script = "local A = module(\"A\", \"id\")\nlocal s = lsystem()\n\
+        s:axiom(source(\"nan.gpkg:buildings\"), function(f)\n  return A(f.id)\nend)\nprint(s:derive(1).chains[1])\n";
+    let folder = folder().with("in/s.lua", script);
+    let said = folder.burgeon(&["run", "in/s.lua", "--report", "-"]).done();
+    assert!(
+        said.stderr.starts_with("nan.gpkg:buildings: left out 1 feature without a geometry\n"),
+        "{}",
+        said.stderr
+    );
+    let why = "feature 2 of nan.gpkg:buildings has a coordinate that is not a finite number";
+    assert!(
+        said.stderr.contains(&format!("left out 1 feature that cannot be read: {why}\n")),
+        "{}",
+        said.stderr
+    );
+    assert!(said.stderr.ends_with("1 of 2 features skipped\n"), "{}", said.stderr);
+    assert!(said.stdout.contains(why), "{}", said.stdout);
+    let text = folder.burgeon(&["run", "in/s.lua", "--strict"]).failed();
+    assert!(text.contains(&format!("in/s.lua:3: {why}")), "{text}");
 }
 
 #[test]

@@ -147,3 +147,35 @@ fn many_small_chains_are_put_together_in_their_order() {
         assert_eq!(lines(&run_with(script, divided(threads, batch))), expected, "{threads} threads");
     }
 }
+
+#[test]
+fn what_the_function_of_an_axiom_changes_is_seen_by_every_machine() {
+    // The first function leaves a count behind, the second nothing; rules read the count.
+    let script = r#"local A, B = module("A", "x"), module("B", "x", "y")
+local count, features = 0, {}
+for i = 1, 300 do
+  features[i] = { id = i }
+end
+local s = lsystem()
+s:axiom(source(features), function(feature)
+  count += 1
+  return A(feature.id)
+end)
+s:rule("A(x)", function(this, x)
+  return B(x, count)
+end)
+local first = s:derive(1)
+local t = lsystem()
+t:axiom(source(features), function(feature)
+  return A(feature.id + count)
+end)
+t:rule("A(x)", function(this, x)
+  return B(x, count)
+end)
+t:derive(1)
+"#;
+    let chains = |threads: usize| all_chains(&run_with(script, divided(threads, 7)));
+    let one = chains(1);
+    assert!(one.contains("B(300,300)") && one.contains("B(600,300)"), "{one}");
+    assert_eq!(chains(3), one);
+}

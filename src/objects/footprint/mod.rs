@@ -13,7 +13,9 @@ use std::sync::{Arc, OnceLock};
 use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
-use super::{Color, Drawing, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Value, Vector};
+use super::{
+    Color, Drawing, Gather, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Value, Vector,
+};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
@@ -333,7 +335,7 @@ impl Object for Footprint {
         Box::new(self.clone())
     }
 
-    fn gathers(&self) -> Option<fn(&mut [Box<dyn Object>])> {
+    fn gathers(&self) -> Option<Gather> {
         Some(neighbors::gather)
     }
 

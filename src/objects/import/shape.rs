@@ -26,9 +26,7 @@ pub(super) fn part(
     let Some(positions) = attribute(Semantic::Positions) else { return Ok(None) };
     let positions: Vec<Vec3> =
         bytes.column::<3>(root, positions)?.into_iter().map(|point| z_up(Vec3::from(point))).collect();
-    if let Some(point) =
-        positions.iter().find(|point| !(point.abs().max_element() <= FARTHEST) || point.is_nan())
-    {
+    if let Some(point) = positions.iter().find(|point| !point.abs().cmple(Vec3::splat(FARTHEST)).all()) {
         return Err(format!("a point lies at {}, {}, {}", point.x, point.y, point.z));
     }
     let count = u32::try_from(positions.len()).map_err(|_| "it has more than 2^32 points")?;
@@ -73,7 +71,7 @@ pub(super) fn part(
     }
     // v points up here, and down in a file.
     part.uvs = uvs.into_iter().flatten().map(|[u, v]| Vec2::new(u, 1.0 - v)).collect();
-    if part.uvs.iter().any(|uv| !(uv.abs().max_element() <= FARTHEST) || uv.is_nan()) {
+    if part.uvs.iter().any(|uv| !uv.abs().cmple(Vec2::splat(FARTHEST)).all()) {
         return Err("a texture coordinate is no number".into());
     }
     match normals {

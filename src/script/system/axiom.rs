@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mlua::{Function, MultiValue, Value as LuaValue};
+use mlua::{Function, MultiValue, Table, Value as LuaValue};
 
 use crate::derive::{Axiom, Remark};
 use crate::error::{Error, Result};
@@ -12,7 +12,8 @@ use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
 
-use super::source::{each_feature, shown};
+use super::lazy::feature_of;
+use super::source::{each_feature, refused_of, shown};
 use super::{DeclaredAxiom, System};
 
 impl System {
@@ -65,11 +66,15 @@ impl System {
         let LuaValue::UserData(source) = source else { return Ok(()) };
         let mut refused: Option<Error> = None;
         axiom.source = shown(source);
+        for (id, error) in refused_of(source) {
+            axiom.given += 1;
+            axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+        }
         let each = |index: usize, feature: LuaValue, id: Option<&str>| {
             let from_file = id.is_some();
             let id = match (id, &feature) {
                 (Some(id), _) => id.to_owned(),
-                (None, LuaValue::Table(feature)) => match feature.raw_get::<LuaValue>("id") {
+                (None, LuaValue::Table(feature)) => match own_id(feature) {
                     Ok(LuaValue::Nil) | Err(_) => index.to_string(),
                     Ok(id) => id.to_string().unwrap_or_default(),
                 },
@@ -123,6 +128,15 @@ impl System {
             Some(error) if axiom.features.is_empty() => Err(error),
             _ => Ok(()),
         }
+    }
+}
+
+/// The id that a feature in a list of the script has.
+fn own_id(feature: &Table) -> mlua::Result<LuaValue> {
+    match feature.metatable() {
+        // One of a file, which may not have been looked into.
+        Some(metatable) if feature_of(feature, &metatable).is_some() => feature.get("id"),
+        _ => feature.raw_get("id"),
     }
 }
 

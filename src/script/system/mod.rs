@@ -7,7 +7,7 @@ mod lazy;
 mod source;
 
 pub(crate) use handle::SystemHandle;
-pub(crate) use lazy::{Eager, install as install_lazy, peeks, shape_of};
+pub(crate) use lazy::{Eager, feature_of, install as install_lazy, peeks, shape_of};
 pub(crate) use source::{GEOMETRY, SourceHandle};
 
 use std::sync::Arc;

@@ -162,6 +162,14 @@ pub(super) fn shown(source: &AnyUserData) -> String {
     }
 }
 
+/// The features that a source left out, and why.
+pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => layer.refused.clone(),
+        _ => Vec::new(),
+    }
+}
+
 /// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
 ///
 /// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
@@ -200,7 +208,7 @@ struct Names {
     attributes: Vec<mlua::LuaString>,
     layer: mlua::LuaString,
     fixed: [mlua::LuaString; 3],
-    /// What makes geometries of tables that know only their feature; none where the script could tell.
+    /// What makes features of tables that know only their number; none where the script could tell.
     lazy: Option<Table>,
 }
 
@@ -239,6 +247,9 @@ impl Maker {
     }
 
     fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
+        if let Some(metatable) = &names.lazy {
+            return lazy::unread(lua, metatable, index);
+        }
         let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
         for (index, value) in feature.attributes.iter() {
             let name = &names.attributes[*index];
@@ -251,10 +262,7 @@ impl Maker {
         }
         let [id, geometry, layer] = &names.fixed;
         table.raw_set(id, feature.id.as_str())?;
-        match &names.lazy {
-            Some(metatable) => table.raw_set(geometry, lazy::geometry(lua, metatable, index)?)?,
-            None => table.raw_set(geometry, self.shape(lua, &feature.geometry)?)?,
-        }
+        table.raw_set(geometry, self.shape(lua, &feature.geometry)?)?;
         table.raw_set(layer, &names.layer)?;
         table.set_readonly(true);
         Ok(table)
@@ -285,7 +293,7 @@ impl Maker {
 pub(crate) const GEOMETRY: &str = "burgeon geometry";
 
 /// A list or an object of GeoJSON as a frozen table; nulls are left out of objects, and are false in lists.
-fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaValue> {
+pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaValue> {
     use serde_json::Value as Json;
     Ok(match value {
         Json::Null => LuaValue::Nil,
