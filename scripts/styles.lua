@@ -1,5 +1,5 @@
 --!strict
--- All building styles side by side on the same plans: two between neighbours, and an L at the corner.
+-- All building styles side by side on the same plans: two rectangles and an L, in a row or each by itself.
 -- burgeon run scripts/styles.lua -o styles.glb
 local build = require("templates/build")
 
@@ -25,9 +25,12 @@ for index, name in if only == "all" then build.names else { only } do
     })
   end
   plan(1, { { 0, 0 }, { w, 0 }, { w, d }, { 0, d } })
-  plan(2, { { w, 0 }, { 2 * w, 0 }, { 2 * w, d }, { w, d } })
-  -- The corner house goes back as far again as it is deep.
-  local from, to, back = 2 * w, 2 * w + 1.2 * math.max(w, d), 1.8 * d
+  local gap = usual.gap or 0
+  local second = w + gap
+  plan(2, { { second, 0 }, { second + w, 0 }, { second + w, d }, { second, d } })
+  -- The corner house goes back nearly as far again as it is deep.
+  local from = 2 * second
+  local to, back = from + 1.2 * math.max(w, d), 1.8 * d
   local wing = to - math.min(d, (to - from) * 0.6)
   plan(3, { { from, 0 }, { to, 0 }, { to, back }, { wing, back }, { wing, d }, { from, d } })
   table.insert(fronts, { { east - 5, north - 6 }, { to + 5, north - 6 } })

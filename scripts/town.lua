@@ -10,6 +10,12 @@ local forced = param("style", {
   choices = { "by data", table.unpack(build.names) },
   text = "One style for all buildings",
 })
+local radius = param(
+  "radius",
+  { default = 5000, min = 20, max = 100000, unit = "m", text = "How far what is shown lies from the middle" }
+)
+local east = param("east", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
+local north = param("north", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
 local trees = param("trees", { default = true, text = "Whether trees are shown" })
 
 -- What the data calls things, and the styles that may be meant.
@@ -41,16 +47,24 @@ local town = source(file)
 local of: { [string]: { any } } =
   { building = {}, street = {}, tree = {}, park = {}, square = {}, water = {}, land = {} }
 local lines = {}
+local low, high = town.bounds.min, town.bounds.max
+local middle = { (low[1] + high[1]) / 2 + east, (low[2] + high[2]) / 2 + north }
+local function near(geometry): boolean
+  local point = if geometry.rings then geometry.rings[1][1] else geometry.points[1]
+  return math.sqrt((point[1] - middle[1]) ^ 2 + (point[2] - middle[2]) ^ 2) <= radius
+end
 for _, feature in town do
   local kind, use = feature.geometry.kind, feature.use
-  if kind == "line" then
+  if kind == "point" and not near(feature.geometry) then
+    continue
+  elseif kind == "line" then
     table.insert(of.street, feature)
     table.insert(lines, feature.geometry)
   elseif kind == "point" then
     table.insert(of.tree, feature)
   elseif use and of[use] then
     table.insert(of[use], feature)
-  else
+  elseif near(feature.geometry) then
     table.insert(of.building, feature)
   end
 end
@@ -121,6 +135,6 @@ houses:axiom(source(of.building), function(feature)
   end
   local style = build.style(style_of(feature, height), 1 + math.floor(random() * 60))
   local known = { streets = along, attributes = { name = feature.name } }
-  return footprint(feature.geometry, known), build.Building(style, build.levels(style, height), height, feature.use)
+  return footprint(feature.geometry, known), build.Building(style, build.levels(style, height), height, feature.use or "")
 end)
 houses:derive()

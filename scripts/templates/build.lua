@@ -15,18 +15,19 @@ build.names = {
   "church",
 }
 
--- How many storeys buildings of a style usually have, and how wide (m) and deep they are.
+-- How many storeys buildings of a style usually have, how wide (m) and deep they are, and how far from one another if
+-- they stand by themselves.
 build.usual = {
   haussmann = { levels = 6, width = 15, depth = 12 },
-  glass_office = { levels = 9, width = 15, depth = 14 },
+  glass_office = { levels = 9, width = 18, depth = 14, gap = 8 },
   terrace_house = { levels = 3, width = 7, depth = 6.6 },
   porto = { levels = 4, width = 6, depth = 11 },
   half_timbered = { levels = 3, width = 7, depth = 9 },
-  modern_block = { levels = 6, width = 15, depth = 12 },
+  modern_block = { levels = 6, width = 15, depth = 12, gap = 8 },
   warehouse = { levels = 2, width = 18, depth = 14 },
-  chalet = { levels = 2, width = 10, depth = 11 },
-  villa = { levels = 2, width = 10, depth = 9 },
-  church = { levels = 1, width = 12, depth = 14 },
+  chalet = { levels = 2, width = 10, depth = 11, gap = 7 },
+  villa = { levels = 2, width = 11, depth = 9, gap = 6 },
+  church = { levels = 1, width = 12, depth = 14, gap = 6 },
 }
 
 -- All variants of all styles in one list, so that a number says which one is meant.
@@ -54,10 +55,12 @@ end
 build.Building = module("Building", "style", "levels", "height", "use")
 local Groundwork = module("Groundwork", "style")
 local Storey = module("Storey", "style", "kind", "height")
-local Roof = module("Roof", "style", "wide")
+local Roof = module("Roof", "style", "kind")
 
 -- Plans deeper than this (m) get the roof that their style has for wide ones.
 local DEEP = 24
+-- Plans smaller than this (m²) get the roof that it has for towers.
+local TOWER = 130
 
 -- A system in which every building has a chain; the modules of the chain are groundwork, storeys and a roof.
 function build.system()
@@ -72,7 +75,9 @@ function build.system()
       local storey = if number == 1 then chosen.ground else chosen.storey
       table.insert(chain, Storey(style, chosen.pick(number, levels, use), storey * stretch))
     end
-    table.insert(chain, Roof(style, 4 * this:area() / this:perimeter() > DEEP))
+    local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
+    local kind = if deep and chosen.wide then "wide" elseif small and chosen.tower then "tower" else "roof"
+    table.insert(chain, Roof(style, kind))
     return table.unpack(chain)
   end)
 
@@ -82,9 +87,8 @@ function build.system()
   houses:interpret("Storey(style, kind, height)", function(this, style, kind, height)
     this:walls({ height = height, templates = styles[style].walls[kind] })
   end)
-  houses:interpret("Roof(style, wide)", function(this, style, wide)
-    local chosen = styles[style]
-    this:roof(if wide and chosen.wide then chosen.wide else chosen.roof)
+  houses:interpret("Roof(style, kind)", function(this, style, kind)
+    this:roof(styles[style][kind])
   end)
   return houses
 end

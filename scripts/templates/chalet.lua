@@ -4,8 +4,8 @@ local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box = parts.box
 
-local WOODS = { "#8a5a36", "#6f4a31", "#9a6d45" }
-local SHUTTERS = { "#3f5f45", "#7a2e28", "#38546b" }
+local WOODS = { "#8f6c4d", "#775d48", "#9b7c5c" }
+local SHUTTERS = { "#566f5a", "#7d4b45", "#54687a" }
 local FLOWERS = { "#b8323a", "#c74f6b", "#c9652f" }
 
 local chimney = parts.chimney({ width = 0.8, depth = 0.8, height = 1.1, color = "#d6d0c4", pots = 0 })

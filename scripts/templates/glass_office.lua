@@ -5,7 +5,7 @@ local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box = parts.box
 
-local GLASSES = { "#55727f", "#4a6570", "#6b7f84" }
+local GLASSES = { "#8ba3ae", "#6f8894", "#9fb0b2" }
 local FRAMES = { "#aeb4b7", "#3c4246", "#c9c4b8" }
 
 local machine = parts.model({

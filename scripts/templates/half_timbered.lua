@@ -6,6 +6,7 @@ local walls = require("templates/walls")
 local box, beam = parts.box, parts.beam
 
 local PLASTERS = { "#e6dcc4", "#dcc79c", "#d3a98b", "#e4e0d6", "#c6c5a8" }
+local TILES = { "#96705f", "#a17c66", "#8a675a", "#7d6a60", "#a8826b" }
 local OAKS = { "#4a3526", "#3d2c22", "#54392a", "#3a3330", "#4a3526" }
 
 local chimney = parts.chimney({ width = 0.9, depth = 0.7, height = 1.2, material = walls.surface("#a06a52", "brick"), pots = 1 })
@@ -38,7 +39,27 @@ local function frame(oak, braces: string)
   return parts.model(shapes)
 end
 
-local function make(color: string, oak_color: string, braces: string)
+-- The frame of a gable: a tie beam, a collar beam, posts and braces around a window. The gable is plaster.
+local function attic(oak)
+  local y0, y1 = -0.06, 0.03
+  return parts.model(
+    box(oak, -2.6, 2.6, y0 - 0.02, y1, -0.3, -0.1),
+    box(oak, -1.6, 1.6, y0 - 0.01, y1, 1.3, 1.48),
+    box(oak, -0.52, -0.4, y0, y1, -0.1, 1.3),
+    box(oak, 0.4, 0.52, y0, y1, -0.1, 1.3),
+    box(oak, -0.06, 0.06, y0, y1, 1.48, 2.6),
+    beam(oak, { -2.0, -0.1 }, { -1.1, 1.3 }, 0.12, y0 + 0.01, y1),
+    beam(oak, { 2.0, -0.1 }, { 1.1, 1.3 }, 0.12, y0 + 0.01, y1),
+    beam(oak, { -1.15, -0.1 }, { -0.46, 0.85 }, 0.11, y0 + 0.015, y1),
+    beam(oak, { 1.15, -0.1 }, { 0.46, 0.85 }, 0.11, y0 + 0.015, y1),
+    box(oak, -0.4, 0.4, y0, y1, 0.14, 0.24),
+    box(parts.glass, -0.4, 0.4, -0.02, y1, 0.24, 1.3),
+    box(oak, -0.025, 0.025, -0.04, 0, 0.24, 1.3),
+    box(oak, -0.4, 0.4, -0.035, 0, 0.75, 0.79)
+  )
+end
+
+local function make(color: string, oak_color: string, tile_color: string, braces: string)
   local oak = walls.surface(oak_color)
   local plaster = walls.surface(color)
   local stone = walls.surface("#b5ab9a", "rubble")
@@ -69,7 +90,7 @@ local function make(color: string, oak_color: string, braces: string)
   local function upper(jut: number)
     return walls.storey({ bay = bay, narrow = narrow, jut = jut, material = plaster, party = party })
   end
-  local tiles = walls.surface("#9a4f36", "tiles")
+  local tiles = walls.surface(tile_color, "tiles")
   return {
     name = "half_timbered",
     storey = 2.7,
@@ -90,10 +111,13 @@ local function make(color: string, oak_color: string, braces: string)
       eaves = "open",
       slab = 0.18,
       material = tiles,
-      gable = walls.surface(mix(oak_color, "#8a6a4a", 0.5), "boards"),
+      gable = plaster,
       trim = oak,
       underside = oak,
-      details = { { model = chimney, on = "ridge", every = 50, margin = 1.2, count = 1 } },
+      details = {
+        { model = chimney, on = "ridge", every = 50, margin = 1.2, count = 1 },
+        { model = attic(oak), on = "gable", offset = 0.35, margin = 0 },
+      },
     },
     wide = { kind = "hip", slope = 38, overhang = 0.7, slab = 0.15, material = tiles, trim = oak },
   }
@@ -101,6 +125,6 @@ end
 
 local variants = {}
 for index, plaster in PLASTERS do
-  table.insert(variants, make(plaster, OAKS[index], if index % 2 == 0 then "cross" else "leaning"))
+  table.insert(variants, make(plaster, OAKS[index], TILES[index], if index % 2 == 0 then "cross" else "leaning"))
 end
 return variants

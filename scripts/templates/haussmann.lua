@@ -6,7 +6,7 @@ local walls = require("templates/walls")
 
 local STONES = { "#dccfb4", "#d5c8ae", "#e0d6c1" }
 local SHOPS = { "#24362f", "#4a2320", "#22303f" }
-local AWNINGS = { "#7d2f2a", "#34503f", "#2f4560" }
+local AWNINGS = { "#8a5048", "#55695c", "#566578" }
 
 local window = parts.window({ width = 1.2, height = 2.15, color = "#dcd8cc", rows = 3 })
 local tall = parts.window({ width = 1.2, height = 2.45, color = "#dcd8cc", rows = 4 })
@@ -116,7 +116,7 @@ local function make(stone: string, shop_color: string, awning: string)
       height = 4.6,
       overhang = 0.25,
       slab = 0.2,
-      material = walls.surface("#66717d", nil, 0.5),
+      material = walls.surface("#7b838b", nil, 0.55),
       trim = smooth,
       details = {
         { model = dormer, on = "slope", flap = 1, every = 2.5, margin = 2.2, offset = 0.35 },

@@ -5,7 +5,7 @@ local walls = require("templates/walls")
 local box = parts.box
 
 local RENDERS = { "#e9e7e1", "#e3ded2", "#dfe2e0" }
-local ACCENTS = { "#b8763e", "#6d7f6a", "#8a5a4e" }
+local ACCENTS = { "#b48d68", "#7d8a79", "#8f6f66" }
 
 local stairs = parts.model({
   box(parts.matt("#d8d6d0"), -1.8, 1.8, -1.6, 1.6, 0, 2.3),

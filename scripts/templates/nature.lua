@@ -3,16 +3,16 @@
 local nature = {}
 
 -- How high things lie (m). Land is flat, and the water below it.
-local WATER, PARK, SQUARE, PAVEMENT, ROAD = -2.2, 0.05, 0.06, 0.08, 0.1
+local WATER, SQUARE, PARK, PAVEMENT, ROAD = -2.2, 0.04, 0.07, 0.1, 0.13
 local THICK = 4
 
 local COLORS = {
-  land = "#a19c8c",
-  park = "#7c8a58",
-  square = "#b9b0a0",
-  water = "#4f6c74",
-  pavement = "#a8a49a",
-  road = "#5d5e5f",
+  land = "#969c70",
+  park = "#7f9159",
+  square = "#b3aa9a",
+  water = "#5f7b80",
+  pavement = "#bdb8ad",
+  road = "#6d6d6b",
   stone = "#a59b8a",
 }
 

@@ -22,7 +22,7 @@ parts.clear_glass = { color = "#8fa9b3", roughness = 0.1, metallic = 0.3, name =
 parts.iron = { color = "#23262a", roughness = 0.5, metallic = 0.6, name = "iron" }
 parts.steel = { color = "#8b9094", roughness = 0.4, metallic = 0.8, name = "steel" }
 parts.zinc = { color = "#737d87", roughness = 0.5, metallic = 0.45, name = "zinc" }
-parts.clay = { color = "#a5573a", roughness = 0.9, name = "clay" }
+parts.clay = { color = "#a3705a", roughness = 0.9, name = "clay" }
 
 local Shapes = module("Shapes", "shapes")
 

@@ -5,14 +5,14 @@ local parts = require("templates/parts")
 local walls = require("templates/walls")
 
 local FACES = {
-  { "#8fa6c4", "azulejo" },
-  { "#d9b36a", nil },
+  { "#9fb0c6", "azulejo" },
+  { "#d2b47c", nil },
   { "#cdd8c4", "azulejo" },
-  { "#b5604a", nil },
+  { "#b07763", nil },
   { "#e4e0d4", nil },
   { "#e2cf9a", "azulejo" },
 }
-local DOORS = { "#2f5140", "#5b2723", "#27405a", "#3c3a36", "#2c5a63", "#6b4a2c" }
+local DOORS = { "#3a5546", "#5e3a35", "#3d4f63", "#45423d", "#40616a", "#6b543f" }
 
 local window = parts.window({ width = 1.05, height = 2.2, color = "#ece9e1", rows = 4 })
 local slim = parts.window({ width = 0.6, height = 1.8, color = "#ece9e1", columns = 1, rows = 3 })
@@ -25,7 +25,7 @@ local dormer = parts.dormer({
   kind = "gable",
   slope = 0.5,
   rows = 2,
-  roof = walls.surface("#b4643f"),
+  roof = walls.surface("#a8735a"),
 })
 
 local granite = walls.surface("#a9a398")
@@ -38,7 +38,7 @@ local function make(face, door_color: string)
   local tiles = walls.surface(face[1], face[2], 0.45)
   local door = parts.door({ width = 1.15, height = 2.75, color = door_color, wings = 2, transom = 0.6 })
   local gate = parts.shop({ width = 1.9, height = 2.75, color = door_color, sign = "#e4dcc8" })
-  local width = { 1.75, 2.1, 3.2 }
+  local width = { 1.85, 2.6, 3.4 }
   local function french(surround)
     return walls.opening({ width = 1.05, height = 2.2, depth = 0.2, model = window, surround = surround, reveal = granite })
   end
@@ -61,7 +61,7 @@ local function make(face, door_color: string)
   local cornice = walls.cornice({ { 0.16, 0.08 }, { 0.12, 0.22 }, { 0.08, 0.32 } }, granite)
   local party = walls.surface("#b9b2a5")
   local trim = walls.surface("#d9d2c4")
-  local roof = walls.surface("#b4643f", "tiles")
+  local roof = walls.surface("#b88468", "tiles")
   return {
     name = "porto",
     storey = 3.05,

@@ -4,12 +4,12 @@ local parts = require("templates/parts")
 local walls = require("templates/walls")
 local box, prism = parts.box, parts.prism
 
-local BRICKS = { "#a8624a", "#b57a55", "#94604f" }
+local BRICKS = { "#a9796a", "#b39478", "#94716a" }
 local DOORS = { "#24405c", "#6b2226", "#2f4d3a" }
 
 local sash = parts.sash({ width = 1.0, height = 1.65 })
 local slim = parts.sash({ width = 0.6, height = 1.5, columns = 1 })
-local chimney = parts.chimney({ width = 1.7, depth = 0.6, height = 1.3, pots = 4, material = walls.surface("#a0644d", "brick"), across = true })
+local chimney = parts.chimney({ width = 1.7, depth = 0.6, height = 1.3, pots = 4, material = walls.surface("#a17666", "brick"), across = true })
 
 local function make(color: string, door_color: string)
   local brick = walls.surface(color, "brick")

@@ -4,7 +4,7 @@ local parts = require("templates/parts")
 local walls = require("templates/walls")
 
 local RENDERS = { "#e4d9c4", "#d9c6a5", "#e6e2d8", "#d8b99a", "#cfd0c4" }
-local SHUTTERS = { "#5f7a86", "#6f7f5d", "#8a4b3d", "#4f6472", "#7a6a58" }
+local SHUTTERS = { "#6f858f", "#77836a", "#8a6055", "#5f6f7a", "#7a6a58" }
 
 local window = parts.window({ width = 1.05, height = 1.4, rows = 2 })
 local slim = parts.window({ width = 0.6, height = 1.0, columns = 1 })
@@ -29,7 +29,7 @@ local function make(color: string, shutter: string, kind: string)
     walls.opening({ width = 1.05, height = 2.15, depth = 0.22, model = door, surround = portal, at = "bottom", open = true }),
     { side = 0.3, sill = 0, top = 0.17, width = { 1.65, 1.9, 2.8 } }
   )
-  local tiles = walls.surface("#ab6243", "tiles")
+  local tiles = walls.surface("#b0836a", "tiles")
   return {
     name = "villa",
     storey = 2.8,

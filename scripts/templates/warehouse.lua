@@ -69,8 +69,8 @@ local function make(color: string, image: string, kind: string, gate_color: stri
 end
 
 return {
-  make("#9c5f49", "brick", "gambrel", "#5f6d66"),
-  make("#b9c0c2", "ribs", "shed", "#3f5d7a"),
-  make("#a87a5c", "brick", "gable", "#6d3a30"),
+  make("#a07468", "brick", "gambrel", "#5f6d66"),
+  make("#b9c0c2", "ribs", "shed", "#5a6c7d"),
+  make("#ab9079", "brick", "gable", "#6e5049"),
   make("#7f97a3", "ribs", "gable", "#c9c5ba"),
 }
