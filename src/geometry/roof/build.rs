@@ -43,11 +43,21 @@ impl Shape {
     ///
     /// The first ring is counter-clockwise, the holes are clockwise. Fails if there is no skeleton for it.
     pub fn cover(&self, walls: &[Vec<DVec2>], base: f64) -> Result<Cover> {
+        self.cover_in_row(walls, base, &[])
+    }
+
+    /// As [`Shape::cover`], with gables where possible over `party`, the edges along neighbours.
+    pub fn cover_in_row(&self, walls: &[Vec<DVec2>], base: f64, party: &[usize]) -> Result<Cover> {
         match self.surface {
             Surface::Shed => Ok(self.shed(walls, base)),
             Surface::Flat(None) => Ok(self.plate(walls, base)),
-            Surface::Flat(_) => self.sloped(walls, base, Ends::Hips),
-            Surface::Sloped(ends, _) => self.sloped(walls, base, ends),
+            Surface::Flat(_) => self.sloped(walls, base, Ends::Hips, &[]),
+            Surface::Sloped(ends, _) if party.is_empty() => self.sloped(walls, base, ends, &[]),
+            Surface::Sloped(ends, _) => self
+                .sloped(walls, base, ends, party)
+                .ok()
+                .filter(|cover| !cover.hipped)
+                .map_or_else(|| self.sloped(walls, base, ends, &[]), Ok),
         }
     }
 
@@ -84,14 +94,17 @@ impl Shape {
     }
 
     /// A roof with a slope over each edge, but for gables.
-    fn sloped(&self, walls: &[Vec<DVec2>], base: f64, ends: Ends) -> Result<Cover> {
+    fn sloped(&self, walls: &[Vec<DVec2>], base: f64, ends: Ends, party: &[usize]) -> Result<Cover> {
         let count = walls.iter().map(Vec::len).sum();
         let mut over = vec![Over::Slope; count];
+        for edge in party {
+            over[*edge] = Over::Flush;
+        }
         if ends != Ends::Hips {
             let hip = Skeleton::new(walls, &vec![Pace::default(); count])?;
             let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
             let kind = if raked { Over::Raked } else { Over::Flush };
-            for edge in gables(walls, &hip) {
+            for edge in gables(walls, &hip, party) {
                 over[edge] = kind;
             }
         }
@@ -101,12 +114,13 @@ impl Shape {
             let paces = self.paces(&outer, &over, ends, overhang);
             let skeleton = match Skeleton::new(&outer, &paces) {
                 Ok(skeleton) => skeleton,
+                Err(error) if !party.is_empty() => return Err(error),
                 Err(error) if over.iter().all(|over| *over == Over::Slope) => {
                     // What juts out may be harder than what stands below.
                     if overhang == 0.0 {
                         return Err(error);
                     }
-                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends)?;
+                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends, party)?;
                     flush.hipped |= hipped;
                     return Ok(flush);
                 }
@@ -186,8 +200,9 @@ impl Shape {
     }
 }
 
-/// The edges for gables, in place of the triangles of a hip roof: the shortest first, and no two neighbours.
-fn gables(rings: &[Vec<DVec2>], hip: &Skeleton) -> Vec<usize> {
+/// The edges for gables, in place of the triangles of a hip roof: the shortest first, and no two neighbours, nor
+/// neighbours of those that have gables `already`.
+fn gables(rings: &[Vec<DVec2>], hip: &Skeleton, already: &[usize]) -> Vec<usize> {
     let mut candidates: Vec<(f64, usize, [usize; 2])> = Vec::new();
     let mut first = 0;
     for ring in rings {
@@ -204,13 +219,13 @@ fn gables(rings: &[Vec<DVec2>], hip: &Skeleton) -> Vec<usize> {
         first += count;
     }
     candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-    let mut found: Vec<usize> = Vec::new();
+    let mut found: Vec<usize> = already.to_vec();
     for (_, number, neighbours) in candidates {
-        if neighbours.iter().all(|neighbour| !found.contains(neighbour)) {
+        if [number].iter().chain(&neighbours).all(|edge| !found.contains(edge)) {
             found.push(number);
         }
     }
-    found
+    found.split_off(already.len())
 }
 
 /// The lowest face of a roof that stands by itself: its outline at height `base` (m), seen from below.

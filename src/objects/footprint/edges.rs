@@ -16,6 +16,8 @@ const BLIND: &str = "blind";
 const STREET: &str = "street";
 /// The word for the edge with the entry.
 const ENTRY: &str = "entry door";
+/// The cosine of the angle to the street's edge from which on a wall runs along the street.
+const ALONG_STREET: f64 = 0.7;
 /// How much nearer (m) to a street an edge must be to be preferred to a longer one.
 const NEARER: f64 = 2.0;
 
@@ -133,6 +135,16 @@ impl Footprint {
     /// "street" and "entry door". The footprint's own keywords are not among them.
     pub(super) fn edge_keywords(&self, edge: usize) -> &[String] {
         self.known_edges().keywords.get(edge).map_or(&[], Vec::as_slice)
+    }
+
+    /// The "blind" edges of the plan that run away from its street rather than along it.
+    pub(super) fn party_walls(&self) -> Vec<usize> {
+        let flat = self.plan.flat();
+        let all: Vec<DVec2> =
+            flat.iter().flat_map(|ring| edges(ring)).map(|[a, b]| (b - a).normalize_or_zero()).collect();
+        let Some(street) = self.known_edges().street.map(|street| all[street]) else { return Vec::new() };
+        let blind = |edge: &usize| self.edge_keywords(*edge).iter().any(|word| word == BLIND);
+        (0..all.len()).filter(blind).filter(|edge| all[*edge].dot(street).abs() < ALONG_STREET).collect()
     }
 
     /// Checks the number, from 1, of an edge of the rings that were given; counted from 0.

@@ -6,12 +6,12 @@ mod replace;
 #[cfg(test)]
 mod tests;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{Color, Footprint, Surface};
 use crate::error::Result;
 use crate::geometry::fill;
-use crate::geometry::roof::{Patch, PatchKind};
+use crate::geometry::roof::{Patch, PatchKind, Shape};
 use crate::objects::Note;
 pub use detail::Detail;
 
@@ -45,6 +45,8 @@ fields! {
         pub trim: Option<Surface> = None,
         /// The material of undersides; that of slabs if left out.
         pub underside: Option<Surface> = None,
+        /// Whether walls along neighbours that run away from the street end in gables, as in a row of houses.
+        pub party_gables: bool = true,
         /// What stands on it: a list of { model, on, every, ... }.
         pub details: Vec<Detail> = Vec::new(),
     }
@@ -68,8 +70,12 @@ impl Footprint {
             _ => {}
         }
         let (walls, base) = (self.plan.flat(), self.shell.top);
-        let made =
-            replace::cover(&shape, &options.kind, &walls, base, &mut |shape, walls| shape.cover(walls, base));
+        let party = if options.party_gables { self.party_walls() } else { Vec::new() };
+        let mut make = |shape: &Shape, outline: &[Vec<DVec2>]| {
+            let own = std::ptr::eq(outline, walls.as_slice());
+            shape.cover_in_row(outline, base, if own { &party } else { &[] })
+        };
+        let made = replace::cover(&shape, &options.kind, &walls, base, &mut make);
         let mut note = |what: String, why: String| self.notes.push(Note::new(what, why));
         if let Some((what, why)) = made.replaced {
             note(what, why);
