@@ -3,7 +3,8 @@
 -- burgeon run scripts/styles.lua -o styles.glb
 local build = require("templates/build")
 
-local only = param("style", { default = "all", choices = { "all", table.unpack(build.names) }, text = "Style" })
+local only =
+  param("style", { default = "all", choices = { "all", table.unpack(build.names) }, text = "Style" })
 local levels =
   param("levels", { default = 0, min = 0, max = 12, step = 1, text = "Storeys; 0 for as many as are usual" })
 
@@ -43,6 +44,7 @@ end
 local along = streets(fronts)
 local houses = build.system()
 houses:axiom(source(features), function(feature)
-  return footprint(feature.geometry, { streets = along }), build.Building(feature.style, feature.levels, 0, "shop")
+  return footprint(feature.geometry, { streets = along }),
+    build.Building(feature.style, feature.levels, 0, "shop")
 end)
 houses:derive()

@@ -12,10 +12,18 @@ local forced = param("style", {
 })
 local radius = param(
   "radius",
-  { default = 5000, min = 20, max = 100000, unit = "m", text = "How far what is shown lies from the middle" }
+  {
+    default = 0,
+    min = 0,
+    max = 100000,
+    unit = "m",
+    text = "Shows what lies so near to the middle; 0 for everything",
+  }
 )
-local east = param("east", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
-local north = param("north", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
+local east =
+  param("east", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
+local north =
+  param("north", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
 local trees = param("trees", { default = true, text = "Whether trees are shown" })
 
 -- What the data calls things, and the styles that may be meant.
@@ -48,28 +56,45 @@ local of: { [string]: { any } } =
   { building = {}, street = {}, tree = {}, park = {}, square = {}, water = {}, land = {} }
 local lines = {}
 local low, high = town.bounds.min, town.bounds.max
-local middle = { (low[1] + high[1]) / 2 + east, (low[2] + high[2]) / 2 + north }
-local function near(geometry): boolean
-  local point = if geometry.rings then geometry.rings[1][1] else geometry.points[1]
-  return math.sqrt((point[1] - middle[1]) ^ 2 + (point[2] - middle[2]) ^ 2) <= radius
+local x, y = (low[1] + high[1]) / 2 + east, (low[2] + high[2]) / 2 + north
+local function near(point): boolean
+  return radius == 0 or math.max(math.abs(point[1] - x), math.abs(point[2] - y)) <= radius
 end
 for _, feature in town do
-  local kind, use = feature.geometry.kind, feature.use
-  if kind == "point" and not near(feature.geometry) then
-    continue
-  elseif kind == "line" then
-    table.insert(of.street, feature)
-    table.insert(lines, feature.geometry)
-  elseif kind == "point" then
-    table.insert(of.tree, feature)
+  local geometry, use = feature.geometry, feature.use
+  if geometry.kind == "line" then
+    table.insert(lines, geometry)
+    local points = {}
+    for _, point in geometry.points do
+      if near(point) then
+        table.insert(points, point)
+      end
+    end
+    if #points > 1 then
+      table.insert(
+        of.street,
+        { id = feature.id, points = points, width = feature.width, bridge = feature.bridge }
+      )
+    end
+  elseif geometry.kind == "point" then
+    if near(geometry.points[1]) then
+      table.insert(of.tree, feature)
+    end
   elseif use and of[use] then
-    table.insert(of[use], feature)
-  elseif near(feature.geometry) then
+    -- What is shown in part lies on a plate of its own.
+    if radius == 0 then
+      table.insert(of[use], feature)
+    end
+  elseif near(geometry.rings[1][1]) then
     table.insert(of.building, feature)
   end
 end
 
-nature.ground(of, town.bounds)
+local bounds = town.bounds
+if radius > 0 then
+  bounds = { min = { x - radius, y - radius }, max = { x + radius, y + radius } }
+end
+nature.ground(of, bounds)
 nature.streets(of.street)
 if trees and lod >= 3 then
   nature.trees(of.tree)
@@ -135,6 +160,7 @@ houses:axiom(source(of.building), function(feature)
   end
   local style = build.style(style_of(feature, height), 1 + math.floor(random() * 60))
   local known = { streets = along, attributes = { name = feature.name } }
-  return footprint(feature.geometry, known), build.Building(style, build.levels(style, height), height, feature.use or "")
+  return footprint(feature.geometry, known),
+    build.Building(style, build.levels(style, height), height, feature.use or "")
 end)
 houses:derive()

@@ -18,8 +18,17 @@ local function make(color: string, shutter: string, flowers: string)
   local tall = parts.window({ width = 1.2, height = 2.05, color = mix(color, "#ffffff", 0.1), rows = 2 })
   local small = parts.window({ width = 0.6, height = 0.9, color = mix(color, "#ffffff", 0.1), columns = 1 })
   local door = parts.door({ width = 1.1, height = 2.1, color = mix(color, "#2a1a10", 0.2), glass = true })
-  local shuttered = parts.surround({ width = 1.1, height = 1.25, jamb = 0.08, head = 0.1, material = beam, shutters = shutter, pots = flowers })
-  local framed = parts.surround({ width = 1.1, height = 1.25, jamb = 0.1, head = 0.12, material = beam, pots = flowers })
+  local shuttered = parts.surround({
+    width = 1.1,
+    height = 1.25,
+    jamb = 0.08,
+    head = 0.1,
+    material = beam,
+    shutters = shutter,
+    pots = flowers,
+  })
+  local framed =
+    parts.surround({ width = 1.1, height = 1.25, jamb = 0.1, head = 0.12, material = beam, pots = flowers })
   local door_frame = parts.portal({ width = 1.1, height = 2.1, jamb = 0.12, head = 0.16, material = beam })
 
   -- Boards with a heart's worth of gaps, a rail, and joists below.
@@ -41,7 +50,8 @@ local function make(color: string, shutter: string, flowers: string)
     walls.opening({ width = 1.1, height = 1.25, depth = 0.2, model = window, surround = shuttered }),
     { side = 0.75, sill = 0.9, width = { 2.6, 3, 4.6 } }
   )
-  local narrow = walls.bay(walls.opening({ width = 0.6, height = 0.9, model = small }), { side = 0.25, sill = 1.1 })
+  local narrow =
+    walls.bay(walls.opening({ width = 0.6, height = 0.9, model = small }), { side = 0.25, sill = 1.1 })
   local bay = walls.bay(
     walls.opening({ width = 1.1, height = 1.25, depth = 0.12, model = window, surround = framed }),
     { side = 0.5, sill = 0.8, width = { 2.1, 2.6, 4.2 } }
@@ -51,19 +61,41 @@ local function make(color: string, shutter: string, flowers: string)
     { side = 0.5, sill = 0.14, width = { 2.2, 2.6, 4.4 } }
   )
   local entry = walls.bay(
-    walls.opening({ width = 1.1, height = 2.1, depth = 0.25, model = door, surround = door_frame, at = "bottom", open = true }),
+    walls.opening({
+      width = 1.1,
+      height = 2.1,
+      depth = 0.25,
+      model = door,
+      surround = door_frame,
+      at = "bottom",
+      open = true,
+    }),
     { side = 0.4, sill = 0, width = { 1.9, 2.1, 3 } }
   )
   local sill = walls.band(0.22, 0.08, beam)
   local function upper(street)
-    return walls.storey({ bay = bay, narrow = narrow, street = street, foot = sill, material = wood, party = wood })
+    return walls.storey({
+      bay = bay,
+      narrow = narrow,
+      street = street,
+      foot = sill,
+      material = wood,
+      party = wood,
+    })
   end
   return {
     name = "chalet",
     storey = 2.7,
     ground = 2.8,
     walls = {
-      ground = walls.storey({ bay = low, narrow = narrow, entry = entry, aside = true, material = render, party = render }),
+      ground = walls.storey({
+        bay = low,
+        narrow = narrow,
+        entry = entry,
+        aside = true,
+        material = render,
+        party = render,
+      }),
       upper = upper(extruded(french, { model = gallery, stretch = true })),
     },
     pick = function(number: number): string

@@ -44,13 +44,21 @@ local function make(color: string)
     local face = bordered(panel({ model = model, width = 2 }), { bottom = { below, "max" }, top = 0.1 })
     return list({ buttress, face, buttress }, { width = { 2.6, 4, 6 } })
   end
-  local door = bordered(panel({ model = portal, at = "bottom", width = { 3.6, 4 } }), { left = 0.3, right = 0.3 })
+  local door =
+    bordered(panel({ model = portal, at = "bottom", width = { 3.6, 4 } }), { left = 0.3, right = 0.3 })
   local plinth = walls.band(0.6, 0.6, stone)
   local cornice = walls.cornice({ { 0.2, 0.15 }, { 0.15, 0.3 } }, trim)
-  local slim = bordered(panel({ model = window(0.3, 2.4) }), { left = 0.3, right = 0.3, bottom = { 2, "max" } })
+  local slim =
+    bordered(panel({ model = window(0.3, 2.4) }), { left = 0.3, right = 0.3, bottom = { 2, "max" } })
   local slates = walls.surface("#59616b", "slates")
   local function storey(model, below: number, entry)
-    return walls.storey({ bay = bay(model, below), narrow = slim, entry = entry, foot = if below > 1 and not entry then plinth else nil, material = stone })
+    return walls.storey({
+      bay = bay(model, below),
+      narrow = slim,
+      entry = entry,
+      foot = if below > 1 and not entry then plinth else nil,
+      material = stone,
+    })
   end
   return {
     name = "church",
@@ -65,7 +73,15 @@ local function make(color: string)
       return if number == 1 then "ground" elseif number == levels then "top" else "upper"
     end,
     groundwork = stone,
-    roof = { kind = "gable", slope = 54, overhang = 0.35, slab = 0.2, material = slates, gable = stone, trim = trim },
+    roof = {
+      kind = "gable",
+      slope = 54,
+      overhang = 0.35,
+      slab = 0.2,
+      material = slates,
+      gable = stone,
+      trim = trim,
+    },
     tower = { kind = "hip", slope = 76, overhang = 0.4, slab = 0.3, material = slates, trim = trim },
   }
 end

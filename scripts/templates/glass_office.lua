@@ -40,7 +40,10 @@ local function make(tint: string, frame_color: string)
     box(frame, -1.42, 1.42, -0.05, 0.02, 2.7, 2.78),
     box(frame, -1.42, 1.42, -0.08, 0.02, 0, 0.18),
   })
-  local hall = extruded(panel({ material = hall_glass, width = { 1.8, 3, 4.2 } }), { model = hall_frame, stretch = true })
+  local hall = extruded(
+    panel({ material = hall_glass, width = { 1.8, 3, 4.2 } }),
+    { model = hall_frame, stretch = true }
+  )
   local entrance = parts.model({
     box(frame, -3, -2.9, 0, 0.12, 0, 4.6),
     box(frame, 2.9, 3, 0, 0.12, 0, 4.6),
@@ -67,7 +70,14 @@ local function make(tint: string, frame_color: string)
     storey = 3.6,
     ground = 4.8,
     walls = {
-      ground = walls.storey({ bay = hall, narrow = slim, entry = entry, head = edge, material = spandrel, party = party }),
+      ground = walls.storey({
+        bay = hall,
+        narrow = slim,
+        entry = entry,
+        head = edge,
+        material = spandrel,
+        party = party,
+      }),
       upper = walls.storey({ bay = bay, narrow = slim, material = spandrel, party = party }),
     },
     pick = function(number: number): string

@@ -9,7 +9,13 @@ local PLASTERS = { "#e6dcc4", "#dcc79c", "#d3a98b", "#e4e0d6", "#c6c5a8" }
 local TILES = { "#96705f", "#a17c66", "#8a675a", "#7d6a60", "#a8826b" }
 local OAKS = { "#4a3526", "#3d2c22", "#54392a", "#3a3330", "#4a3526" }
 
-local chimney = parts.chimney({ width = 0.9, depth = 0.7, height = 1.2, material = walls.surface("#a06a52", "brick"), pots = 1 })
+local chimney = parts.chimney({
+  width = 0.9,
+  depth = 0.7,
+  height = 1.2,
+  material = walls.surface("#a06a52", "brick"),
+  pots = 1,
+})
 
 -- The frame of a bay of about 2 m by 2.7 m: posts, rails and braces around a window.
 local function frame(oak, braces: string)
@@ -63,27 +69,51 @@ local function make(color: string, oak_color: string, tile_color: string, braces
   local oak = walls.surface(oak_color)
   local plaster = walls.surface(color)
   local stone = walls.surface("#b5ab9a", "rubble")
-  local window = parts.window({ width = 0.9, height = 1.15, color = oak_color, columns = 2, rows = 3, frame = 0.06 })
-  local slim = parts.window({ width = 0.5, height = 0.9, color = oak_color, columns = 1, rows = 3, frame = 0.05 })
+  local window =
+    parts.window({ width = 0.9, height = 1.15, color = oak_color, columns = 2, rows = 3, frame = 0.06 })
+  local slim =
+    parts.window({ width = 0.5, height = 0.9, color = oak_color, columns = 1, rows = 3, frame = 0.05 })
   local door = parts.door({ width = 1.15, height = 2.15, color = mix(oak_color, "#7a5a3a", 0.4), wings = 1 })
-  local shop = parts.window({ width = 1.7, height = 1.5, color = oak_color, columns = 4, rows = 3, frame = 0.09 })
+  local shop =
+    parts.window({ width = 1.7, height = 1.5, color = oak_color, columns = 4, rows = 3, frame = 0.09 })
   local trim = parts.surround({ width = 0.9, height = 1.15, jamb = 0.09, head = 0.1, material = oak })
-  local door_trim = parts.portal({ width = 1.15, height = 2.15, jamb = 0.2, head = 0.24, out = 0.08, material = oak })
-  local shop_trim = parts.surround({ width = 1.7, height = 1.5, jamb = 0.12, head = 0.16, out = 0.06, material = oak })
+  local door_trim =
+    parts.portal({ width = 1.15, height = 2.15, jamb = 0.2, head = 0.24, out = 0.08, material = oak })
+  local shop_trim =
+    parts.surround({ width = 1.7, height = 1.5, jamb = 0.12, head = 0.16, out = 0.06, material = oak })
 
-  local pane = walls.opening({ width = 0.9, height = 1.15, depth = 0.08, model = window, surround = trim, reveal = oak })
+  local pane =
+    walls.opening({ width = 0.9, height = 1.15, depth = 0.08, model = window, surround = trim, reveal = oak })
   local bay = extruded(walls.bay(pane, { side = 0.3, sill = 0.95, width = { 1.55, 1.95, 2.7 } }), {
     model = frame(oak, braces),
     stretch = true,
   })
   local low = walls.bay(pane, { side = 0.45, sill = 1, width = { 1.8, 2.4, 3.6 } })
-  local narrow = walls.bay(walls.opening({ width = 0.5, height = 0.9, model = slim, reveal = oak }), { side = 0.2, sill = 1.1 })
+  local narrow = walls.bay(
+    walls.opening({ width = 0.5, height = 0.9, model = slim, reveal = oak }),
+    { side = 0.2, sill = 1.1 }
+  )
   local display = walls.bay(
-    walls.opening({ width = 1.7, height = 1.5, depth = 0.16, model = shop, surround = shop_trim, reveal = oak }),
+    walls.opening({
+      width = 1.7,
+      height = 1.5,
+      depth = 0.16,
+      model = shop,
+      surround = shop_trim,
+      reveal = oak,
+    }),
     { side = 0.3, sill = 0.75, width = { 2.3, 2.6, 4 } }
   )
   local entry = walls.bay(
-    walls.opening({ width = 1.15, height = 2.15, depth = 0.25, model = door, surround = door_trim, at = "bottom", open = true }),
+    walls.opening({
+      width = 1.15,
+      height = 2.15,
+      depth = 0.25,
+      model = door,
+      surround = door_trim,
+      at = "bottom",
+      open = true,
+    }),
     { side = 0.3, sill = 0, top = 0.28, width = { 1.75, 1.9, 2.6 } }
   )
   local party = walls.surface("#c9c0ae")
@@ -96,7 +126,15 @@ local function make(color: string, oak_color: string, tile_color: string, braces
     storey = 2.7,
     ground = 2.8,
     walls = {
-      ground = walls.storey({ bay = low, narrow = narrow, street = display, entry = entry, aside = true, material = stone, party = stone }),
+      ground = walls.storey({
+        bay = low,
+        narrow = narrow,
+        street = display,
+        entry = entry,
+        aside = true,
+        material = stone,
+        party = stone,
+      }),
       upper = upper(0.28),
       high = upper(0.5),
     },
@@ -125,6 +163,9 @@ end
 
 local variants = {}
 for index, plaster in PLASTERS do
-  table.insert(variants, make(plaster, OAKS[index], TILES[index], if index % 2 == 0 then "cross" else "leaning"))
+  table.insert(
+    variants,
+    make(plaster, OAKS[index], TILES[index], if index % 2 == 0 then "cross" else "leaning")
+  )
 end
 return variants

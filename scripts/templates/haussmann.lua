@@ -13,7 +13,8 @@ local tall = parts.window({ width = 1.2, height = 2.45, color = "#dcd8cc", rows 
 local slim = parts.window({ width = 0.7, height = 2.0, color = "#dcd8cc", columns = 1, rows = 3 })
 local door = parts.door({ width = 1.9, height = 3.1, color = "#2c3f35", wings = 2, transom = 0.7 })
 local dormer = parts.dormer({ width = 1.5, height = 1.75, depth = 2.6, color = "#d3c7ad", roof = parts.zinc })
-local chimney = parts.chimney({ width = 2.6, depth = 0.6, height = 1.5, color = "#c6b08f", pots = 6, across = true })
+local chimney =
+  parts.chimney({ width = 2.6, depth = 0.6, height = 1.5, color = "#c6b08f", pots = 6, across = true })
 
 local function make(stone: string, shop_color: string, awning: string)
   local ashlar = walls.surface(stone, "ashlar")
@@ -22,26 +23,72 @@ local function make(stone: string, shop_color: string, awning: string)
 
   local display = parts.shop({ width = 2.7, height = 3.1, color = shop_color })
   local shaded = parts.shop({ width = 2.7, height = 3.1, color = shop_color, awning = awning })
-  local trim = parts.surround({ width = 1.2, height = 2.15, jamb = 0.16, head = 0.2, material = smooth, keystone = true })
+  local trim = parts.surround({
+    width = 1.2,
+    height = 2.15,
+    jamb = 0.16,
+    head = 0.2,
+    material = smooth,
+    keystone = true,
+  })
   local plain_trim = parts.surround({ width = 0.7, height = 2.0, jamb = 0.1, material = smooth })
-  local portal = parts.portal({ width = 1.9, height = 3.1, jamb = 0.3, head = 0.3, out = 0.14, material = smooth, keystone = true })
+  local portal = parts.portal({
+    width = 1.9,
+    height = 3.1,
+    jamb = 0.3,
+    head = 0.3,
+    out = 0.14,
+    material = smooth,
+    keystone = true,
+  })
   local bay_of_balcony = parts.gallery({ width = 2.4, height = 3.2, depth = 0.65, material = smooth })
   local left = parts.gallery({ width = 0.5, height = 3.2, ending = -1, material = smooth })
-  local balcony = parts.balcony({ width = 1.2, height = 2.45, depth = 0.32, side = 0.22, jamb = 0.14, slab = 0.18, material = smooth })
+  local right = parts.gallery({ width = 0.5, height = 3.2, ending = 1, material = smooth })
+  local balcony = parts.balcony({
+    width = 1.2,
+    height = 2.45,
+    depth = 0.32,
+    side = 0.22,
+    jamb = 0.14,
+    slab = 0.18,
+    material = smooth,
+  })
 
   local width = { 2.1, 2.5, 4.2 }
-  local pane = walls.opening({ width = 1.2, height = 2.15, depth = 0.28, model = window, surround = trim, reveal = smooth })
+  local pane = walls.opening({
+    width = 1.2,
+    height = 2.15,
+    depth = 0.28,
+    model = window,
+    surround = trim,
+    reveal = smooth,
+  })
   local plain = walls.bay(pane, { side = 0.42, sill = 0.6, width = width })
   local french = walls.opening({ width = 1.2, height = 2.45, depth = 0.28, model = tall, reveal = smooth })
   local above = walls.bay(french, { side = 0.42, sill = 0.18, width = width })
-  local framed = walls.opening({ width = 1.2, height = 2.45, depth = 0.28, model = tall, surround = balcony, reveal = smooth })
+  local framed = walls.opening({
+    width = 1.2,
+    height = 2.45,
+    depth = 0.28,
+    model = tall,
+    surround = balcony,
+    reveal = smooth,
+  })
   local with_balcony = walls.bay(framed, { side = 0.42, sill = 0.2, top = 0.3, width = width })
   local running = extruded(above, { model = bay_of_balcony, stretch = true })
   local lower = walls.bay(pane, { side = 0.42, sill = 0.18, width = width })
   local running_low = extruded(lower, { model = bay_of_balcony, stretch = true })
-  local ending = panel({ model = left, stretch = true, width = { 0.5, 0.5 } })
+  local first = panel({ model = left, stretch = true, width = { 0.5, 0.5 } })
+  local last = panel({ model = right, stretch = true, width = { 0.5, 0.5 } })
   local narrow = walls.bay(
-    walls.opening({ width = 0.7, height = 2.0, depth = 0.25, model = slim, surround = plain_trim, reveal = smooth }),
+    walls.opening({
+      width = 0.7,
+      height = 2.0,
+      depth = 0.25,
+      model = slim,
+      surround = plain_trim,
+      reveal = smooth,
+    }),
     { side = 0.2, sill = 0.7 }
   )
 
@@ -53,7 +100,15 @@ local function make(stone: string, shop_color: string, awning: string)
     })
   end
   local entry = walls.bay(
-    walls.opening({ width = 1.9, height = 3.1, depth = 0.45, model = door, surround = portal, at = "bottom", open = true }),
+    walls.opening({
+      width = 1.9,
+      height = 3.1,
+      depth = 0.45,
+      model = door,
+      surround = portal,
+      at = "bottom",
+      open = true,
+    }),
     { side = 0.5, sill = 0, top = 0.32, width = { 2.9, 3.1, 4 } }
   )
   local course = walls.cornice({ { 0.12, 0.1 }, { 0.1, 0.18 } }, smooth)
@@ -76,7 +131,7 @@ local function make(stone: string, shop_color: string, awning: string)
     bay = with_balcony,
     narrow = narrow,
     street = running,
-    ends = { ending, ending },
+    ends = { first, last },
     material = ashlar,
     party = party,
   })
@@ -84,12 +139,13 @@ local function make(stone: string, shop_color: string, awning: string)
     bay = plain,
     narrow = narrow,
     street = running_low,
-    ends = { ending, ending },
+    ends = { first, last },
     head = cornice,
     material = ashlar,
     party = party,
   })
-  local low_top = walls.storey({ bay = plain, narrow = narrow, head = cornice, material = ashlar, party = party })
+  local low_top =
+    walls.storey({ bay = plain, narrow = narrow, head = cornice, material = ashlar, party = party })
   return {
     name = "haussmann",
     storey = 3.2,

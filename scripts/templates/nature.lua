@@ -1,5 +1,6 @@
 --!strict
 -- What lies between buildings: land and water, parks and squares, streets with pavements, bridges and trees.
+local parts = require("templates/parts")
 local nature = {}
 
 -- How high things lie (m). Land is flat, and the water below it.
@@ -47,11 +48,12 @@ function nature.ground(of, bounds)
       { low[1] - m, high[2] + m },
     }
     land = { { id = "land", geometry = { rings = { ring } } } }
+    areas(land, -THICK, 0, COLORS.square)
     areas(of.water, -1, PARK, COLORS.water)
   else
+    areas(land, -THICK, 0, COLORS.land)
     areas(of.water, -THICK, WATER, COLORS.water)
   end
-  areas(land, -THICK, 0, COLORS.land)
   areas(of.park, -1, PARK, COLORS.park)
   areas(of.square, -1, SQUARE, COLORS.square)
 end
@@ -68,14 +70,14 @@ local function band(points, width: number)
   return table.move(right, 1, #right, #left + 1, left)
 end
 
--- Streets with pavements on both sides; those with the attribute `bridge` have piers and parapets.
+-- Streets, each with its points, with pavements on both sides; those with the attribute `bridge` have piers and parapets.
 function nature.streets(features)
   if #features == 0 then
     return
   end
   local system = lsystem({ object = extruder({ smooth = false, roughness = 1 }) })
   system:axiom(source(features), function(feature)
-    return Street(feature.geometry.points, tonumber(feature.width) or 6, feature.bridge == true)
+    return Street(feature.points, tonumber(feature.width) or 6, feature.bridge == true)
   end)
   system:interpret("Street(points, width, bridge)", function(this, points, width, bridge)
     if bridge then
@@ -100,7 +102,11 @@ function nature.streets(features)
       end
     end
     local pavement = if width > 5 then 4.4 else 1.2
-    this:color(COLORS.pavement):polygon(band(points, width + pavement)):jump({ 0, 0, -0.5 }):extrude(0.5 + PAVEMENT)
+    this
+      :color(COLORS.pavement)
+      :polygon(band(points, width + pavement))
+      :jump({ 0, 0, -0.5 })
+      :extrude(0.5 + PAVEMENT)
     this:color(COLORS.road):polygon(band(points, width)):jump({ 0, 0, -0.4 }):extrude(0.4 + ROAD)
     if width >= 8 then
       for index = 1, #points - 1 do
@@ -144,7 +150,7 @@ local function tree(color: string, seed: number)
     local shade = mix(color, "#b9c27a", math.max(0, (z - 0.4) * 0.7))
     this:jump({ x, y, z }):color(shade):sphere(radius)
   end)
-  return system:derive(0)
+  return parts.kept(system:derive(0))
 end
 
 local Tree = module("Tree", "kind", "height", "turned")

@@ -2,6 +2,10 @@
 -- Models that stand on walls and roofs: windows, doors, shop fronts, balconies, dormers, chimneys.
 -- All are seen from the front: x to the right, z up, y into the wall, whose surface is y = 0. Their middle is x = 0,
 -- and they stand on z = 0 unless told otherwise. Lengths are metres.
+local fine = param("fine", {
+  default = true,
+  text = "Whether windows, railings and shutters have all their pieces; a city of thousands of buildings needs few",
+})
 local parts = {}
 
 type Material = { [string]: any }
@@ -23,6 +27,12 @@ parts.iron = { color = "#23262a", roughness = 0.5, metallic = 0.6, name = "iron"
 parts.steel = { color = "#8b9094", roughness = 0.4, metallic = 0.8, name = "steel" }
 parts.zinc = { color = "#737d87", roughness = 0.5, metallic = 0.45, name = "zinc" }
 parts.clay = { color = "#a3705a", roughness = 0.9, name = "clay" }
+
+-- The model itself. What stands on a wall is not shown on its own; so neither is this, even if nothing needs it.
+function parts.kept(model)
+  panel({ model = model, stretch = true })
+  return model
+end
 
 local Shapes = module("Shapes", "shapes")
 
@@ -63,6 +73,11 @@ local function beam(material: Material, from, to, width, y0, y1): Shape
 end
 parts.beam = beam
 
+-- A plate as wide as 2 `w`, from the height and depth { y, z } down to another, `thick` high.
+function parts.leaning(material: Material, w: number, from, to, thick: number): Shape
+  return { kind = "leaning", material = material, w = w, from = from, to = to, thick = thick }
+end
+
 -- A model of shapes, or of lists of shapes.
 function parts.model(...)
   local system = lsystem({ object = extruder({ smooth = false }) })
@@ -77,24 +92,26 @@ function parts.model(...)
   system:axiom(Shapes(all))
   system:interpret("Shapes(shapes)", function(this, shapes)
     for _, shape in shapes do
-      this:material(shape.material)
+      this:material(shape.material):direction({ 0, 0, 1 })
       if shape.kind == "box" then
         local x, y, z = shape.x, shape.y, shape.z
-        this:direction({ 0, 0, 1 }):rectangle(x[2] - x[1], y[2] - y[1])
+        this:rectangle(x[2] - x[1], y[2] - y[1])
         this:jump({ (x[1] + x[2]) / 2, (y[1] + y[2]) / 2, z[1] }):extrude(z[2] - z[1])
       elseif shape.kind == "prism" then
-        this:direction({ 0, 0, 1 }):polygon(shape.outline)
+        this:polygon(shape.outline)
         this:jump({ 0, 0, shape.z[1] }):extrude(shape.z[2] - shape.z[1])
+      elseif shape.kind == "leaning" then
+        local a, b, t = shape.from, shape.to, shape.thick
+        -- Turned from z to x, the section has its x downwards.
+        local outline = { { -a[2], a[1] }, { -b[2], b[1] }, { t - b[2], b[1] }, { t - a[2], a[1] } }
+        this:direction({ 1, 0, 0 }):polygon(outline):jump({ -shape.w, 0, 0 }):extrude(2 * shape.w)
       else
         this:direction({ 0, 1, 0 }):polygon(shape.outline)
         this:jump({ 0, shape.y[1], 0 }):extrude(shape.y[2] - shape.y[1])
       end
     end
   end)
-  local made = system:derive(0)
-  -- What stands on a wall is not shown by itself; so neither is what no building happens to need.
-  panel({ model = made, stretch = true })
-  return made
+  return parts.kept(system:derive(0))
 end
 local model = parts.model
 
@@ -104,6 +121,17 @@ local function casement(o): { Shape }
   local low, x0 = o.low or 0, o.x or 0
   local bar = o.bar or 0.035
   local frame, glass = o.material, o.glass or parts.glass
+  local columns, rows = o.columns or 2, o.rows or 1
+  if not fine then
+    -- Panes before a plate of the frame's colour.
+    local shapes = { box(frame, x0 - w, x0 + w, y + 0.02, y + 0.06, low, low + h) }
+    local panes = math.min(columns, 2)
+    for pane = 1, panes do
+      local from, to = x0 + w * (2 * (pane - 1) / panes - 1), x0 + w * (2 * pane / panes - 1)
+      table.insert(shapes, box(glass, from + f, to - f, y, y + 0.03, low + f, low + h - f))
+    end
+    return shapes
+  end
   local shapes = {
     box(frame, x0 - w, x0 - w + f, y, y + 0.08, low, low + h),
     box(frame, x0 + w - f, x0 + w, y, y + 0.08, low, low + h),
@@ -111,7 +139,6 @@ local function casement(o): { Shape }
     box(frame, x0 - w + f, x0 + w - f, y, y + 0.08, low + h - f, low + h),
     box(glass, x0 - w + f, x0 + w - f, y + 0.05, y + 0.07, low + f, low + h - f),
   }
-  local columns, rows = o.columns or 2, o.rows or 1
   for column = 1, columns - 1 do
     local x = x0 - w + 2 * w * column / columns
     -- The bar in the middle of two wings is as wide as two frames.
@@ -136,7 +163,8 @@ end
 -- A sash window, the upper half in front of the lower one.
 function parts.sash(o)
   local paint = parts.painted(o.color or "#eeece6")
-  local half = { width = o.width, height = o.height / 2, material = paint, columns = o.columns or 2, bar = 0.03 }
+  local half =
+    { width = o.width, height = o.height / 2, material = paint, columns = o.columns or 2, bar = 0.03 }
   half.rows, half.frame = o.rows or 1, 0.06
   local upper = table.clone(half)
   upper.low, half.y = o.height / 2 - 0.02, 0.06
@@ -154,19 +182,24 @@ function parts.surround(o)
     box(stone, -wide, wide, -out, 0.02, h, h + head),
     -- Below the sill it is stepped, so that it throws a shadow.
     box(stone, -wide - 0.03, wide + 0.03, -out - 0.09, 0.02, -head * 0.55, 0),
-    box(stone, -wide, wide, -out, 0.02, -head, -head * 0.55),
   }
+  if fine then
+    table.insert(shapes, box(stone, -wide, wide, -out, 0.02, -head, -head * 0.55))
+  end
   if jamb > 0 then
     table.insert(shapes, box(stone, -w - jamb, -w, -out, 0.02, 0, h))
     table.insert(shapes, box(stone, w, w + jamb, -out, 0.02, 0, h))
   end
   if o.keystone then
-    table.insert(shapes, plate(stone, {
-      { -0.09, h - 0.06 },
-      { 0.09, h - 0.06 },
-      { 0.14, h + head },
-      { -0.14, h + head },
-    }, -out - 0.07, 0))
+    table.insert(
+      shapes,
+      plate(stone, {
+        { -0.09, h - 0.06 },
+        { 0.09, h - 0.06 },
+        { 0.14, h + head },
+        { -0.14, h + head },
+      }, -out - 0.07, 0)
+    )
   end
   if o.shutters then
     local leaf = w * 0.98
@@ -195,12 +228,15 @@ function parts.portal(o)
     box(o.material, -w - jamb - 0.06, w + jamb + 0.06, -out - 0.1, 0.02, h + head * 0.7, h + head),
   }
   if o.keystone then
-    table.insert(shapes, plate(o.material, {
-      { -0.13, h - 0.1 },
-      { 0.13, h - 0.1 },
-      { 0.2, h + head * 0.7 },
-      { -0.2, h + head * 0.7 },
-    }, -out - 0.07, 0))
+    table.insert(
+      shapes,
+      plate(o.material, {
+        { -0.13, h - 0.1 },
+        { 0.13, h - 0.1 },
+        { 0.2, h + head * 0.7 },
+        { -0.2, h + head * 0.7 },
+      }, -out - 0.07, 0)
+    )
   end
   return model(shapes)
 end
@@ -208,6 +244,9 @@ end
 -- An open shutter with slats around x, folded back on the wall.
 function parts.shutter(x, width, height, color): { Shape }
   local paint, x0, x1 = parts.painted(color), x - width / 2, x + width / 2
+  if not fine then
+    return { box(paint, x0, x1, -0.04, 0, 0, height) }
+  end
   local shapes = {
     box(paint, x0, x0 + 0.06, -0.05, 0, 0, height),
     box(paint, x1 - 0.06, x1, -0.05, 0, 0, height),
@@ -230,9 +269,11 @@ local function railing(x0, x1, y, z0, z1, step: number?, material: Material?): {
   local shapes = {
     box(iron, x0, x1, y - 0.03, y + 0.03, z1 - 0.04, z1),
     box(iron, x0, x1, y - 0.02, y + 0.02, z0 + 0.05, z0 + 0.08),
-    box(iron, x0, x1, y - 0.012, y + 0.012, z1 - 0.2, z1 - 0.18),
   }
-  local count = math.max(1, math.floor((x1 - x0) / (step or 0.13)))
+  if fine then
+    table.insert(shapes, box(iron, x0, x1, y - 0.012, y + 0.012, z1 - 0.2, z1 - 0.18))
+  end
+  local count = math.max(1, math.floor((x1 - x0) / (if fine then step or 0.13 else 0.5)))
   for index = 0, count do
     local x = lerp(x0 + 0.012, x1 - 0.012, index / count)
     table.insert(shapes, box(iron, x - 0.01, x + 0.01, y - 0.01, y + 0.01, z0, z1 - 0.04))
@@ -248,7 +289,7 @@ local function side_railing(x, y0, z0, z1, material: Material?): { Shape }
     box(iron, x - 0.03, x + 0.03, y0, 0, z1 - 0.04, z1),
     box(iron, x - 0.02, x + 0.02, y0, 0, z0 + 0.05, z0 + 0.08),
   }
-  local count = math.max(1, math.floor(-y0 / 0.13))
+  local count = math.max(1, math.floor(-y0 / (if fine then 0.13 else 1)))
   for index = 0, count - 1 do
     local y = y0 * (1 - index / count)
     table.insert(shapes, box(iron, x - 0.01, x + 0.01, y, y + 0.02, z0, z1 - 0.04))
@@ -273,7 +314,10 @@ function parts.balcony(o)
     end
     if (o.jamb or 0) > 0 then
       local a, b = o.width / 2, o.width / 2 + o.jamb
-      table.insert(shapes, box(stone, math.min(side * a, side * b), math.max(side * a, side * b), -0.05, 0.02, 0, o.height))
+      table.insert(
+        shapes,
+        box(stone, math.min(side * a, side * b), math.max(side * a, side * b), -0.05, 0.02, 0, o.height)
+      )
     end
   end
   local y = -d + 0.05
@@ -294,7 +338,12 @@ function parts.gallery(o)
   local shapes = { box(stone, -w, w, -0.07, 0.02, o.height - course, o.height) }
   if o.ending then
     table.insert(shapes, box(stone, -w, w, -0.07, 0.02, 0, slab))
-    return model(shapes)
+    local inner = -o.ending * w
+    table.insert(
+      shapes,
+      box(stone, math.min(inner, inner * 0.9), math.max(inner, inner * 0.9), -d, 0, 0, slab)
+    )
+    return model(shapes, side_railing(inner * 0.93, -d + 0.06, slab, slab + 1))
   end
   table.insert(shapes, box(stone, -w, w, -d, 0.02, 0.04, slab))
   table.insert(shapes, box(stone, -w, w, -d * 0.8, 0.02, 0, 0.04))
@@ -303,8 +352,6 @@ function parts.gallery(o)
     table.insert(shapes, box(stone, x - 0.1, x + 0.1, -d * 0.7, 0, -0.16, 0.02))
     table.insert(shapes, box(stone, x - 0.1, x + 0.1, -d * 0.4, 0, -0.34, -0.16))
   end
-  -- The brackets hang below; as much is kept above.
-  table.insert(shapes, box(stone, -w, w, -0.03, 0.02, o.height, o.height + 0.0))
   return model(shapes, railing(-w, w, -d + 0.06, slab, slab + 1.0, 0.15))
 end
 
@@ -349,7 +396,15 @@ function parts.shop(o)
   local door = -w + 1.0
   local shapes = {
     box(paint, -w, w, -0.04, 0.1, top, h),
-    box(parts.painted(o.sign or "#d8c9a0"), -w + 0.25, w - 0.25, -0.06, 0, top + sign * 0.25, h - sign * 0.25),
+    box(
+      parts.painted(o.sign or "#d8c9a0"),
+      -w + 0.25,
+      w - 0.25,
+      -0.06,
+      0,
+      top + sign * 0.25,
+      h - sign * 0.25
+    ),
     box(paint, -w, w, -0.12, 0, h - 0.06, h),
     box(paint, -w, -w + 0.1, 0, 0.1, 0, top),
     box(paint, w - 0.1, w, 0, 0.1, 0, top),
@@ -367,11 +422,8 @@ function parts.shop(o)
   if o.awning then
     local cloth = parts.matt(o.awning)
     -- A slope of cloth, in steps that are a shadow apart.
-    for step = 0, 5 do
-      local y, z = -0.2 * step, top - 0.1 * step
-      table.insert(shapes, box(cloth, -w + 0.05, w - 0.05, y - 0.22, y, z - 0.11, z - 0.06))
-    end
-    table.insert(shapes, box(cloth, -w + 0.05, w - 0.05, -1.24, -1.21, top - 0.8, top - 0.56))
+    table.insert(shapes, parts.leaning(cloth, w - 0.05, { 0, top - 0.02 }, { -1.25, top - 0.55 }, 0.04))
+    table.insert(shapes, box(cloth, -w + 0.05, w - 0.05, -1.25, -1.22, top - 0.78, top - 0.56))
   end
   return model(shapes)
 end
@@ -386,7 +438,7 @@ function parts.gate(o)
     box(frame, -w + 0.14, w - 0.14, -0.03, 0.12, h - 0.3, h),
     box(metal, -w + 0.14, w - 0.14, 0.07, 0.1, 0, h - 0.3),
   }
-  local slats = math.floor((h - 0.3) / 0.24)
+  local slats = if fine then math.floor((h - 0.3) / 0.24) else 0
   for slat = 0, slats - 1 do
     local z = (h - 0.3) * slat / slats
     table.insert(shapes, box(metal, -w + 0.14, w - 0.14, 0.045, 0.08, z + 0.03, z + 0.2))
@@ -413,12 +465,15 @@ function parts.dormer(o)
     local e = 0.22
     local drop = rise / w * e
     for side = -1, 1, 2 do
-      table.insert(shapes, plate(roof, {
-        { side * (w + e), h - drop },
-        { side * (w + e), h - drop + 0.1 },
-        { 0, h + rise + 0.12 },
-        { 0, h + rise },
-      }, -0.25, d + rise))
+      table.insert(
+        shapes,
+        plate(roof, {
+          { side * (w + e), h - drop },
+          { side * (w + e), h - drop + 0.1 },
+          { 0, h + rise + 0.12 },
+          { 0, h + rise },
+        }, -0.25, d + rise)
+      )
     end
   else
     table.insert(shapes, box(wall, -w - 0.06, w + 0.06, -0.16, 0.1, h - 0.02, h + 0.1))
@@ -428,7 +483,15 @@ function parts.dormer(o)
       local inset = step * 0.02
       table.insert(
         shapes,
-        box(roof, -w * part - 0.04, w * part + 0.04, -0.12 + inset, d, h + 0.1 + step * 0.07, h + 0.17 + step * 0.07)
+        box(
+          roof,
+          -w * part - 0.04,
+          w * part + 0.04,
+          -0.12 + inset,
+          d,
+          h + 0.1 + step * 0.07,
+          h + 0.17 + step * 0.07
+        )
       )
     end
   end

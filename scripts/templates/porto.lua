@@ -30,9 +30,18 @@ local dormer = parts.dormer({
 
 local granite = walls.surface("#a9a398")
 local blocks = walls.surface("#a39d92", "ashlar")
-local balcony = parts.balcony({ width = 1.05, height = 2.2, depth = 0.42, side = 0.26, jamb = 0.16, slab = 0.17, material = granite })
+local balcony = parts.balcony({
+  width = 1.05,
+  height = 2.2,
+  depth = 0.42,
+  side = 0.26,
+  jamb = 0.16,
+  slab = 0.17,
+  material = granite,
+})
 local frame = parts.surround({ width = 1.05, height = 2.2, jamb = 0.16, head = 0.17, material = granite })
-local small_frame = parts.surround({ width = 0.6, height = 1.8, jamb = 0.12, head = 0.15, material = granite })
+local small_frame =
+  parts.surround({ width = 0.6, height = 1.8, jamb = 0.12, head = 0.15, material = granite })
 
 local function make(face, door_color: string)
   local tiles = walls.surface(face[1], face[2], 0.45)
@@ -40,19 +49,34 @@ local function make(face, door_color: string)
   local gate = parts.shop({ width = 1.9, height = 2.75, color = door_color, sign = "#e4dcc8" })
   local width = { 1.85, 2.6, 3.4 }
   local function french(surround)
-    return walls.opening({ width = 1.05, height = 2.2, depth = 0.2, model = window, surround = surround, reveal = granite })
+    return walls.opening({
+      width = 1.05,
+      height = 2.2,
+      depth = 0.2,
+      model = window,
+      surround = surround,
+      reveal = granite,
+    })
   end
   local bay = walls.bay(french(balcony), { side = 0.32, sill = 0.22, top = 0.22, width = width })
   local back = walls.bay(french(frame), { side = 0.32, sill = 0.3, top = 0.22, width = width })
   local narrow = walls.bay(
-    walls.opening({ width = 0.6, height = 1.8, depth = 0.2, model = slim, surround = small_frame, reveal = granite }),
+    walls.opening({
+      width = 0.6,
+      height = 1.8,
+      depth = 0.2,
+      model = slim,
+      surround = small_frame,
+      reveal = granite,
+    }),
     { side = 0.2, sill = 0.55 }
   )
-  local shop = walls.bay(walls.opening({ width = 1.9, height = 2.75, depth = 0.25, model = gate, open = true }), {
-    side = 0.25,
-    sill = 0,
-    width = { 2.4, 2.6, 4 },
-  })
+  local shop =
+    walls.bay(walls.opening({ width = 1.9, height = 2.75, depth = 0.25, model = gate, open = true }), {
+      side = 0.25,
+      sill = 0,
+      width = { 2.4, 2.6, 4 },
+    })
   local entry = walls.bay(
     walls.opening({ width = 1.15, height = 2.75, depth = 0.3, model = door, open = true }),
     { side = 0.25, sill = 0, width = { 1.6, 1.8, 2.4 } }
@@ -67,9 +91,25 @@ local function make(face, door_color: string)
     storey = 3.05,
     ground = 3.4,
     walls = {
-      ground = walls.storey({ bay = back, narrow = narrow, street = shop, entry = entry, aside = true, head = course, material = blocks, party = party }),
+      ground = walls.storey({
+        bay = back,
+        narrow = narrow,
+        street = shop,
+        entry = entry,
+        aside = true,
+        head = course,
+        material = blocks,
+        party = party,
+      }),
       upper = walls.storey({ bay = back, narrow = narrow, street = bay, material = tiles, party = party }),
-      top = walls.storey({ bay = back, narrow = narrow, street = bay, head = cornice, material = tiles, party = party }),
+      top = walls.storey({
+        bay = back,
+        narrow = narrow,
+        street = bay,
+        head = cornice,
+        material = tiles,
+        party = party,
+      }),
     },
     pick = function(number: number, levels: number): string
       return if number == 1 then "ground" elseif number == levels then "top" else "upper"

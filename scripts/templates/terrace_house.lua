@@ -9,16 +9,25 @@ local DOORS = { "#24405c", "#6b2226", "#2f4d3a" }
 
 local sash = parts.sash({ width = 1.0, height = 1.65 })
 local slim = parts.sash({ width = 0.6, height = 1.5, columns = 1 })
-local chimney = parts.chimney({ width = 1.7, depth = 0.6, height = 1.3, pots = 4, material = walls.surface("#a17666", "brick"), across = true })
+local chimney = parts.chimney({
+  width = 1.7,
+  depth = 0.6,
+  height = 1.3,
+  pots = 4,
+  material = walls.surface("#a17666", "brick"),
+  across = true,
+})
 
 local function make(color: string, door_color: string)
   local brick = walls.surface(color, "brick")
   local white = parts.painted("#e9e5da")
   local slate = walls.surface("#565d66", "slates")
-  local lintel = parts.surround({ width = 1.0, height = 1.65, head = 0.22, ears = 0.14, out = 0.04, material = white })
+  local lintel =
+    parts.surround({ width = 1.0, height = 1.65, head = 0.22, ears = 0.14, out = 0.04, material = white })
   local small_lintel = parts.surround({ width = 0.6, height = 1.5, head = 0.2, ears = 0.1, material = white })
   local door = parts.door({ width = 1.0, height = 2.55, color = door_color, transom = 0.45 })
-  local portal = parts.portal({ width = 1.0, height = 2.55, jamb = 0.2, head = 0.28, out = 0.16, material = white })
+  local portal =
+    parts.portal({ width = 1.0, height = 2.55, jamb = 0.2, head = 0.28, out = 0.16, material = white })
 
   -- The plan of the bay at a distance of `e` (m) from its walls.
   local function plan(e: number)
@@ -44,15 +53,37 @@ local function make(color: string, door_color: string)
   local bow_bay = bordered(bow, { left = 0.2, right = 0.2, width = { 3.1, 3.4, 5 } })
 
   local bay = walls.bay(
-    walls.opening({ width = 1.0, height = 1.65, depth = 0.12, model = sash, surround = lintel, reveal = white }),
+    walls.opening({
+      width = 1.0,
+      height = 1.65,
+      depth = 0.12,
+      model = sash,
+      surround = lintel,
+      reveal = white,
+    }),
     { side = 0.4, sill = 0.75, width = { 1.8, 2.3, 3.6 } }
   )
   local narrow = walls.bay(
-    walls.opening({ width = 0.6, height = 1.5, depth = 0.12, model = slim, surround = small_lintel, reveal = white }),
+    walls.opening({
+      width = 0.6,
+      height = 1.5,
+      depth = 0.12,
+      model = slim,
+      surround = small_lintel,
+      reveal = white,
+    }),
     { side = 0.25, sill = 0.8 }
   )
   local entry = walls.bay(
-    walls.opening({ width = 1.0, height = 2.55, depth = 0.3, model = door, surround = portal, at = "bottom", open = true }),
+    walls.opening({
+      width = 1.0,
+      height = 2.55,
+      depth = 0.3,
+      model = door,
+      surround = portal,
+      at = "bottom",
+      open = true,
+    }),
     { side = 0.35, sill = 0, top = 0.32, width = { 1.8, 2, 2.6 } }
   )
   local course = walls.cornice({ { 0.08, 0.04 }, { 0.08, 0.08 } }, white)
@@ -62,7 +93,15 @@ local function make(color: string, door_color: string)
     storey = 2.95,
     ground = 3.25,
     walls = {
-      ground = walls.storey({ bay = bay, narrow = narrow, street = bow_bay, entry = entry, aside = true, head = course, material = brick }),
+      ground = walls.storey({
+        bay = bay,
+        narrow = narrow,
+        street = bow_bay,
+        entry = entry,
+        aside = true,
+        head = course,
+        material = brick,
+      }),
       upper = walls.storey({ bay = bay, narrow = narrow, material = brick }),
       top = walls.storey({ bay = bay, narrow = narrow, head = eaves, material = brick }),
     },

@@ -14,8 +14,17 @@ local function make(color: string, shutter: string, kind: string)
   local render, base = walls.surface(color), walls.surface(mix(color, "#8a8478", 0.3))
   local trim = walls.surface(mix(color, "#ffffff", 0.35))
   local door = parts.door({ width = 1.05, height = 2.15, color = shutter, glass = true })
-  local open = parts.surround({ width = 1.05, height = 1.4, jamb = 0.08, head = 0.12, out = 0.03, material = trim, shutters = shutter })
-  local framed = parts.surround({ width = 0.6, height = 1.0, jamb = 0.08, head = 0.1, out = 0.03, material = trim })
+  local open = parts.surround({
+    width = 1.05,
+    height = 1.4,
+    jamb = 0.08,
+    head = 0.12,
+    out = 0.03,
+    material = trim,
+    shutters = shutter,
+  })
+  local framed =
+    parts.surround({ width = 0.6, height = 1.0, jamb = 0.08, head = 0.1, out = 0.03, material = trim })
   local portal = parts.portal({ width = 1.05, height = 2.15, jamb = 0.14, head = 0.16, material = trim })
   local bay = walls.bay(
     walls.opening({ width = 1.05, height = 1.4, depth = 0.18, model = window, surround = open, reveal = trim }),
@@ -26,7 +35,15 @@ local function make(color: string, shutter: string, kind: string)
     { side = 0.25, sill = 1.1, top = 0.12 }
   )
   local entry = walls.bay(
-    walls.opening({ width = 1.05, height = 2.15, depth = 0.22, model = door, surround = portal, at = "bottom", open = true }),
+    walls.opening({
+      width = 1.05,
+      height = 2.15,
+      depth = 0.22,
+      model = door,
+      surround = portal,
+      at = "bottom",
+      open = true,
+    }),
     { side = 0.3, sill = 0, top = 0.17, width = { 1.65, 1.9, 2.8 } }
   )
   local tiles = walls.surface("#b0836a", "tiles")

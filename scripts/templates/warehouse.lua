@@ -16,8 +16,16 @@ local function make(color: string, image: string, kind: string, gate_color: stri
   local trim = walls.surface(if brick then "#c8bda8" else "#5d666c")
   local steel = if brick then "#3d4a44" else "#4a5359"
   local high = if brick then 2.1 else 1.1
-  local window = parts.window({ width = 2.4, height = high, color = steel, columns = 5, rows = if brick then 4 else 2, frame = 0.06 })
-  local small = parts.window({ width = 0.8, height = 1.2, color = steel, columns = 2, rows = 3, frame = 0.05 })
+  local window = parts.window({
+    width = 2.4,
+    height = high,
+    color = steel,
+    columns = 5,
+    rows = if brick then 4 else 2,
+    frame = 0.06,
+  })
+  local small =
+    parts.window({ width = 0.8, height = 1.2, color = steel, columns = 2, rows = 3, frame = 0.05 })
   local gate = parts.gate({ width = 3.2, height = 3.4, color = gate_color })
   local door = parts.door({ width = 1.1, height = 2.2, color = steel })
   local sill = parts.surround({ width = 2.4, height = high, head = 0.22, ears = 0.1, material = trim })
@@ -27,18 +35,22 @@ local function make(color: string, image: string, kind: string, gate_color: stri
     return list({ pier, wall, pier })
   end
   local opening = walls.opening({ width = 2.4, height = high, depth = 0.16, model = window, surround = sill })
-  local bay = between(walls.bay(opening, { side = 0.3, sill = if brick then 1.2 else 2.4, width = { 3, 3.7, 6 } }))
-  local narrow = walls.bay(walls.opening({ width = 0.8, height = 1.2, model = small }), { side = 0.25, sill = 1.4 })
-  local loading = between(walls.bay(walls.opening({ width = 3.2, height = 3.4, depth = 0.3, model = gate, open = true }), {
-    side = 0.25,
-    sill = 0,
-    width = { 3.7, 4.2, 6.5 },
-  }))
-  local entry = walls.bay(walls.opening({ width = 1.1, height = 2.2, depth = 0.2, model = door, open = true }), {
-    side = 0.3,
-    sill = 0,
-    width = { 1.7, 1.9, 3 },
-  })
+  local bay =
+    between(walls.bay(opening, { side = 0.3, sill = if brick then 1.2 else 2.4, width = { 3, 3.7, 6 } }))
+  local narrow =
+    walls.bay(walls.opening({ width = 0.8, height = 1.2, model = small }), { side = 0.25, sill = 1.4 })
+  local loading =
+    between(walls.bay(walls.opening({ width = 3.2, height = 3.4, depth = 0.3, model = gate, open = true }), {
+      side = 0.25,
+      sill = 0,
+      width = { 3.7, 4.2, 6.5 },
+    }))
+  local entry =
+    walls.bay(walls.opening({ width = 1.1, height = 2.2, depth = 0.2, model = door, open = true }), {
+      side = 0.3,
+      sill = 0,
+      width = { 1.7, 1.9, 3 },
+    })
   local course = walls.cornice({ { 0.18, 0.2 } }, trim)
   local plinth = walls.band(0.5, 0.2, walls.surface("#8a8880"))
   local metal = walls.surface(if brick then "#7d746c" else "#9aa1a5", "ribs", 0.5)
@@ -47,7 +59,14 @@ local function make(color: string, image: string, kind: string, gate_color: stri
     storey = 4,
     ground = 4.6,
     walls = {
-      ground = walls.storey({ bay = bay, narrow = narrow, street = loading, entry = entry, head = course, material = face }),
+      ground = walls.storey({
+        bay = bay,
+        narrow = narrow,
+        street = loading,
+        entry = entry,
+        head = course,
+        material = face,
+      }),
       upper = walls.storey({ bay = bay, narrow = narrow, head = course, material = face }),
     },
     pick = function(number: number): string
