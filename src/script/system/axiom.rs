@@ -12,7 +12,7 @@ use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
 
-use super::lazy::feature_of;
+use super::lazy::is_feature;
 use super::source::{each_feature, refused_of, shown};
 use super::{DeclaredAxiom, System};
 
@@ -135,7 +135,7 @@ impl System {
 fn own_id(feature: &Table) -> mlua::Result<LuaValue> {
     match feature.metatable() {
         // One of a file, which may not have been looked into.
-        Some(metatable) if feature_of(feature, &metatable).is_some() => feature.get("id"),
+        Some(metatable) if is_feature(&metatable) => feature.get("id"),
         _ => feature.raw_get("id"),
     }
 }

@@ -22,8 +22,8 @@ use crate::sources::{Attribute, Kind, Layer};
 static NUMBER: u8 = 0;
 /// The field of the metatable that holds the layer.
 const LAYER: &str = "__layer";
-/// The field of a feature's metatable that holds that of geometries.
-const GEOMETRY: &str = "__geometry";
+/// The field that only the metatable of features has, not that of geometries.
+const IS_FEATURE: &str = "__feature";
 
 /// The functions with which a script sees a table as it is.
 const PEEKING: [&str; 6] = ["pairs", "next", "rawget", "getmetatable", "clone", "foreach"];
@@ -56,8 +56,14 @@ fn key() -> LuaValue {
     LuaValue::LightUserData(LightUserData((&raw const NUMBER).cast_mut().cast::<c_void>()))
 }
 
+/// What the features of a layer have in common.
+pub(super) struct Unread {
+    feature: Table,
+    geometry: Table,
+}
+
 /// What the features of `layer` have in common; `None` where they have to be tables from the beginning.
-pub(super) fn metatable(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Option<Table>> {
+pub(super) fn unread(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Option<Unread>> {
     if lua.app_data_ref::<Eager>().is_none_or(|eager| eager.0.peeks()) {
         return Ok(None);
     }
@@ -78,9 +84,9 @@ pub(super) fn metatable(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Option<Ta
     };
     let (feature, geometry) = (make("feature")?, make("geometry")?);
     geometry.set_readonly(true);
-    feature.raw_set(GEOMETRY, geometry)?;
+    feature.raw_set(IS_FEATURE, true)?;
     feature.set_readonly(true);
-    Ok(Some(feature))
+    Ok(Some(Unread { feature, geometry }))
 }
 
 /// The registry's name for the functions of such metatables.
@@ -139,23 +145,35 @@ fn walk(
     Ok((lua.globals().get("next")?, whole))
 }
 
-/// A table that knows only its feature, or the geometry of it.
-pub(super) fn unread(lua: &Lua, metatable: &Table, index: usize) -> mlua::Result<Table> {
-    let table = lua.create_table_with_capacity(0, 1)?;
-    table.raw_set(key(), index)?;
-    table.set_metatable(Some(metatable.clone()))?;
-    table.set_readonly(true);
-    Ok(table)
+impl Unread {
+    /// The feature with this number, from 0, whose table knows nothing but its geometry.
+    pub(super) fn feature(&self, lua: &Lua, index: usize) -> mlua::Result<Table> {
+        let geometry = lua.create_table_with_capacity(0, 1)?;
+        geometry.raw_set(key(), index)?;
+        geometry.set_metatable(Some(self.geometry.clone()))?;
+        geometry.set_readonly(true);
+        let feature = lua.create_table_with_capacity(0, 2)?;
+        feature.raw_set(key(), index)?;
+        feature.raw_set("geometry", geometry)?;
+        feature.set_metatable(Some(self.feature.clone()))?;
+        feature.set_readonly(true);
+        Ok(feature)
+    }
 }
 
 fn held(table: &Table) -> Option<UserDataRef<Held>> {
     table.metatable()?.raw_get(LAYER).ok()
 }
 
+/// Whether this is what the features of a layer have in common.
+pub(super) fn is_feature(metatable: &Table) -> bool {
+    matches!(metatable.raw_get(IS_FEATURE), Ok(true))
+}
+
 /// The geometry that a table with this metatable stands for.
 pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<Shape> {
     let held: UserDataRef<Held> = metatable.raw_get(LAYER).ok()?;
-    if metatable.contains_key(GEOMETRY).unwrap_or(true) {
+    if is_feature(metatable) {
         return None;
     }
     Shape::new(&held.layer, table.raw_get(key()).ok()?)
@@ -228,11 +246,7 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     match name {
         "id" => return text(&feature.id),
         "layer" => return text(&held.layer.name),
-        "geometry" => {
-            let Some(metatable) = table.metatable() else { return Ok(LuaValue::Nil) };
-            let own = || unread(lua, &metatable.raw_get(GEOMETRY)?, index).map(LuaValue::Table);
-            return kept(table, name, own);
-        }
+        "geometry" => return table.raw_get(name),
         _ => {}
     }
     let column = held.names.get(name);

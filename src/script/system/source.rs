@@ -209,7 +209,7 @@ struct Names {
     layer: mlua::LuaString,
     fixed: [mlua::LuaString; 3],
     /// What makes features of tables that know only their number; none where the script could tell.
-    lazy: Option<Table>,
+    unread: Option<lazy::Unread>,
 }
 
 impl Names {
@@ -219,7 +219,7 @@ impl Names {
             attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
             layer: text(&layer.name)?,
             fixed: [text("id")?, text("geometry")?, text("layer")?],
-            lazy: lazy::metatable(lua, layer)?,
+            unread: lazy::unread(lua, layer)?,
         })
     }
 }
@@ -247,8 +247,8 @@ impl Maker {
     }
 
     fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
-        if let Some(metatable) = &names.lazy {
-            return lazy::unread(lua, metatable, index);
+        if let Some(unread) = &names.unread {
+            return unread.feature(lua, index);
         }
         let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
         for (index, value) in feature.attributes.iter() {
