@@ -250,12 +250,24 @@ impl Detail {
     /// Level lines across the gables.
     fn gables(&self, patches: &[Patch]) -> Vec<Track> {
         let mut tracks = Vec::new();
-        for patch in patches.iter().filter(|patch| patch.kind == PatchKind::Gable && patch.flap == 0) {
-            let along = patch.along.extend(0.0);
-            let points = || patch.rings.iter().flatten();
-            let (low, high) = points().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
+        let extent = |patch: &Patch| {
+            patch.rings.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), point| {
                 (low.min(point.z), high.max(point.z))
-            });
+            })
+        };
+        let tall = |patch: &Patch| extent(patch).1 - extent(patch).0;
+        // Of a gable in several parts the tallest.
+        let mut tallest: Vec<&Patch> = Vec::new();
+        for patch in patches.iter().filter(|patch| patch.kind == PatchKind::Gable) {
+            match tallest.iter_mut().find(|known| known.edge == patch.edge) {
+                Some(known) if tall(known) < tall(patch) => *known = patch,
+                Some(_) => {}
+                None => tallest.push(patch),
+            }
+        }
+        for patch in tallest {
+            let along = patch.along.extend(0.0);
+            let (low, high) = extent(patch);
             let height = low + self.offset.unwrap_or((high - low) / 3.0);
             let mut crossings: Vec<DVec3> = Vec::new();
             for [a, b] in patch.rings.iter().flat_map(|ring| super::super::edges(ring)) {

@@ -88,14 +88,13 @@ impl Footprint {
             let why = format!("{overhang} m in place of {} m", options.overhang);
             note("a smaller overhang, as there is no room".into(), why);
         }
-        let number = u64::try_from(self.notes.len()).unwrap_or_default();
         self.draw(options, &made.cover.patches)?;
         if self.detail < 3 {
             return Ok(());
         }
         for (index, detail) in options.details.iter().enumerate() {
             let seed = self.seed.wrapping_add((index as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
-            for (model, frame) in detail.frames(&made.cover.patches, seed ^ number) {
+            for (model, frame) in detail.frames(&made.cover.patches, seed) {
                 self.drawing.place(&model, frame);
             }
         }
