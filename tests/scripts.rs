@@ -27,7 +27,8 @@ fn scripts() -> Vec<PathBuf> {
 }
 
 fn run(script: &Path, threads: usize) -> Run {
-    let options = Options { threads: Some(threads), ..Options::default() };
+    let data = vec![root().join("examples/data")];
+    let options = Options { threads: Some(threads), data, ..Options::default() };
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
@@ -47,10 +48,10 @@ fn named(before: &str, after: &str) -> BTreeSet<String> {
 fn the_gallery_shows_every_script_and_no_other() {
     let shipped: BTreeSet<String> =
         scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(shipped.len(), 13);
+    assert_eq!(shipped.len(), 15);
     assert_eq!(named("](scripts/", ".lua)"), shipped);
     let mut shown = named("](docs/pictures/", ".png)");
-    assert!(["variations", "live", "village"].iter().all(|name| shown.remove(*name)));
+    assert!(["variations", "live", "village", "quay"].iter().all(|name| shown.remove(*name)));
     assert_eq!(shown, shipped);
     for name in &shipped {
         assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
