@@ -1,11 +1,16 @@
 --!strict
 -- The dragon curve: a strip of paper, folded in half again and again the same way round, and opened until every
 -- fold is a quarter turn. It is drawn as a wall that rises along the way, each fold rounded to an arc.
-local folds = param("folds", { default = 11, min = 1, max = 14, step = 1, text = "How often the strip is folded" })
-local angle =
-	param("angle", { default = 90, min = 60, max = 120, unit = "deg", text = "Of a fold; 90 never crosses itself" })
-local height = param("height", { default = 3, min = 0.5, max = 20, unit = "m", text = "Of the wall where it ends" })
-local thickness = param("thickness", { default = 0.34, min = 0.05, max = 0.4, unit = "m", text = "Of the wall" })
+local folds =
+  param("folds", { default = 11, min = 1, max = 14, step = 1, text = "How often the strip is folded" })
+local angle = param(
+  "angle",
+  { default = 90, min = 60, max = 120, unit = "deg", text = "Of a fold; 90 never crosses itself" }
+)
+local height =
+  param("height", { default = 3, min = 0.5, max = 20, unit = "m", text = "Of the wall where it ends" })
+local thickness =
+  param("thickness", { default = 0.34, min = 0.05, max = 0.4, unit = "m", text = "Of the wall" })
 
 local Strip = module("Strip", "n", "side", "from", "to") -- still to be folded n times; from 0 to 1 along the way
 local Fold = module("Fold", "side", "at")
@@ -13,41 +18,41 @@ local Fold = module("Fold", "side", "at")
 local COLORS = 40
 local stops = { "#20264d", "#3d4f8f", "#2f8f8a", "#8fc06a", "#f2d272", "#ee8a4f", "#c8384f" }
 local function color(t: number)
-	local place = t * (#stops - 1)
-	local k = math.min(math.floor(place), #stops - 2)
-	return mix(stops[k + 1], stops[k + 2], place - k)
+  local place = t * (#stops - 1)
+  local k = math.min(math.floor(place), #stops - 2)
+  return mix(stops[k + 1], stops[k + 2], place - k)
 end
 
 local dragon = lsystem({
-	object = extruder({
-		-- The way is level, so the section's y points down.
-		heading = { 0, 1, 0 },
-		shape = { { -thickness / 2, -1 }, { thickness / 2, -1 }, { thickness / 2, 0 }, { -thickness / 2, 0 } },
-		along = 5,
-		roughness = 0.6,
-	}),
-	interpret = "last",
+  object = extruder({
+    -- The way is level, so the section's y points down.
+    heading = { 0, 1, 0 },
+    shape = { { -thickness / 2, -1 }, { thickness / 2, -1 }, { thickness / 2, 0 }, { -thickness / 2, 0 } },
+    along = 5,
+    roughness = 0.6,
+  }),
+  interpret = "last",
 })
 
 dragon:axiom(Strip(folds, 1, 0, 1))
 
 -- Both halves of a strip are folded like the whole, but the second one is seen from behind.
 dragon:rule("Strip(n, side, from, to)", function(this, n, side, from, to)
-	if n == 0 then
-		return nil
-	end
-	local middle = (from + to) / 2
-	return Strip(n - 1, 1, from, middle), Fold(side, middle), Strip(n - 1, -1, middle, to)
+  if n == 0 then
+    return nil
+  end
+  local middle = (from + to) / 2
+  return Strip(n - 1, 1, from, middle), Fold(side, middle), Strip(n - 1, -1, middle, to)
 end)
 
 -- An arc between the middles of two edges that measure 1 m.
 dragon:interpret("Fold(side, at)", function(this, side, at)
-	local radius = 0.5 / math.tan(math.rad(angle / 2))
-	local rise = lerp(0.5, height, at)
-	this:bend(angle, if side > 0 then 0 else 180)
-	this:color(color(math.floor(at * COLORS) / COLORS))
-	this:taper(1, rise)
-	this:extrude(radius * math.rad(angle))
+  local radius = 0.5 / math.tan(math.rad(angle / 2))
+  local rise = lerp(0.5, height, at)
+  this:bend(angle, if side > 0 then 0 else 180)
+  this:color(color(math.floor(at * COLORS) / COLORS))
+  this:taper(1, rise)
+  this:extrude(radius * math.rad(angle))
 end)
 
 dragon:derive()

@@ -1,63 +1,64 @@
 --!strict
 -- Six plans under roofs of every kind: footprints with groundwork, walls, a straight skeleton above, and chimneys.
 local kinds = {
-	"flat",
-	"shed",
-	"gable",
-	"gambrel",
-	"shed_gambrel",
-	"hip",
-	"mansard",
-	"pagoda",
-	"porch",
-	"dutch_hip",
+  "flat",
+  "shed",
+  "gable",
+  "gambrel",
+  "shed_gambrel",
+  "hip",
+  "mansard",
+  "pagoda",
+  "porch",
+  "dutch_hip",
 }
 local kind = param("kind", {
-	default = "all",
-	choices = { "all", table.unpack(kinds) },
-	text = "Kind of all roofs, or one of each",
+  default = "all",
+  choices = { "all", table.unpack(kinds) },
+  text = "Kind of all roofs, or one of each",
 })
 local eaves = param("eaves", {
-	default = "open",
-	choices = { "open", "closed", "slab" },
-	text = "How the roofs jut out",
+  default = "open",
+  choices = { "open", "closed", "slab" },
+  text = "How the roofs jut out",
 })
 local pitch = param("pitch", { default = 38, min = 5, max = 70, unit = "deg", text = "Slope of the roofs" })
 local floors = param("floors", { default = 2, min = 1, max = 6, step = 1, text = "Storeys" })
-local overhang = param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", text = "Width of the eaves" })
+local overhang =
+  param("overhang", { default = 0.6, min = 0, max = 2, unit = "m", text = "Width of the eaves" })
 local furnished = param("furnished", { default = true, text = "Whether chimneys and gutters are shown" })
 
 -- A ring is written as "x y, x y, ..."; it lies on ground that rises to the east.
 local function ring(text: string, east: number, north: number)
-	local points = {}
-	for x, y in string.gmatch(text, "(%-?%d+)%s+(%-?%d+)") do
-		local place = { tonumber(x) :: number, tonumber(y) :: number }
-		table.insert(points, { east + place[1], north + place[2], 0.06 * place[1] })
-	end
-	return points
+  local points = {}
+  for x, y in string.gmatch(text, "(%-?%d+)%s+(%-?%d+)") do
+    local place = { tonumber(x) :: number, tonumber(y) :: number }
+    table.insert(points, { east + place[1], north + place[2], 0.06 * place[1] })
+  end
+  return points
 end
 
 local plans = {
-	{ roof = "gable", color = "#e4d8c3", "0 0, 13 0, 13 8, 0 8" },
-	{ roof = "shed_gambrel", color = "#d8c3ae", "0 0, 15 0, 15 7, 7 7, 7 15, 0 15" },
-	{ roof = "mansard", color = "#e9e2d6", "0 0, 20 0, 20 17, 0 17", "6 6, 14 6, 14 11, 6 11" },
-	{ roof = "dutch_hip", color = "#d9c7a0", "0 8, 6 8, 6 0, 12 0, 12 8, 18 8, 18 15, 0 15" },
-	{ roof = "hip", color = "#e0d2c0", "0 0, 14 -2, 19 5, 13 8, 14 15, 3 13, 5 6" },
-	{
-		roof = "pagoda",
-		color = "#cdbfae",
-		"5 0, 11 0, 11 5, 16 5, 16 11, 11 11, 11 16, 5 16, 5 11, 0 11, 0 5, 5 5",
-	},
+  { roof = "gable", color = "#e4d8c3", "0 0, 13 0, 13 8, 0 8" },
+  { roof = "shed_gambrel", color = "#d8c3ae", "0 0, 15 0, 15 7, 7 7, 7 15, 0 15" },
+  { roof = "mansard", color = "#e9e2d6", "0 0, 20 0, 20 17, 0 17", "6 6, 14 6, 14 11, 6 11" },
+  { roof = "dutch_hip", color = "#d9c7a0", "0 8, 6 8, 6 0, 12 0, 12 8, 18 8, 18 15, 0 15" },
+  { roof = "hip", color = "#e0d2c0", "0 0, 14 -2, 19 5, 13 8, 14 15, 3 13, 5 6" },
+  {
+    roof = "pagoda",
+    color = "#cdbfae",
+    "5 0, 11 0, 11 5, 16 5, 16 11, 11 11, 11 16, 5 16, 5 11, 0 11, 0 5, 5 5",
+  },
 }
 
 local features = {}
 for index, plan in plans do
-	local east, north = (index - 1) % 3 * 25, math.floor((index - 1) / 3) * 24
-	local rings = {}
-	for _, text in ipairs(plan) do
-		table.insert(rings, ring(text, east, north))
-	end
-	table.insert(features, { id = tostring(index), rings = rings, roof = plan.roof, color = plan.color })
+  local east, north = (index - 1) % 3 * 25, math.floor((index - 1) / 3) * 24
+  local rings = {}
+  for _, text in ipairs(plan) do
+    table.insert(rings, ring(text, east, north))
+  end
+  table.insert(features, { id = tostring(index), rings = rings, roof = plan.roof, color = plan.color })
 end
 
 -- What stands on the roofs: a chimney 0.6 m wide, and a metre of gutter.
@@ -65,8 +66,8 @@ local Stack = module("Stack")
 local masonry = lsystem({ object = extruder({ color = "#9a5b45", smooth = false }) })
 masonry:axiom(Stack())
 masonry:interpret("Stack()", function(this)
-	this:rectangle(0.6, 0.8):extrude(2.2)
-	this:rectangle(0.75, 0.95):extrude(0.15)
+  this:rectangle(0.6, 0.8):extrude(2.2)
+  this:rectangle(0.75, 0.95):extrude(0.15)
 end)
 local chimney = masonry:derive()
 
@@ -74,7 +75,7 @@ local Channel = module("Channel")
 local tinwork = lsystem({ object = extruder({ color = "#8d9296", metallic = 1, roughness = 0.5 }) })
 tinwork:axiom(Channel())
 tinwork:interpret("Channel()", function(this)
-	this:regular(8):jump({ -0.5, -0.06, 0.02 }):direction({ 1, 0, 0 }):scale(0.07):extrude(1)
+  this:regular(8):jump({ -0.5, -0.06, 0.02 }):direction({ 1, 0, 0 }):scale(0.07):extrude(1)
 end)
 local gutter = tinwork:derive()
 
@@ -86,43 +87,43 @@ local Roof = module("Roof", "kind")
 local houses = lsystem({ object = footprint })
 
 houses:axiom(source(features), function(feature)
-	local roof = if kind == "all" then feature.roof else kind
-	return footprint(feature.rings, { color = feature.color, height = 2.9 }), House(roof)
+  local roof = if kind == "all" then feature.roof else kind
+  return footprint(feature.rings, { color = feature.color, height = 2.9 }), House(roof)
 end)
 
 houses:rule("House(roof)", function(this, roof)
-	local parts = { Ground() }
-	for _ = 1, floors do
-		table.insert(parts, Walls())
-	end
-	table.insert(parts, Roof(roof))
-	return table.unpack(parts)
+  local parts = { Ground() }
+  for _ = 1, floors do
+    table.insert(parts, Walls())
+  end
+  table.insert(parts, Roof(roof))
+  return table.unpack(parts)
 end)
 
 houses:interpret("Ground()", function(this)
-	this:groundwork("extruded", { color = "#7d7468", name = "plinth" })
+  this:groundwork("extruded", { color = "#7d7468", name = "plinth" })
 end)
 houses:interpret("Walls()", function(this)
-	this:walls()
+  this:walls()
 end)
 houses:interpret("Roof(kind)", function(this, roof)
-	local flat = roof == "flat"
-	local details = {
-		{ model = chimney, on = if flat then "slope" else "ridge", every = 4, margin = 1.5, count = 2, sink = 1 },
-		{ model = gutter, on = "eaves", stretch = true },
-	}
-	this:roof({
-		kind = roof,
-		slope = pitch,
-		overhang = overhang,
-		eaves = eaves,
-		slab = if eaves == "closed" then 0 else 0.2,
-		border = if flat then 0.6 else 0,
-		material = { color = if flat then "#8f8f8b" else "#a3492f", roughness = 0.9, name = "tiles" },
-		gable = { color = "#e4d8c3", name = "gable" },
-		trim = { color = "#f1ece2", name = "trim" },
-		details = if furnished then details else {},
-	})
+  local flat = roof == "flat"
+  local details = {
+    { model = chimney, on = if flat then "slope" else "ridge", every = 4, margin = 1.5, count = 2, sink = 1 },
+    { model = gutter, on = "eaves", stretch = true },
+  }
+  this:roof({
+    kind = roof,
+    slope = pitch,
+    overhang = overhang,
+    eaves = eaves,
+    slab = if eaves == "closed" then 0 else 0.2,
+    border = if flat then 0.6 else 0,
+    material = { color = if flat then "#8f8f8b" else "#a3492f", roughness = 0.9, name = "tiles" },
+    gable = { color = "#e4d8c3", name = "gable" },
+    trim = { color = "#f1ece2", name = "trim" },
+    details = if furnished then details else {},
+  })
 end)
 
 houses:derive()

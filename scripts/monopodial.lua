@@ -1,10 +1,14 @@
 --!strict
 -- A tree with one trunk, after Honda's rules: The Algorithmic Beauty of Plants, figure 2.6. The apex goes on
 -- straight; what branches from it divides to the left and to the right by turns, in level planes.
-local years = param("years", { default = 11, min = 1, max = 12, step = 1, text = "How often the apices grow" })
-local trunk = param("trunk", { default = 0.91, min = 0.7, max = 1, text = "Length of an internode by the one before" })
-local branch = param("branch", { default = 0.71, min = 0.4, max = 0.95, text = "Length of a branch by its parent" })
-local angle = param("angle", { default = 52, min = 10, max = 90, unit = "deg", text = "Between trunk and branches" })
+local years =
+  param("years", { default = 11, min = 1, max = 12, step = 1, text = "How often the apices grow" })
+local trunk =
+  param("trunk", { default = 0.91, min = 0.7, max = 1, text = "Length of an internode by the one before" })
+local branch =
+  param("branch", { default = 0.71, min = 0.4, max = 0.95, text = "Length of a branch by its parent" })
+local angle =
+  param("angle", { default = 52, min = 10, max = 90, unit = "deg", text = "Between trunk and branches" })
 local fork = param("fork", { default = 42, min = 10, max = 90, unit = "deg", text = "Between branches" })
 local leaves = param("leaves", { default = true, text = "Whether twigs bear leaves" })
 
@@ -20,51 +24,58 @@ local Wood = module("Wood", "length", "width")
 -- placed a thousand times.
 local leaf = lsystem({ object = turtle({ color = "#6f9a3a", roughness = 0.6 }) })
 local function half(side: number)
-	return {
-		Roll(side * 20),
-		BeginPolygon(),
-		Point(),
-		{ Turn(side * 42), G(0.45), Point() },
-		{ Turn(side * 22), G(0.8), Point() },
-		{ G(1.1), Point() },
-		EndPolygon(),
-	}
+  return {
+    Roll(side * 20),
+    BeginPolygon(),
+    Point(),
+    { Turn(side * 42), G(0.45), Point() },
+    { Turn(side * 22), G(0.8), Point() },
+    { G(1.1), Point() },
+    EndPolygon(),
+  }
 end
 leaf:axiom(half(1), half(-1))
 local blade = leaf:derive()
 
 local tree = lsystem({
-	object = turtle({ color = "#6b4a32", elasticity = -0.03 }),
-	interpret = "last",
+  object = turtle({ color = "#6b4a32", elasticity = -0.03 }),
+  interpret = "last",
 })
 
 tree:axiom(Wood(1.3, 0.42), Apex(1.25, 0.36))
 
 tree:rule("Apex(l, w)", function(this, l, w)
-	return Wood(l, w), { Pitch(angle), LeftBud(l * branch, w * THINNER) }, Roll(GOLDEN), Apex(l * trunk, w * THINNER)
+  return Wood(l, w),
+    { Pitch(angle), LeftBud(l * branch, w * THINNER) },
+    Roll(GOLDEN),
+    Apex(l * trunk, w * THINNER)
 end)
 
 tree:rule("LeftBud(l, w)", function(this, l, w)
-	return Wood(l, w), { Turn(-fork), Level(), RightBud(l * branch, w * THINNER) }, RightBud(l * trunk, w * THINNER)
+  return Wood(l, w),
+    { Turn(-fork), Level(), RightBud(l * branch, w * THINNER) },
+    RightBud(l * trunk, w * THINNER)
 end)
 
 tree:rule("RightBud(l, w)", function(this, l, w)
-	return Wood(l, w), { Turn(fork), Level(), LeftBud(l * branch, w * THINNER) }, LeftBud(l * trunk, w * THINNER)
+  return Wood(l, w),
+    { Turn(fork), Level(), LeftBud(l * branch, w * THINNER) },
+    LeftBud(l * trunk, w * THINNER)
 end)
 
 -- Young wood bears leaves to both sides.
 tree:interpret("Wood(l, w)", function(this, l, w)
-	this:width(w):forward(l)
+  this:width(w):forward(l)
 end)
 
 local function sprig(this)
-	if leaves then
-		this:place(blade, 0.26)
-		this:turn(60)
-		this:place(blade, 0.26)
-		this:turn(-120)
-		this:place(blade, 0.26)
-	end
+  if leaves then
+    this:place(blade, 0.26)
+    this:turn(60)
+    this:place(blade, 0.26)
+    this:turn(-120)
+    this:place(blade, 0.26)
+  end
 end
 tree:interpret("LeftBud", sprig)
 tree:interpret("RightBud", sprig)

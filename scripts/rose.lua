@@ -2,8 +2,10 @@
 -- A Gothic rose window. A rose is a ring of stone with a smaller rose in its middle and a wreath of roses around
 -- it, each touching its neighbours and the ring. The smallest are panes of coloured glass.
 local depth = param("depth", { default = 3, min = 1, max = 4, step = 1, text = "Roses within roses" })
-local petals = param("petals", { default = 12, min = 5, max = 20, step = 1, text = "Roses in the outer wreath" })
-local inner = param("inner", { default = 6, min = 3, max = 12, step = 1, text = "Roses in each smaller wreath" })
+local petals =
+  param("petals", { default = 12, min = 5, max = 20, step = 1, text = "Roses in the outer wreath" })
+local inner =
+  param("inner", { default = 6, min = 3, max = 12, step = 1, text = "Roses in each smaller wreath" })
 local radius = param("radius", { default = 5, min = 1, max = 12, unit = "m", text = "Of the whole window" })
 local stone = param("stone", { default = "#d8cbb4", text = "Colour of the tracery" })
 
@@ -16,72 +18,72 @@ local Around = module("Around", "angle", "distance")
 local Wall = module("Wall")
 
 local window = lsystem({
-	object = extruder({
-		color = stone,
-		heading = { 0, -1, 0 },
-		position = { 0, 0, radius * 1.35 },
-		roughness = 0.9,
-	}),
-	interpret = "last",
+  object = extruder({
+    color = stone,
+    heading = { 0, -1, 0 },
+    position = { 0, 0, radius * 1.35 },
+    roughness = 0.9,
+  }),
+  interpret = "last",
 })
 
 window:axiom({ Wall() }, Rose(radius, depth, petals, 2))
 
 -- A circle that touches its neighbours in a wreath of `count` and the ring around them has this part of its radius.
 local function share(count: number): number
-	local sine = math.sin(math.pi / count)
-	return sine / (1 + sine)
+  local sine = math.sin(math.pi / count)
+  return sine / (1 + sine)
 end
 
 window:rule("Rose(r, n, count, tint)", function(this, r, n, count, tint)
-	local width = 0.05 * radius * (r / radius) ^ 0.8
-	local clear = r - width / 2
-	if n == 0 then
-		return { Ring(r, width) }, { Pane(clear, tint) }
-	end
-	local small = clear * share(count)
-	local middle = clear - 2 * small
-	-- The middle of the whole is large enough for one more.
-	local middle_n = if r == radius then n else n - 1
-	local parts = { { Ring(r, width) }, { Pane(clear, tint + 2) }, { Rose(middle, middle_n, inner, tint + 1) } }
-	for k = 1, count do
-		table.insert(
-			parts,
-			{ Around(k * 360 / count + 90, clear - small), Rose(small, n - 1, inner, tint + 3 + k % 2) }
-		)
-	end
-	return table.unpack(parts)
+  local width = 0.05 * radius * (r / radius) ^ 0.8
+  local clear = r - width / 2
+  if n == 0 then
+    return { Ring(r, width) }, { Pane(clear, tint) }
+  end
+  local small = clear * share(count)
+  local middle = clear - 2 * small
+  -- The middle of the whole is large enough for one more.
+  local middle_n = if r == radius then n else n - 1
+  local parts = { { Ring(r, width) }, { Pane(clear, tint + 2) }, { Rose(middle, middle_n, inner, tint + 1) } }
+  for k = 1, count do
+    table.insert(
+      parts,
+      { Around(k * 360 / count + 90, clear - small), Rose(small, n - 1, inner, tint + 3 + k % 2) }
+    )
+  end
+  return table.unpack(parts)
 end)
 
 window:interpret("Around(angle, distance)", function(this, angle, distance)
-	local place = math.rad(angle)
-	this:shift(distance * math.cos(place), distance * math.sin(place))
+  local place = math.rad(angle)
+  this:shift(distance * math.cos(place), distance * math.sin(place))
 end)
 
 -- From the rightmost point, upwards and to the left all the way round.
 window:interpret("Ring(r, width)", function(this, r, width)
-	this:shift(r, 0):pitch(-90):bend(360, 0):regular(8):scale(width / 2, width * 0.8)
-	this:resolution(math.ceil(16 + 56 * r / radius), 0):extrude(2 * math.pi * r)
+  this:shift(r, 0):pitch(-90):bend(360, 0):regular(8):scale(width / 2, width * 0.8)
+  this:resolution(math.ceil(16 + 56 * r / radius), 0):extrude(2 * math.pi * r)
 end)
 
 -- Smaller panes are thicker, so that they stand out of the ones behind them.
 window:interpret("Pane(r, tint)", function(this, r, tint)
-	local color = rgb(GLASS[tint % #GLASS + 1])
-	this:smooth(false):regular(math.ceil(20 + 60 * r / radius)):scale(r):advance(-0.1)
-	this:material({ color = color, roughness = 0.15, emissive = mix("#000000", color, 0.35), name = "glass" })
-	this:extrude(0.1 + 0.06 * (1 - r / radius))
+  local color = rgb(GLASS[tint % #GLASS + 1])
+  this:smooth(false):regular(math.ceil(20 + 60 * r / radius)):scale(r):advance(-0.1)
+  this:material({ color = color, roughness = 0.15, emissive = mix("#000000", color, 0.35), name = "glass" })
+  this:extrude(0.1 + 0.06 * (1 - r / radius))
 end)
 
 window:interpret("Wall", function(this)
-	local side, hole = radius * 1.35, {}
-	for k = 0, 95 do
-		local angle = k / 96 * 2 * math.pi
-		table.insert(hole, { radius * math.cos(angle), radius * math.sin(angle) })
-	end
-	this:smooth(false):advance(-0.4)
-	this:material({ color = "#cfc2a8", roughness = 0.95, name = "wall" })
-	this:polygon({ { -side, -side }, { side, -side }, { side, side }, { -side, side } }, { hole })
-	this:extrude(0.6)
+  local side, hole = radius * 1.35, {}
+  for k = 0, 95 do
+    local angle = k / 96 * 2 * math.pi
+    table.insert(hole, { radius * math.cos(angle), radius * math.sin(angle) })
+  end
+  this:smooth(false):advance(-0.4)
+  this:material({ color = "#cfc2a8", roughness = 0.95, name = "wall" })
+  this:polygon({ { -side, -side }, { side, -side }, { side, side }, { -side, side } }, { hole })
+  this:extrude(0.6)
 end)
 
 window:derive()

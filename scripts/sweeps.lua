@@ -3,7 +3,8 @@
 -- resolution behind, recursion 2 and 3 in front. An arm is a row of segments, each with a length, a curvature,
 -- a twist and a scale of its own; with each further level of recursion its segments bear arms themselves.
 local segments = param("segments", { default = 14, min = 5, max = 18, step = 1, text = "Segments of an arm" })
-local curl = param("curl", { default = 58, min = 0, max = 80, unit = "deg", text = "Bend of the last segment" })
+local curl =
+  param("curl", { default = 58, min = 0, max = 80, unit = "deg", text = "Bend of the last segment" })
 local arms = param("arms", { default = 3, min = 1, max = 5, step = 1, text = "Arms that a segment bears" })
 local lobes = param("lobes", { default = 5, min = 3, max = 9, step = 1, text = "Lobes of the cross-section" })
 
@@ -17,61 +18,62 @@ local Leave = module("Leave", "angle", "radius") -- turns to where a side arm le
 
 -- Fineness is the number of pieces of a segment and of points to a lobe.
 local models = source({
-	{ id = "recursion 1, low", recursion = 1, fineness = 2, color = "#c8553d", place = { -8, 2.8, 0 } },
-	{ id = "recursion 1, high", recursion = 1, fineness = 10, color = "#e3a03b", place = { 2.6, 2.8, 0 } },
-	{ id = "recursion 2, high", recursion = 2, fineness = 10, color = "#3f8f8c", place = { -2.6, -2.8, 0 } },
-	{ id = "recursion 3, high", recursion = 3, fineness = 10, color = "#7f5aa8", place = { 8, -2.8, 0 } },
+  { id = "recursion 1, low", recursion = 1, fineness = 2, color = "#c8553d", place = { -8, 2.8, 0 } },
+  { id = "recursion 1, high", recursion = 1, fineness = 10, color = "#e3a03b", place = { 2.6, 2.8, 0 } },
+  { id = "recursion 2, high", recursion = 2, fineness = 10, color = "#3f8f8c", place = { -2.6, -2.8, 0 } },
+  { id = "recursion 3, high", recursion = 3, fineness = 10, color = "#7f5aa8", place = { 8, -2.8, 0 } },
 })
 
 local sweeps = lsystem({ object = extruder({}), interpret = "last" })
 
 -- Each model has an extruder of its own, so the four grow at the same time.
 sweeps:axiom(models, function(model)
-	local fineness = model.fineness
-	local body = extruder({ color = model.color, position = model.place, smooth = fineness > 2, roughness = 0.5 })
-	return body, Section(fineness), Arm(segments, 1.15, model.recursion, fineness)
+  local fineness = model.fineness
+  local body =
+    extruder({ color = model.color, position = model.place, smooth = fineness > 2, roughness = 0.5 })
+  return body, Section(fineness), Arm(segments, 1.15, model.recursion, fineness)
 end)
 
 -- A segment bears its arms on a ring where it ends; the foot and the tip bear none.
 sweeps:rule("Arm(n, r, level, fineness)", function(this, n, r, level, fineness)
-	if n == 0 then
-		return Tip(r)
-	end
-	local along = 1 - n / segments
-	local parts = { Segment(r, lerp(6, curl, ease.smooth(along))) }
-	if level > 1 and n > segments / 3 and n < segments then
-		local finer = math.max(math.floor(fineness / 2), 2)
-		for k = 1, arms do
-			local side = Arm(segments - 3, r * 0.36, level - 1, finer)
-			table.insert(parts, { Leave((k + n / 2) * 360 / arms, r), Section(finer), side })
-		end
-	end
-	table.insert(parts, Arm(n - 1, r * TAPER, level, fineness))
-	return table.unpack(parts)
+  if n == 0 then
+    return Tip(r)
+  end
+  local along = 1 - n / segments
+  local parts = { Segment(r, lerp(6, curl, ease.smooth(along))) }
+  if level > 1 and n > segments / 3 and n < segments then
+    local finer = math.max(math.floor(fineness / 2), 2)
+    for k = 1, arms do
+      local side = Arm(segments - 3, r * 0.36, level - 1, finer)
+      table.insert(parts, { Leave((k + n / 2) * 360 / arms, r), Section(finer), side })
+    end
+  end
+  table.insert(parts, Arm(n - 1, r * TAPER, level, fineness))
+  return table.unpack(parts)
 end)
 
 -- The cross-section: a circle with lobes.
 sweeps:interpret("Section(fineness)", function(this, fineness)
-	local outline = {}
-	for k = 0, lobes * fineness - 1 do
-		local angle = k / (lobes * fineness) * 2 * math.pi
-		local radius = 0.82 + 0.18 * math.cos(lobes * angle)
-		table.insert(outline, { radius * math.cos(angle), radius * math.sin(angle) })
-	end
-	this:resolution(fineness, 0)
-	this:polygon(outline)
+  local outline = {}
+  for k = 0, lobes * fineness - 1 do
+    local angle = k / (lobes * fineness) * 2 * math.pi
+    local radius = 0.82 + 0.18 * math.cos(lobes * angle)
+    table.insert(outline, { radius * math.cos(angle), radius * math.sin(angle) })
+  end
+  this:resolution(fineness, 0)
+  this:polygon(outline)
 end)
 
 sweeps:interpret("Segment(r, bend)", function(this, r, bend)
-	this:scale(r):taper(r * TAPER):twist(9):bend(bend, 180):extrude(r * 1.5)
+  this:scale(r):taper(r * TAPER):twist(9):bend(bend, 180):extrude(r * 1.5)
 end)
 
 sweeps:interpret("Tip(r)", function(this, r)
-	this:taper(r * 0.1):extrude(r * 1.5)
+  this:taper(r * 0.1):extrude(r * 1.5)
 end)
 
 sweeps:interpret("Leave(angle, r)", function(this, angle, r)
-	this:roll(angle):pitch(65):advance(r * 0.3)
+  this:roll(angle):pitch(65):advance(r * 0.3)
 end)
 
 sweeps:derive()

@@ -3,52 +3,52 @@
 local build = {}
 
 build.names = {
-	"haussmann",
-	"glass_office",
-	"modern_block",
-	"porto",
-	"church",
-	"warehouse",
-	"terrace_house",
-	"half_timbered",
-	"chalet",
-	"villa",
+  "haussmann",
+  "glass_office",
+  "modern_block",
+  "porto",
+  "church",
+  "warehouse",
+  "terrace_house",
+  "half_timbered",
+  "chalet",
+  "villa",
 }
 
 -- How many storeys buildings of a style usually have, how wide (m) and deep they are, and how far from one another if
 -- they stand by themselves.
 build.usual = {
-	haussmann = { levels = 6, width = 15, depth = 12 },
-	glass_office = { levels = 8, width = 18, depth = 14, gap = 6 },
-	terrace_house = { levels = 3, width = 7, depth = 6.6 },
-	porto = { levels = 4, width = 6, depth = 11 },
-	half_timbered = { levels = 3, width = 7, depth = 9 },
-	modern_block = { levels = 6, width = 15, depth = 12, gap = 6 },
-	warehouse = { levels = 2, width = 18, depth = 14 },
-	chalet = { levels = 2, width = 10, depth = 11, gap = 7 },
-	villa = { levels = 2, width = 11, depth = 9, gap = 6 },
-	church = { levels = 1, width = 12, depth = 14, gap = 4 },
+  haussmann = { levels = 6, width = 15, depth = 12 },
+  glass_office = { levels = 8, width = 18, depth = 14, gap = 6 },
+  terrace_house = { levels = 3, width = 7, depth = 6.6 },
+  porto = { levels = 4, width = 6, depth = 11 },
+  half_timbered = { levels = 3, width = 7, depth = 9 },
+  modern_block = { levels = 6, width = 15, depth = 12, gap = 6 },
+  warehouse = { levels = 2, width = 18, depth = 14 },
+  chalet = { levels = 2, width = 10, depth = 11, gap = 7 },
+  villa = { levels = 2, width = 11, depth = 9, gap = 6 },
+  church = { levels = 1, width = 12, depth = 14, gap = 4 },
 }
 
 -- All variants of all styles in one list, so that a number says which one is meant.
 local styles = {}
 local first = {}
 for _, name in build.names do
-	local variants = require(`templates/{name}`)
-	first[name] = { at = #styles + 1, count = #variants }
-	table.move(variants, 1, #variants, #styles + 1, styles)
+  local variants = require(`templates/{name}`)
+  first[name] = { at = #styles + 1, count = #variants }
+  table.move(variants, 1, #variants, #styles + 1, styles)
 end
 
 -- The number of a style's variant; `variant` is any whole number from 1 on.
 function build.style(name: string, variant: number): number
-	local known = first[name]
-	return known.at + (variant - 1) % known.count
+  local known = first[name]
+  return known.at + (variant - 1) % known.count
 end
 
 -- The storeys that a building of this style has whose walls are `height` (m) high.
 function build.levels(style: number, height: number): number
-	local chosen = styles[style]
-	return math.max(1, math.floor((height - chosen.ground) / chosen.storey + 1.5))
+  local chosen = styles[style]
+  return math.max(1, math.floor((height - chosen.ground) / chosen.storey + 1.5))
 end
 
 -- A building of `levels` storeys, whose walls are `height` (m) high, or as high as the style has them if that is 0.
@@ -64,33 +64,33 @@ local TOWER = 130
 
 -- A system in which every building has a chain; the modules of the chain are groundwork, storeys and a roof.
 function build.system()
-	local houses = lsystem({ object = footprint, interpret = "last" })
+  local houses = lsystem({ object = footprint, interpret = "last" })
 
-	houses:rule("Building(style, levels, height, use)", function(this, style, levels, height, use)
-		local chosen = styles[style]
-		local usual = chosen.ground + (levels - 1) * chosen.storey
-		local stretch = if height > 0 then height / usual else 1
-		local chain = { Groundwork(style) }
-		for number = 1, levels do
-			local storey = if number == 1 then chosen.ground else chosen.storey
-			table.insert(chain, Storey(style, chosen.pick(number, levels, use), storey * stretch))
-		end
-		local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
-		local kind = if deep and chosen.wide then "wide" elseif small and chosen.tower then "tower" else "roof"
-		table.insert(chain, Roof(style, kind))
-		return table.unpack(chain)
-	end)
+  houses:rule("Building(style, levels, height, use)", function(this, style, levels, height, use)
+    local chosen = styles[style]
+    local usual = chosen.ground + (levels - 1) * chosen.storey
+    local stretch = if height > 0 then height / usual else 1
+    local chain = { Groundwork(style) }
+    for number = 1, levels do
+      local storey = if number == 1 then chosen.ground else chosen.storey
+      table.insert(chain, Storey(style, chosen.pick(number, levels, use), storey * stretch))
+    end
+    local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
+    local kind = if deep and chosen.wide then "wide" elseif small and chosen.tower then "tower" else "roof"
+    table.insert(chain, Roof(style, kind))
+    return table.unpack(chain)
+  end)
 
-	houses:interpret("Groundwork(style)", function(this, style)
-		this:groundwork("extruded", styles[style].groundwork)
-	end)
-	houses:interpret("Storey(style, kind, height)", function(this, style, kind, height)
-		this:walls({ height = height, templates = styles[style].walls[kind] })
-	end)
-	houses:interpret("Roof(style, kind)", function(this, style, kind)
-		this:roof(styles[style][kind])
-	end)
-	return houses
+  houses:interpret("Groundwork(style)", function(this, style)
+    this:groundwork("extruded", styles[style].groundwork)
+  end)
+  houses:interpret("Storey(style, kind, height)", function(this, style, kind, height)
+    this:walls({ height = height, templates = styles[style].walls[kind] })
+  end)
+  houses:interpret("Roof(style, kind)", function(this, style, kind)
+    this:roof(styles[style][kind])
+  end)
+  return houses
 end
 
 return build
