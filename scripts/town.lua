@@ -118,7 +118,7 @@ local function by_size(geometry, height: number): string
   -- Sheds and halls are low for how deep they are.
   local depth = 4 * area / around
   if area > 500 and height < 14 and height < 0.8 * depth then
-    return if height < 9 then "warehouse" else one_of({ "warehouse", "modern_block" })
+    return if height < 9 then "warehouse" else one_of({ "modern_block", "haussmann" })
   elseif height >= 30 then
     return one_of({ "modern_block", "glass_office" })
   elseif height >= 13 then
