@@ -10,7 +10,7 @@ local levels =
 
 local features, fronts = {}, {}
 local east, north = 0, 0
-for index, name in if only == "all" then build.names else { only } do
+for _, name in if only == "all" then build.names else { only } do
   local usual = build.usual[name]
   local w, d = usual.width, usual.depth
   local function plan(variant: number, points)
@@ -34,10 +34,10 @@ for index, name in if only == "all" then build.names else { only } do
   local to, back = from + 1.2 * math.max(w, d), 1.8 * d
   local wing = to - math.min(d, (to - from) * 0.6)
   plan(3, { { from, 0 }, { to, 0 }, { to, back }, { wing, back }, { wing, d }, { from, d } })
-  table.insert(fronts, { { east - 5, north - 6 }, { to + 5, north - 6 } })
-  east = to + 14
-  if index % 5 == 0 then
-    east, north = 0, north - 60
+  table.insert(fronts, { { east - 5, north - 6 }, { east + to + 5, north - 6 } })
+  east += to + 9
+  if east > 150 then
+    east, north = 0, north - 40
   end
 end
 

@@ -10,16 +10,13 @@ local forced = param("style", {
   choices = { "by data", table.unpack(build.names) },
   text = "One style for all buildings",
 })
-local radius = param(
-  "radius",
-  {
-    default = 0,
-    min = 0,
-    max = 100000,
-    unit = "m",
-    text = "Shows what lies so near to the middle; 0 for everything",
-  }
-)
+local radius = param("radius", {
+  default = 0,
+  min = 0,
+  max = 100000,
+  unit = "m",
+  text = "Shows what lies so near to the middle; 0 for everything",
+})
 local east =
   param("east", { default = 0, min = -50000, max = 50000, unit = "m", text = "Where the middle is" })
 local north =
@@ -118,9 +115,10 @@ end
 -- A style for a building of which only the size is known.
 local function by_size(geometry, height: number): string
   local area, around = extent(geometry)
-  -- Sheds and halls are low for what they cover.
-  if area > 500 and height < 14 and height * 5 < 4 * area / around * 4 then
-    return if height < 9 then "warehouse" else one_of({ "warehouse", "modern_block" })
+  -- Sheds and halls are low for how deep they are.
+  local depth = 4 * area / around
+  if area > 500 and height < 14 and height < 0.8 * depth then
+    return if height < 9 then "warehouse" else one_of({ "modern_block", "haussmann" })
   elseif height >= 30 then
     return one_of({ "modern_block", "glass_office" })
   elseif height >= 13 then

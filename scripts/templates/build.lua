@@ -5,29 +5,29 @@ local build = {}
 build.names = {
   "haussmann",
   "glass_office",
-  "terrace_house",
-  "porto",
-  "half_timbered",
   "modern_block",
+  "porto",
+  "church",
   "warehouse",
+  "terrace_house",
+  "half_timbered",
   "chalet",
   "villa",
-  "church",
 }
 
 -- How many storeys buildings of a style usually have, how wide (m) and deep they are, and how far from one another if
 -- they stand by themselves.
 build.usual = {
   haussmann = { levels = 6, width = 15, depth = 12 },
-  glass_office = { levels = 9, width = 18, depth = 14, gap = 8 },
+  glass_office = { levels = 8, width = 18, depth = 14, gap = 6 },
   terrace_house = { levels = 3, width = 7, depth = 6.6 },
   porto = { levels = 4, width = 6, depth = 11 },
   half_timbered = { levels = 3, width = 7, depth = 9 },
-  modern_block = { levels = 6, width = 15, depth = 12, gap = 8 },
+  modern_block = { levels = 6, width = 15, depth = 12, gap = 6 },
   warehouse = { levels = 2, width = 18, depth = 14 },
   chalet = { levels = 2, width = 10, depth = 11, gap = 7 },
   villa = { levels = 2, width = 11, depth = 9, gap = 6 },
-  church = { levels = 1, width = 12, depth = 14, gap = 6 },
+  church = { levels = 1, width = 12, depth = 14, gap = 4 },
 }
 
 -- All variants of all styles in one list, so that a number says which one is meant.

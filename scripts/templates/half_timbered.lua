@@ -6,7 +6,7 @@ local walls = require("templates/walls")
 local box, beam = parts.box, parts.beam
 
 local PLASTERS = { "#e6dcc4", "#dcc79c", "#d3a98b", "#e4e0d6", "#c6c5a8" }
-local TILES = { "#96705f", "#a17c66", "#8a675a", "#7d6a60", "#a8826b" }
+local TILES = { "#bb8e78", "#c79b80", "#a98271", "#a08d80", "#cba086" }
 local OAKS = { "#4a3526", "#3d2c22", "#54392a", "#3a3330", "#4a3526" }
 
 local chimney = parts.chimney({

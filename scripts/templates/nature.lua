@@ -51,7 +51,8 @@ function nature.ground(of, bounds)
     areas(land, -THICK, 0, COLORS.square)
     areas(of.water, -1, PARK, COLORS.water)
   else
-    areas(land, -THICK, 0, COLORS.land)
+    areas(land, -THICK, -0.2, COLORS.stone)
+    areas(land, -0.2, 0, COLORS.land)
     areas(of.water, -THICK, WATER, COLORS.water)
   end
   areas(of.park, -1, PARK, COLORS.park)

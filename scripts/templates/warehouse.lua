@@ -52,7 +52,6 @@ local function make(color: string, image: string, kind: string, gate_color: stri
       width = { 1.7, 1.9, 3 },
     })
   local course = walls.cornice({ { 0.18, 0.2 } }, trim)
-  local plinth = walls.band(0.5, 0.2, walls.surface("#8a8880"))
   local metal = walls.surface(if brick then "#7d746c" else "#9aa1a5", "ribs", 0.5)
   return {
     name = "warehouse",
@@ -72,7 +71,7 @@ local function make(color: string, image: string, kind: string, gate_color: stri
     pick = function(number: number): string
       return if number == 1 then "ground" else "upper"
     end,
-    groundwork = plinth and walls.surface("#8a8880"),
+    groundwork = walls.surface("#8a8880"),
     roof = {
       kind = kind,
       slope = if kind == "shed" then 7 else 24,
