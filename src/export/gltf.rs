@@ -81,11 +81,18 @@ pub(super) fn write_glb(scene: &Scene, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let document = Document::new(&checked, &images, &Textures::Embedded, false)?;
-    let head = document.head()?;
+    let (head, body) = rayon::join(|| document.head(), || document.body.gathered());
+    let (head, body) = (head?, body.map_err(Error::new)?);
+    let Document { root, body: rest, .. } = document;
+    // What describes a city takes as long to free as to write.
+    rayon::spawn(move || drop(root));
     let path = files.main().to_owned();
     files.write(&path, |out| {
         out.write_all(&head)?;
-        document.body.write(out)
+        match &body {
+            Some(bytes) => out.write_all(bytes),
+            None => rest.write(out),
+        }
     })
 }
 

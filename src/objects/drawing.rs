@@ -16,7 +16,8 @@ pub struct Drawing {
     parts: Vec<Part>,
     /// What was placed, and where; the same thing once.
     placed: Vec<(Arc<dyn Object>, Vec<DAffine3>)>,
-    placed_triangles: usize,
+    /// How many instances that makes.
+    instances: usize,
     /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
     spare: Vec<Part>,
     makers: Option<Makers>,
@@ -30,7 +31,7 @@ impl Drawing {
         self.nearest.take();
         self.materials.clear();
         self.placed.clear();
-        self.placed_triangles = 0;
+        self.instances = 0;
         for mut part in self.parts.drain(..).rev() {
             part.clear();
             self.spare.push(part);
@@ -87,7 +88,8 @@ impl Drawing {
     /// Places the model with this number, as [`Drawing::model`] gave it, at `frame`.
     pub fn place_again(&mut self, index: usize, frame: DAffine3) {
         let (model, frames) = &mut self.placed[index];
-        self.placed_triangles += model.triangles();
+        let any: &dyn std::any::Any = &**model;
+        self.instances += any.downcast_ref::<Model>().map_or(1, Model::instances);
         frames.push(frame);
         if let Some(makers) = &mut self.makers {
             makers.place(index);
@@ -129,9 +131,9 @@ impl Drawing {
         }
     }
 
-    /// The number of triangles, those of placed models included.
+    /// The number of triangles, and of instances, each of which counts as one.
     pub fn triangles(&self) -> usize {
-        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.placed_triangles
+        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.instances
     }
 
     /// The number of triangles of the part with this number.

@@ -111,7 +111,7 @@ pub trait Object: Any + Send + Sync {
         &[]
     }
 
-    /// The number of triangles drawn so far, for the limit.
+    /// The number of triangles drawn so far, for the limit; an instance counts as one.
     fn triangles(&self) -> usize {
         0
     }

@@ -52,6 +52,11 @@ impl Model {
         self.scene.triangles()
     }
 
+    /// The number of meshes that it shows, each as often as it is seen.
+    pub fn instances(&self) -> usize {
+        self.scene.instances.len()
+    }
+
     /// Its meshes as often as they are seen, each as parts with their materials, and where it stands.
     pub fn meshes(&self) -> impl Iterator<Item = (Vec<(&Part, &Material)>, DAffine3)> {
         self.scene.instances.iter().map(|instance| {

@@ -13,6 +13,9 @@ use std::io::{self, Write};
 #[cfg(target_endian = "big")]
 compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
 
+/// The most (bytes) that is put together in memory before it is written.
+const GATHERED: u64 = 200 << 20;
+
 /// Vertices or triangles that are converted at a time.
 const BATCH: usize = 4096;
 
@@ -34,7 +37,8 @@ pub(super) enum Block<'a> {
     Normals(&'a Part),
     /// The texture coordinates of a part whose texture has this width and height (m).
     TexCoords(&'a Part, [f64; 2]),
-    Short(&'a Part),
+    /// The indices of a part whose vertices begin with this number, as u16.
+    Short(&'a Part, u16),
     Long(&'a Part),
     Floats(Vec<f32>),
     Bytes(&'a [u8]),
@@ -116,6 +120,16 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
+    /// All of it in memory, unless it is too large to be there twice.
+    pub(super) fn gathered(&self) -> io::Result<Option<Vec<u8>>> {
+        if self.length() > GATHERED {
+            return Ok(None);
+        }
+        let mut bytes = Vec::with_capacity(self.length() as usize);
+        self.write(&mut bytes)?;
+        Ok(Some(bytes))
+    }
+
     /// Writes exactly [`length`](Self::length) bytes.
     pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         for section in &self.sections {
@@ -152,7 +166,7 @@ impl Block<'_> {
         let bytes = match self {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
             Self::TexCoords(part, _) => part.positions.len() * 8,
-            Self::Short(part) => triangles(part).count() * 6,
+            Self::Short(part, _) => triangles(part).count() * 6,
             Self::Long(part) => triangles(part).count() * 12,
             Self::Floats(floats) => floats.len() * 4,
             Self::Bytes(bytes) => bytes.len(),
@@ -165,8 +179,8 @@ impl Block<'_> {
             Self::Positions(part) => stream(out, part.positions.iter().map(|at| y_up(*at).to_array())),
             Self::Normals(part) => stream(out, part.normals.iter().map(|it| y_up(unit(*it)).to_array())),
             Self::TexCoords(part, size) => stream(out, part.uvs.iter().map(|uv| tex_coord(*uv, *size))),
-            Self::Short(part) => {
-                stream(out, triangles(part).map(|corners| corners.map(|corner| corner as u16)))
+            Self::Short(part, first) => {
+                stream(out, triangles(part).map(|corners| corners.map(|corner| corner as u16 + first)))
             }
             Self::Long(part) => stream(out, triangles(part)),
             Self::Floats(floats) => out.write_all(bytemuck::cast_slice(floats)),

@@ -11,6 +11,7 @@ use json::mesh::{Mode, Primitive, Semantic};
 use json::validation::Checked::Valid;
 use json::validation::USize64;
 use std::collections::BTreeMap;
+use std::fmt::Write;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
 ///
@@ -24,13 +25,23 @@ pub(super) fn write<'a>(
 ) -> Vec<Option<json::Index<json::Mesh>>> {
     let scene = checked.scene;
     let mut written = Vec::with_capacity(scene.meshes.len());
+    let parts: usize = scene.meshes.iter().map(|mesh| mesh.parts.len()).sum();
+    root.accessors.reserve(3 * scene.meshes.len() + parts);
     for (mesh, shown) in scene.meshes.iter().zip(&checked.meshes) {
         written.push(shown.then(|| {
-            let primitives = shown_parts(mesh)
-                .map(|part| {
-                    let texture = scene.materials[part.material].texture.as_ref();
-                    let size = texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0]));
-                    primitive(part, size, materials[part.material], root, body)
+            let parts = shown_parts(mesh).map(|part| {
+                let texture = scene.materials[part.material].texture.as_ref();
+                Shown {
+                    part,
+                    texture: texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0])),
+                }
+            });
+            let parts: Vec<Shown<'a>> = parts.collect();
+            let vertices = Vertices::of(&parts, root, body);
+            let primitives = parts.iter().zip(&vertices);
+            let primitives = primitives
+                .map(|(shown, vertices)| {
+                    shown.primitive(vertices, materials[shown.part.material], root, body)
                 })
                 .collect();
             root.push(json::Mesh {
@@ -45,46 +56,115 @@ pub(super) fn write<'a>(
     written
 }
 
-fn primitive<'a>(
+/// A part, and the width and height (m) of its texture if it has texture coordinates.
+struct Shown<'a> {
     part: &'a Part,
     texture: Option<[f64; 2]>,
-    index: Option<json::Index<json::Material>>,
-    root: &mut json::Root,
-    body: &mut Body<'a>,
-) -> Primitive {
-    let count = part.positions.len();
-    let mut attributes = BTreeMap::new();
-    let (low, high) = bounds(&part.positions);
-    let positions = json::Accessor {
-        min: Some(numbers(low.to_array())),
-        max: Some(numbers(high.to_array())),
-        ..accessor(ComponentType::F32, Type::Vec3, count)
-    };
-    let positions = at(body.share(Shared::Positions, Block::Positions(part)), positions);
-    attributes.insert(Valid(Semantic::Positions), root.push(positions));
-    let normals = accessor(ComponentType::F32, Type::Vec3, count);
-    let normals = at(body.share(Shared::Normals, Block::Normals(part)), normals);
-    attributes.insert(Valid(Semantic::Normals), root.push(normals));
-    if let Some(size) = texture {
-        let place = body.share(Shared::TexCoords, Block::TexCoords(part, size));
-        let tex_coords = at(place, accessor(ComponentType::F32, Type::Vec2, count));
-        attributes.insert(Valid(Semantic::TexCoords(0)), root.push(tex_coords));
+}
+
+/// Where the vertices of a part are.
+#[derive(Clone, Copy)]
+struct Vertices {
+    positions: json::Index<json::Accessor>,
+    normals: json::Index<json::Accessor>,
+    tex_coords: Option<json::Index<json::Accessor>>,
+    /// The number of the part's first vertex there.
+    first: usize,
+    /// How many vertices there are.
+    count: usize,
+}
+
+/// The highest u16 means the end of a strip, so it cannot be the index of a point.
+const SHORT: usize = u16::MAX as usize;
+
+impl Vertices {
+    /// Adds the vertices of the parts of a mesh. Small parts of a kind share their arrays: what describes an array
+    /// takes as much as four vertices, and cities have many small parts.
+    fn of<'a>(parts: &[Shown<'a>], root: &mut json::Root, body: &mut Body<'a>) -> Vec<Self> {
+        let mut found: Vec<Option<Self>> = vec![None; parts.len()];
+        for textured in [false, true] {
+            let alike: Vec<usize> =
+                (0..parts.len()).filter(|index| parts[*index].texture.is_some() == textured).collect();
+            let sum: usize = alike.iter().map(|index| parts[*index].part.positions.len()).sum();
+            let groups: Vec<&[usize]> =
+                if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
+            for group in groups.into_iter().filter(|group| !group.is_empty()) {
+                let members: Vec<&Shown<'a>> = group.iter().map(|index| &parts[*index]).collect();
+                let mut vertices = Self::together(&members, root, body);
+                for index in group {
+                    found[*index] = Some(vertices);
+                    vertices.first += parts[*index].part.positions.len();
+                }
+            }
+        }
+        found.into_iter().flatten().collect()
     }
-    // The highest u16 means the end of a strip, so it cannot be the index of a point.
-    let (kind, place) = if count <= usize::from(u16::MAX) {
-        (ComponentType::U16, body.share(Shared::Short, Block::Short(part)))
-    } else {
-        (ComponentType::U32, body.share(Shared::Long, Block::Long(part)))
-    };
-    let indices = at(place, accessor(kind, Type::Scalar, triangles(part).count() * 3));
-    Primitive {
-        attributes,
-        extensions: None,
-        extras: None,
-        indices: Some(root.push(indices)),
-        material: index,
-        mode: Valid(Mode::Triangles),
-        targets: None,
+
+    /// Adds the vertices of `parts`, one after another.
+    fn together<'a>(parts: &[&Shown<'a>], root: &mut json::Root, body: &mut Body<'a>) -> Self {
+        let count = parts.iter().map(|shown| shown.part.positions.len()).sum();
+        let (low, high) = bounds(parts.iter().flat_map(|shown| &shown.part.positions));
+        let mut add = |shared: Shared, kind: Type, block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
+            let mut place = None;
+            for shown in parts {
+                let added = body.share(shared, block(shown));
+                place.get_or_insert(added);
+            }
+            place.map(|place| at(place, accessor(ComponentType::F32, kind, count)))
+        };
+        let positions = add(Shared::Positions, Type::Vec3, &|shown| Block::Positions(shown.part));
+        let normals = add(Shared::Normals, Type::Vec3, &|shown| Block::Normals(shown.part));
+        let textured = parts.first().is_some_and(|shown| shown.texture.is_some());
+        let tex_coords = textured.then(|| {
+            add(Shared::TexCoords, Type::Vec2, &|shown| {
+                Block::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
+            })
+        });
+        let nowhere = || accessor(ComponentType::F32, Type::Vec3, 0);
+        let positions = json::Accessor {
+            min: Some(numbers(low.to_array())),
+            max: Some(numbers(high.to_array())),
+            ..positions.unwrap_or_else(nowhere)
+        };
+        Self {
+            positions: root.push(positions),
+            normals: root.push(normals.unwrap_or_else(nowhere)),
+            tex_coords: tex_coords.flatten().map(|accessor| root.push(accessor)),
+            first: 0,
+            count,
+        }
+    }
+}
+
+impl<'a> Shown<'a> {
+    fn primitive(
+        &self,
+        vertices: &Vertices,
+        index: Option<json::Index<json::Material>>,
+        root: &mut json::Root,
+        body: &mut Body<'a>,
+    ) -> Primitive {
+        let mut attributes = BTreeMap::new();
+        attributes.insert(Valid(Semantic::Positions), vertices.positions);
+        attributes.insert(Valid(Semantic::Normals), vertices.normals);
+        if let Some(tex_coords) = vertices.tex_coords {
+            attributes.insert(Valid(Semantic::TexCoords(0)), tex_coords);
+        }
+        let (kind, place) = if vertices.count <= SHORT {
+            (ComponentType::U16, body.share(Shared::Short, Block::Short(self.part, vertices.first as u16)))
+        } else {
+            (ComponentType::U32, body.share(Shared::Long, Block::Long(self.part)))
+        };
+        let indices = at(place, accessor(kind, Type::Scalar, triangles(self.part).count() * 3));
+        Primitive {
+            attributes,
+            extensions: None,
+            extras: None,
+            indices: Some(root.push(indices)),
+            material: index,
+            mode: Valid(Mode::Triangles),
+            targets: None,
+        }
     }
 }
 
@@ -115,12 +195,19 @@ fn at((view, offset): (json::Index<json::buffer::View>, u64), accessor: json::Ac
 }
 
 /// The box around `positions` in glTF's coordinates.
-fn bounds(positions: &[Vec3]) -> (Vec3, Vec3) {
-    let first = positions.first().map_or(Vec3::ZERO, |at| y_up(*at));
-    positions.iter().fold((first, first), |(low, high), at| (low.min(y_up(*at)), high.max(y_up(*at))))
+fn bounds<'a>(mut positions: impl Iterator<Item = &'a Vec3>) -> (Vec3, Vec3) {
+    let first = positions.next().map_or(Vec3::ZERO, |at| y_up(*at));
+    positions.fold((first, first), |(low, high), at| (low.min(y_up(*at)), high.max(y_up(*at))))
 }
 
 /// The shortest decimals that read back as these f32.
 fn numbers(vector: [f32; 3]) -> json::Value {
-    vector.iter().map(|number| number.to_string().parse().unwrap_or(f64::from(*number))).collect()
+    let mut text = String::with_capacity(32);
+    let mut shortest = |number: f32| {
+        text.clear();
+        // Writing to a text does not fail.
+        let _ = write!(text, "{number}");
+        text.parse().unwrap_or(f64::from(number))
+    };
+    vector.map(&mut shortest).to_vec().into()
 }

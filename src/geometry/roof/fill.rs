@@ -18,7 +18,9 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     let flats: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(flat).collect()).collect();
     let triangles = match flats.as_slice() {
         [ring] if ring.len() == 3 => vec![[0, 1, 2]],
-        [ring] if ring.len() == 4 && is_convex(ring) => vec![[0, 1, 2], [0, 2, 3]],
+        [ring] if ring.len() <= 8 && is_convex(ring) => {
+            (2..ring.len()).map(|corner| [0, corner - 1, corner]).collect()
+        }
         [ring] => cap::triangulate(&flats).unwrap_or_else(|_| fan(ring)),
         _ => cap::triangulate(&flats)?,
     };
@@ -55,9 +57,10 @@ fn newell(ring: &[DVec3]) -> DVec3 {
         .fold(DVec3::ZERO, |sum, normal| sum + normal)
 }
 
+/// Whether every corner turns left by enough to be the corner of a triangle.
 fn is_convex(ring: &[DVec2]) -> bool {
-    (0..4).all(|index| {
-        let [a, b, c] = [0, 1, 2].map(|offset| ring[(index + offset) % 4]);
+    (0..ring.len()).all(|index| {
+        let [a, b, c] = [0, 1, 2].map(|offset| ring[(index + offset) % ring.len()]);
         (b - a).perp_dot(c - b) > 1e-6
     })
 }

@@ -50,7 +50,7 @@ impl Footprint {
                 .map(|ring| ring.iter().map(|at| at.with_z(base)).collect())
                 .collect();
             self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
-            return fill(self.drawing.part(part), &plan, DVec3::X, DVec3::ZERO);
+            return fill(self.drawing.part(part), &plan, DVec3::X, DVec3::ZERO).map_err(Error::of_data);
         }
         self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
         let plan = std::sync::Arc::clone(&self.plan);
@@ -74,6 +74,6 @@ impl Footprint {
                 .map(|point| if kind == "extruded" { *point } else { point.with_z(base) })
                 .collect()
         });
-        fill(part, &floor.collect::<Vec<Vec<DVec3>>>(), DVec3::X, DVec3::ZERO)
+        fill(part, &floor.collect::<Vec<Vec<DVec3>>>(), DVec3::X, DVec3::ZERO).map_err(Error::of_data)
     }
 }

@@ -81,7 +81,29 @@ pub(super) fn part(
     if part.uvs.is_empty() {
         part.uvs = part.positions.iter().zip(&part.normals).map(|(at, normal)| along(*at, *normal)).collect();
     }
+    keep_used(&mut part);
     Ok(Some(part))
+}
+
+/// Drops the points that no triangle has: parts of a file may share one list of points.
+fn keep_used(part: &mut Part) {
+    let mut places = vec![u32::MAX; part.positions.len()];
+    for corner in part.triangles.iter().flatten() {
+        places[*corner as usize] = 0;
+    }
+    let used: Vec<usize> = (0..places.len()).filter(|point| places[*point] == 0).collect();
+    if used.len() == places.len() {
+        return;
+    }
+    for (place, point) in (0u32..).zip(&used) {
+        places[*point] = place;
+    }
+    part.positions = used.iter().map(|point| part.positions[*point]).collect();
+    part.normals = used.iter().map(|point| part.normals[*point]).collect();
+    part.uvs = used.iter().map(|point| part.uvs[*point]).collect();
+    for corner in part.triangles.iter_mut().flatten() {
+        *corner = places[*corner as usize];
+    }
 }
 
 fn z_up(vector: Vec3) -> Vec3 {

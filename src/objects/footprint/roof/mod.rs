@@ -9,7 +9,7 @@ mod tests;
 use glam::{DVec2, DVec3};
 
 use super::{Color, Footprint, Surface};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::geometry::fill;
 use crate::geometry::roof::{Patch, PatchKind, Shape};
 use crate::objects::Note;
@@ -88,7 +88,7 @@ impl Footprint {
             let why = format!("{overhang} m in place of {} m", options.overhang);
             note("a smaller overhang, as there is no room".into(), why);
         }
-        self.draw(options, &made.cover.patches)?;
+        self.draw(options, &made.cover.patches).map_err(Error::of_data)?;
         if self.detail < 3 {
             return Ok(());
         }
@@ -107,7 +107,7 @@ impl Footprint {
         let top: Vec<Vec<DVec3>> =
             self.plan.flat().iter().map(|ring| ring.iter().map(|at| at.extend(base)).collect()).collect();
         let part = self.part(options.color, options.material.as_ref())?;
-        fill(self.drawing.part(part), &top, DVec3::X, DVec3::ZERO)
+        fill(self.drawing.part(part), &top, DVec3::X, DVec3::ZERO).map_err(Error::of_data)
     }
 
     fn draw(&mut self, options: &Roof, patches: &[Patch]) -> Result<()> {
