@@ -144,6 +144,7 @@ local function make(color: string, oak_color: string, tile_color: string, braces
     groundwork = stone,
     roof = {
       kind = "gable",
+      party_gables = false,
       slope = 50,
       overhang = 0.75,
       eaves = "open",

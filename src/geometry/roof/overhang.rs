@@ -193,8 +193,9 @@ impl Rim<'_> {
         let mut push = |kind, flap, along, ring: Vec<DVec3>| {
             patches.push(Patch { kind, edge, flap, along, rings: vec![ring] });
         };
-        let under = |point: DVec3| point.with_z(self.under(point.z));
-        let top = |point: DVec3| point.with_z(self.top(point.z));
+        // Not with_z: rustc 1.95 lets it change the caller's point where it is not inlined.
+        let under = |point: DVec3| point.truncate().extend(self.under(point.z));
+        let top = |point: DVec3| point.truncate().extend(self.top(point.z));
         for (number, side) in rake.0.iter().enumerate() {
             let turned = |mut ring: Vec<DVec3>| {
                 if number == 1 {
