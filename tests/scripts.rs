@@ -112,7 +112,7 @@ fn every_lua_block_of_the_readme_runs() {
         assert!(run.systems.iter().map(|system| system.modules()).sum::<usize>() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 6);
+    assert_eq!(count, 7);
     assert_eq!(count, README.matches("```lua").count(), "a fragment would go untested");
 }
 

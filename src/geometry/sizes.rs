@@ -84,7 +84,7 @@ impl Sizes {
 
     /// What is left of `whole` when a length of these is taken away.
     #[must_use]
-    fn from_whole(&self, whole: f64) -> Self {
+    fn rest_of(&self, whole: f64) -> Self {
         Self(self.0.iter().rev().map(|[low, high]| [whole - high, whole - low]).collect())
     }
 
@@ -169,7 +169,7 @@ impl Split {
         // Where sizes have gaps: the nearest ones that still leave a possible rest.
         let mut left = whole;
         for (index, share) in self.shares.iter().enumerate() {
-            let possible = share.sizes.and(&self.rest[index + 1].from_whole(left));
+            let possible = share.sizes.and(&self.rest[index + 1].rest_of(left));
             lengths[index] = possible.nearest(lengths[index]);
             left -= lengths[index];
         }

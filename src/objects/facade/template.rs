@@ -150,7 +150,7 @@ impl Templates {
             }
             drawn -= template.0.weight;
         }
-        equal().last()
+        equal().next_back()
     }
 
     /// The first one, whose material plain walls take.
