@@ -46,7 +46,7 @@ fn wall(value: &Value) -> Wall {
 }
 
 fn panel(width: &[f64], height: &[f64]) -> Value {
-    refused(&PANEL, &[("width", sizes(width)), ("height", sizes(height))]).expect("a panel")
+    make(&PANEL, &[("width", sizes(width)), ("height", sizes(height))]).expect("a panel")
 }
 
 /// The faces of `wall` over a frontage, as left, bottom, right, top and depth (m).
@@ -146,7 +146,7 @@ fn what_is_extruded_has_the_sides_that_are_wanted_and_they_look_outwards() {
 #[test]
 fn what_can_never_fit_is_refused_when_it_is_made() {
     let (low, high) = (panel(&[1.0, 2.0], &[1.0, 1.0]), panel(&[1.0, 2.0], &[2.0, 3.0]));
-    let error = make(&LIST, &[("walls", list(&[low.clone(), high]))]);
+    let error = refused(&LIST, &[("walls", list(&[low.clone(), high]))]);
     assert_eq!(error, "list: it can never fit: wall 2 is 2 to 3 m high, the walls before it are 1 m high");
     let error =
         refused(&BORDERED, &[("wall", low), ("left", Value::Number(3.0)), ("width", sizes(&[1.0, 2.0]))]);
