@@ -2,7 +2,7 @@
 
 use std::cell::RefCell;
 use std::io::IsTerminal;
-use std::path::{Component, Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 
 use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
@@ -13,7 +13,7 @@ use super::convert::{class_key, to_field, to_lua};
 use super::handles::{ObjectHandle, methods_key};
 use super::machine::{Machine, compile, native};
 use super::param::Param;
-use super::session::Session;
+use super::require::require;
 use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
 use crate::error::{Error, Result};
 use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
@@ -58,8 +58,8 @@ pub(crate) struct Library {
     /// Constructors of modules, by symbol.
     pub constructors: RefCell<FxHashMap<Symbol, Function>>,
     /// The files that are being required, from the main one on.
-    loading: RefCell<Vec<PathBuf>>,
-    loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
+    pub(super) loading: RefCell<Vec<PathBuf>>,
+    pub(super) loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
     /// Functions of Rust and C that rules may reach, by address.
     pub stateless: RefCell<FxHashSet<usize>>,
     /// The functions of the standard library, and the whole of it until it is made native code.
@@ -424,92 +424,4 @@ fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
 fn no_table(what: &str, given: &LuaValue) -> Error {
     Error::new(format!("{what} takes a table of named fields, not a {}", given.type_name()))
         .help(format!("write {what} {{ name = value }}"))
-}
-
-/// Runs another file of the script's folder once and gives what it returns.
-fn require(library: &Library, session: &Session, name: &str) -> Result<LuaValue> {
-    let machine = library.machine()?;
-    let from = library
-        .loading
-        .borrow()
-        .last()
-        .and_then(|file| file.parent())
-        .map_or_else(|| session.root().to_path_buf(), Path::to_path_buf);
-    let (path, shown) = find(session, &from, name)?;
-    if let Some(value) = library.loaded.borrow().get(&path) {
-        return Ok(value.clone());
-    }
-    if let Some(position) = library.loading.borrow().iter().position(|file| *file == path) {
-        let loading = library.loading.borrow();
-        let cycle: Vec<String> = loading[position..]
-            .iter()
-            .chain([&path])
-            .map(|file| file.strip_prefix(session.root()).unwrap_or(file).display().to_string())
-            .collect();
-        return Err(Error::new(format!("files require each other in a circle: {}", cycle.join(" -> ")))
-            .help("move what both need into a third file"));
-    }
-    let source = session.source(&path, &shown, &library.globals())?;
-    if !source.analysis.problems.is_empty() && !session.options.check {
-        machine.load(&source.name, &source.analysis.text)?;
-        return Err(Error::several(source.analysis.problems.clone()));
-    }
-    library.loading.borrow_mut().push(path.clone());
-    let value = machine
-        .load(&source.name, &source.analysis.text)
-        .and_then(|chunk| chunk.call::<LuaValue>(()).map_err(|error| machine.translate(error)));
-    library.loading.borrow_mut().pop();
-    let value = value?;
-    library.loaded.borrow_mut().insert(path, value.clone());
-    Ok(value)
-}
-
-/// The file that `require(name)` means, and its name for messages.
-fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)> {
-    let outside = || {
-        Error::new(format!("require(\"{name}\") leads outside the script's folder"))
-            .help("a script reads only files in its own folder and below it")
-    };
-    let bare = name.strip_suffix(".lua").unwrap_or(name);
-    if bare.is_empty() || bare.ends_with(['/', '.']) {
-        return Err(
-            Error::new("require needs the name of a file").help("write require(\"facade\") for facade.lua")
-        );
-    }
-    let relative = PathBuf::from(format!("{bare}.lua"));
-    if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
-        return Err(outside());
-    }
-    let inside = |folder: &Path| {
-        let mut path = folder.to_path_buf();
-        for part in relative.components() {
-            match part {
-                Component::ParentDir => {
-                    path.pop();
-                }
-                Component::Normal(part) => path.push(part),
-                _ => {}
-            }
-        }
-        path
-    };
-    for folder in [from, session.root()] {
-        let path = inside(folder);
-        if !path.starts_with(session.root()) {
-            return Err(outside());
-        }
-        let found = path.canonicalize();
-        session.seek(&path, found.is_ok());
-        if let Ok(path) = found {
-            if !path.starts_with(session.root()) {
-                return Err(outside());
-            }
-            let inner = path.strip_prefix(session.root()).unwrap_or(&path);
-            let shown =
-                session.script().parent().map_or_else(|| inner.to_path_buf(), |parent| parent.join(inner));
-            return Ok((path.clone(), shown.display().to_string()));
-        }
-    }
-    Err(Error::new(format!("require(\"{name}\") finds no file {}", relative.display()))
-        .help("the name is a path from the requiring file or from the script's folder"))
 }

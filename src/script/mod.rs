@@ -12,6 +12,7 @@ mod library;
 mod machine;
 mod param;
 mod preset;
+mod require;
 mod session;
 mod system;
 

@@ -5,6 +5,7 @@
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
+mod expressions;
 mod prepare;
 mod quiet;
 mod syntax;
