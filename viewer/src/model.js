@@ -20,7 +20,15 @@ const ONE = new Vector3(1, 1, 1);
 export function build(glb, made, plain) {
   const model = new Model();
   const { scenes, scene = 0, nodes = [] } = glb.json;
-  const geometries = (glb.json.meshes ?? []).map((mesh) => mesh.primitives.map((it) => geometry(glb, it)));
+  // Primitives of a mesh may share arrays, which the graphics card then holds once.
+  const shared = new Map();
+  const attribute = (index, width) => {
+    if (!shared.has(index)) shared.set(index, new BufferAttribute(glb.array(index), width));
+    return shared.get(index);
+  };
+  const geometries = (glb.json.meshes ?? []).map((mesh) =>
+    mesh.primitives.map((it) => geometry(glb, it, attribute)),
+  );
   model.geometries = geometries.flat();
 
   const visit = (index, parent) => {
@@ -100,14 +108,12 @@ export class Model {
   }
 }
 
-function geometry(glb, { attributes, indices }) {
+function geometry(glb, { attributes, indices }, attribute) {
   const made = new BufferGeometry();
   const { min, max } = glb.json.accessors[attributes.POSITION];
-  made.setAttribute('position', new BufferAttribute(glb.array(attributes.POSITION), 3));
-  if (attributes.NORMAL !== undefined)
-    made.setAttribute('normal', new BufferAttribute(glb.array(attributes.NORMAL), 3));
-  if (attributes.TEXCOORD_0 !== undefined)
-    made.setAttribute('uv', new BufferAttribute(glb.array(attributes.TEXCOORD_0), 2));
+  made.setAttribute('position', attribute(attributes.POSITION, 3));
+  if (attributes.NORMAL !== undefined) made.setAttribute('normal', attribute(attributes.NORMAL, 3));
+  if (attributes.TEXCOORD_0 !== undefined) made.setAttribute('uv', attribute(attributes.TEXCOORD_0, 2));
   made.setIndex(new BufferAttribute(indices === undefined ? counting(made) : glb.array(indices), 1));
   made.boundingBox = new Box3(new Vector3(...min), new Vector3(...max));
   made.boundingSphere = made.boundingBox.getBoundingSphere(new Sphere());
