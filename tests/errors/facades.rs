@@ -127,3 +127,23 @@ fn walls_take_templates_or_a_photo() {
       help: textures are files beside the script
     "##);
 }
+
+#[test]
+fn a_frontage_of_millions_of_faces_is_refused_before_it_takes_the_memory() {
+    let script = r#"
+local tiny = panel({ width = { 0.002, 0.003 }, height = { 0.002, 0.003 } })
+local House = module("House")
+local s = lsystem({ object = footprint({ { 0, 0 }, { 8, 0 }, { 8, 8 } }, { height = 3 }) })
+s:axiom(House())
+s:interpret("House", function(this)
+  this:walls({ templates = template(grid(grid(tiny))) })
+end)
+s:derive()
+"#;
+    insta::assert_snapshot!(refused(script), @r##"
+    error: s.lua:7: rule House (interpretation): footprint:walls: a frontage has more than 2000000 faces
+      | this:walls({ templates = template(grid(grid(tiny))) })
+      module: House, step 0
+      help: repeat fewer or larger walls in its template
+    "##);
+}

@@ -189,3 +189,27 @@ fn a_roof_of_one_slope_is_as_high_as_a_gable_roof_of_the_same_slope() {
     let [shed, gable] = [Surface::Shed, Surface::Sloped(Ends::Gables, &[])].map(highest);
     assert!((shed - gable).abs() < 1e-9 && (shed - 2.1).abs() < 1e-9, "{shed} m and {gable} m");
 }
+
+#[test]
+fn a_house_in_a_row_has_gables_along_its_neighbours() {
+    // Wider than deep, so that without neighbours a gable roof would have its gables there, too; and deeper than wide.
+    for (width, depth) in [(10.0, 6.0), (6.0, 10.0)] {
+        let walls = vec![[(0., 0.), (width, 0.), (width, depth), (0., depth)].map(DVec2::from).to_vec()];
+        for surface in [
+            Surface::Sloped(Ends::Gables, &[]),
+            Surface::Sloped(Ends::Hips, &[]),
+            Surface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
+        ] {
+            let roof = shape(surface, Eaves::Closed, 0.0, 0.0);
+            let cover = roof.cover_in_row(&walls, HEIGHT, &[1, 3]).expect("a roof");
+            let gables: std::collections::BTreeSet<usize> = cover
+                .patches
+                .iter()
+                .filter(|patch| patch.kind == PatchKind::Gable)
+                .map(|patch| patch.edge)
+                .collect();
+            assert_eq!(gables.into_iter().collect::<Vec<_>>(), [1, 3], "{width} m x {depth} m");
+            assert!(solid::check([&building(&walls, &cover)]).is_solid(), "{width} m x {depth} m");
+        }
+    }
+}

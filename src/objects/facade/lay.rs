@@ -38,6 +38,8 @@ pub struct Laid<'a> {
     pub faces: Vec<Face<'a>>,
     /// Models with the lowest left corner of what they sit on (m) and its size.
     pub(super) fixtures: Vec<(&'a Fixture, DVec3, DVec2)>,
+    /// Whether the wall was given up, as it has more than [`MOST`] faces or models.
+    pub too_many: bool,
 }
 
 impl std::fmt::Debug for Laid<'_> {
@@ -45,6 +47,9 @@ impl std::fmt::Debug for Laid<'_> {
         f.debug_struct("Laid").field("faces", &self.faces).finish_non_exhaustive()
     }
 }
+
+/// The most faces or models that a frontage may have.
+pub const MOST: usize = 2_000_000;
 
 /// Sides shorter than this (m) are none.
 const NONE: f64 = 1e-6;
@@ -54,9 +59,11 @@ impl<'a> Laid<'a> {
     pub fn clear(&mut self) {
         self.faces.clear();
         self.fixtures.clear();
+        self.too_many = false;
     }
 
-    /// Lays `wall` out over `over`, `depth` (m) in front of the frontage; false if it does not fit.
+    /// Lays `wall` out over `over`, `depth` (m) in front of the frontage; false if it does not fit or has too many
+    /// faces.
     pub fn lay(&mut self, wall: &'a Wall, over: Rectangle, depth: f64) -> bool {
         let inner = &*wall.0;
         let material = inner.material.as_ref();
@@ -136,6 +143,11 @@ impl<'a> Laid<'a> {
             return false;
         }
         let (faces, fixtures) = (self.faces.len(), self.fixtures.len());
+        let each = (faces - first_face).max(fixtures - first_fixture);
+        if each.saturating_mul(columns as usize * rows as usize) > MOST {
+            self.too_many = true;
+            return false;
+        }
         for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))).skip(1) {
             let by = (cell * DVec2::new(f64::from(column), f64::from(row))).extend(0.0);
             for index in first_face..faces {

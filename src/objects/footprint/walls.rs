@@ -5,6 +5,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 use super::{Footprint, along, check_height, edges};
 use crate::error::{Error, Result};
 use crate::geometry::{SAME, fill};
+use crate::objects::facade::lay::MOST;
 use crate::objects::facade::{Face, Laid, Rectangle, Template, Templates};
 use crate::objects::{Color, Note, Surface};
 use crate::scene::{Material, Part};
@@ -152,6 +153,12 @@ impl Footprint {
             laid.clear();
             let over = Rectangle { at: DVec2::ZERO, size: frontage.size };
             let Some(template) = chosen.filter(|template| laid.lay(template.wall(), over, 0.0)) else {
+                if laid.too_many {
+                    return Err(Error::new(format!(
+                        "footprint:walls: a frontage has more than {MOST} faces"
+                    ))
+                    .help("repeat fewer or larger walls in its template"));
+                }
                 if !blind {
                     without.push(frontage.size);
                 }
