@@ -72,77 +72,29 @@ ways:interpret("Street(points, width)", function(this, points, width)
 end)
 ways:derive()
 
--- A building is known by its outline around its own middle, turned so that its longest side lies along x.
-local Building = module("Building", "outline", "holes", "turned", "height", "use")
-local houses = lsystem({ object = extruder({ smooth = false }) })
-
-local function middle(ring)
-  local x, y, area = 0, 0, 0
-  for index, a in ring do
-    local b = ring[index % #ring + 1]
-    local cross = (a[1] - ring[1][1]) * (b[2] - ring[1][2]) - (b[1] - ring[1][1]) * (a[2] - ring[1][2])
-    x += (a[1] + b[1] + ring[1][1]) * cross / 3
-    y += (a[2] + b[2] + ring[1][2]) * cross / 3
-    area += cross
-  end
-  return x / area, y / area
-end
-
-local function longest(ring)
-  local length, angle = 0, 0
-  for index, a in ring do
-    local b = ring[index % #ring + 1]
-    local side = math.sqrt((b[1] - a[1]) ^ 2 + (b[2] - a[2]) ^ 2)
-    if side > length then
-      length, angle = side, math.atan2(b[2] - a[2], b[1] - a[1])
-    end
-  end
-  return angle
-end
+-- A building stands on its outline: a plinth, walls, and a roof that suits its use and its size.
+local Building = module("Building", "height", "use", "roof")
+local houses = lsystem({ object = footprint })
 
 houses:axiom(source(buildings), function(feature)
-  local rings = feature.geometry.rings
-  local x, y = middle(rings[1])
-  local angle = longest(rings[1])
-  local turned = {}
-  for number, ring in rings do
-    turned[number] = {}
-    for index, point in ring do
-      local dx, dy = point[1] - x, point[2] - y
-      local c, s = math.cos(angle), math.sin(angle)
-      turned[number][index] = { dx * c + dy * s, dy * c - dx * s }
-    end
-  end
-  local holes = table.move(turned, 2, #turned, 1, {})
-  return extruder({ smooth = false, position = { x, y, 0 } }),
-    Building(turned[1], holes, math.deg(angle), feature.height * storey, feature.use)
+  local use = feature.use
+  local tower = use == "church" and #feature.geometry.rings[1] == 4
+  local roof = if tower then "spire" elseif use == "farm" then "dutch_hip" else "gable"
+  return footprint(feature.geometry), Building(feature.height * storey, use, roof)
 end)
 
-houses:interpret(
-  "Building(outline, holes, turned, height, use)",
-  function(this, outline, holes, turned, height, use)
-    local width, depth = 0, 0
-    for _, point in outline do
-      width, depth = math.max(width, math.abs(point[1]) * 2), math.max(depth, math.abs(point[2]) * 2)
-    end
-    this:roll(turned):polygon(outline, holes)
-    this:color("#9c958a"):scale(1.015):extrude(0.5)
-    this:color(walls[use] or walls.house):scale(1):extrude(height - 0.5)
-    -- The eaves, and from there on the roof: gabled on a rectangle, else towards the middle.
-    local x, y = 1 + 2 * eaves / width, 1 + 2 * eaves / depth
-    this:color(roofs[use] or roofs.house):scale(x, y):extrude(0.22)
-    local rise = depth / 2 * math.tan(math.rad(pitch))
-    if #holes > 0 then
-      this:taper(x * 0.93, y * 0.93):extrude(rise * 0.16)
-    elseif use == "church" and #outline == 4 then
-      this:taper(0.02, 0.02):extrude(depth * 1.7)
-    elseif #outline == 4 then
-      this:taper(x * (use == "farm" and 0.55 or 1), 0.02):extrude(rise)
-    else
-      this:taper(x * 0.42, y * 0.42):extrude(rise * 0.55)
-    end
-  end
-)
+houses:interpret("Building(height, use, roof)", function(this, height, use, roof)
+  local color = walls[use] or walls.house
+  this:walls({ height = 0.5, color = "#9c958a" }):walls({ height = height - 0.5, color = color })
+  this:roof({
+    kind = if roof == "spire" then "hip" else roof,
+    slope = if roof == "spire" then 74 else pitch,
+    overhang = if roof == "spire" then 0.2 else eaves,
+    slab = 0.22,
+    color = roofs[use] or roofs.house,
+    gable = { color = color },
+  })
+end)
 houses:derive()
 
 -- Every tree is the same model, in its own size and turn.

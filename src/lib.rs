@@ -78,6 +78,7 @@ mod memory;
 pub mod objects;
 pub mod picture;
 pub mod presets;
+pub mod random;
 pub mod rules;
 mod run;
 pub mod scene;

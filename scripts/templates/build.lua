@@ -51,6 +51,7 @@ function build.levels(style: number, height: number): number
   return math.max(1, math.floor((height - chosen.ground) / chosen.storey + 1.5))
 end
 
+-- A style may `pick` the kind of each storey; otherwise the first is its "ground" and all others are "upper".
 -- A building of `levels` storeys, whose walls are `height` (m) high, or as high as the style has them if that is 0.
 build.Building = module("Building", "style", "levels", "height", "use")
 local Groundwork = module("Groundwork", "style")
@@ -73,7 +74,11 @@ function build.system()
     local chain = { Groundwork(style) }
     for number = 1, levels do
       local storey = if number == 1 then chosen.ground else chosen.storey
-      table.insert(chain, Storey(style, chosen.pick(number, levels, use), storey * stretch))
+      local kind = if chosen.pick
+        then chosen.pick(number, levels, use)
+        elseif number == 1 then "ground"
+        else "upper"
+      table.insert(chain, Storey(style, kind, storey * stretch))
     end
     local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
     local kind = if deep and chosen.wide then "wide" elseif small and chosen.tower then "tower" else "roof"

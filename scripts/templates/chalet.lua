@@ -98,9 +98,6 @@ local function make(color: string, shutter: string, flowers: string)
       }),
       upper = upper(extruded(french, { model = gallery, stretch = true })),
     },
-    pick = function(number: number): string
-      return if number == 1 then "ground" else "upper"
-    end,
     groundwork = walls.surface("#9a948a", "rubble"),
     roof = {
       kind = "gable",

@@ -80,9 +80,6 @@ local function make(tint: string, frame_color: string)
       }),
       upper = walls.storey({ bay = bay, narrow = slim, material = spandrel, party = party }),
     },
-    pick = function(number: number): string
-      return if number == 1 then "ground" else "upper"
-    end,
     groundwork = walls.surface("#6f7476"),
     roof = {
       kind = "flat",

@@ -78,9 +78,6 @@ local function make(color: string, accent: string)
       }),
       upper = walls.storey({ bay = pair, narrow = { narrow, flat }, material = render, party = render }),
     },
-    pick = function(number: number): string
-      return if number == 1 then "ground" else "upper"
-    end,
     groundwork = grey,
     roof = {
       kind = "flat",

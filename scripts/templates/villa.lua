@@ -55,9 +55,6 @@ local function make(color: string, shutter: string, kind: string)
       ground = walls.storey({ bay = bay, narrow = narrow, entry = entry, material = render, party = base }),
       upper = walls.storey({ bay = bay, narrow = narrow, material = render, party = base }),
     },
-    pick = function(number: number): string
-      return if number == 1 then "ground" else "upper"
-    end,
     groundwork = base,
     roof = {
       kind = kind,

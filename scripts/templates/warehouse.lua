@@ -68,9 +68,6 @@ local function make(color: string, image: string, kind: string, gate_color: stri
       }),
       upper = walls.storey({ bay = bay, narrow = narrow, head = course, material = face }),
     },
-    pick = function(number: number): string
-      return if number == 1 then "ground" else "upper"
-    end,
     groundwork = walls.surface("#8a8880"),
     roof = {
       kind = kind,

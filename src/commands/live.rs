@@ -3,6 +3,7 @@
 use std::sync::mpsc::channel;
 
 use burgeon::Result;
+use burgeon::derive::grouped;
 use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
 use clap::Args;
 use serde_json::json;
@@ -86,8 +87,8 @@ fn tell(told: &Told) {
     match told {
         Told::Model { triangles, modules, total } => report::eprint(&format!(
             "{} triangles, {} modules in {}\n",
-            report::count(*triangles),
-            report::count(*modules),
+            grouped(*triangles),
+            grouped(*modules),
             report::time(*total)
         )),
         Told::Failed(error) => report::error(error, false),

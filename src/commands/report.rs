@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::time::Duration;
 
+use burgeon::derive::grouped;
 use burgeon::script::{Param, Setting};
 use burgeon::{Error, Run};
 use serde_json::json;
@@ -43,14 +44,14 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     let _ = writeln!(
         text,
         "{} modules in {}, {}",
-        count(modules),
+        grouped(modules),
         plural(chains, "chain"),
         plural(steps, "step")
     );
     let _ = writeln!(
         text,
         "{} triangles, {}, {}",
-        count(run.scene.triangles()),
+        grouped(run.scene.triangles()),
         plural(run.scene.instances.len(), "instance"),
         plural(run.scene.materials.len(), "material")
     );
@@ -124,21 +125,8 @@ fn peak_memory() -> Option<u64> {
     Some(line.split_whitespace().next()?.parse::<u64>().ok()? / 1024)
 }
 
-/// A number with its digits in groups of three.
-pub(crate) fn count(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (index, digit) in digits.chars().enumerate() {
-        if index > 0 && (digits.len() - index).is_multiple_of(3) {
-            text.push(',');
-        }
-        text.push(digit);
-    }
-    text
-}
-
 fn plural(number: usize, noun: &str) -> String {
-    format!("{} {noun}{}", count(number), if number == 1 { "" } else { "s" })
+    format!("{} {noun}{}", grouped(number), if number == 1 { "" } else { "s" })
 }
 
 /// A time in milliseconds or seconds.

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::Plan;
 use super::output::{Output, Use};
 use crate::error::{Error, Result};
-use crate::rules::{Bindings, Chain, Choice, END, Key, Links, Mark, Stream, Symbol, module_text};
+use crate::rules::{Bindings, Chain, Choice, END, Key, Links, Mark, Symbol, module_text};
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.
@@ -147,7 +147,7 @@ impl Batch<'_> {
         let weight = |rule: u16| self.plan.grammar.rules()[usize::from(rule)].weight.unwrap_or(0.0);
         let Some(last) = candidates.last() else { return NONE };
         let total: f64 = candidates.iter().map(|rule| weight(*rule)).sum();
-        let mut left = Stream::new(self.chain.keys[module]).uniform() * total;
+        let mut left = self.chain.keys[module].stream().uniform() * total;
         for rule in candidates {
             left -= weight(*rule);
             if left < 0.0 {
@@ -330,7 +330,7 @@ impl Batch<'_> {
         let current = &self.machine.current;
         let mut column = Vec::with_capacity(count * draws);
         for key in current.keys.borrow().iter() {
-            let mut stream = Stream::new(*key);
+            let mut stream = key.stream();
             for _ in 0..current.used.get() {
                 stream.uniform();
             }

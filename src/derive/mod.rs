@@ -14,7 +14,7 @@ mod trace;
 pub(crate) use crew::{Crew, Job};
 pub use derived::{Derived, RuleReport, Times};
 pub use output::Use;
-pub use remark::{Remark, Report};
+pub use remark::{Remark, Report, grouped};
 pub(crate) use trace::around;
 pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
 

@@ -110,6 +110,11 @@ impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = if self.features == 1 { "feature" } else { "features" };
         let all = grouped(self.features);
+        if self.features == 0 {
+            // Chains that came from no feature cannot be left out.
+            let chains = if self.simplified == 1 { "chain" } else { "chains" };
+            return write!(f, "{} {chains} simplified", grouped(self.simplified));
+        }
         match (self.skipped, self.simplified) {
             (0, simplified) => write!(f, "{} of {all} {what} simplified", grouped(simplified)),
             (skipped, 0) => write!(f, "{} of {all} {what} skipped", grouped(skipped)),
@@ -120,8 +125,8 @@ impl fmt::Display for Report {
     }
 }
 
-/// A number with commas between thousands.
-fn grouped(number: usize) -> String {
+/// A number with commas between thousands, for people.
+pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (index, digit) in digits.chars().enumerate() {
@@ -150,6 +155,9 @@ mod tests {
         report.add(15_608, &remarks);
         assert_eq!(report.to_string(), "1 of 15,608 features skipped, 2 simplified");
         assert_eq!(report.counts["repeated points dropped"], 2);
+        let mut alone = Report::default();
+        alone.add(0, &[Remark::simplified("", None, &note("repeated points dropped"))]);
+        assert_eq!(alone.to_string(), "1 chain simplified");
         let mut text = Vec::new();
         report.write_json(&mut text).unwrap();
         let read: serde_json::Value = serde_json::from_slice(&text).unwrap();

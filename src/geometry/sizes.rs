@@ -10,6 +10,9 @@ pub const SAME: f64 = 1e-9;
 /// The most intervals that sizes may consist of.
 const MOST: usize = 4096;
 
+/// The most pairs of intervals that are added.
+const MOST_SUMS: usize = 1 << 22;
+
 /// A set of lengths (m): closed intervals, in order and apart.
 ///
 /// A row of windows of 1 m each can be 1, 2 or 3 m wide and nothing between; so a least and a greatest size alone
@@ -64,6 +67,9 @@ impl Sizes {
 
     /// The sums of a length of each.
     pub fn plus(&self, other: &Self) -> Result<Self> {
+        if self.0.len().saturating_mul(other.0.len()) > MOST_SUMS {
+            return Err(too_many());
+        }
         let pairs = self.0.iter().flat_map(|a| other.0.iter().map(move |b| [a[0] + b[0], a[1] + b[1]]));
         Self::gather(pairs.collect()).limited()
     }
@@ -104,9 +110,13 @@ impl Sizes {
         if self.0.len() <= MOST {
             return Ok(self);
         }
-        Err(Error::new(format!("there are more than {MOST} separate sizes that it could have"))
-            .help("let the size of a part vary, or repeat it less often"))
+        Err(too_many())
     }
+}
+
+fn too_many() -> Error {
+    Error::new(format!("there are more than {MOST} separate sizes that it could have"))
+        .help("let the size of a part vary, or repeat it less often")
 }
 
 /// A part of a whole.

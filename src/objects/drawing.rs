@@ -4,9 +4,9 @@ use std::sync::{Arc, OnceLock};
 
 use glam::{DAffine3, DVec3};
 
+use super::Model;
 use super::distance::Nearest;
 use super::makers::Makers;
-use super::{Model, Object};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
 
 /// The faces that an object has drawn, by material, and the models that it has placed.
@@ -15,7 +15,7 @@ pub struct Drawing {
     materials: Vec<Material>,
     parts: Vec<Part>,
     /// What was placed, and where; the same thing once.
-    placed: Vec<(Arc<dyn Object>, Vec<DAffine3>)>,
+    placed: Vec<(Arc<Model>, Vec<DAffine3>)>,
     /// How many instances that makes.
     instances: usize,
     /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
@@ -74,38 +74,24 @@ impl Drawing {
         self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
     }
 
-    /// The number of `model` among those that are placed.
-    pub fn model(&mut self, model: &Arc<dyn Object>) -> usize {
-        match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, model)) {
+    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
+    pub fn place(&mut self, model: &Arc<Model>, frame: DAffine3) {
+        let index = match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, model)) {
             Some(index) => index,
             None => {
                 self.placed.push((Arc::clone(model), Vec::new()));
                 self.placed.len() - 1
             }
-        }
-    }
-
-    /// Places the model with this number, as [`Drawing::model`] gave it, at `frame`.
-    pub fn place_again(&mut self, index: usize, frame: DAffine3) {
-        let (model, frames) = &mut self.placed[index];
-        let any: &dyn std::any::Any = &**model;
-        self.instances += any.downcast_ref::<Model>().map_or(1, Model::instances);
-        frames.push(frame);
+        };
+        self.instances += model.instances();
+        self.placed[index].1.push(frame);
         if let Some(makers) = &mut self.makers {
             makers.place(index);
         }
     }
 
-    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
-    pub fn place(&mut self, model: &Arc<dyn Object>, frame: DAffine3) {
-        let index = self.model(model);
-        self.place_again(index, frame);
-    }
-
     /// Draws the faces of `model` at `frame`, as if they were its own.
-    pub fn draw_model(&mut self, model: &Arc<dyn Object>, frame: &DAffine3) {
-        let any: &dyn std::any::Any = &**model;
-        let Some(model) = any.downcast_ref::<Model>() else { return };
+    pub fn draw_model(&mut self, model: &Model, frame: &DAffine3) {
         for (mesh, transform) in model.meshes() {
             let frame = *frame * transform;
             let turned = frame.matrix3.inverse().transpose();
@@ -202,12 +188,9 @@ impl Drawing {
             });
         }
         let mut first = 0;
-        for (object, frames) in &self.placed {
-            let any: &dyn std::any::Any = &**object;
-            if let Some(model) = any.downcast_ref::<Model>() {
-                let placed: Vec<DAffine3> = frames.iter().map(|frame| origin * *frame).collect();
-                model.place(scene, &placed, first, name, feature);
-            }
+        for (model, frames) in &self.placed {
+            let placed: Vec<DAffine3> = frames.iter().map(|frame| origin * *frame).collect();
+            model.place(scene, &placed, first, name, feature);
             first += frames.len();
         }
     }

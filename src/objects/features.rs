@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use super::{Key, Kind, Object, Parameter, Table, Value};
-use crate::error::{Error, Result};
-use crate::scene::Scene;
+use crate::error::Error;
 use crate::sources::{Geometry, Layer};
 
 /// The features of a source. A constructor may take them; no script holds them in this form.
@@ -29,10 +28,6 @@ impl Object for Features {
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
-    }
-
-    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
-        Ok(())
     }
 }
 
@@ -87,9 +82,5 @@ impl Object for Shape {
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
-    }
-
-    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
-        Ok(())
     }
 }

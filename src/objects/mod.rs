@@ -121,17 +121,13 @@ pub trait Object: Any + Send + Sync {
         None
     }
 
-    /// Adds what it has drawn to `scene`; `name` and `feature` are for its instances.
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()>;
+    /// Adds what it has drawn to `scene`, if it draws; `name` and `feature` are for its instances.
+    fn show(&self, _scene: &mut Scene, _name: &str, _feature: Option<&str>) -> Result<()> {
+        Ok(())
+    }
 
     /// As [`Object::show`], but may give away what it has drawn, for nobody will look at the object again.
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.show(scene, name, feature)
-    }
-}
-
-impl std::fmt::Debug for dyn Object {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.kind().name)
     }
 }

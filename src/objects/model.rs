@@ -1,10 +1,11 @@
 //! What a derived system has drawn, or a file holds, as one thing that systems can place.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::{Kind, Object, Table};
+use super::{Expected, Kind, Object, Parameter, Table, Value};
 use crate::error::{Error, Result};
 use crate::scene::{Instance, Material, Part, Scene};
 
@@ -12,18 +13,20 @@ use crate::scene::{Instance, Material, Part, Scene};
 #[derive(Clone)]
 pub struct Model {
     scene: Arc<Scene>,
+    /// The box around it (m).
+    bounds: (DVec3, DVec3),
 }
 
 methods! {
     Model = "model" {
         /// The lowest corner of the box around it (m).
         pub fn low(&self) -> DVec3 {
-            self.scene.bounds().map_or(DVec3::ZERO, |(low, _)| low)
+            self.bounds.0
         }
 
         /// The highest corner of the box around it (m).
         pub fn high(&self) -> DVec3 {
-            self.scene.bounds().map_or(DVec3::ZERO, |(_, high)| high)
+            self.bounds.1
         }
     }
 }
@@ -44,7 +47,8 @@ impl Model {
 
     /// A model of all that `scene` shows.
     pub fn new(scene: Scene) -> Self {
-        Self { scene: Arc::new(scene) }
+        let bounds = scene.bounds().unwrap_or_default();
+        Self { scene: Arc::new(scene), bounds }
     }
 
     /// The number of its triangles.
@@ -89,6 +93,29 @@ impl Model {
                 });
             }
         }
+    }
+}
+
+impl Parameter for Arc<Model> {
+    fn luau() -> String {
+        "Model".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("what derive returned, or model(\"window.glb\")");
+        let Value::Object(object) = value else { return Err(what()) };
+        let any: Arc<dyn Any + Send + Sync> = object;
+        any.downcast().map_err(|_| what())
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(self)
+    }
+}
+
+impl std::fmt::Debug for Model {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Model").field(&self.bounds).finish()
     }
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Boxed, Key, Object, Table, Value};
+use super::{Boxed, Key, Table, Value};
 use crate::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
@@ -21,8 +21,9 @@ impl Expected {
     }
 
     /// The same, where what was found instead is a matter of the data, not of the script.
-    pub fn of_data(what: impl Into<String>) -> Self {
-        Self { what: what.into(), of_data: true }
+    #[must_use]
+    pub fn of_data(self) -> Self {
+        Self { of_data: true, ..self }
     }
 
     /// The error: `name` of `owner` is not as expected.
@@ -254,23 +255,6 @@ impl Parameter for Arc<Table> {
 
     fn into_value(self) -> Value {
         Value::Table(self)
-    }
-}
-
-impl Parameter for Arc<dyn Object> {
-    fn luau() -> String {
-        "any".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        match value {
-            Value::Object(object) => Ok(object),
-            _ => Err(Expected::new("an object or a derived system")),
-        }
-    }
-
-    fn into_value(self) -> Value {
-        Value::Object(self)
     }
 }
 

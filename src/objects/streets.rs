@@ -10,7 +10,6 @@ use rstar::{PointDistance, RTree};
 use super::parameter::Expected;
 use super::{Features, Kind, Object, Parameter, Shape, Table, Value, Vector};
 use crate::error::{Error, Result};
-use crate::scene::Scene;
 use crate::sources::Geometry;
 
 /// The farthest (m) that a street lies from what faces it.
@@ -205,9 +204,5 @@ impl Object for Streets {
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
-    }
-
-    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
-        Ok(())
     }
 }

@@ -239,15 +239,9 @@ methods! {
         }
 
         /// Places what another system has drawn at the turtle's frame, scaled.
-        pub fn place(&mut self, model: Arc<dyn Object>, scale: Option<f64>) -> Result<()> {
-            let any: &dyn std::any::Any = &*model;
-            if !any.is::<Model>() {
-                return Err(Error::new(format!("turtle:place: a {} cannot be placed", model.kind().name))
-                    .help("place what derive returned"));
-            }
+        pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
             let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
             self.drawing.place(&model, self.state.frame.transform() * scale);
-            Ok(())
         }
 
         /// Its place (m).

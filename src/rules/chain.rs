@@ -1,6 +1,6 @@
 //! Chains as columns: all chains of a system stand one after the other in one structure of arrays.
 
-use super::stream::Key;
+use super::key::Key;
 
 /// A module's symbol.
 pub type Symbol = u16;

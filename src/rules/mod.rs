@@ -5,19 +5,19 @@
 
 mod chain;
 mod grammar;
+mod key;
 mod links;
 mod pattern;
-mod stream;
 mod symbols;
 mod text;
 mod values;
 
 pub use chain::{CLOSE, Chain, END, Mark, OPEN, Symbol};
 pub use grammar::{Choice, Grammar, Rule};
+pub use key::Key;
 pub use links::Links;
 pub(crate) use pattern::Bindings;
 pub use pattern::{Context, Item, Pattern};
-pub use stream::{Key, Stream};
 pub use symbols::{FIRST_SYMBOL, Signature, Symbols};
 pub use text::{chain_text, module_text, write_chains};
 pub use values::Values;

@@ -1,9 +1,10 @@
 //! What scripts get of data files: which they may read, and how a run reads each of them once.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::paths::{is_absolute, lead};
 use super::session::Session;
 use crate::error::{Error, Result};
 use crate::objects::Model;
@@ -137,7 +138,7 @@ fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
         )
     };
     let relative = Path::new(name);
-    if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
+    if is_absolute(relative) {
         return Err(Error::new(format!("the {what} {name} is named by a path from the root"))
             .help("name it from the script's folder, or from one that is given: --data FOLDER"));
     }
@@ -145,16 +146,7 @@ fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
     let mut near = None;
     let mut inside = false;
     for root in roots() {
-        let mut path = root.to_path_buf();
-        for part in relative.components() {
-            match part {
-                Component::ParentDir => {
-                    path.pop();
-                }
-                Component::Normal(part) => path.push(part),
-                _ => {}
-            }
-        }
+        let path = lead(root, relative);
         if !path.starts_with(root) {
             continue;
         }

@@ -11,6 +11,7 @@ mod handles;
 mod library;
 mod machine;
 mod param;
+mod paths;
 mod preset;
 mod require;
 mod session;

@@ -1,10 +1,11 @@
 //! `require`: other files of the script's folder, each run once.
 
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use mlua::Value as LuaValue;
 
 use super::library::Library;
+use super::paths::{is_absolute, lead};
 use super::session::Session;
 use crate::error::{Error, Result};
 
@@ -59,24 +60,11 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
         );
     }
     let relative = PathBuf::from(format!("{bare}.lua"));
-    if relative.components().any(|part| matches!(part, Component::RootDir | Component::Prefix(_))) {
+    if is_absolute(&relative) {
         return Err(outside());
     }
-    let inside = |folder: &Path| {
-        let mut path = folder.to_path_buf();
-        for part in relative.components() {
-            match part {
-                Component::ParentDir => {
-                    path.pop();
-                }
-                Component::Normal(part) => path.push(part),
-                _ => {}
-            }
-        }
-        path
-    };
     for folder in [from, session.root()] {
-        let path = inside(folder);
+        let path = lead(folder, &relative);
         if !path.starts_with(session.root()) {
             return Err(outside());
         }

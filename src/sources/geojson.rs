@@ -78,6 +78,11 @@ impl<'de> Deserialize<'de> for Coordinates {
                 Ok(Coordinates::Number(value as f64))
             }
 
+            // Some programs write null where a feature has no place; it is refused alone, not with its file.
+            fn visit_unit<E>(self) -> std::result::Result<Coordinates, E> {
+                Ok(Coordinates::default())
+            }
+
             fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> std::result::Result<Coordinates, A::Error> {
                 let mut items = Vec::new();
                 while let Some(item) = list.next_element()? {

@@ -43,8 +43,7 @@ fn walls_and_templates_are_checked_when_they_are_made() {
     error: s.lua:2: panel: width must be a preferred length (m), { least, greatest } or { least, preferred, greatest }, not {3,2}
 
     panel({ model = wall })
-    error: s.lua:2: panel: a panel cannot be placed
-      help: give what derive returned, or model("window.glb")
+    error: s.lua:2: panel: model must be what derive returned, or model("window.glb"), not an object
 
     panel({ at = "middle" })
     error: s.lua:2: panel: at must be "bottom", "center" or "top", not "middle"
@@ -145,5 +144,21 @@ s:derive()
       | this:walls({ templates = template(grid(grid(tiny))) })
       module: House, step 0
       help: repeat fewer or larger walls in its template
+    "##);
+}
+
+#[test]
+fn walls_within_walls_without_end_are_refused() {
+    let nested = "local wall = panel({})\nfor _ = 1, 200000 do\n  wall = bordered(wall)\nend";
+    insta::assert_snapshot!(refused(nested), @r##"
+    error: s.lua:3: bordered: more than 100 walls are within one another
+      | wall = bordered(wall)
+      help: repeat a wall with grid or list
+    "##);
+    let long = "local walls = table.create(1000, panel({}))\nlocal all = list(walls)";
+    insta::assert_snapshot!(refused(long), @r##"
+    error: s.lua:2: list: there are 1000 walls
+      | local all = list(walls)
+      help: give at most 500, or repeat one with grid
     "##);
 }

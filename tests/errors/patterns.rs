@@ -88,7 +88,7 @@ fn an_arity_that_only_running_shows_is_told_with_the_module_and_the_step() {
         "
     );
     assert_snapshot!(refused_rules("local make = A\nmake()"), @r"
-    error: s.lua:4: A has 1 parameter, not 0
+    error: s.lua:4: A has 1 parameter; x is missing
       | make()
       help: it was declared as A(x)
     ");

@@ -1,6 +1,7 @@
 //! What happens when files change.
 
 use std::fs;
+use std::path::Path;
 use std::time::{Duration, Instant};
 
 use serde_json::json;
@@ -153,4 +154,54 @@ fn a_script_behind_a_link_and_a_folder_that_is_made_again_are_followed() {
     assert_eq!(page.next("model")["triangles"], triangles(5));
     server.write("real/tree.lua", script(6));
     assert_eq!(page.next("model")["triangles"], triangles(6));
+}
+
+#[test]
+fn data_and_models_are_followed_even_where_they_are_missing() {
+    let folder = tempfile::tempdir().unwrap();
+    let town = |width: f64| {
+        let ring = json!([[0.0, 0.0], [width, 0.0], [width, 1e-4], [0.0, 1e-4], [0.0, 0.0]]);
+        let geometry = json!({ "type": "Polygon", "coordinates": [ring] });
+        json!({ "type": "FeatureCollection", "features": [
+            { "type": "Feature", "id": "a", "properties": {}, "geometry": geometry }
+        ] })
+        .to_string()
+    };
+    // A model from a script of its own.
+    let model = |count: usize, to: &Path| {
+        let other = tempfile::tempdir().unwrap();
+        fs::write(other.path().join("s.lua"), script(count)).unwrap();
+        let run = burgeon::run(&other.path().join("s.lua"), burgeon::script::Options::default()).unwrap();
+        burgeon::export::write(&run.scene, to, &burgeon::picture::Picture::default()).unwrap();
+    };
+    let text = r#"
+local post = model("post.glb")
+local Plot = module("Plot")
+local plots = lsystem({ object = footprint })
+plots:axiom(source("town.geojson"), function(feature)
+  return footprint(feature.geometry), Plot()
+end)
+plots:interpret("Plot", function(this)
+  this:walls({ height = 3 }):roof({ kind = "gable", details = { { model = post, on = "ridge" } } })
+end)
+plots:derive()
+"#;
+    fs::write(folder.path().join("s.lua"), text).unwrap();
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    assert!(page.next("error")["text"].as_str().unwrap().contains("post.glb"));
+    model(3, &server.path("post.glb"));
+    assert!(page.next("error")["text"].as_str().unwrap().contains("town.geojson"));
+    server.write("town.geojson", town(1e-4));
+    let first = page.next("model");
+    server.write("town.geojson", town(2e-4));
+    let wider = page.next("model");
+    assert_ne!(wider["url"], first["url"]);
+    model(6, &server.path("post.glb"));
+    let taller = page.next("model");
+    assert_ne!(taller["url"], wider["url"]);
+    server.write("town.geojson", "{");
+    assert!(page.next("error")["text"].as_str().unwrap().contains("town.geojson"));
+    server.write("town.geojson", town(2e-4));
+    assert_eq!(page.next("model")["url"], taller["url"]);
 }

@@ -5,6 +5,7 @@ use super::*;
 use glam::{DMat4, DVec3};
 use gltf::Gltf;
 use proptest::prelude::*;
+use std::collections::BTreeMap;
 
 const TURN: fn(DVec3) -> DVec3 = |p| DVec3::new(p.x, p.z, -p.y);
 
@@ -168,6 +169,34 @@ fn many_like_instances_share_a_node_and_mirrored_ones_another() {
     }
     assert_eq!(node_count(&named), (500, vec![]));
     assert!(glb(&samples::many(100)).unwrap().len() < glb(&samples::many(15)).unwrap().len() * 2);
+}
+
+#[test]
+fn models_that_features_have_placed_share_a_node_which_tells_whose_each_is() {
+    let mut scene = samples::many(60);
+    for (i, instance) in scene.instances.iter_mut().enumerate() {
+        instance.feature = (i > 0).then(|| format!("way/{}", i % 3));
+        instance.placement = Some(i);
+    }
+    let bytes = glb(&scene).unwrap();
+    let file = Gltf::from_slice_without_validation(&bytes).unwrap();
+    let blob = file.blob.clone().unwrap_or_default();
+    let extras = file.default_scene().unwrap().extras().clone().unwrap();
+    let features: serde_json::Value = serde_json::from_str(extras.get()).unwrap();
+    let mut told = BTreeMap::new();
+    for node in file.nodes() {
+        let attributes = &node.extension_value(place_extension()).unwrap()["attributes"];
+        let index = attributes["_FEATURE_ID_0"].as_u64().unwrap() as usize;
+        let accessor = file.accessors().nth(index).unwrap();
+        let start = accessor.view().unwrap().offset() + accessor.offset();
+        for number in bytemuck::pod_collect_to_vec::<u8, f32>(&blob[start..start + accessor.count() * 4]) {
+            let name = (number >= 0.0).then(|| features["features"][number as usize].as_str().unwrap());
+            *told.entry(name.map(str::to_owned)).or_insert(0) += 1;
+        }
+    }
+    let expected = [(None, 1), (Some("way/0"), 19), (Some("way/1"), 20), (Some("way/2"), 20)];
+    let expected = expected.map(|(name, count)| (name.map(str::to_owned), count));
+    assert_eq!(told.into_iter().collect::<Vec<_>>(), expected.to_vec());
 }
 
 #[test]

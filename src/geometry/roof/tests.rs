@@ -57,6 +57,26 @@ fn volume_below(rings: &[Vec<DVec2>], shape: &Shape) -> f64 {
     volume
 }
 
+/// The integral (m³) of the height of all faces that rain falls on over the plan, and the area (m²) of these.
+fn integral(cover: &Cover) -> (f64, f64) {
+    let (mut volume, mut covered) = (0.0, 0.0);
+    for patch in &cover.patches {
+        let triangles = patch
+            .rings
+            .iter()
+            .flat_map(|ring| (2..ring.len()).map(move |corner| [ring[0], ring[corner - 1], ring[corner]]));
+        let parts = triangles.map(|[a, b, c]| {
+            let area = (b - a).truncate().perp_dot((c - a).truncate()) / 2.0;
+            (area * (a.z + b.z + c.z) / 3.0, area)
+        });
+        let (part, area) = parts.fold((0.0, 0.0), |sum, part| (sum.0 + part.0, sum.1 + part.1));
+        if area > 0.0 {
+            (volume, covered) = (volume + part, covered + area);
+        }
+    }
+    (volume, covered)
+}
+
 /// The part of a ring on one side of a level.
 fn clipped(ring: &[DVec3], level: f64, side: f64) -> Vec<DVec3> {
     let mut kept = Vec::new();
@@ -92,7 +112,7 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
     ];
     let eaves = [(Eaves::Closed, 0.0), (Eaves::Slab, 0.2), (Eaves::Open, 0.15)];
     let mut random = Random(11);
-    let (mut count, mut hipped) = (0, 0);
+    let (mut count, mut hipped, mut flush) = (0, 0, 0);
     for round in 0..6000 {
         let Some(walls) = plan(round, &mut random) else { continue };
         let (surface, overhang) = (surfaces[round % 8], [0.0, 0.3, 0.8][round / 8 % 3]);
@@ -106,6 +126,15 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         let volume = solid::volume([&part]);
         let plain = area(&walls) * HEIGHT;
         assert!(volume > plain - 1e-3, "{round}: {volume} m³ of {plain} m³");
+        if cover.overhang == 0.0 {
+            // What the walls enclose up to the roof is what lies below its surface.
+            let (below, covered) = integral(&cover);
+            // Corners where faces meet at nearly one point may be a millimetre off.
+            let whole = area(&walls);
+            assert!((covered - whole).abs() < 1e-5 * whole.max(1.0), "{round}: {covered} of {whole} m²");
+            assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
+            flush += 1;
+        }
         if let (Surface::Sloped(Ends::Hips, _), true) = (surface, cover.overhang == 0.0) {
             let expected = plain + volume_below(&walls, &Shape { overhang: 0.0, ..shape });
             assert!((volume - expected).abs() < 1e-3 * expected, "{round}: {volume} m³, not {expected} m³");
@@ -113,7 +142,7 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         hipped += u32::from(cover.hipped);
         count += 1;
     }
-    assert!(count > 5000, "{count}");
+    assert!(count > 5000 && flush > 1600, "{count}, {flush} without an overhang");
     assert!(hipped < 20, "{hipped}");
 }
 

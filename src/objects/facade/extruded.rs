@@ -6,7 +6,7 @@ use super::fixture::{Anchor, Fixture};
 use super::size::Size;
 use super::wall::{Rule, Wall};
 use crate::error::{Error, Result};
-use crate::objects::{Kind, Object, Surface, Table};
+use crate::objects::{Kind, Model, Surface, Table};
 
 fields! {
     /// What `extruded { ... }` takes.
@@ -24,7 +24,7 @@ fields! {
         /// Whether there is a face above.
         pub top: bool = true,
         /// A model on the surface, not moved, such as a guardrail: x to the right, z up, y into the wall.
-        pub model: Option<Arc<dyn Object>> = None,
+        pub model: Option<Arc<Model>> = None,
         /// Whether the model is stretched to the wall's width and height.
         pub stretch: bool = false,
         /// Where the model sits: "bottom", "center" or "top".
@@ -61,8 +61,7 @@ fn make(options: &Options) -> Result<Wall> {
             .help(format!("give metres from -{FURTHEST} to {FURTHEST}")));
     }
     let model = options.model.clone();
-    let fixture =
-        model.map(|model| Fixture::new("extruded", model, options.stretch, options.at)).transpose()?;
+    let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));
     let sides = [options.left, options.right, options.bottom, options.top];
     let (sizes, targets) = (wall.0.sizes.clone(), wall.0.targets);
     let rule = Rule::Extruded { depth: options.depth, sides, fixture, wall };

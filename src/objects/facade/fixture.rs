@@ -1,12 +1,10 @@
 //! Models that walls carry: windows, doors, guardrails.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::error::{Error, Result};
-use crate::objects::{Expected, Model, Object, Parameter, Value};
+use crate::objects::{Expected, Model, Parameter, Value};
 
 /// A model and how it sits on a wall.
 ///
@@ -14,7 +12,7 @@ use crate::objects::{Expected, Model, Object, Parameter, Value};
 #[derive(Clone)]
 pub struct Fixture {
     /// The model.
-    pub model: Arc<dyn Object>,
+    pub model: Arc<Model>,
     /// Whether it is stretched to the wall's width and height.
     pub stretch: bool,
     /// Where it sits: 0 at the bottom of the wall, 1 at the top.
@@ -26,15 +24,10 @@ pub struct Fixture {
 }
 
 impl Fixture {
-    /// A fixture for the wall `rule`.
-    pub fn new(rule: &str, model: Arc<dyn Object>, stretch: bool, at: Anchor) -> Result<Self> {
-        let any: &dyn Any = &*model;
-        let Some(shape) = any.downcast_ref::<Model>() else {
-            return Err(Error::new(format!("{rule}: a {} cannot be placed", model.kind().name))
-                .help("give what derive returned, or model(\"window.glb\")"));
-        };
-        let (low, high) = (shape.low(), shape.high());
-        Ok(Self { model, stretch, anchor: at.0, low, high })
+    /// A fixture of `model`.
+    pub fn new(model: Arc<Model>, stretch: bool, at: Anchor) -> Self {
+        let (low, high) = (model.low(), model.high());
+        Self { model, stretch, anchor: at.0, low, high }
     }
 
     /// Its width and height (m).

@@ -30,6 +30,9 @@ pub static KIND: Kind = Kind {
     construct: |table: &Table| Ok(Box::new(make(&Options::from_table(table)?)?)),
 };
 
+/// The most walls in a list.
+const MOST: usize = 500;
+
 fn make(options: &Options) -> Result<Wall> {
     let upwards = match options.direction.as_str() {
         "horizontal" => false,
@@ -42,6 +45,10 @@ fn make(options: &Options) -> Result<Wall> {
     let Some(first) = options.walls.first() else {
         return Err(Error::new("list: there are no walls").help("write list({ panel { }, panel { } })"));
     };
+    if options.walls.len() > MOST {
+        return Err(Error::new(format!("list: there are {} walls", options.walls.len()))
+            .help(format!("give at most {MOST}, or repeat one with grid")));
+    }
     let (along, across) = (usize::from(upwards), usize::from(!upwards));
     let shares = options.walls.iter().map(|wall| {
         let target = wall.0.targets[along];

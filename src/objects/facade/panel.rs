@@ -7,7 +7,7 @@ use super::size::Size;
 use super::wall::{Rule, Wall};
 use crate::error::Result;
 use crate::geometry::Sizes;
-use crate::objects::{Kind, Object, Surface, Table};
+use crate::objects::{Kind, Model, Surface, Table};
 
 fields! {
     /// What `panel { ... }` takes.
@@ -21,7 +21,7 @@ fields! {
         /// A material whose image covers the panel once, whatever its size, in place of its own.
         pub decoration: Option<Surface> = None,
         /// A model in its middle: x to the right, z up, y into the wall.
-        pub model: Option<Arc<dyn Object>> = None,
+        pub model: Option<Arc<Model>> = None,
         /// Whether the model is stretched to the panel's width and height.
         pub stretch: bool = false,
         /// Where the model sits: "bottom", "center" or "top".
@@ -44,7 +44,7 @@ pub static KIND: Kind = Kind {
 fn make(options: &Options) -> Result<Wall> {
     let decoration = options.decoration.as_ref().map(Surface::material).transpose()?;
     let model = options.model.clone();
-    let fixture = model.map(|model| Fixture::new("panel", model, options.stretch, options.at)).transpose()?;
+    let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));
     let extent = fixture.as_ref().map(Fixture::extent);
     // A model that is not stretched needs its room.
     let room = extent.filter(|_| !options.stretch).unwrap_or_default();

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::wall::Wall;
 use crate::error::{Error, Result};
 use crate::objects::{Expected, Kind, Object, Parameter, Surface, Table, Value};
-use crate::scene::{Material, Scene};
+use crate::scene::Material;
 
 fields! {
     /// What `template { ... }` takes.
@@ -119,6 +119,9 @@ impl Facade {
     }
 }
 
+/// The keyword of a frontage that a neighbour covers.
+pub const BLIND: &str = "blind";
+
 /// What walls take as templates: a facade, a template, or a list of templates.
 #[derive(Debug, Clone)]
 pub struct Templates(Arc<[Template]>);
@@ -130,14 +133,14 @@ impl Templates {
     /// Of those that fit, the one that shares most keywords; of these, the one with the fewest others; of these, one
     /// by weight. A frontage that is "blind" takes only a template with that keyword.
     pub fn choose(&self, keywords: &[&str], width: f64, height: f64, chance: f64) -> Option<&Template> {
-        let blind = keywords.contains(&"blind");
+        let blind = keywords.contains(&BLIND);
         let suits = |template: &Template| {
             let shared = template.0.keywords.iter().filter(|word| keywords.contains(&word.as_str())).count();
             (shared, std::cmp::Reverse(template.0.keywords.len() - shared))
         };
         let fitting = || {
             self.0.iter().filter(|template| {
-                (!blind || template.0.keywords.iter().any(|word| word == "blind"))
+                (!blind || template.0.keywords.iter().any(|word| word == BLIND))
                     && template.fits(width, height)
             })
         };
@@ -207,10 +210,6 @@ impl Object for Template {
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
     }
-
-    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
-        Ok(())
-    }
 }
 
 impl Object for Facade {
@@ -220,10 +219,6 @@ impl Object for Facade {
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
-    }
-
-    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
-        Ok(())
     }
 }
 

@@ -9,7 +9,7 @@ use super::{bordered, extruded, grid, list, panel};
 use crate::error::{Error, Result};
 use crate::geometry::{Sizes, Split};
 use crate::objects::{Expected, Kind, Object, Parameter, Surface, Value};
-use crate::scene::{Material, Scene};
+use crate::scene::Material;
 
 /// A wall of a facade, made by one of five rules. It never changes.
 #[derive(Clone)]
@@ -22,8 +22,13 @@ pub(super) struct Inner {
     pub targets: [Option<f64>; 2],
     /// What its own faces are made of, if it says so.
     pub material: Option<Material>,
+    /// How many walls are within one another.
+    pub depth: usize,
     pub rule: Rule,
 }
+
+/// The most walls that may be within one another.
+const DEEPEST: usize = 100;
 
 /// How a wall is made up.
 pub(super) enum Rule {
@@ -73,6 +78,11 @@ impl Wall {
         material: Option<&Surface>,
     ) -> Result<Self> {
         let name = rule.kind().name;
+        let depth = 1 + rule.parts().iter().map(|wall| wall.0.depth).max().unwrap_or(0);
+        if depth > DEEPEST {
+            return Err(Error::new(format!("{name}: more than {DEEPEST} walls are within one another"))
+                .help("repeat a wall with grid or list"));
+        }
         let own = own.map(Option::unwrap_or_default);
         let mut sizes = of_parts;
         for ((sizes, own), side) in sizes.iter_mut().zip(&own).zip(["wide", "high"]) {
@@ -90,7 +100,7 @@ impl Wall {
         let target = |side: usize| own[side].target().or(of_targets[side]);
         let material = material.map(Surface::material).transpose()?;
         let targets = [target(0), target(1)];
-        Ok(Self(Arc::new(Inner { sizes, targets, material, rule })))
+        Ok(Self(Arc::new(Inner { sizes, targets, material, depth, rule })))
     }
 }
 
@@ -108,6 +118,17 @@ pub(super) fn range(sizes: &Sizes, side: &str) -> String {
 }
 
 impl Rule {
+    /// The walls that it is made up of.
+    fn parts(&self) -> &[Wall] {
+        match self {
+            Self::Panel { .. } => &[],
+            Self::Bordered { wall, .. } | Self::Extruded { wall, .. } | Self::Grid { wall, .. } => {
+                std::slice::from_ref(wall)
+            }
+            Self::List { walls, .. } => walls,
+        }
+    }
+
     fn kind(&self) -> &'static Kind {
         match self {
             Self::Panel { .. } => &panel::KIND,
@@ -143,10 +164,6 @@ impl Object for Wall {
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
-    }
-
-    fn show(&self, _: &mut Scene, _: &str, _: Option<&str>) -> Result<()> {
-        Ok(())
     }
 }
 

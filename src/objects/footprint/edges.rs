@@ -7,11 +7,10 @@ use glam::DVec2;
 use super::neighbors::Touch;
 use super::{Footprint, edges};
 use crate::error::{Error, Result};
+use crate::objects::facade::template::BLIND;
 use crate::objects::parameter::Expected;
 use crate::objects::{Key, Parameter, Table, Value};
 
-/// The word for an edge that a neighbour covers, by half or more.
-const BLIND: &str = "blind";
 /// The word for the edge on the street.
 const STREET: &str = "street";
 /// The word for the edge with the entry.

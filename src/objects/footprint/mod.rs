@@ -41,8 +41,9 @@ impl Parameter for Rings {
         let what = || {
             Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
         };
-        let not_this =
-            |kind: &str| Expected::of_data(format!("a polygon, and this is a geometry of kind {kind:?}"));
+        let not_this = |kind: &str| {
+            Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")).of_data()
+        };
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
@@ -75,6 +76,24 @@ impl Parameter for Rings {
     }
 }
 
+/// A height (m), which comes from data as a rule: what is no number is the data's fault.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Height(pub f64);
+
+impl Parameter for Height {
+    fn luau() -> String {
+        f64::luau()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        f64::from_value(value).map(Self).map_err(Expected::of_data)
+    }
+
+    fn into_value(self) -> Value {
+        self.0.into_value()
+    }
+}
+
 fields! {
     /// What `footprint(geometry, { ... })` takes.
     pub struct Options for "footprint" {
@@ -90,7 +109,7 @@ fields! {
         /// The streets by which it lies, as `streets(source)` made them.
         pub streets: Option<Streets> = None,
         /// Height of the walls (m), where they are not given one.
-        pub height: Option<f64> = None,
+        pub height: Option<Height> = None,
         /// Colour of what is drawn, where it is given none.
         pub color: Color = Color([0.62, 0.58, 0.52, 1.0]),
     }
@@ -213,7 +232,7 @@ methods! {
 
         /// How high the walls are that it was made with (m); 0 if it was not told.
         pub fn height(&self) -> f64 {
-            self.options.height.unwrap_or(0.0)
+            self.options.height.map_or(0.0, |height| height.0)
         }
 
         /// Whether it has this keyword.
@@ -252,7 +271,7 @@ impl Footprint {
                 (plan.moved(-origin), origin)
             }
         };
-        if let Some(height) = options.height {
+        if let Some(Height(height)) = options.height {
             check_height("footprint: height", height)?;
         }
         let shell = Shell::new(&plan);

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::geometry::solid;
+use crate::scene::Part;
 
 fn plan(rings: &[&[(f64, f64)]]) -> Rings {
     Rings(rings.iter().map(|ring| ring.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()).collect())
@@ -214,4 +215,23 @@ fn facades_cover_their_walls_and_leave_party_walls_plain() {
         })
     });
     assert_eq!(plain.count(), 4);
+}
+
+#[test]
+fn a_photo_covers_each_frontage_once() {
+    let photo =
+        table(&[("texture", Value::Text("front.png".into())), ("texture_size", vec![2.0, 4.0].into_value())]);
+    let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (0., 5.)]]);
+    let mut house = Footprint::new(Options { geometry, ..Options::default() }).expect("a clean footprint");
+    house.begin();
+    let photo = Value::Table(photo.expect("a table"));
+    house.walls(table(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");
+    let textured = |part: &&Part| house.drawing.material_of(part.material).texture.is_some();
+    let part = house.drawing.parts().iter().find(textured).expect("walls with the photo");
+    assert_eq!((part.positions.len(), part.triangles.len()), (16, 8));
+    for corners in part.uvs.chunks(4) {
+        // The whole image, which is 2 m wide and 4 m high, from its lowest left corner on.
+        let uvs: Vec<[f32; 2]> = corners.iter().map(|uv| uv.to_array()).collect();
+        assert_eq!(uvs, [[0.0, 0.0], [2.0, 0.0], [2.0, 4.0], [0.0, 4.0]]);
+    }
 }

@@ -2,19 +2,21 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
-use super::{Footprint, along, check_height, edges};
+use super::{Footprint, Height, along, check_height, edges};
 use crate::error::{Error, Result};
 use crate::geometry::{SAME, fill};
 use crate::objects::facade::lay::MOST;
+use crate::objects::facade::template::BLIND;
 use crate::objects::facade::{Face, Laid, Rectangle, Template, Templates};
 use crate::objects::{Color, Note, Surface};
+use crate::random::Stream;
 use crate::scene::{Material, Part};
 
 fields! {
     /// What `footprint:walls { ... }` takes.
     pub struct Walls for "footprint:walls" {
         /// How high they are (m); as high as the footprint says if left out.
-        pub height: Option<f64> = None,
+        pub height: Option<Height> = None,
         /// What the frontages look like: a facade, a template or a list of templates.
         pub templates: Option<Templates> = None,
         /// A material whose image covers each frontage once, as a photo of the building does.
@@ -58,7 +60,7 @@ const STEEPEST_MITER: f64 = 1.5;
 impl Footprint {
     pub(super) fn raise(&mut self, options: &Walls) -> Result<()> {
         self.check_open("walls")?;
-        let Some(height) = options.height.or(self.options.height) else {
+        let Some(Height(height)) = options.height.or(self.options.height) else {
             return Err(Error::new("footprint:walls: neither the walls nor the footprint have a height")
                 .help("write this:walls { height = 6 }")
                 .of_data());
@@ -143,13 +145,9 @@ impl Footprint {
         // Parts by the addresses of materials, which templates keep where they are.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
         let mut without: Vec<DVec2> = Vec::new();
-        let frontages = self.frontages(from, to);
-        for (edge, frontage) in frontages.iter().enumerate() {
-            let keywords = self.keywords_of(edge);
-            let chance = chance(self.seed, self.raised, edge);
-            let DVec2 { x, y } = frontage.size;
-            let blind = keywords.contains(&"blind");
-            let chosen = templates.choose(&keywords, x, y, chance);
+        let mut frontages = self.frontages(from, to);
+        let chosen = self.choose(templates, &mut frontages);
+        for (frontage, (chosen, blind)) in frontages.iter().zip(chosen) {
             laid.clear();
             let over = Rectangle { at: DVec2::ZERO, size: frontage.size };
             let Some(template) = chosen.filter(|template| laid.lay(template.wall(), over, 0.0)) else {
@@ -191,6 +189,22 @@ impl Footprint {
         Ok(())
     }
 
+    /// The template of each frontage, and whether it is blind; also lets what stands out meet at the corners.
+    fn choose<'a>(
+        &self,
+        templates: &'a Templates,
+        frontages: &mut [Frontage],
+    ) -> Vec<(Option<&'a Template>, bool)> {
+        let keywords: Vec<Vec<&str>> = (0..frontages.len()).map(|edge| self.keywords_of(edge)).collect();
+        self.miter(frontages, &keywords);
+        let choose = |(edge, (frontage, keywords)): (usize, (&Frontage, &Vec<&str>))| {
+            let chance = Stream::new(self.seed ^ mixed(self.raised, edge)).uniform();
+            let chosen = templates.choose(keywords, frontage.size.x, frontage.size.y, chance);
+            (chosen, keywords.contains(&BLIND))
+        };
+        frontages.iter().zip(&keywords).enumerate().map(choose).collect()
+    }
+
     fn draw_laid(
         &mut self,
         laid: &Laid<'_>,
@@ -217,24 +231,11 @@ impl Footprint {
         let mut frontages = Vec::with_capacity(self.plan.edges());
         for ring in self.plan.flat() {
             let mut passed = 0.0;
-            let (first, count) = (frontages.len(), ring.len());
-            let direction =
-                |index: usize| (ring[(index + 1) % count] - ring[index % count]).normalize_or_zero();
-            // Nothing reaches over the neighbour's wall.
-            let blind = |index: usize| self.keywords_of(first + index % count).contains(&"blind");
-            let miter = |before: usize, after: usize| {
-                let turn = direction(before).angle_to(direction(after));
-                (turn / 2.0).tan().clamp(-STEEPEST_MITER, STEEPEST_MITER)
-            };
-            for (index, [a, b]) in edges(&ring).enumerate() {
+            for [a, b] in edges(&ring) {
                 let right = along(a, b);
                 let length = a.distance(b);
-                let (before, after) = (index + count - 1, index + 1);
                 frontages.push(Frontage {
-                    miters: [
-                        if blind(before) { 0.0 } else { miter(before, index) },
-                        if blind(after) { 0.0 } else { miter(index, after) },
-                    ],
+                    miters: [0.0; 2],
                     ends: [a.extend(from), b.extend(from)],
                     size: DVec2::new(length, to - from),
                     axes: DMat3::from_cols(right, DVec3::Z, right.cross(DVec3::Z)),
@@ -245,6 +246,23 @@ impl Footprint {
             }
         }
         frontages
+    }
+
+    /// Lets what stands out meet at the corners of frontages; nothing reaches over a neighbour's wall.
+    fn miter(&self, frontages: &mut [Frontage], keywords: &[Vec<&str>]) {
+        let mut first = 0;
+        for count in self.plan.rings().iter().map(Vec::len) {
+            for index in 0..count {
+                let [before, after] = [index, index + 1].map(|index| first + index % count);
+                let turn = frontages[before].axes.x_axis.truncate();
+                let turn = turn.angle_to(frontages[after].axes.x_axis.truncate());
+                let miter = (turn / 2.0).tan().clamp(-STEEPEST_MITER, STEEPEST_MITER);
+                let reach = |other: usize| if keywords[other].contains(&BLIND) { 0.0 } else { miter };
+                frontages[before].miters[1] = reach(after);
+                frontages[after].miters[0] = reach(before);
+            }
+            first += count;
+        }
     }
 
     /// The words that say what kind of frontage an edge has.
@@ -306,13 +324,7 @@ impl Frontage {
     }
 }
 
-/// A random number in [0, 1) for an edge of the walls that were raised as number `raised`.
-fn chance(seed: u64, raised: u64, edge: usize) -> f64 {
-    use rand_core::{Rng, SeedableRng};
-    let mixed =
-        seed ^ raised.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (edge as u64).wrapping_mul(0xD134_2543_DE82_EF95);
-    let bits = rand_xoshiro::Xoshiro256PlusPlus::seed_from_u64(mixed).next_u64() >> 11;
-    #[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
-    let chance = bits as f64 / (1u64 << 53) as f64;
-    chance
+/// A number of its own for an edge of the walls that were raised as number `raised`.
+fn mixed(raised: u64, edge: usize) -> u64 {
+    raised.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (edge as u64).wrapping_mul(0xD134_2543_DE82_EF95)
 }

@@ -5,7 +5,8 @@ use std::sync::Arc;
 
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Value};
-use crate::rules::{Key, Stream, Symbol};
+use crate::random::Stream;
+use crate::rules::{Key, Symbol};
 use crate::script::handles::Objects;
 use crate::script::session::Session;
 
@@ -57,7 +58,7 @@ pub(crate) struct Current {
 
 impl Current {
     pub(crate) fn new(session: Arc<Session>) -> Self {
-        let top = Stream::new(Key::seed(session.options.seed));
+        let top = Key::seed(session.options.seed).stream();
         Self {
             session,
             objects: RefCell::default(),
@@ -86,7 +87,7 @@ impl Current {
     pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
         let keys = self.keys.borrow();
         let key = keys.get(application).ok_or_else(|| Error::new("random is not available here"))?;
-        let mut stream = Stream::new(*key);
+        let mut stream = key.stream();
         for _ in 0..self.used.get() + index {
             stream.uniform();
         }

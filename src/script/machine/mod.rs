@@ -228,7 +228,8 @@ fn translate(error: &mlua::Error) -> Error {
     }
 }
 
-/// Takes `file:line: message`, a remedy behind the character 1 and a traceback apart.
+/// Takes `file:line: message`, a remedy behind the character 1 and a traceback apart; the character 2 at the end of
+/// the remedy says that data may be at fault.
 fn parse(text: &str) -> Error {
     let (text, traceback) = text.split_once("\nstack traceback:").unwrap_or((text, ""));
     let text = text.trim_end();
@@ -250,7 +251,10 @@ fn parse(text: &str) -> Error {
     // What a function of Luau's library refuses has no place of its own.
     let error = Error::new(message).at(place).at(place_in_traceback(traceback));
     match help {
-        Some(help) => error.help(help),
+        Some(help) => match help.strip_suffix('\u{2}') {
+            Some(help) => error.help(help).of_data(),
+            None => error.help(help),
+        },
         None if message.contains("modify a readonly table") => error.help(
             "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
         ),

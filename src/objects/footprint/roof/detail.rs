@@ -3,40 +3,12 @@
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DVec3};
-use rand_core::{Rng, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
 
 use crate::error::{Error, Result};
 use crate::geometry::roof::{LineKind, Patch, PatchKind, lines, normal};
 use crate::objects::parameter::Expected;
-use crate::objects::{Model, Object, Parameter, Table, Value};
-
-/// What is placed.
-#[derive(Clone, Default)]
-pub struct Thing(Option<Arc<dyn Object>>);
-
-impl std::fmt::Debug for Thing {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_tuple("Thing").field(&self.0.as_ref().map(|object| object.kind())).finish()
-    }
-}
-
-impl Parameter for Thing {
-    fn luau() -> String {
-        "any".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        match value {
-            Value::Object(object) if object.kind().name == Model::KIND.name => Ok(Self(Some(object))),
-            _ => Err(Expected::new("what derive returned")),
-        }
-    }
-
-    fn into_value(self) -> Value {
-        self.0.map_or(Value::Nil, Value::Object)
-    }
-}
+use crate::objects::{Model, Parameter, Table, Value};
+use crate::random::Stream;
 
 fields! {
     /// One of the `details` of `footprint:roof { ... }`.
@@ -45,7 +17,7 @@ fields! {
     /// outside, and its front, -y, looks outwards.
     pub struct Detail for "a detail of footprint:roof" {
         /// What stands there: what `derive` returned.
-        pub model: Thing = Thing::default(),
+        pub model: Option<Arc<Model>> = None,
         /// "ridge", "hip", "valley", "eaves", "slope" or "gable".
         pub on: String = "ridge".into(),
         /// Distance between two along the line (m); one in the middle if left out.
@@ -111,7 +83,7 @@ impl Detail {
     /// Fails if a field is out of its range.
     pub(super) fn check(&self) -> Result<()> {
         let what = "a detail of footprint:roof";
-        if self.model.0.is_none() {
+        if self.model.is_none() {
             return Err(Error::new(format!("{what} has no model")).help("give it what derive returned"));
         }
         if !PLACES.contains(&self.on.as_str()) {
@@ -138,9 +110,9 @@ impl Detail {
     }
 
     /// The model at each of its places on a roof; what is left to chance follows from `seed`.
-    pub(super) fn frames(&self, patches: &[Patch], seed: u64) -> Vec<(Arc<dyn Object>, DAffine3)> {
-        let Some(model) = &self.model.0 else { return Vec::new() };
-        let mut random = Xoshiro256PlusPlus::seed_from_u64(seed);
+    pub(super) fn frames(&self, patches: &[Patch], seed: u64) -> Vec<(Arc<Model>, DAffine3)> {
+        let Some(model) = &self.model else { return Vec::new() };
+        let mut random = Stream::new(seed);
         let mut frames: Vec<DAffine3> = Vec::new();
         for track in self.tracks(patches) {
             let length = track.from.distance(track.to);
@@ -153,7 +125,7 @@ impl Detail {
             let mut number = 0.0;
             while number < count && frames.len() < MOST {
                 // Drawn for each place, so that others do not change with it.
-                let taken = fraction(&mut random) < self.chance;
+                let taken = random.uniform() < self.chance;
                 if taken {
                     let at = track.from.lerp(track.to, (begin + number * every) / length.max(1e-9));
                     frames.push(self.frame(&track, at, model));
@@ -165,8 +137,7 @@ impl Detail {
             let count = usize::try_from(count).unwrap_or(usize::MAX);
             let mut order: Vec<usize> = (0..frames.len()).collect();
             for index in 0..count.min(order.len()) {
-                #[allow(clippy::cast_possible_truncation, reason = "a remainder of a length fits")]
-                let other = index + (random.next_u64() % (order.len() - index) as u64) as usize;
+                let other = index + random.below(order.len() - index);
                 order.swap(index, other);
             }
             order.truncate(count);
@@ -176,7 +147,7 @@ impl Detail {
         frames.into_iter().map(|frame| (Arc::clone(model), frame)).collect()
     }
 
-    fn frame(&self, track: &Track, at: DVec3, model: &Arc<dyn Object>) -> DAffine3 {
+    fn frame(&self, track: &Track, at: DVec3, model: &Model) -> DAffine3 {
         let along = (track.to - track.from).normalize_or_zero();
         let (x, z) = if self.tilt || self.stretch {
             let lean = if self.tilt { track.up } else { DVec3::Z };
@@ -187,8 +158,7 @@ impl Detail {
         let turn = DMat3::from_rotation_z(self.turn.to_radians());
         let axes = DMat3::from_cols(x, z.cross(x), z);
         let mut frame = DAffine3::from_mat3_translation(axes * turn * self.scale, at - z * self.sink);
-        let any: &dyn std::any::Any = &**model;
-        if let (true, Some(model)) = (self.stretch, any.downcast_ref::<Model>()) {
+        if self.stretch {
             let (low, high) = (model.low().x, model.high().x);
             let factor = track.from.distance(track.to) / ((high - low) * self.scale).max(1e-6);
             let stretched = DMat3::from_diagonal(DVec3::new(factor, 1.0, 1.0));
@@ -281,10 +251,4 @@ impl Detail {
         }
         tracks
     }
-}
-
-/// A number from 0 to 1.
-#[allow(clippy::cast_precision_loss, reason = "53 bits fit")]
-fn fraction(random: &mut Xoshiro256PlusPlus) -> f64 {
-    (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64
 }

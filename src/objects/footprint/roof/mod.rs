@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::{Color, Footprint, Surface};
 use crate::error::{Error, Result};
 use crate::geometry::fill;
-use crate::geometry::roof::{Patch, PatchKind, Shape};
+use crate::geometry::roof::{Patch, PatchKind, Shape, Surface as SurfaceOf};
 use crate::objects::Note;
 pub use detail::Detail;
 
@@ -70,7 +70,8 @@ impl Footprint {
             _ => {}
         }
         let (walls, base) = (self.plan.flat(), self.shell.top);
-        let party = if options.party_gables { self.party_walls() } else { Vec::new() };
+        let rows = options.party_gables && matches!(shape.surface, SurfaceOf::Sloped(..));
+        let party = if rows { self.party_walls() } else { Vec::new() };
         let mut make = |shape: &Shape, outline: &[Vec<DVec2>]| {
             let own = std::ptr::eq(outline, walls.as_slice());
             shape.cover_in_row(outline, base, if own { &party } else { &[] })

@@ -4,12 +4,11 @@ use std::sync::Arc;
 
 use glam::{DAffine3, DVec2, DVec3};
 
-use super::detail::Thing;
 use super::*;
 use crate::error::Error;
 use crate::geometry::roof::{Cover, Eaves, Ends, Rise, Shape, Surface as Faces, fill, floor};
 use crate::geometry::solid;
-use crate::objects::{Model, Object, Parameter, Value};
+use crate::objects::{Model, Parameter, Value};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
 
 const RECTANGLE: [(f64, f64); 4] = [(0., 0.), (12., 0.), (12., 8.), (0., 8.)];
@@ -29,7 +28,7 @@ fn hip() -> Shape {
 }
 
 /// A model as large as a box from 0 to `size` (m).
-fn model(size: DVec3) -> Arc<dyn Object> {
+fn model(size: DVec3) -> Arc<Model> {
     let positions = [DVec3::ZERO, size.with_y(0.0).with_z(0.0), size].map(|at| at.as_vec3()).to_vec();
     let part = Part { positions, triangles: vec![[0, 1, 2]], ..Part::default() };
     let mesh = Mesh { parts: vec![part], ..Mesh::default() };
@@ -50,8 +49,7 @@ fn model(size: DVec3) -> Arc<dyn Object> {
 }
 
 fn detail(on: &str) -> Detail {
-    let thing = Thing::from_value(Value::Object(model(DVec3::new(2.0, 1.0, 1.0)))).expect("a model");
-    Detail { model: thing, on: on.into(), ..Detail::default() }
+    Detail { model: Some(model(DVec3::new(2.0, 1.0, 1.0))), on: on.into(), ..Detail::default() }
 }
 
 fn patches(ends: Ends) -> Vec<Patch> {
@@ -145,5 +143,5 @@ fn details_refuse_what_they_cannot_place() {
     assert!(Detail { every: Some(0.0), ..detail("ridge") }.check().is_err());
     assert!(Detail { chance: 1.5, ..detail("ridge") }.check().is_err());
     assert!(Detail { flap: 0, ..detail("ridge") }.check().is_err());
-    assert!(Thing::from_value(Value::Number(1.0)).is_err());
+    assert!(<Arc<Model>>::from_value(Value::Number(1.0)).is_err());
 }

@@ -1,7 +1,6 @@
-//! Random numbers that depend on the seed and on where a module comes from, and on nothing else.
+//! Keys of random numbers: they depend on the seed and on where a module comes from, and on nothing else.
 
-use rand_core::{Rng, SeedableRng};
-use rand_xoshiro::Xoshiro256PlusPlus;
+use crate::random::Stream;
 
 /// The seed and a module's lineage, mixed into one number.
 ///
@@ -35,6 +34,11 @@ impl Key {
         Self(mix(self.0 ^ 0x5A17))
     }
 
+    /// The numbers of this key, from the first.
+    pub fn stream(self) -> Stream {
+        Stream::new(self.0)
+    }
+
     /// The key of the numbers that an interpretation rule draws.
     #[must_use]
     pub fn interpretation(self) -> Self {
@@ -53,25 +57,6 @@ fn mix(state: u64) -> u64 {
     z ^ (z >> 31)
 }
 
-/// A module's random numbers: xoshiro256++ seeded by its key.
-#[derive(Debug, Clone)]
-pub struct Stream(Xoshiro256PlusPlus);
-
-impl Stream {
-    /// The numbers of `key`, from the first.
-    pub fn new(key: Key) -> Self {
-        Self(Xoshiro256PlusPlus::seed_from_u64(key.0))
-    }
-
-    /// The next number, uniform in [0, 1).
-    #[inline]
-    pub fn uniform(&mut self) -> f64 {
-        #[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
-        let bits = (self.0.next_u64() >> 11) as f64;
-        bits * (1.0 / 9_007_199_254_740_992.0)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -88,20 +73,9 @@ mod tests {
             root.feature("a"),
             root.feature("b"),
         ];
-        let mut first: Vec<u64> = keys.iter().map(|key| Stream::new(*key).uniform().to_bits()).collect();
+        let mut first: Vec<u64> = keys.iter().map(|key| key.stream().uniform().to_bits()).collect();
         first.sort_unstable();
         first.dedup();
         assert_eq!(first.len(), keys.len());
-    }
-
-    #[test]
-    fn the_numbers_are_uniform() {
-        let mut stream = Stream::new(Key::seed(7));
-        let mut counts = [0u32; 10];
-        for _ in 0..100_000 {
-            counts[(stream.uniform() * 10.0) as usize] += 1;
-        }
-        let chi: f64 = counts.iter().map(|count| (f64::from(*count) - 10_000.0).powi(2) / 10_000.0).sum();
-        assert!(chi < 27.9, "chi-square {chi} with 9 degrees of freedom");
     }
 }
