@@ -84,6 +84,7 @@ mod run;
 pub mod scene;
 pub mod script;
 pub mod sources;
+pub mod terrain;
 pub mod trace;
 pub mod variations;
 pub mod watch;

@@ -1,10 +1,13 @@
 //! The threads that help: each runs the same script in a machine of its own and waits at `derive` for work.
 
 use std::cell::RefCell;
+use std::collections::hash_map::Entry;
 use std::rc::Rc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
+
+use rustc_hash::FxHashMap;
 
 use super::batch::Scratch;
 use super::derived::Derived;
@@ -150,7 +153,9 @@ impl Helper {
 
 /// Works on jobs for system `index` until the leader has derived it.
 fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Result<Arc<Derived>>> {
-    let mut declared: Option<Declared> = None;
+    // What was declared since the last derivation holds as well.
+    machine.current.system.set(None);
+    let mut known: FxHashMap<usize, Declared> = FxHashMap::default();
     let mut scratch = Scratch::default();
     loop {
         let job = match inbox.recv() {
@@ -158,28 +163,39 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
             Ok(Message::Derived(derived)) => return Ok(derived),
             Err(_) => return Err(Error::new("the run has ended")),
         };
-        if declared.is_none() {
-            let systems = machine.library.systems.borrow();
-            declared = Some(systems[index].prepare(machine)?);
-        }
-        if let Some(declared) = &declared {
-            // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
-            match job {
-                Job::Rewrite(rewriting) => {
-                    let Some(rewriting) = rewriting.upgrade() else { continue };
-                    machine.current.objects.replace(rewriting.plan.objects.clone());
-                    machine.refresh();
-                    while rewriting.work(machine, declared, &mut scratch) {}
-                    machine.current.objects.replace(None);
-                }
-                Job::Interpret(interpreting) => {
-                    let Some(interpreting) = interpreting.upgrade() else { continue };
-                    machine.current.objects.replace(interpreting.plan.objects.clone());
-                    machine.refresh();
-                    while interpreting.work(machine) {}
-                    machine.current.objects.replace(None);
-                }
+        // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
+        match job {
+            Job::Rewrite(rewriting) => {
+                let Some(rewriting) = rewriting.upgrade() else { continue };
+                let system = rewriting.plan.system;
+                let declared = prepared(machine, &mut known, system)?;
+                machine.enter(system)?;
+                machine.current.objects.replace(rewriting.plan.objects.clone());
+                machine.refresh();
+                while rewriting.work(machine, declared, &mut scratch) {}
+                machine.current.objects.replace(None);
+            }
+            Job::Interpret(interpreting) => {
+                let Some(interpreting) = interpreting.upgrade() else { continue };
+                prepared(machine, &mut known, index)?;
+                machine.enter(index)?;
+                machine.current.objects.replace(interpreting.plan.objects.clone());
+                machine.refresh();
+                while interpreting.work(machine) {}
+                machine.current.objects.replace(None);
             }
         }
     }
+}
+
+/// A system ready to derive in this machine, whose tables stay frozen as long as it is known.
+fn prepared<'a>(
+    machine: &Machine,
+    known: &'a mut FxHashMap<usize, Declared>,
+    system: usize,
+) -> Result<&'a Declared> {
+    Ok(match known.entry(system) {
+        Entry::Occupied(entry) => entry.into_mut(),
+        Entry::Vacant(entry) => entry.insert(machine.library.systems.borrow()[system].prepare(machine)?),
+    })
 }

@@ -4,6 +4,7 @@
 //! while the next one is made, so a batch never sees what another batch does.
 
 mod batch;
+mod cells;
 mod crew;
 mod derived;
 mod output;
@@ -26,6 +27,7 @@ use crate::interpret::Interpreting;
 use crate::objects::Object;
 use crate::rules::{Chain, Grammar, Key};
 use crate::script::{Interpretations, Machine, Objects};
+use cells::Cells;
 use step::Stepper;
 
 /// The first chains of a system and what belongs to each.
@@ -58,6 +60,8 @@ impl Axiom {
 
 /// What does not change while a system derives; shared by all threads.
 pub(crate) struct Plan {
+    /// The system's place among those of the script.
+    pub system: usize,
     pub grammar: Grammar,
     pub interpretations: Interpretations,
     pub objects: Option<Arc<Objects>>,
@@ -69,6 +73,20 @@ pub(crate) struct Plan {
     pub traced: bool,
     /// Whether the time of each interpretation rule is measured.
     pub profiled: bool,
+}
+
+impl Plan {
+    /// Has objects that expand by themselves do so.
+    fn grow(&self, cells: &Cells<'_>) -> Result<()> {
+        let Some(objects) = &self.objects else { return Ok(()) };
+        if !objects.read(0, |object| Ok(object.grows()))? {
+            return Ok(());
+        }
+        for chain in (0..self.chains).filter(|chain| !objects.has_failed(*chain)) {
+            objects.write(chain, |object| object.grow(cells))?;
+        }
+        Ok(())
+    }
 }
 
 /// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
@@ -93,6 +111,8 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let options = &session.options;
     let random = session.draws_random();
     let traced = options.trace.filter(|traced| traced.system == index);
+    // What was declared since the last derivation holds as well.
+    machine.current.system.set(None);
     let (axiom, plan, declared) = {
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
@@ -107,6 +127,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         let forgiving = axiom.given > 1 && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
         let plan = Plan {
+            system: index,
             grammar,
             interpretations: system.interpretations(&machine.library),
             objects,
@@ -133,6 +154,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let mut chain = std::mem::take(&mut axiom.chain);
     chain.mark(plan.batch, plan.grammar.arities());
     let mut stepper = Stepper::new(Arc::clone(&plan));
+    let cells = Cells::new(machine);
     let interprets = plan.objects.is_some() && !options.check;
     let mut done = 0;
     let mut trace = traced.map(|_| {
@@ -143,9 +165,13 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let mut interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
         let begin = Instant::now();
         let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations)?;
+        plan.grow(&cells)?;
         times.interpretation += begin.elapsed();
         Ok(chain)
     };
+    if interprets {
+        plan.grow(&cells)?;
+    }
     if interprets && !last_only {
         chain = interpret(chain, 0, &mut times)?;
     }
@@ -178,6 +204,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     }
     let rules = reports(&plan, stepper.uses(), &interpretations);
     drop(stepper);
+    drop(cells);
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&chain.params);

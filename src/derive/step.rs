@@ -124,6 +124,7 @@ impl Stepper {
         self.links.build(&chain, &self.plan.grammar);
         let pieces = pieces(&chain, self.plan.batch);
         let count = pieces.len();
+        machine.enter(self.plan.system)?;
         machine.refresh();
         machine.current.objects.replace(self.plan.objects.clone());
         let rewriting = Arc::new(Rewriting {
@@ -149,6 +150,13 @@ impl Stepper {
         self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
         let made = std::mem::replace(&mut self.spare, rewriting.chain);
         Ok(Outcome { chain: made, ran, changed, applied })
+    }
+
+    /// Takes back a chain that nobody needs any more, for its memory.
+    pub(crate) fn reuse(&mut self, chain: Chain) {
+        if chain.symbols.capacity() > self.spare.symbols.capacity() {
+            self.spare = chain;
+        }
     }
 
     /// Works on pieces and puts the results together as they come, in order.

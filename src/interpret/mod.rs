@@ -52,6 +52,7 @@ impl Interpreting {
             }
         }
         let count = pieces.len() - 1;
+        machine.enter(plan.system)?;
         machine.refresh();
         machine.current.objects.replace(plan.objects.clone());
         let interpreting = Arc::new(Self {

@@ -22,6 +22,7 @@ mod note;
 mod parameter;
 mod streets;
 mod surface;
+pub mod terrain;
 mod turtle;
 mod value;
 
@@ -38,6 +39,7 @@ pub use note::Note;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};
 pub use streets::{Lines, Streets};
 pub use surface::Surface;
+pub use terrain::Terrain;
 pub use turtle::Turtle;
 pub use value::{Key, Table, Value};
 
@@ -45,12 +47,14 @@ use std::any::Any;
 
 use crate::error::Result;
 use crate::scene::Scene;
+use crate::terrain::Divide;
 
 /// The built-in types that scripts can construct.
 pub static KINDS: &[&Kind] = &[
     &Extruder::KIND,
     &Footprint::KIND,
     &Streets::KIND,
+    &Terrain::KIND,
     &Turtle::KIND,
     &facade::PANEL,
     &facade::BORDERED,
@@ -105,6 +109,22 @@ pub trait Object: Any + Send + Sync {
 
     /// Takes the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
     fn set_detail(&mut self, _: u8) {}
+
+    /// What people should know of how it was made.
+    fn warnings(&self) -> Vec<String> {
+        Vec::new()
+    }
+
+    /// Whether it expands what it shows by itself, and so can stand without an axiom.
+    fn grows(&self) -> bool {
+        false
+    }
+
+    /// Expands what it was last asked to show, before the first pass and after each; `divide` runs the rules of other
+    /// systems for it.
+    fn grow(&mut self, _: &dyn Divide) -> Result<()> {
+        Ok(())
+    }
 
     /// What it had to do otherwise than it was asked since the pass began.
     fn notes(&self) -> &[Note] {

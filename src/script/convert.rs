@@ -5,8 +5,9 @@ use std::sync::Arc;
 use mlua::{Lua, Value as LuaValue};
 
 use super::handles::{DerivedHandle, ObjectHandle};
-use super::system::{SourceHandle, feature_of, shape_of};
+use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
 use crate::error::{Error, Result};
+use crate::objects::terrain::System;
 use crate::objects::{Key, Shape, Table, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
@@ -108,6 +109,8 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                 Value::Object(handle.model()?)
             } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), manner == Manner::Freeze) {
                 source.value()?
+            } else if let (Ok(system), Manner::Field) = (data.borrow::<SystemHandle>(), manner) {
+                Value::Object(Arc::new(System { index: system.index() }))
             } else {
                 return Err(Error::new("this object cannot be passed on"));
             }

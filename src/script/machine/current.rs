@@ -36,6 +36,8 @@ const SHAPE: usize = 1 << 30;
 /// What is being rewritten or interpreted.
 pub(crate) struct Current {
     pub session: Arc<Session>,
+    /// The system that the machine works for.
+    pub system: Cell<Option<usize>>,
     /// The objects of the system at work.
     pub objects: RefCell<Option<Arc<Objects>>>,
     /// The chain of each application in the batch.
@@ -61,6 +63,7 @@ impl Current {
         let top = Key::seed(session.options.seed).stream();
         Self {
             session,
+            system: Cell::new(None),
             objects: RefCell::default(),
             chains: RefCell::default(),
             keys: RefCell::default(),

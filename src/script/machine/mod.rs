@@ -122,6 +122,14 @@ impl Machine {
         }
     }
 
+    /// Works for system `index` of the script from now on.
+    pub(crate) fn enter(&self, index: usize) -> Result<()> {
+        if self.current.system.replace(Some(index)) == Some(index) {
+            return Ok(());
+        }
+        self.library.systems.borrow()[index].enter(self).map_err(|error| self.translate(error))
+    }
+
     pub(crate) fn lua(&self) -> &Lua {
         &self.lua
     }

@@ -37,6 +37,11 @@ impl System {
         let mut axiom = Axiom::default();
         let mut builder = Builder { machine, chain: &mut axiom.chain, random };
         match &self.axiom {
+            None if self.object.as_ref().is_some_and(|object| object.grows()) => {
+                builder.push(END, &[], key);
+                axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
+                axiom.features.push(None);
+            }
             None => return Err(Error::new("the system has no axiom").help("write system:axiom(A(1))")),
             Some(DeclaredAxiom::Modules(modules)) => {
                 builder.list(modules, key)?;

@@ -196,6 +196,11 @@ impl UserData for SystemHandle {
 }
 
 impl SystemHandle {
+    /// Its place among the systems of the script.
+    pub(crate) fn index(&self) -> usize {
+        self.index
+    }
+
     fn again(&self) -> Self {
         Self { library: Rc::clone(&self.library), index: self.index }
     }

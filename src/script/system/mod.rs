@@ -122,7 +122,7 @@ impl System {
         Interpretations { by_symbol, methods, list }
     }
 
-    /// Prepares `machine` for deriving this system: drivers, interpretation rules, `this`, frozen tables.
+    /// Prepares `machine` for deriving this system: drivers and frozen tables.
     pub(crate) fn prepare(&self, machine: &Machine) -> Result<Declared> {
         let mut reached = Vec::new();
         let (drivers, guards) =
@@ -131,16 +131,10 @@ impl System {
         Ok(Declared { drivers, guards, _frozen: frozen })
     }
 
-    fn prepare_functions(
-        &self,
-        machine: &Machine,
-        reached: &mut Vec<Reached>,
-    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
+    /// Has `machine` work for this system from now on: its `this` and its interpretation rules.
+    pub(crate) fn enter(&self, machine: &Machine) -> mlua::Result<()> {
         let prelude = machine.prelude();
         let lua = machine.lua();
-        let mut drivers = Vec::new();
-        let mut guards = Vec::new();
-        // `this` must be known before any driver runs.
         let this = match &self.object {
             Some(object) => {
                 *machine.current.methods.borrow_mut() = object.kind().methods.iter().collect();
@@ -156,6 +150,23 @@ impl System {
             None => LuaValue::Nil,
         };
         prelude.set_this.call::<()>(this)?;
+        prelude.fresh_interpreters.call::<()>(())?;
+        if self.object.is_some() {
+            for (index, known) in self.interpretations.iter().enumerate() {
+                prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn prepare_functions(
+        &self,
+        machine: &Machine,
+        reached: &mut Vec<Reached>,
+    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
+        let prelude = machine.prelude();
+        let mut drivers = Vec::new();
+        let mut guards = Vec::new();
         for declared in &self.rules {
             let arity = declared.rule.arguments();
             drivers.push(prelude.driver.call((&declared.successor, arity))?);
@@ -173,16 +184,12 @@ impl System {
                 None => None,
             });
         }
-        prelude.fresh_interpreters.call::<()>(())?;
-        if self.object.is_some() {
-            for (index, known) in self.interpretations.iter().enumerate() {
-                prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
-                reached.push(Reached {
-                    function: known.rule.clone(),
-                    name: known.name.clone(),
-                    place: known.place.clone(),
-                });
-            }
+        for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
+            reached.push(Reached {
+                function: known.rule.clone(),
+                name: known.name.clone(),
+                place: known.place.clone(),
+            });
         }
         Ok((drivers, guards))
     }

@@ -1,0 +1,212 @@
+//! Terrain: full expansion, the reference view, a flight over it, queries and meshes.
+//!
+//! `cargo bench --bench terrain`; behind `--` the names of those that are wanted. Times are wall clock, the least of
+//! some rounds, and in brackets that of all processors.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use burgeon::random::Stream;
+use burgeon::rules::Key;
+use burgeon::terrain::{
+    Area, Draw, Ground, Layer, Mesh, Quadrants, Ring, RuleTable, Rules, Tables, View, World,
+};
+use cpu_time::ProcessTime;
+use glam::DVec2;
+
+fn table(drawn: bool) -> RuleTable {
+    let mut stream = Stream::new(8);
+    let mut rule = |symbol: u16| {
+        let mut change = || {
+            let low = stream.uniform() * 2.0 - 1.0;
+            Draw { low, high: if drawn { low + 0.5 } else { low } }
+        };
+        Quadrants {
+            weight: 1.0,
+            change: std::array::from_fn(|_| change()),
+            symbols: [symbol, (symbol + 1) % 4, (symbol + 2) % 4, symbol],
+            decay: [Draw::exactly(0.55); 4],
+        }
+    };
+    RuleTable {
+        names: ["A", "B", "C", "D"].map(str::to_owned).to_vec(),
+        rules: (0..4).map(|symbol| vec![rule(symbol)]).collect(),
+    }
+}
+
+fn world(drawn: bool, smooth: bool) -> World {
+    World {
+        corner: DVec2::ZERO,
+        size: 512.0 * 65_536.0,
+        layers: vec![Layer {
+            from: 0,
+            rules: Rules::Table(Arc::new(table(drawn))),
+            start: 0,
+            height: 0.0,
+            rest: vec![4000.0],
+        }],
+        smooth,
+        key: drawn.then(|| Key::seed(1)),
+        measured: None,
+    }
+}
+
+fn reference() -> View {
+    let ring = |(across, levels)| Ring { across, levels };
+    View { cell: 512.0, rings: [(4, 8), (8, 6), (12, 4), (16, 2)].map(ring).to_vec() }
+}
+
+/// The least time, by the clock and of all processors, of some rounds.
+fn least(rounds: usize, mut work: impl FnMut()) -> (Duration, Duration) {
+    let mut best = (Duration::MAX, Duration::MAX);
+    for _ in 0..rounds {
+        let (clock, cpu) = (Instant::now(), ProcessTime::now());
+        work();
+        best = (best.0.min(clock.elapsed()), best.1.min(cpu.elapsed()));
+    }
+    best
+}
+
+/// The memory (MB) that the process holds at present.
+fn held() -> f64 {
+    let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let line = status.lines().find(|line| line.starts_with("VmRSS"));
+    let number =
+        line.and_then(|line| line.split_whitespace().nth(1)).and_then(|number| number.parse::<f64>().ok());
+    number.unwrap_or(f64::NAN) / 1000.0
+}
+
+fn tell(what: &str, (clock, cpu): (Duration, Duration)) {
+    println!("{what:<58} {:8.1} ms ({:.1} ms)", clock.as_secs_f64() * 1e3, cpu.as_secs_f64() * 1e3);
+}
+
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|name| !name.starts_with('-')).collect();
+    let is_wanted =
+        |name: &str| wanted.is_empty() || wanted.iter().any(|wanted| name.contains(wanted.as_str()));
+    if is_wanted("view") {
+        view();
+    }
+    if is_wanted("flight") {
+        flight();
+    }
+    if is_wanted("queries") {
+        queries();
+    }
+    if is_wanted("mesh") {
+        mesh();
+    }
+    if is_wanted("full") {
+        full();
+    }
+}
+
+fn view() {
+    let before = held();
+    for (name, drawn, smooth) in [("plain", false, false), ("drawn and smooth", true, true)] {
+        let world = Arc::new(world(drawn, smooth));
+        let eye = DVec2::new(16_123_456.0, 9_876_543.0);
+        let mut bytes = 0;
+        let time = least(5, || {
+            let mut ground = Ground::new(Arc::clone(&world));
+            ground.focus(eye, &reference(), &Tables).expect("a view");
+            bytes = ground.bytes();
+            assert_eq!(ground.heights(), 1_267_456);
+        });
+        tell(&format!("reference view, 1,267,456 heights, {name}"), time);
+        let mut ground = Ground::new(Arc::clone(&world));
+        ground.focus(eye, &reference(), &Tables).expect("a view");
+        let mut at = eye;
+        let step = least(40, || {
+            at.x += 512.0;
+            ground.focus(at, &reference(), &Tables).expect("a view");
+        });
+        tell(&format!("moving by one cell, {name}"), step);
+        println!(
+            "{:<58} {:8.1} MB of tiles; the process holds {:.1} MB, {before:.1} MB at its start",
+            "memory",
+            bytes as f64 / 1e6,
+            held()
+        );
+    }
+}
+
+fn flight() {
+    let world = Arc::new(world(true, true));
+    let mut ground = Ground::new(world);
+    let mut stream = Stream::new(3);
+    let mut at = DVec2::new(16_123_456.0, 9_876_543.0);
+    let mut way = 0.0f64;
+    let begin = Instant::now();
+    let mut after = Vec::new();
+    for step in 0..10_000 {
+        way += stream.uniform() - 0.5;
+        at += DVec2::from_angle(way) * 512.0;
+        ground.focus(at, &reference(), &Tables).expect("a view");
+        if step % 2000 == 1999 {
+            after.push(format!("{:.1}", held()));
+        }
+    }
+    println!(
+        "{:<58} {:8.2} ms a step; MB after every 2,000: {}",
+        "flight of 10,000 steps of 512 m",
+        begin.elapsed().as_secs_f64() / 10.0,
+        after.join(", ")
+    );
+}
+
+fn queries() {
+    let mut ground = Ground::new(Arc::new(world(true, true)));
+    let eye = DVec2::new(16_123_456.0, 9_876_543.0);
+    ground.focus(eye, &reference(), &Tables).expect("a view");
+    let mut stream = Stream::new(3);
+    let mut place = || eye + (DVec2::new(stream.uniform(), stream.uniform()) - 0.5) * 6000.0;
+    let places: Vec<DVec2> = (0..1_000_000).map(|_| place()).collect();
+    let mut sum = 0.0;
+    let (_, time) = least(5, || sum = places.iter().filter_map(|place| ground.height(*place)).sum());
+    println!(
+        "{:<58} {:8.1} M/s of one processor ({sum:.0})",
+        "heights at random places",
+        1.0 / time.as_secs_f64()
+    );
+    let (_, time) =
+        least(5, || sum = places.iter().filter_map(|place| ground.way_up(*place)).map(|up| up.z).sum());
+    println!(
+        "{:<58} {:8.1} M/s of one processor ({sum:.0})",
+        "normals at random places",
+        1.0 / time.as_secs_f64()
+    );
+}
+
+fn mesh() {
+    let mut ground = Ground::new(Arc::new(world(true, true)));
+    let eye = DVec2::new(16_123_456.0, 9_876_543.0);
+    ground.focus(eye, &reference(), &Tables).expect("a view");
+    for error in [0.1, 1.0, 5.0] {
+        let mut triangles = 0;
+        let time = least(3, || {
+            let mesh = Mesh::new(&ground, error);
+            triangles = 0;
+            for tile in ground.tiles() {
+                let mut part = burgeon::scene::Part::default();
+                mesh.write(tile, glam::DVec3::ZERO, 0.0, &mut part);
+                triangles += part.triangles.len();
+            }
+        });
+        tell(&format!("mesh within {error} m, {triangles} triangles"), time);
+    }
+}
+
+fn full() {
+    for (name, drawn, smooth) in
+        [("plain", false, false), ("drawn", true, false), ("drawn and smooth", true, true)]
+    {
+        let world = world(drawn, smooth);
+        let area = Area { x: 0, y: 0, columns: 4096, rows: 4096 };
+        let time = least(3, || {
+            let cells = world.descend(&world.root(), 12, area, true, &Tables).expect("cells");
+            assert_eq!(cells.heights.len(), 1 << 24);
+        });
+        tell(&format!("4096 x 4096 heights by a rule table, {name}"), time);
+    }
+}

@@ -1,0 +1,267 @@
+//! Divides the cells of a terrain by the rules of a system: a level of cells is a chain, and a step of its derivation
+//! replaces each cell by its four quadrants.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+use super::Plan;
+use super::batch::NONE;
+use super::step::{Outcome, Stepper};
+use crate::error::{Error, Result};
+use crate::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, Symbol, module_text};
+use crate::script::{Declared, Interpretations, Machine};
+use crate::terrain::{Area, Begin, Block, Divide};
+
+/// The parameter of a module that is its cell's height.
+const HEIGHT: &str = "height";
+
+/// Cells that are divided at a time.
+const STRIP: usize = 1 << 17;
+
+/// Divides cells by the rules of the systems of a script.
+pub(super) struct Cells<'a> {
+    machine: &'a Machine,
+    systems: RefCell<FxHashMap<usize, System>>,
+}
+
+/// A system whose rules divide cells.
+struct System {
+    plan: Arc<Plan>,
+    declared: Declared,
+    stepper: Stepper,
+    begin: Begin,
+    /// By symbol: which of its parameters is the height.
+    heights: Vec<Option<usize>>,
+}
+
+impl<'a> Cells<'a> {
+    pub(super) fn new(machine: &'a Machine) -> Self {
+        Self { machine, systems: RefCell::default() }
+    }
+
+    /// Does something with system `index`, which is made ready the first time.
+    fn with<T>(&self, index: usize, work: impl FnOnce(&mut System) -> Result<T>) -> Result<T> {
+        let mut systems = self.systems.borrow_mut();
+        let system = match systems.entry(index) {
+            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
+            std::collections::hash_map::Entry::Vacant(entry) => {
+                entry.insert(System::new(self.machine, index)?)
+            }
+        };
+        work(system)
+    }
+}
+
+impl Divide for Cells<'_> {
+    fn begin(&self, system: usize) -> Result<Begin> {
+        self.with(system, |system| Ok(system.begin.clone()))
+    }
+
+    fn divide(&self, system: usize, cells: &Block, area: Area, last: bool) -> Result<Block> {
+        self.with(system, |system| system.divide(self.machine, cells, area, last))
+    }
+}
+
+impl System {
+    fn new(machine: &Machine, index: usize) -> Result<Self> {
+        let session = &machine.session;
+        let systems = machine.library.systems.borrow();
+        let system = &systems[index];
+        let place = system.place.clone();
+        let named = |error: Error| error.rather_at(place.clone());
+        if system.object.is_some() {
+            return Err(named(
+                Error::new("a system that divides the cells of a terrain has no object")
+                    .help("leave object out: what the cells are is all that counts"),
+            ));
+        }
+        let grammar = system.grammar(&machine.library, session.draws_random());
+        if grammar.has_contexts() {
+            return Err(named(
+                Error::new("the cells of a terrain have no neighbours in their chain")
+                    .help("write rules for single modules, without < and >"),
+            ));
+        }
+        let axiom = system.axiom(machine, Key::default(), grammar.draws_random())?;
+        let signatures = grammar.symbols();
+        let of =
+            |symbol: Symbol| signatures.signature(symbol).parameters.iter().position(|name| name == HEIGHT);
+        let declared = (FIRST_SYMBOL..).take(signatures.names().count());
+        let heights: Vec<Option<usize>> = (0..FIRST_SYMBOL).map(|_| None).chain(declared.map(of)).collect();
+        let begin = match axiom.chain.symbols.as_slice() {
+            [symbol, END] if *symbol >= FIRST_SYMBOL => {
+                let height = heights[usize::from(*symbol)]
+                    .ok_or_else(|| no_height(&signatures.signature(*symbol).name))?;
+                let mut rest = axiom.chain.params.clone();
+                let height = rest.remove(height);
+                let stride =
+                    grammar.arities().iter().max().map_or(0, |most| usize::from(*most).saturating_sub(1));
+                rest.resize(stride, Boxed::Nil.pack());
+                let reserved = (0..FIRST_SYMBOL).map(|_| String::new());
+                let names = reserved.chain(signatures.names().map(str::to_owned)).collect();
+                Begin { symbol: *symbol, height, rest, names }
+            }
+            _ => {
+                return Err(named(
+                    Error::new("a terrain begins with one cell")
+                        .help("give its system one module without branches: cells:axiom(Hill(0, 100))"),
+                ));
+            }
+        };
+        let plan = Arc::new(Plan {
+            system: index,
+            grammar,
+            interpretations: Interpretations::default(),
+            objects: None,
+            chains: 1,
+            batch: session.options.batch.max(1),
+            // How many modules each cell became has to be known.
+            traced: true,
+            profiled: false,
+        });
+        let declared = system.prepare(machine)?;
+        Ok(Self { stepper: Stepper::new(Arc::clone(&plan)), plan, declared, begin, heights })
+    }
+
+    fn divide(&mut self, machine: &Machine, cells: &Block, area: Area, last: bool) -> Result<Block> {
+        let made = area.quadrants();
+        let (count, stride) = (made.len(), self.begin.rest.len());
+        let random = !cells.keys.is_empty();
+        let mut block = Block {
+            level: cells.level + 1,
+            area: made,
+            symbols: vec![0; count],
+            heights: vec![0.0; count],
+            rest: vec![0.0; if last { 0 } else { count * stride }],
+            stride,
+            keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            smooth: Vec::new(),
+        };
+        let rows = (STRIP / area.columns.max(1)).max(1);
+        for first in (0..area.rows).step_by(rows) {
+            machine.session.stop.check()?;
+            let rows = rows.min(area.rows - first);
+            #[allow(clippy::cast_possible_wrap, reason = "rows are below 2^31")]
+            let strip = Area { y: area.y + first as i64, rows, ..area };
+            self.strip(machine, cells, strip, &mut block)?;
+        }
+        Ok(block)
+    }
+
+    /// Divides the cells of some rows, and puts the quadrants where they belong.
+    fn strip(&mut self, machine: &Machine, cells: &Block, area: Area, block: &mut Block) -> Result<()> {
+        let grammar = &self.plan.grammar;
+        let arities = grammar.arities();
+        let random = grammar.draws_random();
+        let mut chain = Chain::default();
+        chain.symbols.reserve(area.len() + 1);
+        for (x, y) in area.cells() {
+            let from = cells.area.index(x, y);
+            let symbol = cells.symbols[from];
+            chain.symbols.push(symbol);
+            let rest = &cells.rest[from * cells.stride..][..usize::from(arities[usize::from(symbol)]) - 1];
+            let height = self.heights[usize::from(symbol)].unwrap_or(0);
+            chain.params.extend_from_slice(&rest[..height]);
+            chain.params.push(cells.heights[from]);
+            chain.params.extend_from_slice(&rest[height..]);
+            if random {
+                chain.keys.push(cells.keys.get(from).copied().unwrap_or_default());
+            }
+        }
+        chain.symbols.push(END);
+        if random {
+            chain.keys.push(Key::default());
+        }
+        chain.mark(self.plan.batch, arities);
+        let step = cells.level as usize + 1;
+        let Outcome { chain, applied, .. } = self.stepper.step(machine, &self.declared, chain, step)?;
+        let mut here = Mark::default();
+        for ((x, y), (rule, count)) in area.cells().zip(&applied) {
+            let from = cells.area.index(x, y);
+            let whole = *rule == NONE || (*count == 1 && chain.symbols[here.module] == cells.symbols[from]);
+            if !whole && *count != 4 {
+                return Err(self.not_four(machine, cells, from, (*rule, *count), step));
+            }
+            let key = cells.keys.get(from).copied();
+            for ordinal in 0..4 {
+                let symbol = chain.symbols[here.module];
+                let arity = usize::from(arities[usize::from(symbol)]);
+                let Some(at) = self.heights[usize::from(symbol)].filter(|_| symbol > END) else {
+                    return Err(match symbol {
+                        ..=END => self.not_four(machine, cells, from, (*rule, 1), step),
+                        _ => self.blame(no_height(&grammar.symbols().signature(symbol).name), *rule),
+                    });
+                };
+                let params = &chain.params[here.param..here.param + arity];
+                let height = params[at];
+                if !height.is_finite() {
+                    let module = module_text(grammar.symbols(), &machine.session.values, symbol, params);
+                    let error = Error::new(format!("the height of {module} is no finite number"))
+                        .help("give each quadrant a height in metres");
+                    return Err(self.blame(error, *rule));
+                }
+                let (column, row) = (x * 2 + i64::from(ordinal & 1 == 1), y * 2 + i64::from(ordinal > 1));
+                let to = block.area.index(column, row);
+                block.symbols[to] = symbol;
+                block.heights[to] = height;
+                if !block.rest.is_empty() {
+                    let into = &mut block.rest[to * block.stride..][..arity - 1];
+                    into[..at].copy_from_slice(&params[..at]);
+                    into[at..].copy_from_slice(&params[at + 1..]);
+                }
+                if let (Some(into), Some(key)) = (block.keys.get_mut(to), key) {
+                    *into = key.child(ordinal);
+                }
+                if !whole {
+                    here.module += 1;
+                    here.param += arity;
+                }
+            }
+            if whole {
+                here.param += usize::from(arities[usize::from(chain.symbols[here.module])]);
+                here.module += 1;
+            }
+        }
+        self.stepper.reuse(chain);
+        Ok(())
+    }
+
+    /// The error of a cell that did not become four.
+    fn not_four(
+        &self,
+        machine: &Machine,
+        cells: &Block,
+        from: usize,
+        (rule, count): (u16, u32),
+        step: usize,
+    ) -> Error {
+        let grammar = &self.plan.grammar;
+        let symbol = cells.symbols[from];
+        let arity = usize::from(grammar.arities()[usize::from(symbol)]);
+        let mut params = cells.rest[from * cells.stride..][..arity - 1].to_vec();
+        params.insert(self.heights[usize::from(symbol)].unwrap_or(0), cells.heights[from]);
+        let module = module_text(grammar.symbols(), &machine.session.values, symbol, &params);
+        let count = match count {
+            0 => "nothing".to_owned(),
+            1 => "one module or a branch".to_owned(),
+            count => format!("{count} modules"),
+        };
+        let error = Error::new(format!("a cell becomes {count}, where it has four quadrants"))
+            .help("return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is");
+        self.blame(error, rule).module(module, step)
+    }
+
+    fn blame(&self, error: Error, rule: u16) -> Error {
+        match self.plan.grammar.rules().get(usize::from(rule)) {
+            Some(rule) => error.at(rule.place.clone()).rule(&rule.pattern.text),
+            None => error,
+        }
+    }
+}
+
+fn no_height(name: &str) -> Error {
+    Error::new(format!("{name} is no cell of a terrain: it has no parameter called {HEIGHT}"))
+        .help(format!("declare it with one: module(\"{name}\", \"{HEIGHT}\", ...)"))
+}

@@ -1,0 +1,137 @@
+//! What the ground looks like: layers of colour, blended into an image for each tile.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use image::{ExtendedColorType, ImageEncoder};
+use rayon::prelude::*;
+
+use crate::error::{Error, Result};
+use crate::objects::{Color, Expected, Parameter, Table, Value};
+use crate::scene::{Material, Texture};
+use crate::terrain::{Ground, Tile};
+
+use super::mask::{Mask, Spot};
+
+fields! {
+    /// A layer of what lies on the ground.
+    pub struct Cover for "cover" {
+        /// Its colour.
+        pub color: Color = Color([0.2, 0.25, 0.1, 1.0]),
+        /// Where it lies; everywhere, if that is left out.
+        pub on: Mask = Mask::default(),
+        /// How much (0 to 1) of what lies below is hidden at most.
+        pub amount: f64 = 1.0,
+    }
+}
+
+impl Parameter for Cover {
+    fn luau() -> String {
+        "{ color: Color?, on: Mask?, amount: number? }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let Value::Table(table) = &value else { return Err(Expected::new("a table of a cover's fields")) };
+        let cover = Self::from_table(table)
+            .map_err(|error| Expected::new(format!("a cover ({})", error.message())))?;
+        if !(0.0..=1.0).contains(&cover.amount) {
+            return Err(Expected::new("a cover whose amount is from 0 to 1"));
+        }
+        Ok(cover)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(Arc::new(Table::default()))
+    }
+}
+
+/// How many texels a side of a tile's image has at most.
+const MOST_TEXELS: usize = 2048;
+
+/// The image of what lies on `tile`, where cells of the symbols `names` know which they are; and its size (m). Its
+/// outermost texels lie on the tile's rim, so that images of neighbours meet.
+pub(super) fn paint(
+    ground: &Ground,
+    tile: &Tile,
+    covers: &[Cover],
+    names: &[Vec<u16>],
+) -> Result<(Vec<u8>, usize)> {
+    let (corner, size) = tile.bounds(ground.world());
+    let cells = 1usize << tile.detail;
+    let fine = if cells <= MOST_TEXELS / 2 { 2 } else { 1 };
+    let across = (cells * fine).min(MOST_TEXELS) + 1;
+    #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+    let step = size / (across - 1) as f64;
+    let reach = ground.world().cell(tile.level());
+    let rows: Vec<Vec<u8>> = (0..across)
+        .into_par_iter()
+        .map(|row| {
+            let mut bytes = Vec::with_capacity(across * 3);
+            for column in 0..across {
+                #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+                let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
+                let place = (corner + offset).min(corner + size);
+                let color = color(ground, place, reach, covers, names);
+                bytes.extend(color.map(to_srgb));
+            }
+            bytes
+        })
+        .collect();
+    Ok((rows.concat(), across))
+}
+
+fn color(ground: &Ground, place: DVec2, reach: f64, covers: &[Cover], names: &[Vec<u16>]) -> [f32; 3] {
+    let spot = Spot::new(ground, place, reach, covers.iter().any(|cover| cover.on.is_bent()));
+    let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
+    for (number, (cover, names)) in (0..).zip(covers.iter().zip(names)).skip(1) {
+        #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
+        let amount = (cover.on.at(ground, &spot, names, number) * cover.amount) as f32;
+        for (at, into) in color.iter_mut().enumerate() {
+            *into += (cover.color.0[at] - *into) * amount;
+        }
+    }
+    color
+}
+
+/// A linear channel as a byte of an sRGB image.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a float to integer cast saturates"
+)]
+pub(super) fn to_srgb(channel: f32) -> u8 {
+    let value =
+        if channel <= 0.003_130_8 { channel * 12.92 } else { 1.055 * channel.powf(1.0 / 2.4) - 0.055 };
+    (value * 255.0).round() as u8
+}
+
+/// How far (m) the texels of an image with `across` a side lie from its rim, laid over a tile of `size` (m).
+#[allow(clippy::cast_precision_loss, reason = "texels are few")]
+pub(super) fn half_texel(size: f64, across: usize) -> f64 {
+    size / (across - 1) as f64 / 2.0
+}
+
+/// A material with an image of `across` texels a side, laid over a tile of `size` (m).
+pub(super) fn material(
+    name: String,
+    bytes: &[u8],
+    across: usize,
+    size: f64,
+    roughness: f32,
+) -> Result<Material> {
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new_with_quality(
+        &mut png,
+        image::codecs::png::CompressionType::Fast,
+        image::codecs::png::FilterType::Adaptive,
+    );
+    let side = u32::try_from(across).unwrap_or(0);
+    encoder
+        .write_image(bytes, side, side, ExtendedColorType::Rgb8)
+        .map_err(|error| Error::new(format!("an image of the ground cannot be written: {error}")))?;
+    #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+    let whole = size * across as f64 / (across - 1) as f64;
+    let texture =
+        Texture { path: format!("{name}.png").into(), size: [whole, whole], content: Some(png.into()) };
+    Ok(Material { name, base_color: [1.0; 4], roughness, texture: Some(texture), ..Material::default() })
+}

@@ -1,0 +1,334 @@
+//! The terrain: ground made by dividing a square into quadrants, expanded where it is looked at.
+
+mod looks;
+mod mask;
+mod plants;
+mod rules;
+mod view;
+mod water;
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+pub use looks::Cover;
+pub use mask::Mask;
+pub use plants::Plants;
+pub use rules::{LayerRules, RuleLayer, RuleLayers, System};
+pub use water::Water;
+
+use super::{Color, Drawing, Kind, Object, Table, Vector};
+use crate::error::{Error, Result};
+use crate::rules::{Key, Symbol};
+use crate::scene::{Instance, Material, Mesh, Part, Scene};
+use crate::terrain::{Divide, Ground, Mesh as Triangulation, Rules, View, World};
+
+fields! {
+    /// What `terrain { ... }` takes.
+    pub struct Options for "terrain" {
+        /// The length (m) of its sides.
+        pub size: f64 = 1024.0,
+        /// How often all of it is divided; left out, only what is focused on.
+        pub levels: Option<u32> = None,
+        /// What divides its cells: a rule table, a system, or a list of these by level.
+        pub rules: RuleLayers = RuleLayers::default(),
+        /// The symbol of the whole; the first by name, if it is left out.
+        pub start: Option<String> = None,
+        /// The height (m) of the whole.
+        pub height: f64 = 0.0,
+        /// How much (m) the changes of a rule table are at first.
+        pub decay: f64 = 100.0,
+        /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
+        pub smooth: bool = true,
+        /// How far (m) the triangles may be from the surface; a tenth of the smallest cell, if it is left out.
+        pub error: Option<f64> = None,
+        /// The middle of its square (m); its z is added to all heights.
+        pub position: Vector = Vector(DVec3::ZERO),
+        /// What lies on it, from the bottom to the top.
+        pub covers: Vec<Cover> = Vec::new(),
+        /// Its colour, where it has no covers.
+        pub color: Color = Color([0.30, 0.28, 0.22, 1.0]),
+        /// Standing water: its level (m), or more of it.
+        pub water: Option<Water> = None,
+        /// What grows on it.
+        pub plants: Vec<Plants> = Vec::new(),
+    }
+}
+
+/// Ground made by dividing a square into quadrants again and again, expanded where it is looked at.
+///
+/// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
+#[derive(Clone)]
+pub struct Terrain {
+    options: Arc<Options>,
+    ground: Ground,
+    /// What the present pass has asked for: a place and what is seen from there.
+    wanted: Option<(DVec2, View)>,
+    key: Key,
+    /// Whether it is known what the systems begin with that divide its cells.
+    begun: bool,
+    /// The names of the symbols of its cells, by number.
+    names: Arc<Vec<String>>,
+}
+
+methods! {
+    Terrain = "terrain" {
+        /// Expands what `view` shows from a place (m), and contracts everything else, when the pass ends. A view is the
+        /// size (m) of cells, and rings around the place: how many cells across, and how often each is divided.
+        pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
+            // What cannot be is told where it is asked for.
+            view.check(self.ground.world(), DVec2::new(x, y))?;
+            self.wanted = Some((DVec2::new(x, y), view));
+            Ok(())
+        }
+
+        /// Height (m) of the ground at a place; fails where nothing is expanded.
+        pub fn height(&self, place: Vector) -> Result<f64> {
+            let at = place.0.truncate();
+            self.ground.height(at).map(|height| height + self.options.position.0.z).ok_or_else(|| self.nothing(at))
+        }
+
+        /// The way up from the ground at a place, as a vector of length 1.
+        pub fn normal(&self, place: Vector) -> Result<DVec3> {
+            let at = place.0.truncate();
+            self.ground.way_up(at).ok_or_else(|| self.nothing(at))
+        }
+
+        /// How steep (degrees) the ground is at a place.
+        pub fn slope(&self, place: Vector) -> Result<f64> {
+            let at = place.0.truncate();
+            let up = self.ground.way_up(at).ok_or_else(|| self.nothing(at))?;
+            Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
+        }
+
+        /// The symbol of the cell at a place.
+        pub fn symbol(&self, place: Vector) -> Result<String> {
+            let at = place.0.truncate();
+            let symbol = self.ground.symbol(at).ok_or_else(|| self.nothing(at))?;
+            Ok(self.names.get(usize::from(symbol)).cloned().unwrap_or_default())
+        }
+
+        /// How many heights are expanded at present.
+        pub fn heights(&self) -> f64 {
+            #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
+            let count = self.ground.heights() as f64;
+            count
+        }
+    }
+}
+
+impl Terrain {
+    /// The type, as scripts see it.
+    pub const KIND: Kind = Kind {
+        name: "terrain",
+        doc: "Ground made by dividing a square into quadrants again and again, expanded where it is looked at.",
+        fields: Options::FIELDS,
+        first: None,
+        methods: Self::METHODS,
+        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
+    };
+
+    /// A terrain of which nothing is expanded.
+    pub fn new(options: Options) -> Result<Self> {
+        if !(options.size > 0.0 && options.size <= 1e9) {
+            return Err(Error::new(format!("terrain: size is {} m", options.size))
+                .help("give a length above 0 and up to 1e9 m"));
+        }
+        if options.error.is_some_and(|error| error < 0.0) {
+            return Err(Error::new("terrain: error is below 0").help("give metres from 0 on"));
+        }
+        let mut layers = options.rules.0.clone();
+        let Some(first) = layers.first_mut() else {
+            return Err(Error::new("terrain: there are no rules").help(
+                "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
+            ));
+        };
+        first.start = first.start.take().or_else(|| options.start.clone());
+        first.height += options.height;
+        let mut decay = options.decay;
+        let mut built = Vec::new();
+        let mut names = Vec::new();
+        for layer in &layers {
+            decay = layer.decay.unwrap_or(decay);
+            built.push(layer.build(decay)?);
+            if let LayerRules::Table(table) = &layer.rules {
+                names.clone_from(&table.names);
+            }
+        }
+        let drawn = layers.iter().any(|layer| match &layer.rules {
+            LayerRules::Table(table) => table.is_random(),
+            LayerRules::System(_) => true,
+        });
+        let world = World {
+            corner: options.position.0.truncate() - options.size / 2.0,
+            size: options.size,
+            layers: built,
+            smooth: options.smooth,
+            key: drawn.then(Key::default),
+            measured: None,
+        };
+        if let Some(levels) = options.levels {
+            View::whole(&world, levels).check(&world, options.position.0.truncate())?;
+        }
+        Ok(Self {
+            ground: Ground::new(Arc::new(world)),
+            options: Arc::new(options),
+            wanted: None,
+            key: Key::default(),
+            begun: false,
+            names: Arc::new(names),
+        })
+    }
+
+    /// The ground that is expanded.
+    pub fn ground(&self) -> &Ground {
+        &self.ground
+    }
+
+    fn nothing(&self, at: DVec2) -> Error {
+        let error = Error::new(format!("terrain: nothing is expanded at ({}, {})", at.x, at.y));
+        if self.ground.heights() == 0 {
+            return error.help(
+                "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
+            );
+        }
+        let world = self.ground.world();
+        let (low, high) = (world.corner, world.corner + world.size);
+        error.help(format!(
+            "it reaches from ({}, {}) to ({}, {}) m; what is not focused on is contracted",
+            low.x, low.y, high.x, high.y
+        ))
+    }
+
+    /// How far (m) triangles may be from the surface.
+    fn error(&self) -> f64 {
+        self.options.error.unwrap_or_else(|| self.ground.world().cell(self.ground.finest()) / 10.0)
+    }
+
+    /// Gives the levels that systems divide what those begin with, once.
+    fn begin_systems(&mut self, divide: &dyn Divide) -> Result<()> {
+        let world = self.ground.world();
+        if self.begun || !world.has_systems() {
+            return Ok(());
+        }
+        let mut world = world.clone();
+        for layer in &mut world.layers {
+            if let Rules::System(system) = layer.rules {
+                let begin = divide.begin(system)?;
+                layer.start = begin.symbol;
+                layer.height += begin.height;
+                layer.rest = begin.rest;
+                self.names = Arc::new(begin.names);
+            }
+        }
+        self.begun = true;
+        self.ground = Ground::new(Arc::new(world));
+        Ok(())
+    }
+
+    fn numbers(&self, mask: &Mask) -> Result<Vec<Symbol>> {
+        mask.numbers(&self.names)
+    }
+}
+
+impl Object for Terrain {
+    fn kind(&self) -> &'static Kind {
+        const { &Self::KIND }
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn seed(&mut self, seed: u64) {
+        self.key = Key(seed);
+        let world = self.ground.world();
+        let world = World { key: world.key.map(|_| Key(seed)), ..world.clone() };
+        self.ground = Ground::new(Arc::new(world));
+    }
+
+    fn begin(&mut self) {
+        self.wanted = None;
+    }
+
+    fn begins_empty(&self) -> bool {
+        true
+    }
+
+    fn warnings(&self) -> Vec<String> {
+        let grown = self.options.rules.0.iter().find_map(RuleLayer::grows);
+        let warning =
+            |decay| format!("terrain: a decay of {decay} does not converge: heights grow with every level");
+        grown.map(warning).into_iter().collect()
+    }
+
+    fn grows(&self) -> bool {
+        true
+    }
+
+    fn grow(&mut self, divide: &dyn Divide) -> Result<()> {
+        let (eye, view) = match (&self.wanted, self.options.levels) {
+            (Some((eye, view)), _) => (*eye, view.clone()),
+            (None, Some(levels)) => {
+                (self.options.position.0.truncate(), View::whole(self.ground.world(), levels))
+            }
+            (None, None) => return Ok(()),
+        };
+        self.begin_systems(divide)?;
+        self.ground.focus(eye, &view, divide)
+    }
+
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        let ground = &self.ground;
+        if ground.heights() == 0 {
+            return Err(Error::new("terrain: nothing of it is expanded").help(
+                "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
+            ));
+        }
+        let mesh = Triangulation::new(ground, self.error());
+        let lift = DVec3::Z * self.options.position.0.z;
+        let masks = self.options.covers.iter().map(|cover| self.numbers(&cover.on));
+        let masks = masks.collect::<Result<Vec<_>>>()?;
+        for tile in ground.tiles() {
+            let (corner, size) = tile.bounds(ground.world());
+            let origin = (corner + size / 2.0).extend(0.0);
+            let place = tile.place;
+            let of = format!("{name} {}/{}/{}", place.level, place.x, place.y);
+            let mut parts = Vec::new();
+            let mut part = Part::default();
+            if self.options.covers.is_empty() {
+                mesh.write(tile, origin, 0.0, &mut part);
+                let material =
+                    Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
+                part.material = scene.material(&material);
+            } else {
+                let (bytes, across) = looks::paint(ground, tile, &self.options.covers, &masks)?;
+                mesh.write(tile, origin, looks::half_texel(size, across), &mut part);
+                let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
+                part.material = scene.material(&material);
+            }
+            parts.push(part);
+            let water = self.options.water.as_ref();
+            if let Some((part, bytes, across)) = water.and_then(|water| water.surface(ground, tile, origin)) {
+                let material = looks::material(format!("{of} water"), &bytes, across, size, 0.12)?;
+                parts.push(Part { material: scene.material(&material), ..part });
+            }
+            scene.meshes.push(Mesh { name: of.clone(), parts, ..Mesh::default() });
+            scene.instances.push(Instance {
+                mesh: scene.meshes.len() - 1,
+                transform: glam::DAffine3::from_translation(origin + lift),
+                name: of,
+                feature: feature.map(str::to_owned),
+                origin: None,
+                placement: None,
+            });
+        }
+        let mut drawing = Drawing::default();
+        for (number, plants) in (1u64..).zip(&self.options.plants) {
+            let key = Key(self.key.0.wrapping_add(number)).child(0);
+            plants.scatter(ground, &self.numbers(&plants.on)?, key, &mut drawing)?;
+        }
+        drawing.show(scene, lift, name, feature);
+        Ok(())
+    }
+}

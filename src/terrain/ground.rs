@@ -1,0 +1,304 @@
+//! The part of a world that is expanded: tiles around a place, and the surface over them.
+//!
+//! The surface runs through the corners of cells, whose heights are the means of the cells around them, and is flat
+//! over the two halves of each cell. Where tiles of different detail meet, the finer one follows the coarser one, so
+//! there is no gap. Corners are numbered in the grid of the smallest cells of any tile, from the north-west.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::block::{Area, Block};
+use super::edits::Edits;
+use super::tile::{Place, Tile};
+use super::view::{Fit, View};
+use super::world::{Divide, Tables, World};
+use crate::error::Result;
+
+/// A world and the tiles of it that are expanded.
+#[derive(Clone)]
+pub struct Ground {
+    world: Arc<World>,
+    edits: Arc<Edits>,
+    /// The level of the tiles.
+    level: u32,
+    /// The cells of that level that are tiles.
+    window: Area,
+    /// By cell of the window.
+    tiles: Vec<Arc<Tile>>,
+    /// The level of the smallest cells of any tile.
+    finest: u32,
+}
+
+impl Ground {
+    /// The world with nothing expanded.
+    pub fn new(world: Arc<World>) -> Self {
+        let window = Area { x: 0, y: 0, columns: 0, rows: 0 };
+        Self { world, edits: Arc::default(), level: 0, window, tiles: Vec::new(), finest: 0 }
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// What has been changed of it.
+    pub fn edits(&self) -> &Arc<Edits> {
+        &self.edits
+    }
+
+    /// Expands what `view` shows of the world from `eye` (m), and contracts everything else.
+    ///
+    /// The result depends on the world, its edits, the eye and the view, and not on what was expanded before. Fails
+    /// outside the world.
+    pub fn focus(&mut self, eye: DVec2, view: &View, divide: &dyn Divide) -> Result<()> {
+        let fit = view.fit(&self.world, eye)?;
+        self.expand(&fit, divide)
+    }
+
+    /// Has `edits` in place of those that it had.
+    pub fn edit(&mut self, edits: Arc<Edits>, divide: &dyn Divide) -> Result<()> {
+        let fit = Fit {
+            level: self.level,
+            window: self.window,
+            details: self.tiles.iter().map(|tile| tile.detail).collect(),
+        };
+        self.tiles.clear();
+        self.edits = edits;
+        self.expand(&fit, divide)
+    }
+
+    fn expand(&mut self, fit: &Fit, divide: &dyn Divide) -> Result<()> {
+        let mut tiles = vec![None; fit.details.len()];
+        let mut missing = Vec::new();
+        for (index, &detail) in fit.details.iter().enumerate() {
+            let place = fit.place(index);
+            match self.tile(place).filter(|tile| tile.detail == detail) {
+                Some(tile) => tiles[index] = Some(Arc::clone(tile)),
+                None => missing.push((index, place, detail)),
+            }
+        }
+        // All of them come from one block of cells, with what lies around them.
+        let window = Area::around(missing.iter().map(|(_, place, _)| (place.x, place.y)));
+        let wanted = window.widened(2, World::across(fit.level));
+        let made = if missing.is_empty() {
+            Vec::new()
+        } else if self.world.has_systems() {
+            let coarse = self.world.cells(fit.level, wanted, divide)?;
+            missing.iter().map(|item| self.make(&coarse, *item, divide)).collect::<Result<Vec<_>>>()?
+        } else {
+            let coarse = self.world.cells(fit.level, wanted, &Tables)?;
+            missing.par_iter().map(|item| self.make(&coarse, *item, &Tables)).collect::<Result<Vec<_>>>()?
+        };
+        for (index, tile) in made {
+            tiles[index] = Some(Arc::new(tile));
+        }
+        self.tiles = tiles.into_iter().flatten().collect();
+        (self.level, self.window) = (fit.level, fit.window);
+        self.finest = self.tiles.iter().map(|tile| tile.level()).max().unwrap_or(0);
+        Ok(())
+    }
+
+    /// The tile `place`, divided `detail` times, out of `coarse`, and its number.
+    fn make(
+        &self,
+        coarse: &Block,
+        (index, place, detail): (usize, Place, u32),
+        divide: &dyn Divide,
+    ) -> Result<(usize, Tile)> {
+        let wanted = Tile::wanted(place, detail);
+        let cells = self.world.descend(coarse, place.level + detail, wanted, true, divide)?;
+        let mut heights = Vec::with_capacity(wanted.len());
+        for (x, y) in wanted.cells() {
+            heights.push(cells.surface()[cells.area.index(x, y)]);
+        }
+        let level = place.level + detail;
+        if let Some(measured) = &self.world.measured {
+            for ((x, y), height) in wanted.cells().zip(&mut heights) {
+                let at = self.world.middle(level, x, y);
+                *height = *height * measured.freedom(at) + measured.height(at).unwrap_or(0.0);
+            }
+        }
+        self.edits.apply(&self.world, level, wanted, &mut heights);
+        Ok((index, Tile::new(place, detail, &cells, wanted, heights)))
+    }
+
+    /// The tiles, row by row from the north-west.
+    pub fn tiles(&self) -> &[Arc<Tile>] {
+        &self.tiles
+    }
+
+    /// The number of heights that are expanded.
+    pub fn heights(&self) -> usize {
+        self.tiles.iter().map(|tile| tile.heights()).sum()
+    }
+
+    /// The bytes that its tiles take.
+    pub fn bytes(&self) -> usize {
+        self.tiles.iter().map(|tile| tile.bytes()).sum()
+    }
+
+    /// The level of the smallest cells.
+    pub fn finest(&self) -> u32 {
+        self.finest
+    }
+
+    fn tile(&self, place: Place) -> Option<&Arc<Tile>> {
+        let known = place.level == self.level && self.window.contains(place.x, place.y);
+        known.then(|| self.tiles.get(self.window.index(place.x, place.y))).flatten()
+    }
+
+    /// The number of the tile that holds one of the smallest cells.
+    #[inline]
+    pub(super) fn holder(&self, x: i64, y: i64) -> Option<usize> {
+        let down = self.finest - self.level;
+        let (x, y) = (x >> down, y >> down);
+        (!self.tiles.is_empty() && self.window.contains(x, y)).then(|| self.window.index(x, y))
+    }
+
+    /// The tile with the largest cells of those that touch a corner.
+    #[inline]
+    fn coarsest(&self, x: i64, y: i64) -> Option<&Arc<Tile>> {
+        let down = self.finest - self.level;
+        let inside = (1i64 << down) - 1;
+        if x & inside != 0 && y & inside != 0 {
+            return self.holder(x, y).map(|tile| &self.tiles[tile]);
+        }
+        let around = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
+        let tiles = around.into_iter().filter_map(|(x, y)| self.holder(x, y)).map(|tile| &self.tiles[tile]);
+        tiles.min_by_key(|tile| tile.detail)
+    }
+
+    /// The height (m) of the surface at a corner of the smallest cells; `None` where nothing is expanded.
+    pub(super) fn corner(&self, x: i64, y: i64) -> Option<f64> {
+        let tile = self.coarsest(x, y)?;
+        if let Some((x, y)) = tile.on_grid(self.finest, x, y) {
+            return Some(tile.corner(x, y));
+        }
+        // Between the corners of larger cells.
+        let shift = self.finest - tile.level();
+        let mask = (1i64 << shift) - 1;
+        let part = |at: i64| fraction(at & mask, shift);
+        self.between(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)))
+    }
+
+    /// The height (m) of the surface within a cell of `tile`, at `part` of the way to the east and to the south.
+    fn between(&self, tile: &Tile, (x, y): (i64, i64), part: DVec2) -> Option<f64> {
+        let shift = self.finest - tile.level();
+        let at = |right: i64, down: i64| self.corner((x + right) << shift, (y + down) << shift);
+        let (east, south) = (part.x, part.y);
+        // Along an edge of the cell, its ends alone count.
+        if east == 0.0 {
+            return Some(if south == 0.0 { at(0, 0)? } else { mix(at(0, 0)?, at(0, 1)?, south) });
+        }
+        if south == 0.0 {
+            return Some(mix(at(0, 0)?, at(1, 0)?, east));
+        }
+        Some(if (x + y) & 1 == 0 {
+            let (a, d) = (at(0, 0)?, at(1, 1)?);
+            if east >= south {
+                let b = at(1, 0)?;
+                a + (b - a) * east + (d - b) * south
+            } else {
+                let c = at(0, 1)?;
+                a + (c - a) * south + (d - c) * east
+            }
+        } else {
+            let (b, c) = (at(1, 0)?, at(0, 1)?);
+            if east + south <= 1.0 {
+                let a = at(0, 0)?;
+                a + (b - a) * east + (c - a) * south
+            } else {
+                let d = at(1, 1)?;
+                d + (c - d) * (1.0 - east) + (b - d) * (1.0 - south)
+            }
+        })
+    }
+
+    /// The height (m) of the surface at `place` (m); `None` where nothing is expanded.
+    pub fn height(&self, place: DVec2) -> Option<f64> {
+        let (tile, cell, part) = self.find(place)?;
+        self.between(tile, cell, part)
+    }
+
+    /// The tile at `place` (m), the cell of it, and how far (0 to 1) to the east and to the south in that cell.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "columns are below 2^31")]
+    fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
+        let world = &self.world;
+        let along = DVec2::new(place.x - world.corner.x, world.corner.y + world.size - place.y);
+        if !along.cmpge(DVec2::ZERO).all() || !along.cmple(DVec2::splat(world.size)).all() {
+            return None;
+        }
+        let size = world.cell(self.level);
+        let window = self.window;
+        let of = |at: f64, first: i64, count: usize| {
+            let cell = (at / size).floor() as i64;
+            let behind = first + i64::try_from(count).unwrap_or(0);
+            // The far rim of the last tile belongs to it.
+            if cell == behind && at <= behind as f64 * size { cell - 1 } else { cell }
+        };
+        let x = of(along.x, window.x, window.columns);
+        let y = of(along.y, window.y, window.rows);
+        let tile = self.tile(Place { level: self.level, y, x })?;
+        let step = world.cell(tile.level());
+        let last = (1i64 << tile.detail) - 1;
+        let first = (x << tile.detail, y << tile.detail);
+        let cell = |at: f64, first: i64| ((at / step).floor() as i64).clamp(first, first + last);
+        let (column, row) = (cell(along.x, first.0), cell(along.y, first.1));
+        let part = along / step - DVec2::new(column as f64, row as f64);
+        Some((tile, (column, row), part.clamp(DVec2::ZERO, DVec2::ONE)))
+    }
+
+    /// The way up (a unit vector) at a corner of the smallest cells.
+    pub(super) fn normal(&self, x: i64, y: i64) -> DVec3 {
+        let Some(tile) = self.coarsest(x, y) else { return DVec3::Z };
+        let step = 1i64 << (self.finest - tile.level());
+        let size = self.world.cell(tile.level());
+        let here = self.corner(x, y).unwrap_or(0.0);
+        let slope = |low: Option<f64>, high: Option<f64>| match (low, high) {
+            (Some(low), Some(high)) => (high - low) / (2.0 * size),
+            (Some(low), None) => (here - low) / size,
+            (None, Some(high)) => (high - here) / size,
+            (None, None) => 0.0,
+        };
+        let east = slope(self.corner(x - step, y), self.corner(x + step, y));
+        let north = slope(self.corner(x, y + step), self.corner(x, y - step));
+        DVec3::new(-east, -north, 1.0).normalize()
+    }
+
+    /// The way up (a unit vector) at `place` (m), smoothly between the corners of cells; `None` where nothing is
+    /// expanded.
+    pub fn way_up(&self, place: DVec2) -> Option<DVec3> {
+        let (tile, (x, y), part) = self.find(place)?;
+        let shift = self.finest - tile.level();
+        let at = |right: i64, down: i64| self.normal((x + right) << shift, (y + down) << shift);
+        let north = at(0, 0).lerp(at(1, 0), part.x);
+        let south = at(0, 1).lerp(at(1, 1), part.x);
+        Some(north.lerp(south, part.y).normalize())
+    }
+
+    /// The symbol of the cell at `place` (m); `None` where nothing is expanded.
+    pub fn symbol(&self, place: DVec2) -> Option<u16> {
+        let (tile, (x, y), _) = self.find(place)?;
+        Some(tile.symbol(x, y))
+    }
+
+    /// Where a corner of the smallest cells is (m).
+    #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+    pub(super) fn place(&self, x: i64, y: i64) -> DVec2 {
+        let cell = self.world.cell(self.finest);
+        let north = self.world.corner.y + self.world.size;
+        DVec2::new(self.world.corner.x + x as f64 * cell, north - y as f64 * cell)
+    }
+}
+
+#[inline]
+fn mix(a: f64, b: f64, part: f64) -> f64 {
+    a + (b - a) * part
+}
+
+#[allow(clippy::cast_precision_loss, reason = "below 2^53")]
+fn fraction(at: i64, shift: u32) -> f64 {
+    at as f64 / (1i64 << shift) as f64
+}

@@ -1,0 +1,275 @@
+//! Triangles over expanded ground, few where it is even, within a stated error and without gaps.
+//!
+//! Each square of cells is two right triangles, and each triangle is halved at the middle of its longest side as long
+//! as the ground is farther from it than the error allows. A side is halved for both triangles at it or for none; so
+//! halving one may halve others first, also in tiles whose own cells are larger.
+//!
+//! Method: Evans, Kirkpatrick and Townsend, "Right-triangulated irregular networks", 2001.
+
+use glam::{DVec2, DVec3, Vec2};
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::ground::Ground;
+use super::tile::Tile;
+use crate::scene::Part;
+
+/// A corner of the smallest cells: column from the west and row from the north.
+type Corner = [i64; 2];
+
+/// A triangle with its right angle at `apex`.
+#[derive(Debug, Clone, Copy)]
+struct Triangle {
+    a: Corner,
+    b: Corner,
+    apex: Corner,
+}
+
+impl Triangle {
+    /// The middle of its longest side, where it is halved; `None` for one that cannot be halved.
+    fn middle(&self) -> Option<Corner> {
+        let sum = [self.a[0] + self.b[0], self.a[1] + self.b[1]];
+        (sum[0] & 1 == 0 && sum[1] & 1 == 0).then(|| [sum[0] >> 1, sum[1] >> 1])
+    }
+
+    fn halves(&self, middle: Corner) -> [Self; 2] {
+        [Self { a: self.apex, b: self.a, apex: middle }, Self { a: self.b, b: self.apex, apex: middle }]
+    }
+}
+
+/// The heights (m) at all corners of the cells of a tile.
+struct Grid {
+    heights: Vec<f64>,
+    /// Corners along a side.
+    across: usize,
+    /// The first of its corners.
+    first: Corner,
+    /// How many times its cells are as large as the smallest: this power of two.
+    shift: u32,
+}
+
+impl Grid {
+    fn new(ground: &Ground, tile: &Tile) -> Self {
+        let shift = ground.finest() - tile.level();
+        let own = Tile::own(tile.place, tile.detail);
+        let across = own.columns + 1;
+        let mut heights = Vec::with_capacity(across * across);
+        for y in (own.y..).take(across) {
+            for x in (own.x..).take(across) {
+                let rim = x == own.x || y == own.y || !own.contains(x, y);
+                let height =
+                    if rim { ground.corner(x << shift, y << shift) } else { Some(tile.corner(x, y)) };
+                heights.push(height.unwrap_or(0.0));
+            }
+        }
+        Self { heights, across, first: [own.x << shift, own.y << shift], shift }
+    }
+
+    #[inline]
+    fn at(&self, column: usize, row: usize) -> f64 {
+        self.heights[row * self.across + column]
+    }
+
+    /// Whether the ground is anywhere farther than `error` (m) from a triangle, all of whose corners are its own.
+    #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
+    fn is_far(&self, triangle: &Triangle, error: f64) -> bool {
+        let own = |corner: Corner| {
+            let [x, y] = [0, 1].map(|axis| usize::try_from((corner[axis] - self.first[axis]) >> self.shift));
+            (x.unwrap_or(0), y.unwrap_or(0))
+        };
+        let [a, b, c] = [triangle.a, triangle.b, triangle.apex].map(own);
+        let [p, q, r] = [a, b, c].map(|(x, y)| (DVec2::new(x as f64, y as f64), self.at(x, y)));
+        // The plane through its corners: the sides at the right angle have the same length.
+        let (u, v) = (p.0 - r.0, q.0 - r.0);
+        let length = u.length_squared();
+        let gradient = (u * (p.1 - r.1) + v * (q.1 - r.1)) / length;
+        let (top, bottom) = (a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1));
+        for row in top..=bottom {
+            // Where the row crosses the sides.
+            let (mut left, mut right) = (usize::MAX, 0);
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                let (from, to) = if from.1 <= to.1 { (from, to) } else { (to, from) };
+                if from.1 == to.1 {
+                    if from.1 == row {
+                        (left, right) = (left.min(from.0.min(to.0)), right.max(from.0.max(to.0)));
+                    }
+                    continue;
+                }
+                if row < from.1 || row > to.1 {
+                    continue;
+                }
+                // Sides run along a row, along a column, or diagonally.
+                let down = row - from.1;
+                let x = match to.0.cmp(&from.0) {
+                    std::cmp::Ordering::Equal => from.0,
+                    std::cmp::Ordering::Greater => from.0 + down,
+                    std::cmp::Ordering::Less => from.0 - down,
+                };
+                (left, right) = (left.min(x), right.max(x));
+            }
+            let begin = r.1 + gradient.dot(DVec2::new(left as f64, row as f64) - r.0);
+            let heights = &self.heights[row * self.across..];
+            for (step, height) in heights[left..=right].iter().enumerate() {
+                if (height - (begin + gradient.x * step as f64)).abs() > error {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+}
+
+/// A triangulation of expanded ground.
+pub struct Mesh<'a> {
+    ground: &'a Ground,
+    /// One for each tile.
+    grids: Vec<Grid>,
+    /// The corners where triangles are halved.
+    halved: FxHashSet<u64>,
+    error: f64,
+}
+
+fn key([x, y]: Corner) -> u64 {
+    (x.cast_unsigned() << 32) | (y.cast_unsigned() & 0xFFFF_FFFF)
+}
+
+impl<'a> Mesh<'a> {
+    /// The fewest triangles from which the ground is nowhere farther than `error` (m).
+    pub fn new(ground: &'a Ground, error: f64) -> Self {
+        let grids = ground.tiles().par_iter().map(|tile| Grid::new(ground, tile)).collect();
+        let mut mesh = Self { ground, grids, halved: FxHashSet::default(), error };
+        let mut wanted = Vec::new();
+        for tile in ground.tiles() {
+            wanted.extend(mesh.corners(tile));
+            for triangle in mesh.roots(tile) {
+                wanted.extend(mesh.want(&triangle));
+            }
+        }
+        while let Some(corner) = wanted.pop() {
+            mesh.halve(corner, &mut wanted);
+        }
+        mesh
+    }
+
+    /// The corners of a tile: north-west, north-east, south-west and south-east.
+    fn corners(&self, tile: &Tile) -> [Corner; 4] {
+        let size = 1i64 << (self.ground.finest() - tile.place.level);
+        let [x, y] = [tile.place.x * size, tile.place.y * size];
+        [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
+    }
+
+    /// The two triangles that a tile begins with, counter-clockwise from above.
+    fn roots(&self, tile: &Tile) -> [Triangle; 2] {
+        let [a, b, c, d] = self.corners(tile);
+        if (tile.place.x + tile.place.y) & 1 == 0 {
+            [Triangle { a, b: d, apex: b }, Triangle { a: d, b: a, apex: c }].map(turned)
+        } else {
+            [Triangle { a: b, b: c, apex: a }, Triangle { a: c, b, apex: d }].map(turned)
+        }
+    }
+
+    /// Where a triangle has to be halved, if it has.
+    fn want(&self, triangle: &Triangle) -> Option<Corner> {
+        let middle = triangle.middle()?;
+        let inside = |at: Corner, to: Corner| [at[0] * 2 + to[0], at[1] * 2 + to[1]];
+        // A point within it, in thirds, tells whose it is.
+        let [x, y] = inside(middle, triangle.apex);
+        let holder = self.ground.holder(x.div_euclid(3), y.div_euclid(3))?;
+        let (tile, grid) = (&self.ground.tiles()[holder], &self.grids[holder]);
+        let legs = (triangle.a[0] - triangle.apex[0]).abs().max((triangle.a[1] - triangle.apex[1]).abs());
+        let whole = 1i64 << (self.ground.finest() - tile.place.level);
+        // What is larger than a tile is divided anyway; what is as small as its cells lies on its surface.
+        if legs > whole
+            || legs >> grid.shift == 0
+            || middle.iter().any(|at| at & ((1 << grid.shift) - 1) != 0)
+        {
+            return None;
+        }
+        grid.is_far(triangle, self.error).then_some(middle)
+    }
+
+    /// Halves the triangles at `corner`; adds to `wanted` where others have to be halved for it, or because of it.
+    fn halve(&mut self, corner: Corner, wanted: &mut Vec<Corner>) {
+        if !self.halved.insert(key(corner)) {
+            return;
+        }
+        let Some((parents, ends)) = self.diamond(corner) else { return };
+        wanted.extend(parents);
+        for apex in parents {
+            let triangle = Triangle { a: ends[0], b: ends[1], apex };
+            for half in triangle.halves(corner) {
+                wanted.extend(self.want(&half));
+            }
+        }
+    }
+
+    /// The two corners at the right angles of the triangles that are halved at `corner`, and the ends of their longest
+    /// side; `None` for corners of the world.
+    fn diamond(&self, [x, y]: Corner) -> Option<([Corner; 2], [Corner; 2])> {
+        let world = 1i64 << self.ground.finest();
+        let step = (x | y) & -(x | y);
+        if step == 0 || step >= world {
+            return None;
+        }
+        let (odd_x, odd_y) = (x & step != 0, y & step != 0);
+        let beside = |right: i64, down: i64| [x + right * step, y + down * step];
+        Some(if odd_x && odd_y {
+            let (one, other) = ([beside(-1, -1), beside(1, 1)], [beside(1, -1), beside(-1, 1)]);
+            let [cx, cy] = one[0];
+            let even = ((cx / (2 * step)) + (cy / (2 * step))) & 1 == 0;
+            if even { (other, one) } else { (one, other) }
+        } else if odd_x {
+            ([beside(0, -1), beside(0, 1)], [beside(-1, 0), beside(1, 0)])
+        } else {
+            ([beside(-1, 0), beside(1, 0)], [beside(0, -1), beside(0, 1)])
+        })
+    }
+
+    /// The triangles over a tile, as numbers of its corners.
+    fn triangles(&self, tile: &Tile) -> (Vec<Corner>, Vec<[u32; 3]>) {
+        let mut corners = Vec::new();
+        let mut known: FxHashMap<u64, u32> = FxHashMap::default();
+        let mut triangles = Vec::new();
+        let mut open: Vec<Triangle> = self.roots(tile).into_iter().rev().collect();
+        while let Some(triangle) = open.pop() {
+            match triangle.middle().filter(|middle| self.halved.contains(&key(*middle))) {
+                Some(middle) => open.extend(triangle.halves(middle).into_iter().rev()),
+                None => {
+                    triangles.push([triangle.a, triangle.b, triangle.apex].map(|corner| {
+                        *known.entry(key(corner)).or_insert_with(|| {
+                            corners.push(corner);
+                            u32::try_from(corners.len() - 1).unwrap_or(u32::MAX)
+                        })
+                    }));
+                }
+            }
+        }
+        (corners, triangles)
+    }
+
+    /// Adds the triangles over `tile` to `part`, with points told from `origin` (m). The tile's south-west corner gets
+    /// the texture coordinates `begin` (m), from where they count.
+    pub fn write(&self, tile: &Tile, origin: DVec3, begin: f64, part: &mut Part) {
+        let (corners, triangles) = self.triangles(tile);
+        let base = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
+        part.make_room(corners.len(), triangles.len());
+        let (south_west, _) = tile.bounds(self.ground.world());
+        for [x, y] in corners {
+            let place = self.ground.place(x, y);
+            let height = self.ground.corner(x, y).unwrap_or(0.0);
+            part.positions.push((place.extend(height) - origin).as_vec3());
+            part.normals.push(self.ground.normal(x, y).as_vec3());
+            let [u, v] = (place - south_west + begin).to_array();
+            #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
+            part.uvs.push(Vec2::new(u as f32, v as f32));
+        }
+        part.triangles.extend(triangles.into_iter().map(|corners| corners.map(|corner| corner + base)));
+    }
+}
+
+/// The triangle counter-clockwise as seen from above, where rows run to the south.
+fn turned(triangle: Triangle) -> Triangle {
+    let Triangle { a, b, apex } = triangle;
+    let [u, v] = [[b[0] - a[0], b[1] - a[1]], [apex[0] - a[0], apex[1] - a[1]]];
+    if u[0] * v[1] - u[1] * v[0] < 0 { triangle } else { Triangle { a: b, b: a, apex } }
+}

@@ -1,0 +1,35 @@
+//! Noise by place: smooth, between -1 and 1, the same everywhere at all times.
+
+use glam::DVec2;
+
+/// Value noise at `place`, which changes over a distance of 1.
+fn noise(place: DVec2, seed: u64) -> f64 {
+    let cell = place.floor();
+    let part = place - cell;
+    // Quintic steps have no bend at the borders of cells.
+    let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
+    let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
+    let far = at(0.0, 1.0) + (at(1.0, 1.0) - at(0.0, 1.0)) * ease.x;
+    near + (far - near) * ease.y
+}
+
+/// Noise of `octaves` sizes, each half as large and half as strong as the one before.
+pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
+    let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
+    for octave in 0..octaves {
+        sum += noise(place * scale, seed.wrapping_add(u64::from(octave))) * strength;
+        whole += strength;
+        (strength, scale) = (strength * 0.5, scale * 2.03);
+    }
+    if whole > 0.0 { sum / whole } else { 0.0 }
+}
+
+/// A number between -1 and 1 for a corner.
+#[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
+fn corner(x: f64, y: f64, seed: u64) -> f64 {
+    let mut bits = x.to_bits().wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ y.to_bits().rotate_left(31) ^ seed;
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    ((bits ^ (bits >> 31)) >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
+}
