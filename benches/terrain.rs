@@ -3,6 +3,8 @@
 //! `cargo bench --bench terrain`; behind `--` the names of those that are wanted. Times are wall clock, the least of
 //! some rounds, and in brackets that of all processors.
 
+#![allow(clippy::print_stdout, reason = "a bench prints its figures")]
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
