@@ -30,6 +30,16 @@ impl Run {
         }
         report
     }
+
+    /// What people should know of how things were made, each with its place.
+    pub fn warnings(&self) -> Vec<String> {
+        let of = |system: &Arc<Derived>| {
+            let place = system.place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default();
+            let warnings = system.objects.first().map(|object| object.warnings()).unwrap_or_default();
+            warnings.into_iter().map(move |warning| format!("{place}{warning}")).collect::<Vec<_>>()
+        };
+        self.systems.iter().flat_map(of).collect()
+    }
 }
 
 /// Where the time of a run went.

@@ -68,6 +68,9 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     if let Some(memory) = peak_memory() {
         let _ = writeln!(text, "{memory} MB of memory at the peak");
     }
+    for warning in run.warnings() {
+        let _ = writeln!(text, "warning: {warning}");
+    }
     let report = run.report();
     if !report.is_clean() {
         let _ = match listed {
@@ -91,6 +94,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
         "features": run.report().counts_json(),
+        "warnings": run.warnings(),
         "params": params_json(&run.params),
         "seconds": {
             "total": seconds(total),

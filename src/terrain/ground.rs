@@ -57,16 +57,13 @@ impl Ground {
         self.expand(&fit, divide)
     }
 
-    /// Has `edits` in place of those that it had.
-    pub fn edit(&mut self, edits: Arc<Edits>, divide: &dyn Divide) -> Result<()> {
-        let fit = Fit {
-            level: self.level,
-            window: self.window,
-            details: self.tiles.iter().map(|tile| tile.detail).collect(),
-        };
+    /// Has `edits` in place of those that it had; what they change is expanded by the next focus.
+    pub fn edit(&mut self, edits: &Arc<Edits>) {
+        if self.edits == *edits {
+            return;
+        }
+        self.edits = Arc::clone(edits);
         self.tiles.clear();
-        self.edits = edits;
-        self.expand(&fit, divide)
     }
 
     fn expand(&mut self, fit: &Fit, divide: &dyn Divide) -> Result<()> {
@@ -282,6 +279,14 @@ impl Ground {
     pub fn symbol(&self, place: DVec2) -> Option<u16> {
         let (tile, (x, y), _) = self.find(place)?;
         Some(tile.symbol(x, y))
+    }
+
+    /// The first and the last corner of the smallest cells of the square that is expanded.
+    pub(super) fn rim(&self) -> [[i64; 2]; 2] {
+        let down = self.finest - self.level;
+        let end = |first: i64, count: usize| (first + i64::try_from(count).unwrap_or(0)) << down;
+        let Area { x, y, columns, rows } = self.window;
+        [[x << down, y << down], [end(x, columns), end(y, rows)]]
     }
 
     /// Where a corner of the smallest cells is (m).

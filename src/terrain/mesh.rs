@@ -265,6 +265,29 @@ impl<'a> Mesh<'a> {
         }
         part.triangles.extend(triangles.into_iter().map(|corners| corners.map(|corner| corner + base)));
     }
+
+    /// The edges of triangles on the rim of what is expanded, in no order: their ends (m), with the ground on their left.
+    pub fn rim(&self) -> Vec<[DVec3; 2]> {
+        let [low, high] = self.ground.rim();
+        let mut edges = Vec::new();
+        for tile in self.ground.tiles() {
+            let (corners, triangles) = self.triangles(tile);
+            for triangle in triangles {
+                let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
+                for [from, to] in [[a, b], [b, c], [c, a]] {
+                    let on = |axis: usize| {
+                        from[axis] == to[axis] && (from[axis] == low[axis] || from[axis] == high[axis])
+                    };
+                    if on(0) || on(1) {
+                        edges.push([from, to].map(|[x, y]| {
+                            self.ground.place(x, y).extend(self.ground.corner(x, y).unwrap_or(0.0))
+                        }));
+                    }
+                }
+            }
+        }
+        edges
+    }
 }
 
 /// The triangle counter-clockwise as seen from above, where rows run to the south.

@@ -18,7 +18,7 @@ mod view;
 mod world;
 
 pub use block::{Area, Block};
-pub use edits::Edits;
+pub use edits::{Edit, Edits};
 pub use ground::Ground;
 pub use mesh::Mesh;
 pub use noise::octaves;

@@ -1,9 +1,11 @@
 //! The terrain: ground made by dividing a square into quadrants, expanded where it is looked at.
 
+mod edits;
 mod looks;
 mod mask;
 mod plants;
 mod rules;
+mod sides;
 mod view;
 mod water;
 
@@ -11,6 +13,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
+pub use edits::EditFile;
 pub use looks::Cover;
 pub use mask::Mask;
 pub use plants::Plants;
@@ -21,7 +24,7 @@ use super::{Color, Drawing, Kind, Object, Table, Vector};
 use crate::error::{Error, Result};
 use crate::rules::{Key, Symbol};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
-use crate::terrain::{Divide, Ground, Mesh as Triangulation, Rules, View, World};
+use crate::terrain::{Divide, Edit, Edits, Ground, Mesh as Triangulation, Rules, View, World};
 
 fields! {
     /// What `terrain { ... }` takes.
@@ -44,8 +47,14 @@ fields! {
         pub error: Option<f64> = None,
         /// The middle of its square (m); its z is added to all heights.
         pub position: Vector = Vector(DVec3::ZERO),
+        /// Changes of the ground that were kept: edits("ground.json").
+        pub edits: Option<EditFile> = None,
         /// What lies on it, from the bottom to the top.
         pub covers: Vec<Cover> = Vec::new(),
+        /// The height (m) of an underside: then it has sides and is closed.
+        pub base: Option<f64> = None,
+        /// The colour of its sides.
+        pub sides: Color = Color([0.16, 0.12, 0.09, 1.0]),
         /// Its colour, where it has no covers.
         pub color: Color = Color([0.30, 0.28, 0.22, 1.0]),
         /// Standing water: its level (m), or more of it.
@@ -64,6 +73,10 @@ pub struct Terrain {
     ground: Ground,
     /// What the present pass has asked for: a place and what is seen from there.
     wanted: Option<(DVec2, View)>,
+    /// The changes of the ground that come from a file.
+    kept: Arc<Edits>,
+    /// These, and what the present pass has changed.
+    edits: Arc<Edits>,
     key: Key,
     /// Whether it is known what the systems begin with that divide its cells.
     begun: bool,
@@ -80,6 +93,32 @@ methods! {
             view.check(self.ground.world(), DVec2::new(x, y))?;
             self.wanted = Some((DVec2::new(x, y), view));
             Ok(())
+        }
+
+        /// Makes the ground within an outline level, when the pass ends: at `height` (m), or as it is in the middle. Over
+        /// `margin` (m, 5 unless given) around it the ground changes less and less.
+        pub fn flatten(&mut self, outline: Vec<Vector>, height: Option<f64>, margin: Option<f64>) -> Result<()> {
+            let outline = flat(&outline);
+            let middle = outline.iter().map(|at| DVec2::from(*at)).sum::<DVec2>() / outline.len().max(1) as f64;
+            let height = match height {
+                Some(height) => height - self.options.position.0.z,
+                None => self.ground.height(middle).ok_or_else(|| self.nothing(middle))?,
+            };
+            self.change(Edit::Flatten { outline, height, margin: margin.unwrap_or(5.0) })
+        }
+
+        /// Gives the ground along a path the heights of the path, over `width` (m), when the pass ends; beside it the
+        /// ground changes less and less over `margin` (m, the width unless given).
+        pub fn cut(&mut self, path: Vec<Vector>, width: f64, margin: Option<f64>) -> Result<()> {
+            let lift = self.options.position.0.z;
+            let path = path.iter().map(|at| [at.0.x, at.0.y, at.0.z - lift]).collect();
+            self.change(Edit::Cut { path, width, margin: margin.unwrap_or(width) })
+        }
+
+        /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle; raises it, if
+        /// the depth is below 0.
+        pub fn dig(&mut self, path: Vec<Vector>, width: f64, depth: f64) -> Result<()> {
+            self.change(Edit::Dig { path: flat(&path), width, depth })
         }
 
         /// Height (m) of the ground at a place; fails where nothing is expanded.
@@ -167,6 +206,10 @@ impl Terrain {
             key: drawn.then(Key::default),
             measured: None,
         };
+        let kept = match &options.edits {
+            Some(file) => Arc::new(Edits::from_json(&file.text, &file.name, &world)?),
+            None => Arc::default(),
+        };
         if let Some(levels) = options.levels {
             View::whole(&world, levels).check(&world, options.position.0.truncate())?;
         }
@@ -174,10 +217,17 @@ impl Terrain {
             ground: Ground::new(Arc::new(world)),
             options: Arc::new(options),
             wanted: None,
+            kept: Arc::clone(&kept),
+            edits: kept,
             key: Key::default(),
             begun: false,
             names: Arc::new(names),
         })
+    }
+
+    /// The text of a file that keeps the changes of its ground.
+    pub fn edits_json(&self) -> String {
+        self.ground.edits().to_json(self.ground.world())
     }
 
     /// The ground that is expanded.
@@ -198,6 +248,10 @@ impl Terrain {
             "it reaches from ({}, {}) to ({}, {}) m; what is not focused on is contracted",
             low.x, low.y, high.x, high.y
         ))
+    }
+
+    fn change(&mut self, edit: Edit) -> Result<()> {
+        Arc::make_mut(&mut self.edits).add(self.ground.world(), edit)
     }
 
     /// How far (m) triangles may be from the surface.
@@ -231,6 +285,10 @@ impl Terrain {
     }
 }
 
+fn flat(points: &[Vector]) -> Vec<[f64; 2]> {
+    points.iter().map(|at| at.0.truncate().to_array()).collect()
+}
+
 impl Object for Terrain {
     fn kind(&self) -> &'static Kind {
         const { &Self::KIND }
@@ -249,6 +307,7 @@ impl Object for Terrain {
 
     fn begin(&mut self) {
         self.wanted = None;
+        self.edits = Arc::clone(&self.kept);
     }
 
     fn begins_empty(&self) -> bool {
@@ -275,6 +334,7 @@ impl Object for Terrain {
             (None, None) => return Ok(()),
         };
         self.begin_systems(divide)?;
+        self.ground.edit(&self.edits);
         self.ground.focus(eye, &view, divide)
     }
 
@@ -324,6 +384,12 @@ impl Object for Terrain {
             });
         }
         let mut drawing = Drawing::default();
+        if let Some(base) = self.options.base {
+            let material =
+                Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
+            let part = drawing.material(&material);
+            sides::draw(&mesh.rim(), base, drawing.part(part))?;
+        }
         for (number, plants) in (1u64..).zip(&self.options.plants) {
             let key = Key(self.key.0.wrapping_add(number)).child(0);
             plants.scatter(ground, &self.numbers(&plants.on)?, key, &mut drawing)?;
