@@ -315,7 +315,17 @@ impl Library {
                     _ => String::new(),
                 };
                 let made = library.at_top_level("elevation").and_then(|()| {
-                    let options = ElevationOptions::from_table(&*named_fields("elevation", options)?)?;
+                    let options = match to_field(&options)? {
+                        Value::Nil => ElevationOptions::default(),
+                        Value::Table(options) => ElevationOptions::from_table(&options)?,
+                        other => {
+                            let what = other.describe();
+                            return Err(Error::new(format!(
+                                "elevation takes a table of options, not {what}"
+                            ))
+                            .help("write elevation(\"N43E007.hgt\", { crs = 4326 })"));
+                        }
+                    };
                     session.data.elevation(&session, &name, &options.wanted()?)
                 });
                 made.map(|elevation| ObjectHandle(Arc::new(elevation))).map_err(mlua::Error::external)

@@ -2,9 +2,9 @@
 
 use std::io::Cursor;
 
+use tiff::TiffError;
 use tiff::decoder::{Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
-use tiff::{TiffError, TiffFormatError};
 
 use super::super::Crs;
 use super::raster::{Found, Grid, count};
@@ -228,14 +228,8 @@ fn damaged(name: &str, error: &TiffError) -> Error {
         }
         TiffError::LimitsExceeded => Error::new(format!("{name} has a strip or a tag that is too large"))
             .help("write it with tiles: gdal_translate -co TILED=YES IN OUT.tif"),
-        TiffError::UnsupportedError(error) => {
-            Error::new(format!("{name} is a TIFF of a kind that is not read: {error}"))
-                .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif")
-        }
-        TiffError::FormatError(TiffFormatError::InconsistentSizesEncountered) => {
-            Error::new(format!("{name} has a strip or tile of a wrong size")).help("get it again")
-        }
-        error => Error::new(format!("{name} cannot be read as TIFF: {error}"))
-            .help("the file is damaged; get it again"),
+        TiffError::UnsupportedError(_) => Error::new(format!("{name} is a TIFF of a kind that is not read"))
+            .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
+        _ => Error::new(format!("{name} is a damaged TIFF")).help("get it again"),
     }
 }

@@ -39,11 +39,11 @@ pub(super) fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
 ///
 /// Fails if it is damaged, holds no tile or several, or if the tile is larger than any may be.
 pub(super) fn unzip(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
-    let damaged = |error: &dyn std::fmt::Display| {
-        Error::new(format!("{name} cannot be unpacked: {error}"))
+    let damaged = || {
+        Error::new(format!("{name} cannot be unpacked"))
             .help("the file is damaged or cut short; get it again")
     };
-    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|error| damaged(&error))?;
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged())?;
     let is_tile = |entry: &&str| entry.to_ascii_lowercase().ends_with(".hgt");
     let mut tiles = archive.file_names().filter(is_tile).map(str::to_owned).collect::<Vec<_>>().into_iter();
     let tile = match (tiles.next(), tiles.len()) {
@@ -57,13 +57,13 @@ pub(super) fn unzip(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> 
                 .help("unpack it, and name the one that is meant"));
         }
     };
-    let entry = archive.by_name(&tile).map_err(|error| damaged(&error))?;
+    let entry = archive.by_name(&tile).map_err(|_| damaged())?;
     let limit = MOST as u64 * 2;
     let mut content = Vec::new();
     // What an entry says of its size need not be true.
     let mut size = entry.size();
     if size <= limit {
-        entry.take(limit + 1).read_to_end(&mut content).map_err(|error| damaged(&error))?;
+        entry.take(limit + 1).read_to_end(&mut content).map_err(|_| damaged())?;
         size = content.len() as u64;
     }
     if size > limit {

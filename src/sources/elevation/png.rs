@@ -101,16 +101,14 @@ fn rgb(sample: &[u8]) -> f32 {
 }
 
 fn damaged(name: &str, bytes: &[u8], error: &DecodingError) -> Error {
-    let is_cut = match error {
-        DecodingError::IoError(error) => error.kind() == std::io::ErrorKind::UnexpectedEof,
-        _ => false,
-    };
-    if is_cut {
-        let length = bytes.len();
-        return Error::new(format!(
-            "{name} is cut short: it ends after {length} bytes, where more should follow"
-        ))
-        .help("get it again");
+    match error {
+        DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            let length = bytes.len();
+            Error::new(format!("{name} is cut short: it ends after {length} bytes, where more should follow"))
+                .help("get it again")
+        }
+        DecodingError::LimitsExceeded => Error::new(format!("{name} takes too much memory to unpack"))
+            .help("cut out a part of it, or write it without texts and profiles"),
+        _ => Error::new(format!("{name} is a damaged PNG")).help("get it again"),
     }
-    Error::new(format!("{name} cannot be read as PNG: {error}")).help("the file is damaged; get it again")
 }

@@ -115,7 +115,10 @@ impl Raster {
     pub fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Self> {
         let Found { columns, rows, mut heights, grid, crs } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
-            Some(code) => Some(Crs::epsg(code)?),
+            Some(code) => Some(Crs::epsg(code).map_err(|error| {
+                Error::new(format!("elevation: {}", error.message()))
+                    .help("name the right one: elevation(file, { crs = 4326 })")
+            })?),
             None => crs?,
         };
         let grid = match wanted.bounds {

@@ -144,6 +144,59 @@ fn options_win_over_what_a_file_says() {
     assert_eq!(raster.crs.map(|crs| crs.code), Some(3067));
 }
 
+/// Files of 50 by 40 heights that GDAL 3.10 wrote, and where it says that they lie.
+const BY_GDAL: [(&[u8], u16, [f64; 4]); 5] = [
+    // Tiles, deflated, predictor 2, with holes.
+    (
+        include_bytes!("../../../tests/elevation/tiles_i16.tif"),
+        32632,
+        [370_000.0, 4_848_800.0, 371_500.0, 4_850_000.0],
+    ),
+    // Strips of 7 rows, LZW.
+    (
+        include_bytes!("../../../tests/elevation/strips_f64.tif"),
+        4326,
+        [7.1, 43.9 - 1.0 / 30.0, 7.1 + 1.0 / 24.0, 43.9],
+    ),
+    // Tiles, deflated, predictor 3.
+    (
+        include_bytes!("../../../tests/elevation/floats_f32.tif"),
+        2154,
+        [1_040_000.0, 6_299_800.0, 1_040_250.0, 6_300_000.0],
+    ),
+    // Big-endian BigTIFF, ten times as high.
+    (
+        include_bytes!("../../../tests/elevation/big_i32.tif"),
+        3857,
+        [800_000.0, 5_399_000.0, 801_250.0, 5_400_000.0],
+    ),
+    // Samples that are points.
+    (
+        include_bytes!("../../../tests/elevation/point_u16.tif"),
+        3067,
+        [385_000.0, 6_670_600.0, 385_500.0, 6_671_000.0],
+    ),
+];
+
+#[test]
+fn what_gdal_writes_is_read_as_gdal_reads_it() {
+    for (index, (bytes, code, bounds)) in BY_GDAL.into_iter().enumerate() {
+        let raster = read(bytes, "a.tif").unwrap();
+        assert_eq!((raster.columns, raster.rows, raster.filled), (50, 40, if index == 0 { 20 } else { 0 }));
+        assert_eq!(raster.crs.as_ref().map(|crs| crs.code), Some(code));
+        for (found, edge) in raster.bounds().into_iter().zip(bounds) {
+            assert!((found - edge).abs() < 1e-9 * edge.abs(), "{:?}", raster.bounds());
+        }
+        let scale = if code == 3857 { 10.0 } else { 1.0 };
+        for (row, column, height) in [(0, 0, 200.0), (7, 33, 285.784), (39, 49, 268.916), (12, 22, 247.8)] {
+            let found = raster.heights[row * 50 + column] / scale;
+            // Whole numbers, and a hole that was filled.
+            let tolerance = if row == 12 { 4.0 } else { 0.5 };
+            assert!((found - height).abs() <= tolerance, "{code}: {found} {height}");
+        }
+    }
+}
+
 /// A PNG of 3 by 2 samples.
 fn picture(color: ::png::ColorType, depth: ::png::BitDepth, content: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
@@ -189,6 +242,8 @@ fn samples() -> Vec<(&'static str, Vec<u8>)> {
         ("N43E007.hgt", tile(5, 1)),
         ("N43E007.hgt.zip", zipped(&[("N43E007.hgt", &tile(5, 1))])),
         ("a.tif", geotiff(&area, &[SCALE, TIE], Some("5"))),
+        ("b.tif", BY_GDAL[0].0.to_vec()),
+        ("c.tif", BY_GDAL[2].0.to_vec()),
         ("a.asc", b"ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n".to_vec()),
         ("a.png", grey),
         ("a.r32", [1.5f32.to_le_bytes(); 9].concat()),
