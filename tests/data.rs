@@ -3,10 +3,13 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use burgeon::geometry::Plan;
+use burgeon::objects::Elevation;
+use burgeon::sources::elevation::{Raster, Relief};
 use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 /// The file in the folder of shared data; tells that the test is skipped where there is none.
 fn shared(name: &str) -> Option<PathBuf> {
@@ -79,6 +82,60 @@ fn every_layer_of_helsinki_and_monaco_is_read() {
                 layer.features.iter().all(|feature| kind != Kind::Polygon || area(&feature.geometry) > 0.0)
             );
         }
+    }
+}
+
+#[test]
+fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
+    let (Some(heights), Some(town)) = (shared("N43E007.hgt.zip"), shared("monaco.gpkg")) else { return };
+    let places = [[7.4267, 43.7769], [7.405, 43.731], [7.4265, 43.7345], [7.5, 43.65]];
+    let points = places.map(|[x, y]| {
+        format!(
+            r#"{{"type":"Feature","properties":{{}},"geometry":{{"type":"Point","coordinates":[{x},{y}]}}}}"#
+        )
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("places.geojson");
+    std::fs::write(&path, format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, points.join(",")))
+        .unwrap();
+    let read = |path: &Path, layer: Option<&str>, frame: &mut _| {
+        let wanted = Wanted { layer: layer.map(str::to_owned), ..Wanted::default() };
+        Layer::new(Source::open(path, "file").unwrap().read("file", &wanted).unwrap(), frame).unwrap()
+    };
+    let raster = Arc::new(Raster::open(&heights, "N43E007.hgt.zip", &Default::default()).unwrap());
+    assert_eq!((raster.columns, raster.rows, raster.filled), (1201, 1201, 1595));
+    // Whichever comes first decides the frame.
+    for heights_first in [true, false] {
+        let mut frame = None;
+        let relief =
+            |frame: &mut _| Elevation::new(Arc::new(Relief::new(Arc::clone(&raster), frame).unwrap()));
+        let (ground, buildings) = if heights_first {
+            let ground = relief(&mut frame);
+            (ground, read(&town, Some("buildings"), &mut frame))
+        } else {
+            let buildings = read(&town, Some("buildings"), &mut frame);
+            (relief(&mut frame), buildings)
+        };
+        let frame_of = if heights_first { "transverse Mercator around 7.5, 43.5" } else { "EPSG:2154" };
+        assert_eq!(buildings.crs, frame_of);
+        let found: Vec<f64> = read(&path, None, &mut frame)
+            .features
+            .iter()
+            .flat_map(|feature| {
+                feature.geometry.points().map(|at| DVec2::new(at[0], at[1])).collect::<Vec<_>>()
+            })
+            .map(|place| ground.height_at(place).unwrap())
+            .collect();
+        // Mont Agel, the slope of the Tete de Chien, the harbour, and the sea; computed with NumPy.
+        for (height, expected) in found.iter().zip([1097.042_4, 364.224, 1.387, 0.0]) {
+            assert!((height - expected).abs() < 1e-3, "{found:?}");
+        }
+        // The town stands between the harbour and the mountains.
+        let points = buildings.features.iter().flat_map(|feature| feature.geometry.points());
+        let under = points.map(|at| ground.height_at(DVec2::new(at[0], at[1])).unwrap());
+        let (low, high) =
+            under.fold((f64::INFINITY, 0.0), |(low, high): (f64, f64), at| (low.min(at), high.max(at)));
+        assert!(low > -12.0 && (100.0..400.0).contains(&high), "{low} {high}");
     }
 }
 

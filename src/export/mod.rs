@@ -18,6 +18,7 @@ mod color;
 mod file;
 mod format;
 pub mod gltf;
+pub mod heights;
 pub mod obj;
 pub mod svg;
 mod texture;

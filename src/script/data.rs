@@ -7,8 +7,9 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::paths::{is_absolute, lead};
 use super::session::Session;
 use crate::error::{Error, Result};
-use crate::objects::Model;
 use crate::objects::import::Wanted as WantedModel;
+use crate::objects::{Elevation, Model};
+use crate::sources::elevation::{Raster, Relief, Wanted as WantedHeights};
 use crate::sources::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
@@ -25,6 +26,7 @@ struct Known {
     told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     models: BTreeMap<PathBuf, Result<Arc<Model>>>,
+    elevations: BTreeMap<String, Result<Elevation>>,
 }
 
 impl Data {
@@ -55,6 +57,47 @@ impl Data {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         known.models.entry(path.clone()).or_insert_with(|| read_model(session, &path, name)).clone()
     }
+}
+
+impl Data {
+    /// The heights that `elevation(name, wanted)` means: the same ones each time.
+    pub(crate) fn elevation(
+        &self,
+        session: &Session,
+        name: &str,
+        wanted: &WantedHeights,
+    ) -> Result<Elevation> {
+        if name.is_empty() {
+            return Err(
+                Error::new("elevation needs the name of a file").help("write elevation(\"N43E007.hgt\")")
+            );
+        }
+        let path = find(session, "file of heights", name)?;
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = format!("{} {wanted:?}", path.display());
+        if let Some(loaded) = known.elevations.get(&key) {
+            return loaded.clone();
+        }
+        let loaded = read_heights(session, &path, name, wanted, &mut known);
+        session.stop.check()?;
+        known.elevations.insert(key, loaded.clone());
+        loaded
+    }
+}
+
+fn read_heights(
+    session: &Session,
+    path: &Path,
+    name: &str,
+    wanted: &WantedHeights,
+    known: &mut Known,
+) -> Result<Elevation> {
+    let raster = Arc::new(Raster::open(path, name, wanted)?);
+    if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
+        let all = raster.columns * raster.rows;
+        eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);
+    }
+    Ok(Elevation::new(Arc::new(Relief::new(raster, &mut known.frame)?)))
 }
 
 /// The largest file (bytes) of a model.

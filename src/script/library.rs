@@ -16,7 +16,7 @@ use super::param::Param;
 use super::require::require;
 use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
 use crate::error::{Error, Result};
-use crate::objects::{Call, KINDS, Kind, Table as ValueTable, Value};
+use crate::objects::{Call, Elevation, ElevationOptions, KINDS, Kind, Model, Table as ValueTable, Value};
 use crate::rules::{Signature, Symbol, Symbols};
 
 /// The standard library, which every script has, compiled once for all machines.
@@ -39,6 +39,9 @@ const LOCKED: [&str; 14] = [
     "dofile",
     "loadfile",
 ];
+
+/// Types whose objects are made of files, by functions of their own.
+const OF_FILES: [&Kind; 2] = [&Model::KIND, &Elevation::KIND];
 
 /// An interpretation that the standard library gives to modules of every system with a type of object.
 pub(crate) struct Standard {
@@ -197,7 +200,7 @@ impl Library {
         lua.set_app_data(Eager(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
         let own = machine.session.options.kinds.clone();
-        for kind in KINDS.iter().copied().chain([&crate::objects::Model::KIND]).chain(own) {
+        for kind in KINDS.iter().copied().chain(OF_FILES).chain(own) {
             install_kind(machine, &globals, kind)?;
         }
         let library = std::rc::Rc::clone(&machine.library);
@@ -305,6 +308,31 @@ impl Library {
         )?;
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
+            "elevation",
+            lua.create_function(move |_, (name, options): (LuaValue, LuaValue)| {
+                let name = match name {
+                    LuaValue::String(name) => name.to_string_lossy(),
+                    _ => String::new(),
+                };
+                let made = library.at_top_level("elevation").and_then(|()| {
+                    let options = match to_field(&options)? {
+                        Value::Nil => ElevationOptions::default(),
+                        Value::Table(options) => ElevationOptions::from_table(&options)?,
+                        other => {
+                            let what = other.describe();
+                            return Err(Error::new(format!(
+                                "elevation takes a table of options, not {what}"
+                            ))
+                            .help("write elevation(\"N43E007.hgt\", { crs = 4326 })"));
+                        }
+                    };
+                    session.data.elevation(&session, &name, &options.wanted()?)
+                });
+                made.map(|elevation| ObjectHandle(Arc::new(elevation))).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
             "require",
             lua.create_function(move |_, name: LuaValue| {
                 let name = match name {
@@ -373,7 +401,7 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
     )?;
     methods.set_metatable(Some(unknown))?;
     lua.set_named_registry_value(&methods_key(kind.name), &methods)?;
-    if kind.name == crate::objects::Model::KIND.name {
+    if OF_FILES.iter().any(|known| known.name == kind.name) {
         return Ok(());
     }
     globals.raw_set(

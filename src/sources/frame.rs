@@ -7,7 +7,7 @@ use super::table::{Feature, Table};
 use crate::error::{Error, Result};
 
 /// The farthest (m) that a coordinate may lie from the origin.
-const FARTHEST: f64 = 2_000_000.0;
+pub(super) const FARTHEST: f64 = 2_000_000.0;
 
 /// What to do about a coordinate system that cannot be used.
 const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
@@ -91,9 +91,13 @@ impl Frame {
     /// a UTM zone would shorten all lengths by 4e-4 and turn north by up to 3 degrees.
     pub fn new(table: &Table) -> Result<Self> {
         let crs = table.crs.clone()?;
-        let source = crs.projection()?;
         check_degrees(&crs, table)?;
-        let [x, y] = centre(&crs, table)?;
+        Self::around(&crs, centre(&crs, table)?, &table.shown)
+    }
+
+    /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
+    pub fn around(crs: &Crs, [x, y]: [f64; 2], shown: &str) -> Result<Self> {
+        let source = crs.projection()?;
         let (name, definition) = if crs.is_true() {
             (crs.name(), crs.in_metres())
         } else {
@@ -102,7 +106,7 @@ impl Frame {
             } else {
                 let mut point = (x, y, 0.0);
                 transform(&source, &Crs::epsg(4326)?.projection()?, &mut point).map_err(|error| {
-                    Error::new(format!("{} cannot be projected: {error}", table.shown)).help(REMEDY)
+                    Error::new(format!("{shown} cannot be projected: {error}")).help(REMEDY)
                 })?;
                 [point.0.to_degrees(), point.1.to_degrees()]
             };
@@ -117,40 +121,35 @@ impl Frame {
         let projection = Proj::from_proj_string(&definition)
             .map_err(|error| Error::new(format!("{name} cannot be used: {error}")).help(REMEDY))?;
         let mut frame = Self { name, origin: [0.0; 2], definition, projection };
-        let centre = frame.project(&source, crs.unit(), [x, y, 0.0]);
-        frame.origin = [centre[0], centre[1]].map(|value| (value / 100.0).round() * 100.0);
+        let centre = frame.passage(crs)?.enter([x, y]);
+        frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
         if frame.origin.iter().any(|value| !value.is_finite()) {
-            return Err(
-                Error::new(format!("{} cannot be projected to {}", table.shown, frame.name)).help(REMEDY)
-            );
+            return Err(Error::new(format!("{shown} cannot be projected to {}", frame.name)).help(REMEDY));
         }
         Ok(frame)
     }
 
-    /// A point of `source`, whose unit is `unit` (rad or its own), in this frame's projection.
-    fn project(&self, source: &Proj, unit: f64, [x, y, z]: [f64; 3]) -> [f64; 3] {
-        let mut point = (x * unit, y * unit, 0.0);
-        match transform(source, &self.projection, &mut point) {
-            Ok(()) => [point.0, point.1, z],
-            Err(_) => [f64::NAN; 3],
-        }
+    /// The way from `crs` into this frame, and back.
+    pub(super) fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
+        let stays = normal(crs.definition) == normal(&self.definition);
+        Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
+    }
+
+    /// The EPSG code of its projection; `None` if it is none of EPSG's, or one whose unit was changed to metres.
+    pub fn epsg(&self) -> Option<u16> {
+        let crs = Crs::epsg(self.name.strip_prefix("EPSG:")?.parse().ok()?).ok()?;
+        (normal(crs.definition) == normal(&self.definition)).then_some(crs.code)
     }
 
     /// Brings the features of `table` into this frame.
     pub(super) fn bring(&self, table: &mut Table) -> Result<()> {
         let crs = table.crs.clone()?;
-        let source = crs.projection()?;
         check_degrees(&crs, table)?;
-        let unit = crs.unit();
-        let stays = normal(crs.definition) == normal(&self.definition);
+        let passage = self.passage(&crs)?;
         for feature in &mut table.features {
             for point in feature.geometry.points_mut() {
                 let was = *point;
-                if !stays {
-                    *point = self.project(&source, unit, was);
-                }
-                point[0] -= self.origin[0];
-                point[1] -= self.origin[1];
+                [point[0], point[1]] = passage.enter([was[0], was[1]]);
                 // A comparison with what is no number fails.
                 if point.iter().all(|value| value.abs() <= FARTHEST) {
                     continue;
@@ -172,6 +171,41 @@ impl Frame {
             }
         }
         Ok(())
+    }
+}
+
+/// The way from a coordinate system into a frame, and back.
+pub(super) struct Passage<'a> {
+    frame: &'a Frame,
+    outside: Proj,
+    /// What the outside's coordinates are multiplied by to be radians, or 1.
+    unit: f64,
+    /// Whether both have the same projection, so that coordinates stay as they are.
+    pub(super) stays: bool,
+}
+
+impl Passage<'_> {
+    /// Where a point of the coordinate system lies in the frame (m); NaN if it cannot be projected.
+    pub(super) fn enter(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let mut point = (x * self.unit, y * self.unit, 0.0);
+        if self.stays {
+            point = (x, y, 0.0);
+        } else if transform(&self.outside, &self.frame.projection, &mut point).is_err() {
+            return [f64::NAN; 2];
+        }
+        [point.0 - self.frame.origin[0], point.1 - self.frame.origin[1]]
+    }
+
+    /// Which point of the coordinate system lies at a place of the frame (m); NaN if it cannot be projected.
+    pub(super) fn leave(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let mut point = (x + self.frame.origin[0], y + self.frame.origin[1], 0.0);
+        if self.stays {
+            return [point.0, point.1];
+        }
+        match transform(&self.frame.projection, &self.outside, &mut point) {
+            Ok(()) => [point.0 / self.unit, point.1 / self.unit],
+            Err(_) => [f64::NAN; 2],
+        }
     }
 }
 

@@ -1,9 +1,11 @@
-//! Data files: layers of features with geometry and attributes, from GeoJSON and GeoPackage.
+//! Data files: layers of features with geometry and attributes, from GeoJSON and GeoPackage, and measured
+//! [`elevation`].
 //!
 //! Comes in: a file. Goes out: a [`Listing`] of what it holds, or a [`Layer`] in metres around an origin, ready to
 //! be modelled. Coordinates are projected here, once: everything behind works in metres.
 
 mod cache;
+pub mod elevation;
 mod frame;
 mod geojson;
 mod geopackage;

@@ -5,6 +5,7 @@
 mod command_line;
 mod data;
 mod determinism;
+mod elevation;
 mod facades;
 mod files;
 mod footprints;

@@ -1,0 +1,153 @@
+//! ESRI ASCII grids (`.asc`): a header of names and numbers, then heights as text.
+
+use super::raster::{Found, Grid, count};
+use super::raw::narrow;
+use crate::error::{Error, Result};
+
+/// What to do about a text that is no grid.
+const REMEDY: &str = "a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: \
+                      gdal_translate -of AAIGrid IN OUT.asc";
+
+/// What a header says.
+#[derive(Default)]
+struct Header {
+    columns: Option<f64>,
+    rows: Option<f64>,
+    /// The south-west corner, and whether it is the centre of the sample there.
+    x: Option<(f64, bool)>,
+    y: Option<(f64, bool)>,
+    /// The steps to the east and to the north.
+    step: [Option<f64>; 2],
+    missing: Option<f64>,
+}
+
+impl Header {
+    /// Takes a value; `None` if no header has this name.
+    fn set(&mut self, name: &str, value: f64) -> Option<()> {
+        match name {
+            "ncols" => self.columns = Some(value),
+            "nrows" => self.rows = Some(value),
+            "xllcorner" => self.x = Some((value, false)),
+            "xllcenter" => self.x = Some((value, true)),
+            "yllcorner" => self.y = Some((value, false)),
+            "yllcenter" => self.y = Some((value, true)),
+            "cellsize" => self.step = [Some(value); 2],
+            "dx" => self.step[0] = Some(value),
+            "dy" => self.step[1] = Some(value),
+            "nodata_value" => self.missing = Some(value),
+            _ => return None,
+        }
+        Some(())
+    }
+}
+
+/// Reads a grid called `name`.
+///
+/// Fails if its header lacks something, if a height is no number, and if there are fewer or more than it says.
+pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
+    let text = std::str::from_utf8(bytes).map_err(|_| {
+        Error::new(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
+    })?;
+    let mut header = Header::default();
+    let mut lines = text.lines().enumerate().peekable();
+    while let Some((number, line)) = lines.peek() {
+        let mut words = line.split_whitespace();
+        let first = words.next().unwrap_or_default();
+        if first.starts_with(|letter: char| letter.is_ascii_digit() || "+-.".contains(letter))
+            || first.eq_ignore_ascii_case("nan")
+        {
+            break;
+        }
+        if !first.is_empty() {
+            let value = words.next().and_then(|word| word.parse().ok());
+            let known = value.and_then(|value| header.set(&first.to_ascii_lowercase(), value));
+            if known.is_none() {
+                let line = shorten(line);
+                return Err(Error::new(format!("{name} has {line:?} in line {}, in its header", number + 1))
+                    .help(REMEDY));
+            }
+        }
+        lines.next();
+    }
+    let lacks = |what: &str| Error::new(format!("{name} has no {what} in its header")).help(REMEDY);
+    let columns = whole(name, "ncols", header.columns.ok_or_else(|| lacks("ncols"))?)?;
+    let rows = whole(name, "nrows", header.rows.ok_or_else(|| lacks("nrows"))?)?;
+    Found::check_size(name, columns, rows)?;
+    let grid = match (header.x, header.y, header.step) {
+        (Some((x, x_centre)), Some((y, y_centre)), [Some(dx), Some(dy)]) => {
+            let half = |is_centre: bool, step: f64| if is_centre { 0.0 } else { step / 2.0 };
+            let north = y + half(y_centre, dy) + dy * count(rows - 1);
+            Some(Grid { first: [x + half(x_centre, dx), north], step: [dx, dy] })
+        }
+        (_, _, [None, _] | [_, None]) => return Err(lacks("cellsize")),
+        // Where it lies may be given.
+        _ => None,
+    };
+    let mut heights = Vec::new();
+    for (number, line) in lines {
+        for word in line.split_whitespace() {
+            let value: f64 = word.parse().map_err(|_| {
+                let word = shorten(word);
+                Error::new(format!("{name} has {word:?} in line {}, which is no height", number + 1))
+                    .help("write heights with a point, such as 12.5")
+            })?;
+            heights.push(if Some(value) == header.missing { f32::NAN } else { narrow(value) });
+        }
+        if heights.len() > columns * rows {
+            break;
+        }
+    }
+    let expected = columns * rows;
+    match heights.len() {
+        found if found < expected => Err(Error::new(format!(
+            "{name} is cut short: it has {found} of {expected} heights ({} bytes)",
+            bytes.len()
+        ))
+        .help("get it again")),
+        found if found > expected => Err(Error::new(format!(
+            "{name} has more heights than the {expected} of its header ({columns} x {rows})"
+        ))
+        .help("correct ncols and nrows")),
+        _ => Ok(Found { columns, rows, heights, grid, crs: Ok(None) }),
+    }
+}
+
+/// A number of columns or rows.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+fn whole(name: &str, what: &str, value: f64) -> Result<usize> {
+    if value.fract() == 0.0 && (0.0..1e15).contains(&value) {
+        return Ok(value as usize);
+    }
+    Err(Error::new(format!("{name} has {what} {value}, which is no number of heights")).help(REMEDY))
+}
+
+/// The beginning of a text that may be long.
+fn shorten(text: &str) -> String {
+    text.chars().take(30).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Raster, Wanted};
+
+    fn read(text: &str) -> Raster {
+        Raster::read(text.as_bytes(), "a.asc", &Wanted::default()).unwrap()
+    }
+
+    #[test]
+    fn corners_and_centres_give_the_same_grid() {
+        let corner = read("ncols 3\nNROWS 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n");
+        let centre = read("ncols 3\nnrows 2\nxllcenter 11\nyllcenter 21\ndx 2\ndy 2\n1 2 3 4 5\n6");
+        assert_eq!((corner.grid, corner.heights.clone()), (centre.grid, centre.heights));
+        assert_eq!((corner.grid.first, corner.bounds()), ([11.0, 23.0], [10.0, 20.0, 16.0, 24.0]));
+        assert_eq!(corner.heights, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn what_marks_missing_heights_is_filled() {
+        let read = read(
+            "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9999\n5 5 5\n5 -9999 5\n5 nan 5\n",
+        );
+        assert_eq!((read.filled, read.heights), (2, vec![5.0; 9]));
+    }
+}

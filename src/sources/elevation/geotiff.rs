@@ -1,0 +1,235 @@
+//! GeoTIFF: whole numbers or floats in strips or tiles, and tags that tell where they lie.
+
+use std::io::Cursor;
+
+use tiff::TiffError;
+use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::super::Crs;
+use super::raster::{Found, Grid, count};
+use super::raw::narrow;
+use crate::error::{Error, Result};
+
+/// The most room (bytes) for one strip or tile, and for the values of one tag.
+const LARGEST_PART: usize = 1_000_000_000;
+const LARGEST_TAG: usize = 64_000_000;
+
+/// Keys of GeoTIFF, and values of theirs.
+pub(crate) mod keys {
+    /// Whether coordinates are projected or geographic.
+    pub(crate) const MODEL: u16 = 1024;
+    /// Whether a sample is an area or a point.
+    pub(crate) const RASTER: u16 = 1025;
+    /// The EPSG code of geographic coordinates.
+    pub(crate) const GEOGRAPHIC: u16 = 2048;
+    /// The EPSG code of projected coordinates.
+    pub(crate) const PROJECTED: u16 = 3072;
+    /// The unit of heights.
+    pub(crate) const VERTICAL_UNIT: u16 = 4099;
+    /// Coordinates are projected.
+    pub(crate) const IS_PROJECTED: u16 = 1;
+    /// A sample is an area.
+    pub(crate) const AREA: u16 = 1;
+    /// A sample is a point.
+    pub(crate) const POINT: u16 = 2;
+    /// A coordinate system that is described, not named.
+    pub(crate) const OWN: u16 = 32767;
+}
+
+/// A TIFF in memory that is being read.
+type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// Reads a file called `name`.
+///
+/// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
+pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
+    let damaged = |error: TiffError| damaged(name, &error);
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = LARGEST_PART;
+    limits.intermediate_buffer_size = LARGEST_PART;
+    limits.ifd_value_size = LARGEST_TAG;
+    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits);
+    let (columns, rows) = tiff.dimensions().map_err(damaged)?;
+    let [columns, rows] = [columns, rows].map(|side| side as usize);
+    Found::check_size(name, columns, rows)?;
+    let color = tiff.colortype().map_err(damaged)?;
+    if color.num_samples() != 1 {
+        return Err(Error::new(format!("{name} has {} bands, where heights are one", color.num_samples()))
+            .help("take out the one of heights: gdal_translate -b 1 IN OUT.tif"));
+    }
+    check_whole(&mut tiff, bytes, name)?;
+    let keys = Keys::read(&mut tiff);
+    let scale = keys.metres(name)?;
+    let missing = tiff.get_tag_ascii_string(Tag::GdalNodata).ok();
+    let missing = missing.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
+    let mut heights = samples(&mut tiff, name, columns, rows)?;
+    // Floats mark what is missing with the nearest of theirs.
+    let marks = |height: f32, mark: f64| height == narrow(mark);
+    for height in &mut heights {
+        if missing.is_some_and(|mark| marks(*height, mark)) {
+            *height = f32::NAN;
+        }
+        *height *= scale;
+    }
+    let mut grid = grid(&mut tiff, name, keys.get(keys::RASTER) == Some(keys::POINT))?;
+    if let Some(grid) = &mut grid {
+        if grid.step[1] < 0.0 {
+            // Rows come from the south.
+            let flipped = heights.chunks_exact(columns).rev().flatten().copied();
+            heights = flipped.collect();
+            grid.first[1] -= grid.step[1] * count(rows - 1);
+            grid.step[1] = -grid.step[1];
+        }
+    }
+    Ok(Found { columns, rows, heights, grid, crs: keys.crs(name) })
+}
+
+/// Refuses a file that ends before its last strip or tile.
+fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
+    for [offsets, sizes] in
+        [[Tag::StripOffsets, Tag::StripByteCounts], [Tag::TileOffsets, Tag::TileByteCounts]]
+    {
+        let (Ok(offsets), Ok(sizes)) = (tiff.get_tag_u64_vec(offsets), tiff.get_tag_u64_vec(sizes)) else {
+            continue;
+        };
+        let ends = offsets.iter().zip(&sizes).map(|(offset, size)| offset.saturating_add(*size));
+        let (end, length) = (ends.max().unwrap_or(0), bytes.len());
+        if end > length as u64 {
+            return Err(Error::new(format!("{name} is cut short: it has {length} of {end} bytes"))
+                .help("get it again"));
+        }
+    }
+    Ok(())
+}
+
+/// All heights, strip by strip or tile by tile.
+fn samples(tiff: &mut Tiff<'_>, name: &str, columns: usize, rows: usize) -> Result<Vec<f32>> {
+    let (width, height) = tiff.chunk_dimensions();
+    let [width, height] = [width, height].map(|side| side as usize);
+    if width == 0 || height == 0 {
+        return Err(Error::new(format!("{name} has strips or tiles without extent")).help("get it again"));
+    }
+    let across = columns.div_ceil(width);
+    let chunks = across * rows.div_ceil(height);
+    let mut heights = vec![f32::NAN; columns * rows];
+    for chunk in 0..chunks {
+        let number = u32::try_from(chunk).map_err(|_| Error::new(format!("{name} has too many strips")))?;
+        let (found_width, _) = tiff.chunk_data_dimensions(number);
+        let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
+        let values = floats(values, name)?;
+        let (left, top) = (chunk % across * width, chunk / across * height);
+        let stride = (found_width as usize).max(1);
+        for (row, values) in (top..rows.min(top + height)).zip(values.chunks(stride)) {
+            let line = &mut heights[row * columns + left..row * columns + columns.min(left + width)];
+            line.iter_mut().zip(values).for_each(|(height, value)| *height = *value);
+        }
+    }
+    Ok(heights)
+}
+
+/// Samples as heights. Fails on types of which no heights are made.
+fn floats(values: DecodingResult, name: &str) -> Result<Vec<f32>> {
+    Ok(match values {
+        DecodingResult::F32(values) => values,
+        DecodingResult::F64(values) => values.into_iter().map(narrow).collect(),
+        DecodingResult::I16(values) => values.into_iter().map(f32::from).collect(),
+        DecodingResult::U16(values) => values.into_iter().map(f32::from).collect(),
+        DecodingResult::I32(values) => values.into_iter().map(|value| narrow(value.into())).collect(),
+        DecodingResult::U32(values) => values.into_iter().map(|value| narrow(value.into())).collect(),
+        DecodingResult::U8(_) | DecodingResult::I8(_) => {
+            return Err(Error::new(format!(
+                "{name} has samples of 8 bits, whose 256 levels would make steps"
+            ))
+            .help("export it with 16 bits or floats"));
+        }
+        _ => {
+            return Err(Error::new(format!("{name} has samples of a type that is not read"))
+                .help("convert it: gdal_translate -ot Float32 IN OUT.tif"));
+        }
+    })
+}
+
+/// Where the samples lie; `None` if no tag tells. The step to the south is negative where rows come from the south.
+///
+/// Fails if the raster is turned.
+fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>> {
+    let scale = tiff.get_tag_f64_vec(Tag::ModelPixelScaleTag).unwrap_or_default();
+    let tie = tiff.get_tag_f64_vec(Tag::ModelTiepointTag).unwrap_or_default();
+    let matrix = tiff.get_tag_f64_vec(Tag::ModelTransformationTag).unwrap_or_default();
+    // The corner of the first sample's area, or its centre, and the steps.
+    let (corner, step) = match (scale.as_slice(), tie.as_slice(), matrix.as_slice()) {
+        ([dx, dy, ..], [column, row, _, x, y, ..], _) => ([x - column * dx, y + row * dy], [*dx, *dy]),
+        (_, _, [a, b, _, x, c, d, _, y, ..]) => {
+            if *b != 0.0 || *c != 0.0 {
+                return Err(Error::new(format!("{name} is turned: its columns do not run north"))
+                    .help("straighten it: gdalwarp IN OUT.tif"));
+            }
+            ([*x, *y], [*a, -*d])
+        }
+        _ => return Ok(None),
+    };
+    let half = if is_point { 0.0 } else { 0.5 };
+    Ok(Some(Grid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
+}
+
+/// The short keys of a GeoTIFF: number and value.
+struct Keys(Vec<(u16, u16)>);
+
+impl Keys {
+    /// None where the file is a plain TIFF.
+    fn read(tiff: &mut Tiff<'_>) -> Self {
+        let directory = tiff.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).unwrap_or_default();
+        // Four numbers of a header, then four for each key; a key whose second is not 0 stands elsewhere.
+        let keys = directory.chunks_exact(4).skip(1);
+        Self(keys.filter(|key| key[1] == 0).map(|key| (key[0], key[3])).collect())
+    }
+
+    fn get(&self, key: u16) -> Option<u16> {
+        self.0.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
+    }
+
+    /// The coordinate system, if the file has one.
+    fn crs(&self, name: &str) -> Result<Option<Crs>> {
+        let code = self.get(keys::PROJECTED).or_else(|| self.get(keys::GEOGRAPHIC));
+        match code {
+            None | Some(0) if self.get(keys::MODEL).is_none_or(|model| model == 0) => Ok(None),
+            Some(code) if code != keys::OWN && code != 0 => Crs::epsg(code.into())
+                .map(Some)
+                .map_err(|error| Error::new(format!("{name}: {}", error.message())).help(NAME_IT)),
+            _ => {
+                Err(Error::new(format!("{name} has a coordinate system that is none of EPSG's"))
+                    .help(NAME_IT))
+            }
+        }
+    }
+
+    /// What heights are multiplied by to be metres.
+    fn metres(&self, name: &str) -> Result<f32> {
+        match self.get(keys::VERTICAL_UNIT) {
+            None | Some(0 | 9001 | keys::OWN) => Ok(1.0),
+            Some(9002) => Ok(0.3048),
+            Some(9003) => Ok(0.304_800_6),
+            Some(unit) => {
+                Err(Error::new(format!("{name} has heights in a unit that is not known (EPSG:{unit})"))
+                    .help("convert it to metres"))
+            }
+        }
+    }
+}
+
+/// What to do about a coordinate system that cannot be used.
+const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif";
+
+fn damaged(name: &str, error: &TiffError) -> Error {
+    match error {
+        TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            Error::new(format!("{name} is cut short")).help("get it again")
+        }
+        TiffError::LimitsExceeded => Error::new(format!("{name} has a strip or a tag that is too large"))
+            .help("write it with tiles: gdal_translate -co TILED=YES IN OUT.tif"),
+        TiffError::UnsupportedError(_) => Error::new(format!("{name} is a TIFF of a kind that is not read"))
+            .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
+        _ => Error::new(format!("{name} is a damaged TIFF")).help("get it again"),
+    }
+}

@@ -1,0 +1,35 @@
+//! Raw squares of little-endian floats, of 4 bytes (`.r32`, `.f32`) or of 8 (`.r64`, `.f64`).
+
+use super::raster::Found;
+use crate::error::{Error, Result};
+
+/// Reads a square of floats of `SIZE` bytes. Fails if it is not square.
+pub(super) fn read<const SIZE: usize>(bytes: &[u8], name: &str) -> Result<Found> {
+    let side = (bytes.len() / SIZE).isqrt();
+    if side * side * SIZE != bytes.len() {
+        let next = side + 1;
+        return Err(Error::new(format!(
+            "{name} is not square: it has {} of the {} bytes of {next} x {next} floats",
+            bytes.len(),
+            next * next * SIZE
+        ))
+        .help("it is cut short, or no square of floats; a GeoTIFF may have any shape"));
+    }
+    Found::check_size(name, side, side)?;
+    let heights = bytes.chunks_exact(SIZE).map(|part| {
+        let mut wide = [0; 8];
+        wide[..SIZE].copy_from_slice(part);
+        if SIZE == 4 {
+            f32::from_le_bytes([wide[0], wide[1], wide[2], wide[3]])
+        } else {
+            narrow(f64::from_le_bytes(wide))
+        }
+    });
+    Ok(Found { columns: side, rows: side, heights: heights.collect(), grid: None, crs: Ok(None) })
+}
+
+/// A height (m) as rasters hold it: to a millimetre below 16 km.
+#[allow(clippy::cast_possible_truncation, reason = "heights are f32")]
+pub(super) fn narrow(height: f64) -> f32 {
+    height as f32
+}

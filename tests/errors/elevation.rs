@@ -1,0 +1,414 @@
+//! Files of heights: those that are not there, not whole, not heights, or that do not tell enough.
+
+use insta::assert_snapshot;
+
+use crate::support::Folder;
+
+/// A PNG of 2 by 2 samples.
+fn picture(color: png::ColorType, depth: png::BitDepth, content: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 2, 2);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(content).unwrap();
+    writer.finish().unwrap();
+    bytes
+}
+
+/// The beginning of a PNG that says it is very large.
+fn large() -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, 65536, 65536);
+    encoder.set_color(png::ColorType::Grayscale);
+    encoder.set_depth(png::BitDepth::Sixteen);
+    drop(encoder.write_header().unwrap());
+    bytes
+}
+
+/// A TIFF of 2 by 2 heights.
+fn tiff(keys: &[u16], steps: &[f64], heights: [f32; 4]) -> Vec<u8> {
+    use tiff::tags::Tag;
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut encoder = tiff::encoder::TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = encoder.new_image::<tiff::encoder::colortype::Gray32Float>(2, 2).unwrap();
+    if let [a, b, c, d] = *steps {
+        let matrix = [a, b, 0.0, 7.0, c, d, 0.0, 44.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0];
+        image.encoder().write_tag(Tag::ModelTransformationTag, &matrix[..]).unwrap();
+    }
+    if !keys.is_empty() {
+        image.encoder().write_tag(Tag::GeoKeyDirectoryTag, keys).unwrap();
+    }
+    image.write_data(&heights).unwrap();
+    bytes.into_inner()
+}
+
+/// A grid whose lines are `header` and `heights`.
+fn grid(header: &str, heights: &str) -> String {
+    format!("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\n{header}\n{heights}\n")
+}
+
+/// Files that do well, and such that do not.
+fn folder() -> Folder {
+    use png::{BitDepth, ColorType};
+    let tile = |heights: i16| (0..heights).flat_map(|height| height.to_be_bytes()).collect::<Vec<u8>>();
+    let grey = picture(ColorType::Grayscale, BitDepth::Sixteen, &[0; 8]);
+    let named = |code: u16| [1, 1, 0, 2, 1024, 0, 1, 2, 2048, 0, 1, code];
+    let (north, flat) = ([0.1, 0.0, 0.0, -0.1], [1.0; 4]);
+    let whole = tiff(&named(4326), &north, flat);
+    let gdal = include_bytes!("../elevation/floats_f32.tif");
+    let mut packed = zip::ZipWriter::new(std::io::Cursor::new(Vec::new()));
+    packed.start_file("read.me", zip::write::SimpleFileOptions::default()).unwrap();
+    let packed = packed.finish().unwrap().into_inner();
+    Folder::new()
+        .with("in/N43E007.hgt", tile(25))
+        .with("in/cut/N43E007.hgt", tile(24))
+        .with("in/nowhere.hgt", tile(25))
+        .with("in/sea/N43E006.hgt", [0x80, 0].repeat(9))
+        .with("in/empty.hgt", "")
+        .with("in/one.r32", [0; 4])
+        .with("in/cut.r32", [0; 20])
+        .with("in/bytes.png", picture(ColorType::Grayscale, BitDepth::Eight, &[0; 4]))
+        .with("in/colours.png", picture(ColorType::Rgb, BitDepth::Eight, &[0; 12]))
+        .with("in/grey.png", grey.as_slice())
+        .with("in/cut.png", &grey[..grey.len() - 30])
+        .with("in/big.png", large())
+        .with("in/whole.tif", whole.as_slice())
+        .with("in/text.tif", "no picture at all")
+        .with("in/cut.tif", &gdal[..4000])
+        .with("in/cut2.tif", &whole[..whole.len() - 9])
+        .with("in/turned.tif", tiff(&named(4326), &[0.1, 0.02, 0.02, -0.1], flat))
+        .with("in/other.tif", tiff(&named(32767), &north, flat))
+        .with("in/unknown.tif", tiff(&named(9999), &north, flat))
+        .with("in/plain.tif", tiff(&[], &[], flat))
+        .with("in/endless.tif", tiff(&named(4326), &north, [1.0, 2.0, f32::INFINITY, 4.0]))
+        .with("in/cut.asc", grid("cellsize 1", "1 2 3"))
+        .with("in/more.asc", grid("cellsize 1", "1 2 3 4 5"))
+        .with("in/comma.asc", grid("cellsize 1", "1,5 2 3 4"))
+        .with("in/mark.asc", grid("cellsize 1", "1 2 3 999999"))
+        .with("in/degrees.asc", grid("cellsize 0.0002", "1 2 3 4"))
+        .with("in/size.asc", grid("", "1 2 3 4"))
+        .with("in/odd.asc", grid("cellsize 1\nproj 3", "1 2 3 4"))
+        .with("in/huge.asc", "ncols 100000\nnrows 100000\ncellsize 1\n1")
+        .with("in/whole.asc", grid("cellsize 1", "1 2 3 4"))
+        .with("in/packed.hgt.zip", packed)
+        .with("in/broken.zip", "PK\u{3}\u{4} and so on")
+        .with("in/heights.xyz", "1 2 3")
+        .with("outside.hgt", tile(25))
+}
+
+/// What a script is told whose second line is `line`.
+fn told(line: &str) -> String {
+    folder().with("in/s.lua", format!("local a = 1\n{line}\n")).refuses(&["run", "in/s.lua"])
+}
+
+#[test]
+fn a_file_of_heights_that_is_missing_or_lies_outside_is_told() {
+    assert_snapshot!(told(r#"elevation("N43E008.hgt")"#), @r#"
+    error: in/s.lua:2: there is no file of heights N43E008.hgt
+      | elevation("N43E008.hgt")
+      help: it is looked for from the script's folder; other folders are given with --data FOLDER
+    "#);
+    assert_snapshot!(told(r#"elevation("../outside.hgt")"#), @r#"
+    error: in/s.lua:2: the file of heights ../outside.hgt lies outside the script's folder
+      | elevation("../outside.hgt")
+      help: a script reads data in its own folder and below it, and in those that are given: --data FOLDER
+    "#);
+    assert_snapshot!(told(r#"elevation()"#), @r#"
+    error: in/s.lua:2: elevation needs the name of a file
+      | elevation()
+      help: write elevation("N43E007.hgt")
+    "#);
+    assert_snapshot!(told(r#"elevation("cut")"#), @r#"
+    error: in/s.lua:2: cut is a folder
+      | elevation("cut")
+      help: name a file of heights in it
+    "#);
+}
+
+#[test]
+fn a_file_that_is_not_whole_is_told() {
+    assert_snapshot!(told(r#"elevation("empty.hgt")"#), @r#"
+    error: in/s.lua:2: empty.hgt is empty
+      | elevation("empty.hgt")
+      help: get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("cut/N43E007.hgt")"#), @r#"
+    error: in/s.lua:2: cut/N43E007.hgt is not square: it has 48 of the 2884802 bytes of 1201 x 1201 heights
+      | elevation("cut/N43E007.hgt")
+      help: it is cut short; get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("cut.r32")"#), @r#"
+    error: in/s.lua:2: cut.r32 is not square: it has 20 of the 36 bytes of 3 x 3 floats
+      | elevation("cut.r32")
+      help: it is cut short, or no square of floats; a GeoTIFF may have any shape
+    "#);
+    assert_snapshot!(told(r#"elevation("cut.png")"#), @r#"
+    error: in/s.lua:2: cut.png is cut short: it ends after 42 bytes, where more should follow
+      | elevation("cut.png")
+      help: get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("cut.tif")"#), @r#"
+    error: in/s.lua:2: cut.tif is cut short: it has 4000 of 5862 bytes
+      | elevation("cut.tif")
+      help: get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("cut2.tif")"#), @r#"
+    error: in/s.lua:2: cut2.tif is cut short
+      | elevation("cut2.tif")
+      help: get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("cut.asc")"#), @r#"
+    error: in/s.lua:2: cut.asc is cut short: it has 3 of 4 heights (57 bytes)
+      | elevation("cut.asc")
+      help: get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("broken.zip")"#), @r#"
+    error: in/s.lua:2: broken.zip cannot be unpacked
+      | elevation("broken.zip")
+      help: the file is damaged or cut short; get it again
+    "#);
+    assert_snapshot!(told(r#"elevation("packed.hgt.zip")"#), @r#"
+    error: in/s.lua:2: packed.hgt.zip holds no .hgt file
+      | elevation("packed.hgt.zip")
+      help: unpack it, and name the file of heights itself
+    "#);
+}
+
+#[test]
+fn a_file_that_is_no_raster_of_heights_is_told() {
+    assert_snapshot!(told(r#"elevation("heights.xyz")"#), @r#"
+    error: in/s.lua:2: heights.xyz is in no format of heights that is known
+      | elevation("heights.xyz")
+      help: heights are read from .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grids (.asc), PNG, and raw floats (.r32, .r64)
+    "#);
+    assert_snapshot!(told(r#"elevation("text.tif")"#), @r#"
+    error: in/s.lua:2: text.tif does not begin as a .tif file does
+      | elevation("text.tif")
+      help: get it again, or give it the extension of what it is
+    "#);
+    assert_snapshot!(told(r#"elevation("bytes.png")"#), @r#"
+    error: in/s.lua:2: bytes.png is a PNG of 8 bits or less, whose 256 levels would make steps
+      | elevation("bytes.png")
+      help: export it with 16 bits, or as a GeoTIFF
+    "#);
+    assert_snapshot!(told(r#"elevation("colours.png")"#), @r#"
+    error: in/s.lua:2: colours.png is a PNG in colours, not in grey of 16 bits
+      | elevation("colours.png")
+      help: if its colours are heights as Mapbox encodes them, say encoding = "terrain-rgb"
+    "#);
+    assert_snapshot!(told(r#"elevation("turned.tif")"#), @r#"
+    error: in/s.lua:2: turned.tif is turned: its columns do not run north
+      | elevation("turned.tif")
+      help: straighten it: gdalwarp IN OUT.tif
+    "#);
+    assert_snapshot!(told(r#"elevation("more.asc")"#), @r#"
+    error: in/s.lua:2: more.asc has more heights than the 4 of its header (2 x 2)
+      | elevation("more.asc")
+      help: correct ncols and nrows
+    "#);
+    assert_snapshot!(told(r#"elevation("comma.asc")"#), @r#"
+    error: in/s.lua:2: comma.asc has "1,5" in line 6, which is no height
+      | elevation("comma.asc")
+      help: write heights with a point, such as 12.5
+    "#);
+    assert_snapshot!(told(r#"elevation("size.asc")"#), @r#"
+    error: in/s.lua:2: size.asc has no cellsize in its header
+      | elevation("size.asc")
+      help: a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: gdal_translate -of AAIGrid IN OUT.asc
+    "#);
+    assert_snapshot!(told(r#"elevation("odd.asc")"#), @r#"
+    error: in/s.lua:2: odd.asc has "proj 3" in line 6, in its header
+      | elevation("odd.asc")
+      help: a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: gdal_translate -of AAIGrid IN OUT.asc
+    "#);
+    assert_snapshot!(told(r#"elevation("one.r32")"#), @r#"
+    error: in/s.lua:2: one.r32 has 1 x 1 heights
+      | elevation("one.r32")
+      help: at least 2 x 2 are needed to know what is in between
+    "#);
+}
+
+#[test]
+fn sizes_and_heights_that_cannot_be_are_told() {
+    assert_snapshot!(told(r#"elevation("huge.asc")"#), @r#"
+    error: in/s.lua:2: huge.asc has 100000 x 100000 heights, more than 200 million
+      | elevation("huge.asc")
+      help: cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS
+    "#);
+    assert_snapshot!(told(r#"elevation("big.png")"#), @r#"
+    error: in/s.lua:2: big.png has 65536 x 65536 heights, more than 200 million
+      | elevation("big.png")
+      help: cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS
+    "#);
+    assert_snapshot!(told(r#"elevation("sea/N43E006.hgt")"#), @r#"
+    error: in/s.lua:2: sea/N43E006.hgt has no data: all its heights are missing
+      | elevation("sea/N43E006.hgt")
+      help: get another part, or look at it in a viewer of maps
+    "#);
+    assert_snapshot!(told(r#"elevation("endless.tif")"#), @r#"
+    error: in/s.lua:2: endless.tif has an infinite height in row 2, column 1
+      | elevation("endless.tif")
+      help: if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE
+    "#);
+    assert_snapshot!(told(r#"elevation("mark.asc")"#), @r#"
+    error: in/s.lua:2: mark.asc has a height of 999999 m in row 2, column 2
+      | elevation("mark.asc")
+      help: if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE
+    "#);
+}
+
+#[test]
+fn what_a_file_does_not_tell_is_asked_for() {
+    assert_snapshot!(told(r#"elevation("nowhere.hgt")"#), @r#"
+    error: in/s.lua:2: nowhere.hgt does not tell where it lies
+      | elevation("nowhere.hgt")
+      help: name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs
+    "#);
+    assert_snapshot!(told(r#"elevation("grey.png")"#), @r#"
+    error: in/s.lua:2: grey.png does not tell the heights of black and white
+      | elevation("grey.png")
+      help: name them (m): elevation(file, { low = 0, high = 1200, ... })
+    "#);
+    assert_snapshot!(told(r#"elevation("grey.png", { low = 0, high = 100 })"#), @r#"
+    error: in/s.lua:2: grey.png does not tell where it lies
+      | elevation("grey.png", { low = 0, high = 100 })
+      help: name its edges: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, or in the coordinate system crs
+    "#);
+    assert_snapshot!(told(r#"elevation("plain.tif")"#), @r#"
+    error: in/s.lua:2: plain.tif does not tell where it lies
+      | elevation("plain.tif")
+      help: name its edges: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, or in the coordinate system crs
+    "#);
+    assert_snapshot!(told(r#"elevation("other.tif")"#), @r#"
+    error: in/s.lua:2: other.tif has a coordinate system that is none of EPSG's
+      | elevation("other.tif")
+      help: name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif
+    "#);
+    assert_snapshot!(told(r#"elevation("unknown.tif")"#), @r#"
+    error: in/s.lua:2: unknown.tif: the coordinate system EPSG:9999 is not known
+      | elevation("unknown.tif")
+      help: name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif
+    "#);
+    assert_snapshot!(told(r#"elevation("degrees.asc")"#), @r#"
+    error: in/s.lua:2: degrees.asc has steps of 0.0002 x 0.0002 m, less than a millimetre
+      | elevation("degrees.asc")
+      help: if these are degrees, say so: elevation(file, { crs = 4326 })
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", { crs = 3067 }) source("none.gpkg")"#), @r#"
+    error: in/s.lua:2: there is no data file none.gpkg
+      | elevation("whole.tif", { crs = 3067 }) source("none.gpkg")
+      help: it is looked for from the script's folder; other folders are given with --data FOLDER
+    "#);
+}
+
+#[test]
+fn options_that_cannot_be_are_told() {
+    assert_snapshot!(told(r#"elevation("whole.tif", { csr = 4326 })"#), @r#"
+    error: in/s.lua:2: elevation has no field called csr
+      | elevation("whole.tif", { csr = 4326 })
+      help: did you mean crs?
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", { crs = 99999 })"#), @r#"
+    error: in/s.lua:2: elevation: the coordinate system EPSG:99999 is not known
+      | elevation("whole.tif", { crs = 99999 })
+      help: name the right one: elevation(file, { crs = 4326 })
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", { low = 1 })"#), @r#"
+    error: in/s.lua:2: whole.tif is no PNG, so it takes no low, high or encoding
+      | elevation("whole.tif", { low = 1 })
+      help: its heights are metres already; leave these options out
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", { bounds = { 1, 2, 3 } })"#), @r#"
+    error: in/s.lua:2: elevation: bounds has 3 numbers, not 4
+      | elevation("whole.tif", { bounds = { 1, 2, 3 } })
+      help: write { west, south, east, north }
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", { bounds = { 1, 2, 0, 3 } })"#), @r#"
+    error: in/s.lua:2: elevation: bounds = { 1, 2, 0, 3 } enclose nothing
+      | elevation("whole.tif", { bounds = { 1, 2, 0, 3 } })
+      help: write { west, south, east, north }, with west below east and south below north
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", { bounds = { 385000, 6671000, 386000, 6672000 } })"#), @r#"
+    error: in/s.lua:2: whole.tif lies at 385250, 6671750, which is no longitude and latitude
+      | elevation("whole.tif", { bounds = { 385000, 6671000, 386000, 6672000 } })
+      help: name the coordinate system of the file: elevation(file, { crs = 3067 })
+    "#);
+    assert_snapshot!(told(r#"elevation("grey.png", { encoding = "terrarium" })"#), @r#"
+    error: in/s.lua:2: elevation: there is no encoding "terrarium"
+      | elevation("grey.png", { encoding = "terrarium" })
+      help: write encoding = "terrain-rgb", or leave it out
+    "#);
+    assert_snapshot!(told(r#"elevation("grey.png", { encoding = "terrain-rgb" })"#), @r#"
+    error: in/s.lua:2: grey.png has no colours of 8 bits that could be heights
+      | elevation("grey.png", { encoding = "terrain-rgb" })
+      help: leave encoding out, if it is grey; get the tile as .pngraw, if it has a palette
+    "#);
+    assert_snapshot!(told(r#"elevation("grey.png", { low = 9, high = 1 })"#), @r#"
+    error: in/s.lua:2: grey.png cannot lie between low = 9 and high = 1
+      | elevation("grey.png", { low = 9, high = 1 })
+      help: low is the height (m) of black, high the greater one of white
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.tif", 4326)"#), @r#"
+    error: in/s.lua:2: elevation takes a table of options, not a number
+      | elevation("whole.tif", 4326)
+      help: write elevation("N43E007.hgt", { crs = 4326 })
+    "#);
+}
+
+#[test]
+fn a_place_outside_is_told() {
+    assert_snapshot!(told(r#"elevation("whole.asc"):height({ 2, 2.5 })"#), @r#"
+    error: in/s.lua:2: elevation: 2.0, 2.5 lies outside of whole.asc, which reaches from 0.0, 0.0 to 2.0, 2.0
+      | elevation("whole.asc"):height({ 2, 2.5 })
+      help: ask within its bounds, or use a file that reaches farther
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.asc"):height({ 2 })"#), @r#"
+    error: in/s.lua:2: elevation:height: place must be a vector: { x, y, z } or vec(x, y, z), not {2}
+      | elevation("whole.asc"):height({ 2 })
+    "#);
+    assert_snapshot!(told(r#"elevation("whole.asc"):hight({ 2, 2 })"#), @r#"
+    error: in/s.lua:2: elevation has no method or field called hight
+      | elevation("whole.asc"):hight({ 2, 2 })
+      help: did you mean high?
+    "#);
+}
+
+#[test]
+fn a_chain_whose_place_lies_outside_is_left_out() {
+    let script = r#"
+local ground = elevation("whole.asc")
+local A = module("A", "x")
+local s = lsystem({ object = turtle() })
+s:axiom(source({ { id = "in", x = 1 }, { id = "out", x = 9 } }), function(feature)
+  return A(ground:height({ feature.x, 1 }))
+end)
+s:interpret("A(h)", function(this, h) this:forward(h) end)
+print(#s:derive(1).chains)
+"#;
+    let folder = folder().with("in/s.lua", script);
+    let said = folder.burgeon(&["run", "in/s.lua"]).done();
+    assert!(said.stderr.contains("1 of 2 features skipped"), "{}", said.stderr);
+}
+
+#[test]
+fn heights_are_asked_in_rules_and_holes_are_told_once() {
+    let script = r#"
+local ground = elevation("holes.asc")
+assert(elevation("holes.asc"):height({ 0.5, 0.5 }) == ground:height({ 0.5, 0.5 }))
+local A, B = module("A", "x"), module("B", "h")
+local s = lsystem()
+s:axiom(A(0.5), A(1.5))
+s:rule("A(x)", function(this, x) return B(ground:height({ x, 1.5 })) end)
+print(s:derive().chains[1])
+print(ground:low().z, ground:high().z, ground:high().x, ground:step(), tostring(ground))
+"#;
+    let folder =
+        folder().with("in/s.lua", script).with("in/holes.asc", grid("cellsize 1\nnodata_value 0", "4 8 0 6"));
+    let said = folder.burgeon(&["run", "in/s.lua", "--json"]).done();
+    assert_snapshot!(said.stderr, @r#"
+    holes.asc: filled 1 of 4 heights, which are missing, from around them
+    B(4) B(8)
+    4	8	2	1	elevation
+    "#);
+}
