@@ -8,6 +8,7 @@ use crate::derive::{Crew, Derived, Report, Times};
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::script::{Machine, Options, Param, Session, Watchdog};
+use crate::sources::Frame;
 
 /// What a run of a script gave.
 pub struct Run {
@@ -17,6 +18,8 @@ pub struct Run {
     pub systems: Vec<Arc<Derived>>,
     /// The parameters that the script declared.
     pub params: Vec<Param>,
+    /// The projection and the origin of its data, if it has any.
+    pub frame: Option<Frame>,
     /// Where the time went.
     pub times: RunTimes,
 }
@@ -90,7 +93,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     }
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
-    Ok(Run { scene, systems, params, times })
+    Ok(Run { scene, systems, params, frame: session.data.frame(), times })
 }
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once.

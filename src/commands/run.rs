@@ -6,9 +6,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon::derive::{Derived, Report};
-use burgeon::export;
+use burgeon::export::{self, heights::HeightMap};
+use burgeon::objects::Terrain;
 use burgeon::presets::Presets;
 use burgeon::script::{Param, Preset, Session};
+use burgeon::terrain::Map;
 use burgeon::{Error, Result};
 use clap::Args;
 
@@ -31,6 +33,14 @@ pub(crate) struct Run {
     /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
     #[arg(long, value_name = "FILE")]
     chain: Option<PathBuf>,
+
+    /// Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
+    #[arg(long, value_name = "FILE")]
+    heights: Option<PathBuf>,
+
+    /// Writes the changes of the ground of the terrain, for edits(FILE) in a script
+    #[arg(long, value_name = "FILE")]
+    edits: Option<PathBuf>,
 
     /// Writes which features were skipped or simplified, and why, as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
@@ -105,6 +115,15 @@ impl Run {
             if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
                 write_chains(path, &run.systems)?;
             }
+            if let Some(path) = &self.heights {
+                let Map { columns, rows, corner, step, heights } = terrain(&run)?.map()?;
+                let map = HeightMap { columns, rows, corner, step, heights, frame: run.frame.clone() };
+                export::heights::write(&map, path)?;
+            }
+            if let Some(path) = &self.edits {
+                let text = terrain(&run)?.edits_json();
+                export::write_file(path, |out| out.write_all(text.as_bytes()))?;
+            }
             if let Some(path) = &self.report {
                 write_report(path, &run.report())?;
             }
@@ -151,6 +170,9 @@ impl Run {
         }
         self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
         self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
+        self.check_text(self.heights.as_deref(), "heights", "the heights", "heights.tif")?;
+        self.check_text(self.edits.as_deref(), "edits", "the edits", "ground.json")?;
+        self.heights.as_deref().map_or(Ok(()), export::heights::check_name)?;
         if self.script.json && self.report.as_deref() == Some(Path::new("-")) {
             return Err(Error::new("standard output cannot take both a report and the JSON document")
                 .help("name a file: --report report.json; the document has the counts"));
@@ -182,6 +204,22 @@ impl Run {
 }
 
 /// Writes what was skipped or simplified.
+/// The terrain of a run; there has to be one.
+fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
+    let objects = run.systems.iter().flat_map(|system| &system.objects);
+    let mut terrains = objects.filter_map(|object| {
+        let any: &dyn std::any::Any = &**object;
+        any.downcast_ref::<Terrain>()
+    });
+    match (terrains.next(), terrains.next()) {
+        (Some(terrain), None) => Ok(terrain),
+        (None, _) => Err(Error::new("there is no terrain to write the heights or the edits of")
+            .help("write lsystem({ object = terrain({ ... }) }):derive()")),
+        _ => Err(Error::new("there are several terrains to write the heights or the edits of")
+            .help("keep one of them in the script")),
+    }
+}
+
 fn write_report(path: &Path, report: &Report) -> Result<()> {
     if path == Path::new("-") {
         let mut text = Vec::new();

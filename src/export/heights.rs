@@ -90,6 +90,11 @@ pub fn write(map: &HeightMap, path: &Path) -> Result<()> {
     })
 }
 
+/// Refuses a file whose extension is no format of height maps.
+pub fn check_name(path: &Path) -> Result<()> {
+    Format::of(path).map(|_| ())
+}
+
 /// Refuses what cannot be written.
 fn check(map: &HeightMap, format: Format) -> Result<()> {
     let (columns, rows) = (map.columns, map.rows);

@@ -9,6 +9,7 @@ use super::parameter::Expected;
 use super::{Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::sources::elevation::{Relief, Wanted};
+use crate::terrain::Measured;
 
 /// The one encoding of heights as colours that is known.
 const TERRAIN_RGB: &str = "terrain-rgb";
@@ -124,6 +125,16 @@ impl Elevation {
         ))
         .help("ask within its bounds, or use a file that reaches farther")
         .of_data()
+    }
+}
+
+impl Measured for Elevation {
+    fn height(&self, place: DVec2) -> Option<f64> {
+        self.relief.height(place)
+    }
+
+    fn freedom(&self, place: DVec2) -> f64 {
+        self.relief.between(place)
     }
 }
 

@@ -8,6 +8,7 @@ use super::paths::{is_absolute, lead};
 use super::session::Session;
 use crate::error::{Error, Result};
 use crate::objects::import::Wanted as WantedModel;
+use crate::objects::terrain::EditFile;
 use crate::objects::{Elevation, Model};
 use crate::sources::elevation::{Raster, Relief, Wanted as WantedHeights};
 use crate::sources::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
@@ -26,6 +27,7 @@ struct Known {
     told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     models: BTreeMap<PathBuf, Result<Arc<Model>>>,
+    edits: BTreeMap<PathBuf, Result<EditFile>>,
     elevations: BTreeMap<String, Result<Elevation>>,
 }
 
@@ -82,6 +84,28 @@ impl Data {
         session.stop.check()?;
         known.elevations.insert(key, loaded.clone());
         loaded
+    }
+}
+
+impl Data {
+    /// The changes of the ground that `edits(name)` means.
+    pub(crate) fn edits(&self, session: &Session, name: &str) -> Result<EditFile> {
+        if name.is_empty() {
+            return Err(Error::new("edits needs the name of a file").help("write edits(\"ground.json\")"));
+        }
+        let path = find(session, "file of edits", name)?;
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let read = || -> Result<EditFile> {
+            let text = String::from_utf8(read_file(&path, name)?)
+                .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
+            Ok(EditFile { name: name.to_owned(), text: text.into() })
+        };
+        known.edits.entry(path.clone()).or_insert_with(read).clone()
+    }
+
+    /// The projection and the origin of the run, if any data has decided them.
+    pub(crate) fn frame(&self) -> Option<Frame> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).frame.clone()
     }
 }
 

@@ -308,6 +308,18 @@ impl Library {
         )?;
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
+            "edits",
+            lua.create_function(move |_, name: LuaValue| {
+                let name = match name {
+                    LuaValue::String(name) => name.to_string_lossy(),
+                    _ => String::new(),
+                };
+                let made = library.at_top_level("edits").and_then(|()| session.data.edits(&session, &name));
+                made.map(|edits| ObjectHandle(Arc::new(edits))).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
             "elevation",
             lua.create_function(move |_, (name, options): (LuaValue, LuaValue)| {
                 let name = match name {

@@ -12,8 +12,8 @@ use rayon::prelude::*;
 use super::block::{Area, Block};
 use super::edits::Edits;
 use super::tile::{Place, Tile};
-use super::view::{Fit, View};
-use super::world::{Divide, Tables, World};
+use super::view::{Fit, MOST_HEIGHTS, View, too_many};
+use super::world::{Divide, Measured, Tables, World};
 use crate::error::Result;
 
 /// A world and the tiles of it that are expanded.
@@ -29,6 +29,21 @@ pub struct Ground {
     tiles: Vec<Arc<Tile>>,
     /// The level of the smallest cells of any tile.
     finest: u32,
+}
+
+/// Heights in the middle of cells of one size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Cells from west to east.
+    pub columns: usize,
+    /// Cells from north to south.
+    pub rows: usize,
+    /// The south-west corner (m) of all cells.
+    pub corner: DVec2,
+    /// The length (m) of the sides of a cell.
+    pub step: f64,
+    /// The heights (m), row by row from the north.
+    pub heights: Vec<f64>,
 }
 
 impl Ground {
@@ -112,13 +127,54 @@ impl Ground {
         }
         let level = place.level + detail;
         if let Some(measured) = &self.world.measured {
-            for ((x, y), height) in wanted.cells().zip(&mut heights) {
-                let at = self.world.middle(level, x, y);
-                *height = *height * measured.freedom(at) + measured.height(at).unwrap_or(0.0);
-            }
+            self.add_measured(&**measured, level, wanted, &mut heights);
         }
         self.edits.apply(&self.world, level, wanted, &mut heights);
         Ok((index, Tile::new(place, detail, &cells, wanted, heights)))
+    }
+
+    /// Adds measured heights (m) to those of the cells of `area`, which stay as they are only between the samples, and
+    /// where the ground is not level.
+    fn add_measured(&self, measured: &dyn Measured, level: u32, area: Area, heights: &mut [f64]) {
+        let middle = |x: i64, y: i64| self.world.middle(level, x, y);
+        let known: Vec<f64> =
+            area.cells().map(|(x, y)| measured.height(middle(x, y)).unwrap_or(0.0)).collect();
+        let cell = self.world.cell(level);
+        let rough = heights.iter().any(|height| *height != 0.0);
+        for (index, (x, y)) in area.cells().enumerate() {
+            if rough {
+                let at = |right: i64, down: i64| known[area.index(x + right, y + down)];
+                let slope = DVec2::new(at(1, 0) - at(-1, 0), at(0, 1) - at(0, -1)).length() / (2.0 * cell);
+                heights[index] *= measured.freedom(middle(x, y)) * eased(slope / STEEP);
+            }
+            heights[index] += known[index];
+        }
+    }
+
+    /// The heights of the surface in the middle of the smallest cells of all that is expanded. Where tiles have larger
+    /// cells, heights lie between theirs. Fails if there are too many.
+    pub fn map(&self) -> Result<Map> {
+        let [[west, north], [east, south]] = self.rim();
+        let count = |low: i64, high: i64| usize::try_from(high - low).unwrap_or(0);
+        let area = Area { x: west, y: north, columns: count(west, east), rows: count(north, south) };
+        if area.len() as u64 > MOST_HEIGHTS {
+            return Err(too_many(area.len() as u64));
+        }
+        let height = |(x, y): (i64, i64)| -> f64 {
+            let tile = self.holder(x, y).map(|tile| &self.tiles[tile]);
+            match tile.filter(|tile| tile.level() == self.finest) {
+                Some(tile) => tile.cell(x, y),
+                None => self.height(self.world.middle(self.finest, x, y)).unwrap_or(f64::NAN),
+            }
+        };
+        let heights: Vec<f64> = (0..area.len()).into_par_iter().map(|index| height(area.at(index))).collect();
+        Ok(Map {
+            columns: area.columns,
+            rows: area.rows,
+            corner: self.place(west, south),
+            step: self.world.cell(self.finest),
+            heights,
+        })
     }
 
     /// The tiles, row by row from the north-west.
@@ -296,6 +352,14 @@ impl Ground {
         let north = self.world.corner.y + self.world.size;
         DVec2::new(self.world.corner.x + x as f64 * cell, north - y as f64 * cell)
     }
+}
+
+/// The slope (m/m) from which on detail is added in full to measured heights.
+const STEEP: f64 = 0.3;
+
+fn eased(along: f64) -> f64 {
+    let along = along.clamp(0.0, 1.0);
+    along * along * (3.0 - 2.0 * along)
 }
 
 #[inline]

@@ -19,7 +19,7 @@ mod world;
 
 pub use block::{Area, Block};
 pub use edits::{Edit, Edits};
-pub use ground::Ground;
+pub use ground::{Ground, Map};
 pub use mesh::Mesh;
 pub use noise::octaves;
 pub use table::{Draw, Quadrants, RuleTable};

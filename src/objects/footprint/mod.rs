@@ -14,7 +14,8 @@ use glam::{DVec2, DVec3};
 
 use super::parameter::Expected;
 use super::{
-    Color, Drawing, Gather, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Value, Vector,
+    Color, Drawing, Gather, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Terrain, Value,
+    Vector,
 };
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
@@ -108,6 +109,8 @@ fields! {
         pub attributes: Arc<Table> = Arc::default(),
         /// The streets by which it lies, as `streets(source)` made them.
         pub streets: Option<Streets> = None,
+        /// The terrain on which it stands, which gives its points their heights.
+        pub ground: Option<Arc<Terrain>> = None,
         /// Height of the walls (m), where they are not given one.
         pub height: Option<Height> = None,
         /// Colour of what is drawn, where it is given none.
@@ -259,7 +262,12 @@ impl Footprint {
     };
 
     /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(mut options: Options) -> Result<Self> {
+        if let Some(ground) = &options.ground {
+            for point in options.geometry.0.iter_mut().flatten() {
+                point.z = ground.height(Vector(*point)).map_err(Error::of_data)?;
+            }
+        }
         let (plan, origin) = match options.geometry.0.first() {
             None => (Plan::default(), DVec3::ZERO),
             Some(_) => {

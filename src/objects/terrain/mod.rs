@@ -9,6 +9,7 @@ mod sides;
 mod view;
 mod water;
 
+use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -20,11 +21,13 @@ pub use plants::Plants;
 pub use rules::{LayerRules, RuleLayer, RuleLayers, System};
 pub use water::Water;
 
-use super::{Color, Drawing, Kind, Object, Table, Vector};
+use super::{Color, Drawing, Elevation, Expected, Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::rules::{Key, Symbol};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
-use crate::terrain::{Divide, Edit, Edits, Ground, Mesh as Triangulation, Rules, View, World};
+use crate::terrain::{
+    Divide, Edit, Edits, Ground, Layer, Map, Measured, Mesh as Triangulation, Rules, View, World,
+};
 
 fields! {
     /// What `terrain { ... }` takes.
@@ -47,6 +50,8 @@ fields! {
         pub error: Option<f64> = None,
         /// The middle of its square (m); its z is added to all heights.
         pub position: Vector = Vector(DVec3::ZERO),
+        /// Measured heights, to which the rules add detail between the samples: elevation("N43E007.hgt").
+        pub elevation: Option<Elevation> = None,
         /// Changes of the ground that were kept: edits("ground.json").
         pub edits: Option<EditFile> = None,
         /// What lies on it, from the bottom to the top.
@@ -177,15 +182,23 @@ impl Terrain {
             return Err(Error::new("terrain: error is below 0").help("give metres from 0 on"));
         }
         let mut layers = options.rules.0.clone();
-        let Some(first) = layers.first_mut() else {
+        if layers.is_empty() && options.elevation.is_none() {
             return Err(Error::new("terrain: there are no rules").help(
                 "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
             ));
-        };
-        first.start = first.start.take().or_else(|| options.start.clone());
-        first.height += options.height;
+        }
+        if let Some(first) = layers.first_mut() {
+            first.start = first.start.take().or_else(|| options.start.clone());
+            first.height += options.height;
+        }
         let mut decay = options.decay;
         let mut built = Vec::new();
+        let corner = options.position.0.truncate() - options.size / 2.0;
+        if let Some(elevation) = &options.elevation {
+            let fine = finer(elevation, corner, options.size)?;
+            built.push(Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new() });
+            layers.iter_mut().for_each(|layer| layer.from += fine);
+        }
         let mut names = Vec::new();
         for layer in &layers {
             decay = layer.decay.unwrap_or(decay);
@@ -199,12 +212,12 @@ impl Terrain {
             LayerRules::System(_) => true,
         });
         let world = World {
-            corner: options.position.0.truncate() - options.size / 2.0,
+            corner,
             size: options.size,
             layers: built,
             smooth: options.smooth,
             key: drawn.then(Key::default),
-            measured: None,
+            measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
         };
         let kept = match &options.edits {
             Some(file) => Arc::new(Edits::from_json(&file.text, &file.name, &world)?),
@@ -228,6 +241,13 @@ impl Terrain {
     /// The text of a file that keeps the changes of its ground.
     pub fn edits_json(&self) -> String {
         self.ground.edits().to_json(self.ground.world())
+    }
+
+    /// The heights (m) of all that is expanded, as a map.
+    pub fn map(&self) -> Result<Map> {
+        let mut map = self.ground.map()?;
+        map.heights.iter_mut().for_each(|height| *height += self.options.position.0.z);
+        Ok(map)
     }
 
     /// The ground that is expanded.
@@ -282,6 +302,51 @@ impl Terrain {
 
     fn numbers(&self, mask: &Mask) -> Result<Vec<Symbol>> {
         mask.numbers(&self.names)
+    }
+}
+
+/// The first level whose cells are smaller than the distance of the samples of `elevation`. Fails unless it has heights
+/// for all of the square of `size` (m) from `corner` (m) on.
+fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
+    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
+        let at = corner + DVec2::new(x, y) * size;
+        if elevation.height_at(at).is_none() {
+            let (low, high) = (elevation.low(), elevation.high());
+            return Err(Error::new(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(
+                format!(
+                    "it reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) m: make the terrain smaller, or move it with position",
+                    low.x, low.y, high.x, high.y
+                ),
+            ));
+        }
+    }
+    let levels = (size / elevation.step()).log2().max(0.0).ceil();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 30")]
+    let levels = levels.min(30.0) as u32;
+    Ok(levels.max(1))
+}
+
+/// A terrain of a script, to be asked by others.
+impl Parameter for Arc<Terrain> {
+    fn luau() -> String {
+        "Terrain".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a terrain that was derived: land:derive().objects[1]");
+        let Value::Object(object) = value else { return Err(what()) };
+        let any: Arc<dyn Any + Send + Sync> = object;
+        any.downcast().map_err(|_| what())
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(self)
+    }
+}
+
+impl std::fmt::Debug for Terrain {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "terrain of {} heights", self.ground.heights())
     }
 }
 

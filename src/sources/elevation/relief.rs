@@ -151,6 +151,14 @@ impl Relief {
         Some(sum.clamp(low, high))
     }
 
+    /// How far (0 to 1) a place (m) is from the nearest samples: 0 where a height was measured, 1 in the middle between
+    /// two or four of them; smoothly in between.
+    pub fn between(&self, place: DVec2) -> f64 {
+        let Some(at) = self.find(place) else { return 0.0 };
+        let [x, y] = at.to_array().map(|at| (at * std::f64::consts::PI).cos().powi(2));
+        1.0 - x * y
+    }
+
     /// The column and the row of a place (m); `None` far outside, where the lattice knows nothing.
     fn find(&self, place: DVec2) -> Option<DVec2> {
         match &self.way {
