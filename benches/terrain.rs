@@ -49,6 +49,7 @@ fn world(drawn: bool, smooth: bool) -> World {
         }],
         smooth,
         key: drawn.then(|| Key::seed(1)),
+        remap: Vec::new(),
         measured: None,
     }
 }

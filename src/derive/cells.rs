@@ -16,6 +16,8 @@ use crate::terrain::{Area, Begin, Block, Divide};
 
 /// The parameter of a module that is its cell's height.
 const HEIGHT: &str = "height";
+/// The parameter of a module that is added to its cell's height as it is, without smoothing.
+const FORM: &str = "form";
 
 /// Cells that are divided at a time.
 const STRIP: usize = 1 << 17;
@@ -34,6 +36,8 @@ struct System {
     begin: Begin,
     /// By symbol: which of its parameters is the height.
     heights: Vec<Option<usize>>,
+    /// By symbol: which of its parameters is its form, if it has one.
+    forms: Vec<Option<usize>>,
 }
 
 impl<'a> Cells<'a> {
@@ -122,7 +126,7 @@ impl System {
             profiled: false,
         });
         let declared = system.prepare(machine)?;
-        Ok(Self { stepper: Stepper::new(Arc::clone(&plan)), plan, declared, begin, heights })
+        Ok(Self { stepper: Stepper::new(Arc::clone(&plan)), plan, declared, begin, heights, forms })
     }
 
     fn divide(&mut self, machine: &Machine, cells: &Block, area: Area, last: bool) -> Result<Block> {
@@ -137,6 +141,7 @@ impl System {
             rest: vec![0.0; if last { 0 } else { count * stride }],
             stride,
             keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            forms: vec![0.0; if self.forms.iter().any(Option::is_some) { count } else { 0 }],
             smooth: Vec::new(),
         };
         let rows = (STRIP / area.columns.max(1)).max(1);
@@ -196,7 +201,8 @@ impl System {
                 };
                 let params = &chain.params[here.param..here.param + arity];
                 let height = params[at];
-                if !height.is_finite() {
+                let form = self.forms[usize::from(symbol)].map_or(0.0, |form| params[form]);
+                if !(height + form).is_finite() {
                     let module = module_text(grammar.symbols(), &machine.session.values, symbol, params);
                     let error = Error::new(format!("the height of {module} is no finite number"))
                         .help("give each quadrant a height in metres");
@@ -206,6 +212,9 @@ impl System {
                 let to = block.area.index(column, row);
                 block.symbols[to] = symbol;
                 block.heights[to] = height;
+                if let Some(into) = block.forms.get_mut(to) {
+                    *into = form;
+                }
                 if !block.rest.is_empty() {
                     let into = &mut block.rest[to * block.stride..][..arity - 1];
                     into[..at].copy_from_slice(&params[..at]);

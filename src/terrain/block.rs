@@ -124,6 +124,8 @@ pub struct Block {
     pub stride: usize,
     /// The random key of each; empty where no rule draws.
     pub keys: Vec<Key>,
+    /// What is added to the height (m) of each as it is, without smoothing; empty for nothing.
+    pub forms: Vec<f64>,
     /// The height (m) of the smooth surface at the middle of each; empty for the cells' own heights.
     pub smooth: Vec<f64>,
 }

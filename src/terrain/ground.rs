@@ -123,7 +123,9 @@ impl Ground {
         let cells = self.world.descend(coarse, place.level + detail, wanted, true, divide)?;
         let mut heights = Vec::with_capacity(wanted.len());
         for (x, y) in wanted.cells() {
-            heights.push(cells.surface()[cells.area.index(x, y)]);
+            let from = cells.area.index(x, y);
+            let height = self.world.remapped(cells.surface()[from]);
+            heights.push(height + cells.forms.get(from).copied().unwrap_or(0.0));
         }
         let level = place.level + detail;
         if let Some(measured) = &self.world.measured {

@@ -79,6 +79,7 @@ impl RuleTable {
             rest: vec![0.0; if last { 0 } else { count }],
             stride: 1,
             keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            forms: Vec::new(),
             smooth: Vec::new(),
         };
         let two = made.columns * 2;

@@ -44,6 +44,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
         }],
         smooth,
         key: drawn.then(|| Key::seed(seed)),
+        remap: Vec::new(),
         measured: None,
     }
 }

@@ -94,6 +94,9 @@ pub struct World {
     pub smooth: bool,
     /// The key of the whole world's cell, if anything is drawn.
     pub key: Option<Key>,
+    /// What the heights (m) of the surface are changed to: pairs of heights, in order, with straight lines in between.
+    /// Empty for no change.
+    pub remap: Vec<[f64; 2]>,
     /// What the heights of the rules are added to.
     pub measured: Option<Arc<dyn Measured>>,
 }
@@ -139,6 +142,7 @@ impl World {
             rest: Vec::new(),
             stride: 0,
             keys: self.key.into_iter().collect(),
+            forms: Vec::new(),
             smooth: Vec::new(),
         };
         if self.smooth {
@@ -184,6 +188,17 @@ impl World {
         Ok(block.unwrap_or_else(|| from.clone()))
     }
 
+    /// What `height` (m) is changed to.
+    pub(super) fn remapped(&self, height: f64) -> f64 {
+        let (Some(first), Some(last)) = (self.remap.first(), self.remap.last()) else { return height };
+        let above = self.remap.partition_point(|pair| pair[0] <= height);
+        match (above.checked_sub(1).map(|below| self.remap[below]), self.remap.get(above)) {
+            (Some([from, a]), Some([to, b])) => a + (b - a) * (height - from) / (to - from),
+            (None, _) => first[1],
+            (_, None) => last[1],
+        }
+    }
+
     fn layer(&self, level: u32) -> &Layer {
         let known = self.layers.iter().rev().find(|layer| layer.from <= level);
         known.unwrap_or(&self.layers[0])
@@ -213,6 +228,7 @@ fn undivided(cells: &Block, area: Area) -> Block {
         rest: Vec::new(),
         stride: 0,
         keys: Vec::new(),
+        forms: Vec::new(),
         smooth: Vec::new(),
     };
     for y in (made.y..).take(made.rows) {

@@ -46,6 +46,8 @@ fields! {
         pub decay: f64 = 100.0,
         /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
         pub smooth: bool = true,
+        /// What heights (m) are changed to: pairs { from, to } with straight lines in between.
+        pub remap: Vec<Vec<f64>> = Vec::new(),
         /// How far (m) the triangles may be from the surface; a tenth of the smallest cell, if it is left out.
         pub error: Option<f64> = None,
         /// The middle of its square (m); its z is added to all heights.
@@ -216,6 +218,7 @@ impl Terrain {
             size: options.size,
             layers: built,
             smooth: options.smooth,
+            remap: remap(&options.remap)?,
             key: drawn.then(Key::default),
             measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
         };
@@ -303,6 +306,21 @@ impl Terrain {
     fn numbers(&self, mask: &Mask) -> Result<Vec<Symbol>> {
         mask.numbers(&self.names)
     }
+}
+
+/// The pairs of heights (m) of a change, in order.
+fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
+    let wrong = |what: String| {
+        Error::new(format!("terrain: {what}"))
+            .help("write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights")
+    };
+    let pair = |pair: &Vec<f64>| <[f64; 2]>::try_from(pair.as_slice()).ok();
+    let pairs = pairs.iter().map(pair).collect::<Option<Vec<_>>>();
+    let pairs = pairs.ok_or_else(|| wrong("remap has something that is no pair of heights".into()))?;
+    if let Some(pair) = pairs.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
+        return Err(wrong(format!("remap goes from {} to {}", pair[0][0], pair[1][0])));
+    }
+    Ok(pairs)
 }
 
 /// The first level whose cells are smaller than the distance of the samples of `elevation`. Fails unless it has heights
