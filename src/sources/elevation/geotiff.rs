@@ -59,8 +59,11 @@ type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 /// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
 pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
     let damaged = |error: TiffError| damaged(name, &error);
+    if !texts_fit(bytes) {
+        return Err(damaged(TiffError::LimitsExceeded));
+    }
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = LARGEST_PART;
+    limits.decoding_buffer_size = LARGEST_PART.max(bytes.len());
     limits.intermediate_buffer_size = LARGEST_PART;
     limits.ifd_value_size = LARGEST_TAG;
     let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits);
@@ -94,6 +97,28 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
         grid.step[1] = -grid.step[1];
     }
     Ok(Found { columns, rows, heights, grid, crs: keys.crs(name) })
+}
+
+/// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.
+fn texts_fit(bytes: &[u8]) -> bool {
+    const TEXT: usize = 2;
+    let number = |at: usize, size: usize| {
+        let part = bytes.get(at..at.checked_add(size)?)?;
+        let add = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
+        let sum = if bytes[0] == b'M' { part.iter().fold(0, add) } else { part.iter().rev().fold(0, add) };
+        usize::try_from(sum).ok()
+    };
+    // Where the directory begins, and the sizes (bytes) of its number of entries, of an entry, and of a count in it.
+    let (begin, [head, entry, count]) = match number(2, 2) {
+        Some(43) => (number(8, 8), [8, 20, 8]),
+        _ => (number(4, 4), [2, 12, 4]),
+    };
+    let Some(begin) = begin else { return true };
+    let entries = number(begin, head).unwrap_or(0).min(bytes.len() / entry);
+    (0..entries).all(|index| {
+        let at = begin + head + index * entry;
+        number(at + 2, 2) != Some(TEXT) || number(at + 4, count).is_some_and(|length| length <= bytes.len())
+    })
 }
 
 /// Refuses a file that ends before its last strip or tile.

@@ -197,6 +197,16 @@ fn what_gdal_writes_is_read_as_gdal_reads_it() {
     }
 }
 
+#[test]
+fn a_text_that_is_longer_than_the_file_is_refused_before_it_is_read() {
+    let mut bytes = geotiff(&[], &[SCALE, TIE], Some("5"));
+    // The tag 42113 of type 2, in a directory at the end.
+    let at = bytes.windows(4).position(|part| part == [0x81, 0xa4, 2, 0]).unwrap();
+    bytes[at + 4..at + 8].fill(0xff);
+    let error = read(&bytes, "a.tif").unwrap_err();
+    assert_eq!(error.message(), "a.tif has a strip or a tag that is too large");
+}
+
 /// A PNG of 3 by 2 samples.
 fn picture(color: ::png::ColorType, depth: ::png::BitDepth, content: &[u8]) -> Vec<u8> {
     let mut bytes = Vec::new();
