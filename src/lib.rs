@@ -15,7 +15,8 @@
 //! - [`error`]: what a person is told when something is wrong.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
-//! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres.
+//! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
+//!   [`Relief`](sources::elevation::Relief) of measured heights.
 //! - [`objects`]: what rules ask and interpretations change: each an [`Object`](objects::Object), listed in
 //!   [`KINDS`](objects::KINDS).
 //! - [`rules`]: a [`Grammar`](rules::Grammar) of [`Pattern`](rules::Pattern)s that match along a

@@ -127,7 +127,7 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
             .map(|place| ground.height_at(place).unwrap())
             .collect();
         // Mont Agel, the slope of the Tete de Chien, the harbour, and the sea; computed with NumPy.
-        for (height, expected) in found.iter().zip([1097.042_4, 364.224, 1.387, 0.0]) {
+        for (height, expected) in found.iter().zip([1_097.042_4, 364.224, 1.387, 0.0]) {
             assert!((height - expected).abs() < 1e-3, "{found:?}");
         }
         // The town stands between the harbour and the mountains.

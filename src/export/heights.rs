@@ -4,7 +4,7 @@
 //! | --- | --- |
 //! | `.png` | grey of 16 bits from the lowest to the highest height, which its texts `low` and `high` tell (m) |
 //! | `.asc` | an ESRI ASCII grid |
-//! | `.tif` | a GeoTIFF of 32-bit floats, with its coordinate system if that is one of EPSG's |
+//! | `.tif` | a GeoTIFF of 32-bit floats, with its coordinate system |
 //! | `.r32`, `.f32`, `.r64`, `.f64` | a square of raw little-endian floats, row by row |
 
 use std::fs::File;
@@ -74,8 +74,9 @@ impl Format {
 
 /// Writes `map` to `path` in the format of its extension, whole or not at all.
 ///
-/// Coordinates are those of the projection where it is one of EPSG's, and metres of the run otherwise. Fails if the
-/// map has too few or infinite heights, if the format cannot hold it, and if the disk is full.
+/// Coordinates are those of the projection where the format can name it, in a GeoTIFF, or it is one of EPSG's, and
+/// metres of the run otherwise. Fails if the map has too few or infinite heights, if the format cannot hold it, and if
+/// the disk is full.
 pub fn write(map: &HeightMap, path: &Path) -> Result<()> {
     let format = Format::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
@@ -132,10 +133,15 @@ fn narrow(height: f64) -> f32 {
 }
 
 impl HeightMap {
-    /// The outer corner in the south-west, in the coordinates that are written.
-    fn written_corner(&self) -> DVec2 {
-        let frame = self.frame.as_ref().filter(|frame| frame.epsg().is_some());
+    /// The outer corner in the south-west: in the projection if `named`, or else in metres of the run.
+    fn corner_as(&self, named: bool) -> DVec2 {
+        let frame = self.frame.as_ref().filter(|_| named);
         self.corner + frame.map_or(DVec2::ZERO, |frame| frame.origin.into())
+    }
+
+    /// The EPSG code of its projection.
+    fn epsg(&self) -> Option<u16> {
+        self.frame.as_ref().and_then(Frame::epsg)
     }
 
     /// The length (m) of `cells` cells.
@@ -168,7 +174,7 @@ fn write_png(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
 }
 
 fn write_ascii(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
-    let corner = map.written_corner();
+    let corner = map.corner_as(map.epsg().is_some());
     writeln!(out, "ncols {}\nnrows {}", map.columns, map.rows)?;
     writeln!(out, "xllcorner {}\nyllcorner {}\ncellsize {}", corner.x, corner.y, map.step)?;
     writeln!(out, "NODATA_value {MISSING}")?;
@@ -188,16 +194,10 @@ fn write_ascii(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
 
 fn write_tiff(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
     let heights: Vec<f32> = map.heights.iter().copied().map(narrow).collect();
-    let corner = map.written_corner();
+    let middle = map.frame.as_ref().and_then(|frame| frame.middle);
+    let corner = map.corner_as(map.epsg().or(middle.map(|_| tiff_key::OWN)).is_some());
     let north = corner.y + map.length(map.rows);
-    let mut keys = vec![(tiff_key::RASTER, tiff_key::AREA)];
-    if let Some(code) = map.frame.as_ref().and_then(Frame::epsg) {
-        keys.insert(0, (tiff_key::MODEL, tiff_key::IS_PROJECTED));
-        keys.push((tiff_key::PROJECTED, code));
-    }
-    // A header of version and number, then four numbers for each key that holds its value itself.
-    let mut directory = vec![1, 1, 0, keys.len() as u16];
-    directory.extend(keys.into_iter().flat_map(|(key, value)| [key, 0, 1, value]));
+    let (directory, doubles) = geokeys(map.epsg(), middle);
     let encoded = || {
         let compression = Compression::Deflate(DeflateLevel::Balanced);
         let mut encoder = TiffEncoder::new(out)?.with_compression(compression);
@@ -206,6 +206,9 @@ fn write_tiff(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
         tags.write_tag(Tag::ModelPixelScaleTag, &[map.step, map.step, 0.0][..])?;
         tags.write_tag(Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, corner.x, north, 0.0][..])?;
         tags.write_tag(Tag::GeoKeyDirectoryTag, &directory[..])?;
+        if !doubles.is_empty() {
+            tags.write_tag(Tag::GeoDoubleParamsTag, &doubles[..])?;
+        }
         tags.write_tag(Tag::GdalNodata, "nan")?;
         image.write_data(&heights)
     };
@@ -213,6 +216,37 @@ fn write_tiff(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
         tiff::TiffError::IoError(error) => error,
         error => io::Error::other(error),
     })
+}
+
+/// The keys of a GeoTIFF in the order of their numbers, and those of their values that are floats: for a projection of
+/// EPSG's, for one around a `middle` (degrees), or for none.
+fn geokeys(epsg: Option<u16>, middle: Option<[f64; 2]>) -> (Vec<u16>, Vec<f64>) {
+    use tiff_key as key;
+    let mut short = vec![(key::RASTER, key::AREA)];
+    let mut doubles = Vec::new();
+    if epsg.is_some() || middle.is_some() {
+        short.insert(0, (key::MODEL, key::IS_PROJECTED));
+    }
+    match (epsg, middle) {
+        (Some(code), _) => short.push((key::PROJECTED, code)),
+        (None, Some([longitude, latitude])) => {
+            short.extend([
+                (key::GEOGRAPHIC, key::WGS_84),
+                (key::PROJECTED, key::OWN),
+                (key::PROJECTION, key::OWN),
+                (key::METHOD, key::TRANSVERSE_MERCATOR),
+                (key::LINEAR_UNIT, key::METRE),
+            ]);
+            doubles.extend([longitude, latitude, 0.0, 0.0, 1.0]);
+        }
+        (None, None) => {}
+    }
+    // A header of version and number, then for each key its number, where its value stands, how many, and which.
+    let mut directory = vec![1, 1, 0, (short.len() + doubles.len()) as u16];
+    directory.extend(short.into_iter().flat_map(|(key, value)| [key, 0, 1, value]));
+    let stands = (0..).zip(key::MIDDLE).take(doubles.len());
+    directory.extend(stands.flat_map(|(index, key)| [key, Tag::GeoDoubleParamsTag.to_u16(), 1, index]));
+    (directory, doubles)
 }
 
 #[cfg(test)]
@@ -271,7 +305,13 @@ mod tests {
         let raster = again(&map, "a.tif", &Wanted::default());
         assert_same(&raster, &map, 2e-5);
         assert_eq!(raster.bounds(), [385_360.0, 6_671_530.0, 385_390.0, 6_671_552.5]);
-        assert_eq!(raster.crs.unwrap().code, 3067);
+        assert_eq!(raster.crs.unwrap().code, Some(3067));
+        let map = super::tests::map(9, frame(4326, [7.42, 43.73]));
+        let raster = again(&map, "a.tif", &Wanted::default());
+        assert_eq!(raster.crs.as_ref().unwrap().name(), "transverse Mercator around 7.4, 43.7");
+        let mut there = map.frame.clone();
+        let relief = crate::sources::elevation::Relief::new(raster.into(), &mut there).unwrap();
+        assert_eq!(relief.low().truncate(), map.corner);
         // Feet have become metres, which no code of EPSG's tells.
         let map = super::tests::map(9, frame(2272, [2_690_000.0, 235_000.0]));
         let raster = again(&map, "a.tif", &Wanted::default());

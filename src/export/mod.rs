@@ -5,6 +5,8 @@
 //! written beside the path under temporary names (`file`) and appears when all of it is there. The same
 //! scene gives the same bytes.
 //!
+//! Heights of the ground are written by [`heights`], from a grid and not from a scene.
+//!
 //! Every format refuses a scene that names what it does not have (`check`), leaves out what is not shown,
 //! and moves a model that is far from the world's origin near to its own (`check::origin`).
 

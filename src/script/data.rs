@@ -116,7 +116,10 @@ fn read_heights(
     wanted: &WantedHeights,
     known: &mut Known,
 ) -> Result<Elevation> {
-    let raster = Arc::new(Raster::open(path, name, wanted)?);
+    let raster = match session.options.cache.as_deref() {
+        Some(cache) => cache.raster(path, name, wanted)?,
+        None => Arc::new(Raster::open(path, name, wanted)?),
+    };
     if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
         let all = raster.columns * raster.rows;
         eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);

@@ -1,18 +1,24 @@
-//! Layers as they were read last, for runs that follow one another.
+//! Layers and rasters as they were read last, for runs that follow one another.
 
 use std::fmt;
+use std::fs::File;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use super::elevation::{Raster, Wanted as WantedHeights};
 use super::{Frame, Layer, Wanted};
+use crate::error::Result;
 
 /// How many layers are kept.
 const MOST: usize = 16;
+/// How many rasters are kept, which may be large.
+const MOST_RASTERS: usize = 2;
 
-/// Layers by the content of their files: one that is saved anew is read anew, and only then.
+/// Layers and rasters by the content of their files: one that is saved anew is read anew, and only then.
 #[derive(Default)]
 pub struct Cache {
     kept: Mutex<Vec<(String, Arc<Layer>, Frame)>>,
+    rasters: Mutex<Vec<(String, Arc<Raster>)>>,
 }
 
 impl fmt::Debug for Cache {
@@ -51,5 +57,47 @@ impl Cache {
             kept.remove(0);
         }
         kept.push((key, Arc::clone(layer), frame.clone()));
+    }
+    /// The raster in the file at `path`, called `name`; read, unless it is kept. The oldest goes when there are many.
+    pub(crate) fn raster(&self, path: &Path, name: &str, wanted: &WantedHeights) -> Result<Arc<Raster>> {
+        let mut hasher = blake3::Hasher::new();
+        // What is no file is left to the reader, which says so.
+        let content =
+            path.is_file().then(|| File::open(path).and_then(|file| hasher.update_reader(file).map(|_| ())));
+        let Some(Ok(())) = content else { return Raster::open(path, name, wanted).map(Arc::new) };
+        let key = format!("{} {name} {wanted:?}", hasher.finalize().to_hex());
+        let mut kept = self.rasters.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
+            return Ok(Arc::clone(raster));
+        }
+        if kept.len() >= MOST_RASTERS {
+            kept.remove(0);
+        }
+        let raster = Arc::new(Raster::open(path, name, wanted)?);
+        kept.push((key, Arc::clone(&raster)));
+        Ok(raster)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_raster_is_read_anew_when_its_file_or_what_is_wanted_has_changed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.r32");
+        let cache = Cache::default();
+        let read = |height: f32, east: f64| {
+            std::fs::write(&path, [height.to_le_bytes(); 4].concat()).unwrap();
+            let bounds = Some([0.0, 0.0, east, 1.0]);
+            cache.raster(&path, "a.r32", &WantedHeights { bounds, ..WantedHeights::default() }).unwrap()
+        };
+        let first = read(1.0, 1.0);
+        assert!(Arc::ptr_eq(&first, &read(1.0, 1.0)));
+        assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
+        assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
+        let error = cache.raster(folder.path(), "a", &WantedHeights::default()).unwrap_err();
+        assert_eq!(error.message(), "a is a folder");
     }
 }

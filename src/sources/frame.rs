@@ -1,5 +1,7 @@
 //! Coordinate systems, and the one projection and origin in which all sources of a run meet.
 
+use std::borrow::Cow;
+
 use proj4rs::Proj;
 use proj4rs::transform::transform;
 
@@ -12,12 +14,13 @@ pub(super) const FARTHEST: f64 = 2_000_000.0;
 /// What to do about a coordinate system that cannot be used.
 const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
 
-/// A coordinate system of the EPSG's registry.
+/// A coordinate system: of the EPSG's registry, or a transverse Mercator projection around a middle.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Crs {
-    /// Its number.
-    pub code: u16,
-    definition: &'static str,
+    /// Its number in the registry.
+    pub code: Option<u16>,
+    name: String,
+    definition: Cow<'static, str>,
 }
 
 impl Crs {
@@ -29,12 +32,25 @@ impl Crs {
         let found = found.ok_or_else(|| {
             Error::new(format!("the coordinate system EPSG:{code} is not known")).help(REMEDY)
         })?;
-        Ok(Self { code: found.code, definition: found.proj4 })
+        let definition = Cow::Borrowed(found.proj4);
+        Ok(Self { code: Some(found.code), name: format!("EPSG:{}", found.code), definition })
+    }
+
+    /// The transverse Mercator projection around a middle, a longitude and a latitude (degrees) of WGS 84, from where
+    /// its metres are counted.
+    pub(crate) fn around([longitude, latitude]: [f64; 2]) -> Self {
+        Self {
+            code: None,
+            name: format!("transverse Mercator around {longitude:?}, {latitude:?}"),
+            definition: Cow::Owned(format!(
+                "+proj=tmerc +lat_0={latitude:?} +lon_0={longitude:?} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
+            )),
+        }
     }
 
     /// Such as `EPSG:3067`.
     pub fn name(&self) -> String {
-        format!("EPSG:{}", self.code)
+        self.name.clone()
     }
 
     /// Whether coordinates are longitude and latitude (degrees).
@@ -54,12 +70,12 @@ impl Crs {
         if self.definition.contains("+proj=geocent") {
             return Err(cannot("it counts from the centre of the earth".into()));
         }
-        Proj::from_proj_string(self.definition).map_err(|error| cannot(error.to_string()))
+        Proj::from_proj_string(&self.definition).map_err(|error| cannot(error.to_string()))
     }
 
     /// Whether its metres are those of the ground, but for the thousandths that every projection costs.
     fn is_true(&self) -> bool {
-        !self.is_geographic() && !matches!(self.code, 3857 | 3785 | 3395)
+        !self.is_geographic() && !matches!(self.code, Some(3857 | 3785 | 3395))
     }
 
     /// Its definition with metres as the unit, and with east and north.
@@ -78,6 +94,8 @@ pub struct Frame {
     pub name: String,
     /// Where its origin lies in the projection (m): whole hundreds.
     pub origin: [f64; 2],
+    /// The longitude and the latitude (degrees) that a transverse Mercator projection of the run's own is around.
+    pub middle: Option<[f64; 2]>,
     definition: String,
     projection: Proj,
 }
@@ -98,10 +116,10 @@ impl Frame {
     /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
     pub fn around(crs: &Crs, [x, y]: [f64; 2], shown: &str) -> Result<Self> {
         let source = crs.projection()?;
-        let (name, definition) = if crs.is_true() {
-            (crs.name(), crs.in_metres())
+        let (name, definition, middle) = if crs.is_true() {
+            (crs.name(), crs.in_metres(), None)
         } else {
-            let [longitude, latitude] = if crs.is_geographic() {
+            let degrees = if crs.is_geographic() {
                 [x, y]
             } else {
                 let mut point = (x, y, 0.0);
@@ -110,17 +128,13 @@ impl Frame {
                 })?;
                 [point.0.to_degrees(), point.1.to_degrees()]
             };
-            let [longitude, latitude] = [longitude, latitude].map(|angle| (angle * 10.0).round() / 10.0);
-            (
-                format!("transverse Mercator around {longitude:.1}, {latitude:.1}"),
-                format!(
-                    "+proj=tmerc +lat_0={latitude:.1} +lon_0={longitude:.1} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
-                ),
-            )
+            let middle = degrees.map(|angle| (angle * 10.0).round() / 10.0);
+            let crs = Crs::around(middle);
+            (crs.name(), crs.definition.into_owned(), Some(middle))
         };
         let projection = Proj::from_proj_string(&definition)
             .map_err(|error| Error::new(format!("{name} cannot be used: {error}")).help(REMEDY))?;
-        let mut frame = Self { name, origin: [0.0; 2], definition, projection };
+        let mut frame = Self { name, origin: [0.0; 2], middle, definition, projection };
         let centre = frame.passage(crs)?.enter([x, y]);
         frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
         if frame.origin.iter().any(|value| !value.is_finite()) {
@@ -131,14 +145,14 @@ impl Frame {
 
     /// The way from `crs` into this frame, and back.
     pub(super) fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
-        let stays = normal(crs.definition) == normal(&self.definition);
+        let stays = normal(&crs.definition) == normal(&self.definition);
         Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
     }
 
     /// The EPSG code of its projection; `None` if it is none of EPSG's, or one whose unit was changed to metres.
     pub fn epsg(&self) -> Option<u16> {
         let crs = Crs::epsg(self.name.strip_prefix("EPSG:")?.parse().ok()?).ok()?;
-        (normal(crs.definition) == normal(&self.definition)).then_some(crs.code)
+        if normal(&crs.definition) == normal(&self.definition) { crs.code } else { None }
     }
 
     /// Brings the features of `table` into this frame.

@@ -318,7 +318,7 @@ mod tests {
         let table = table(&text);
         let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
         assert_eq!(ids, ["7", "b", "3", "7.2"]);
-        assert_eq!((table.layer.as_str(), table.crs.unwrap().code), ("a", 4326));
+        assert_eq!((table.layer.as_str(), table.crs.unwrap().code), ("a", Some(4326)));
     }
 
     #[test]

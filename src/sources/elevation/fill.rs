@@ -9,27 +9,32 @@ const SWEEPS: usize = 6;
 /// these were. Does nothing where all are missing.
 ///
 /// Each level of a pyramid of halves begins with what the level above it found, and relaxes it towards the mean of its
-/// neighbours: the membrane over the rim, in linear time. Method: a cascade as in Bornemann and Deuflhard, "The cascadic
-/// multigrid method for elliptic problems", 1996.
+/// neighbours: nearly the membrane over the rim, in linear time. Method: a cascade as in Bornemann and Deuflhard, "The
+/// cascadic multigrid method for elliptic problems", 1996.
 pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32]) -> usize {
-    let holes: Vec<usize> = (0..heights.len()).filter(|index| heights[*index].is_nan()).collect();
+    // Half as large as usize, for there may be many.
+    let holes: Vec<u32> =
+        (0u32..).zip(&*heights).filter(|(_, height)| height.is_nan()).map(|(at, _)| at).collect();
     if holes.is_empty() || holes.len() == heights.len() {
         return 0;
     }
     let (across, down) = (columns.div_ceil(2), rows.div_ceil(2));
     let mut above = halve(columns, rows, heights, across);
     fill(across, down, &mut above);
-    for &hole in &holes {
+    for hole in holes.iter().map(|hole| *hole as usize) {
         let (column, row) = (hole % columns, hole / columns);
         heights[hole] = between(&above, across, down, (count(column) - 0.5) / 2.0, (count(row) - 0.5) / 2.0);
     }
     for sweep in 0..SWEEPS {
-        let mut relax = |hole: usize| heights[hole] = mean_around(columns, rows, heights, hole);
+        let mut relax = |hole: &u32| {
+            let hole = *hole as usize;
+            heights[hole] = mean_around(columns, rows, heights, hole);
+        };
         // Back and forth, so that nothing drifts one way.
         if sweep % 2 == 0 {
-            holes.iter().for_each(|hole| relax(*hole));
+            holes.iter().for_each(&mut relax);
         } else {
-            holes.iter().rev().for_each(|hole| relax(*hole));
+            holes.iter().rev().for_each(&mut relax);
         }
     }
     holes.len()

@@ -7,7 +7,8 @@ use super::{Wanted, ascii, geotiff, hgt, png, raw};
 use crate::error::{Error, Result};
 
 /// The formats that are read.
-pub(super) const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grids (.asc), PNG, and raw floats (.r32, .r64)";
+const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grids (.asc), PNG, \
+                     and raw floats (.r32, .r64)";
 
 /// Reads `bytes`, the content of the file called `name`.
 ///

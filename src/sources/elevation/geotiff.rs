@@ -19,22 +19,36 @@ const LARGEST_TAG: usize = 64_000_000;
 pub(crate) mod keys {
     /// Whether coordinates are projected or geographic.
     pub(crate) const MODEL: u16 = 1024;
-    /// Whether a sample is an area or a point.
-    pub(crate) const RASTER: u16 = 1025;
-    /// The EPSG code of geographic coordinates.
-    pub(crate) const GEOGRAPHIC: u16 = 2048;
-    /// The EPSG code of projected coordinates.
-    pub(crate) const PROJECTED: u16 = 3072;
-    /// The unit of heights.
-    pub(crate) const VERTICAL_UNIT: u16 = 4099;
     /// Coordinates are projected.
     pub(crate) const IS_PROJECTED: u16 = 1;
+    /// Whether a sample is an area or a point.
+    pub(crate) const RASTER: u16 = 1025;
     /// A sample is an area.
     pub(crate) const AREA: u16 = 1;
     /// A sample is a point.
     pub(crate) const POINT: u16 = 2;
+    /// The EPSG code of geographic coordinates.
+    pub(crate) const GEOGRAPHIC: u16 = 2048;
+    /// Longitude and latitude of WGS 84.
+    pub(crate) const WGS_84: u16 = 4326;
+    /// The EPSG code of projected coordinates.
+    pub(crate) const PROJECTED: u16 = 3072;
     /// A coordinate system that is described, not named.
     pub(crate) const OWN: u16 = 32767;
+    /// The EPSG code of a projection without its datum.
+    pub(crate) const PROJECTION: u16 = 3074;
+    /// How a projection works.
+    pub(crate) const METHOD: u16 = 3075;
+    /// Transverse Mercator.
+    pub(crate) const TRANSVERSE_MERCATOR: u16 = 1;
+    /// The unit of projected coordinates.
+    pub(crate) const LINEAR_UNIT: u16 = 3076;
+    /// Metres.
+    pub(crate) const METRE: u16 = 9001;
+    /// The longitude and the latitude (degrees) of the middle, its coordinates, and the scale there.
+    pub(crate) const MIDDLE: [u16; 5] = [3080, 3081, 3082, 3083, 3092];
+    /// The unit of heights.
+    pub(crate) const VERTICAL_UNIT: u16 = 4099;
 }
 
 /// A TIFF in memory that is being read.
@@ -45,8 +59,11 @@ type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 /// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
 pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
     let damaged = |error: TiffError| damaged(name, &error);
+    if !texts_fit(bytes) {
+        return Err(damaged(TiffError::LimitsExceeded));
+    }
     let mut limits = Limits::default();
-    limits.decoding_buffer_size = LARGEST_PART;
+    limits.decoding_buffer_size = LARGEST_PART.max(bytes.len());
     limits.intermediate_buffer_size = LARGEST_PART;
     limits.ifd_value_size = LARGEST_TAG;
     let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits);
@@ -73,16 +90,35 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
         *height *= scale;
     }
     let mut grid = grid(&mut tiff, name, keys.get(keys::RASTER) == Some(keys::POINT))?;
-    if let Some(grid) = &mut grid {
-        if grid.step[1] < 0.0 {
-            // Rows come from the south.
-            let flipped = heights.chunks_exact(columns).rev().flatten().copied();
-            heights = flipped.collect();
-            grid.first[1] -= grid.step[1] * count(rows - 1);
-            grid.step[1] = -grid.step[1];
-        }
+    if let Some(grid) = grid.as_mut().filter(|grid| grid.step[1] < 0.0) {
+        // Rows come from the south.
+        heights = heights.chunks_exact(columns).rev().flatten().copied().collect();
+        grid.first[1] -= grid.step[1] * count(rows - 1);
+        grid.step[1] = -grid.step[1];
     }
     Ok(Found { columns, rows, heights, grid, crs: keys.crs(name) })
+}
+
+/// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.
+fn texts_fit(bytes: &[u8]) -> bool {
+    const TEXT: usize = 2;
+    let number = |at: usize, size: usize| {
+        let part = bytes.get(at..at.checked_add(size)?)?;
+        let add = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
+        let sum = if bytes[0] == b'M' { part.iter().fold(0, add) } else { part.iter().rev().fold(0, add) };
+        usize::try_from(sum).ok()
+    };
+    // Where the directory begins, and the sizes (bytes) of its number of entries, of an entry, and of a count in it.
+    let (begin, [head, entry, count]) = match number(2, 2) {
+        Some(43) => (number(8, 8), [8, 20, 8]),
+        _ => (number(4, 4), [2, 12, 4]),
+    };
+    let Some(begin) = begin else { return true };
+    let entries = number(begin, head).unwrap_or(0).min(bytes.len() / entry);
+    (0..entries).all(|index| {
+        let at = begin + head + index * entry;
+        number(at + 2, 2) != Some(TEXT) || number(at + 4, count).is_some_and(|length| length <= bytes.len())
+    })
 }
 
 /// Refuses a file that ends before its last strip or tile.
@@ -173,28 +209,40 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>>
     Ok(Some(Grid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
 }
 
-/// The short keys of a GeoTIFF: number and value.
-struct Keys(Vec<(u16, u16)>);
+/// The keys of a GeoTIFF that are numbers.
+struct Keys {
+    short: Vec<(u16, u16)>,
+    double: Vec<(u16, f64)>,
+}
 
 impl Keys {
     /// None where the file is a plain TIFF.
     fn read(tiff: &mut Tiff<'_>) -> Self {
         let directory = tiff.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).unwrap_or_default();
-        // Four numbers of a header, then four for each key; a key whose second is not 0 stands elsewhere.
-        let keys = directory.chunks_exact(4).skip(1);
-        Self(keys.filter(|key| key[1] == 0).map(|key| (key[0], key[3])).collect())
+        let doubles = tiff.get_tag_f64_vec(Tag::GeoDoubleParamsTag).unwrap_or_default();
+        let mut keys = Self { short: Vec::new(), double: Vec::new() };
+        // Four numbers of a header, then four for each key: its number, where its value stands, how many, and which.
+        for key in directory.chunks_exact(4).skip(1) {
+            if key[1] == 0 {
+                keys.short.push((key[0], key[3]));
+            } else if key[1] == Tag::GeoDoubleParamsTag.to_u16() {
+                keys.double.extend(doubles.get(usize::from(key[3])).map(|value| (key[0], *value)));
+            }
+        }
+        keys
     }
 
     fn get(&self, key: u16) -> Option<u16> {
-        self.0.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
+        self.short.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
     }
 
     /// The coordinate system, if the file has one.
     fn crs(&self, name: &str) -> Result<Option<Crs>> {
-        let code = self.get(keys::PROJECTED).or_else(|| self.get(keys::GEOGRAPHIC));
-        match code {
-            None | Some(0) if self.get(keys::MODEL).is_none_or(|model| model == 0) => Ok(None),
-            Some(code) if code != keys::OWN && code != 0 => Crs::epsg(code.into())
+        let code = self.get(keys::PROJECTED).or_else(|| self.get(keys::GEOGRAPHIC)).filter(|code| *code != 0);
+        match (code, self.middle()) {
+            (None, _) if self.get(keys::MODEL).is_none_or(|model| model == 0) => Ok(None),
+            (Some(keys::OWN), Some(middle)) => Ok(Some(Crs::around(middle))),
+            (Some(code), _) if code != keys::OWN => Crs::epsg(code.into())
                 .map(Some)
                 .map_err(|error| Error::new(format!("{name}: {}", error.message())).help(NAME_IT)),
             _ => {
@@ -204,10 +252,22 @@ impl Keys {
         }
     }
 
+    /// The longitude and the latitude (degrees) that a transverse Mercator projection of a run is around.
+    fn middle(&self) -> Option<[f64; 2]> {
+        let double = |key: u16| self.double.iter().find(|(known, _)| *known == key).map(|(_, value)| *value);
+        let [longitude, latitude, x, y, scale] = keys::MIDDLE.map(double);
+        let is_ours = self.get(keys::METHOD) == Some(keys::TRANSVERSE_MERCATOR)
+            && self.get(keys::GEOGRAPHIC) == Some(keys::WGS_84)
+            && self.get(keys::LINEAR_UNIT) == Some(keys::METRE)
+            && [x, y, scale] == [Some(0.0), Some(0.0), Some(1.0)];
+        let middle = [longitude?, latitude?];
+        (is_ours && middle[0].abs() <= 180.0 && middle[1].abs() <= 90.0).then_some(middle)
+    }
+
     /// What heights are multiplied by to be metres.
     fn metres(&self, name: &str) -> Result<f32> {
         match self.get(keys::VERTICAL_UNIT) {
-            None | Some(0 | 9001 | keys::OWN) => Ok(1.0),
+            None | Some(0 | keys::METRE | keys::OWN) => Ok(1.0),
             Some(9002) => Ok(0.3048),
             Some(9003) => Ok(0.304_800_6),
             Some(unit) => {
@@ -219,7 +279,8 @@ impl Keys {
 }
 
 /// What to do about a coordinate system that cannot be used.
-const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: gdalwarp -t_srs EPSG:4326 IN OUT.tif";
+const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: \
+                       gdalwarp -t_srs EPSG:4326 IN OUT.tif";
 
 fn damaged(name: &str, error: &TiffError) -> Error {
     match error {

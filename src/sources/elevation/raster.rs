@@ -195,10 +195,12 @@ fn check_heights(name: &str, columns: usize, heights: &mut [f32]) -> Result<()> 
         // A comparison with what is no number fails.
         if height.abs() > HIGHEST {
             let (row, column) = (index / columns + 1, index % columns + 1);
-            return Err(Error::new(format!(
-                "{name} has a height of {height} m in row {row}, column {column}"
-            ))
-            .help("if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE"));
+            let what = match height.is_finite() {
+                true => format!("a height of {height} m"),
+                false => "an infinite height".to_owned(),
+            };
+            return Err(Error::new(format!("{name} has {what} in row {row}, column {column}"))
+                .help("if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE"));
         }
         known |= !height.is_nan();
     }

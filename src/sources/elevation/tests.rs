@@ -61,7 +61,7 @@ fn a_tile_lies_where_its_name_says() {
         let raster = read(&tile(5, 100), name).unwrap();
         assert_eq!((raster.columns, raster.rows, raster.grid.first), (5, 5, first), "{name}");
         assert_eq!((raster.grid.step, raster.heights[6]), ([0.25; 2], 106.0));
-        assert_eq!(raster.crs.map(|crs| crs.code), Some(4326));
+        assert_eq!(raster.crs.and_then(|crs| crs.code), Some(4326));
     }
     for name in ["N91E007.hgt", "N43E190.hgt", "a.hgt", "N4+E007.hgt"] {
         assert!(read(&tile(5, 100), name).unwrap_err().message().contains("where it lies"), "{name}");
@@ -107,7 +107,7 @@ fn tags_tell_where_a_geotiff_lies() {
     assert_eq!(raster.grid, Grid { first: [385_005.0, 6_670_990.0], step: [10.0, 20.0] });
     assert_eq!(raster.bounds(), [385_000.0, 6_670_920.0, 385_060.0, 6_671_000.0]);
     assert_eq!((raster.heights[4], raster.heights[23]), (4.0, 23.0));
-    assert_eq!(raster.crs.map(|crs| crs.code), Some(3067));
+    assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
     let mut point = area;
     point[11] = 2;
     let raster = read(&geotiff(&point, &[SCALE, TIE], None), "a.tif").unwrap();
@@ -141,7 +141,7 @@ fn options_win_over_what_a_file_says() {
     let wanted = Wanted { crs: Some(3067), bounds: Some([0.0, 0.0, 60.0, 40.0]), ..Wanted::default() };
     let raster = Raster::read(&bytes, "a.tif", &wanted).unwrap();
     assert_eq!((raster.grid.first, raster.bounds()), ([5.0, 35.0], [0.0, 0.0, 60.0, 40.0]));
-    assert_eq!(raster.crs.map(|crs| crs.code), Some(3067));
+    assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
 }
 
 /// Files of 50 by 40 heights that GDAL 3.10 wrote, and where it says that they lie.
@@ -183,7 +183,7 @@ fn what_gdal_writes_is_read_as_gdal_reads_it() {
     for (index, (bytes, code, bounds)) in BY_GDAL.into_iter().enumerate() {
         let raster = read(bytes, "a.tif").unwrap();
         assert_eq!((raster.columns, raster.rows, raster.filled), (50, 40, if index == 0 { 20 } else { 0 }));
-        assert_eq!(raster.crs.as_ref().map(|crs| crs.code), Some(code));
+        assert_eq!(raster.crs.as_ref().and_then(|crs| crs.code), Some(code));
         for (found, edge) in raster.bounds().into_iter().zip(bounds) {
             assert!((found - edge).abs() < 1e-9 * edge.abs(), "{:?}", raster.bounds());
         }
@@ -195,6 +195,16 @@ fn what_gdal_writes_is_read_as_gdal_reads_it() {
             assert!((found - height).abs() <= tolerance, "{code}: {found} {height}");
         }
     }
+}
+
+#[test]
+fn a_text_that_is_longer_than_the_file_is_refused_before_it_is_read() {
+    let mut bytes = geotiff(&[], &[SCALE, TIE], Some("5"));
+    // The tag 42113 of type 2, in a directory at the end.
+    let at = bytes.windows(4).position(|part| part == [0x81, 0xa4, 2, 0]).unwrap();
+    bytes[at + 4..at + 8].fill(0xff);
+    let error = read(&bytes, "a.tif").unwrap_err();
+    assert_eq!(error.message(), "a.tif has a strip or a tag that is too large");
 }
 
 /// A PNG of 3 by 2 samples.
