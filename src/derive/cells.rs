@@ -90,10 +90,13 @@ impl System {
         }
         let axiom = system.axiom(machine, Key::default(), grammar.draws_random())?;
         let signatures = grammar.symbols();
-        let of =
-            |symbol: Symbol| signatures.signature(symbol).parameters.iter().position(|name| name == HEIGHT);
-        let declared = (FIRST_SYMBOL..).take(signatures.names().count());
-        let heights: Vec<Option<usize>> = (0..FIRST_SYMBOL).map(|_| None).chain(declared.map(of)).collect();
+        let find = |parameter: &str| -> Vec<Option<usize>> {
+            let of =
+                |symbol| signatures.signature(symbol).parameters.iter().position(|name| name == parameter);
+            let declared = (FIRST_SYMBOL..).take(signatures.names().count());
+            (0..FIRST_SYMBOL).map(|_| None).chain(declared.map(of)).collect()
+        };
+        let (heights, forms) = (find(HEIGHT), find(FORM));
         let begin = match axiom.chain.symbols.as_slice() {
             [symbol, END] if *symbol >= FIRST_SYMBOL => {
                 let height = heights[usize::from(*symbol)]
