@@ -86,10 +86,12 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
     let mut scene = Scene::default();
     for system in systems.iter_mut().filter(|system| !system.is_placed()) {
-        match Arc::get_mut(system) {
-            Some(system) => system.hand_over(&mut scene)?,
-            None => system.add_to(&mut scene)?,
-        }
+        let place = system.place.clone();
+        let shown = match Arc::get_mut(system) {
+            Some(system) => system.hand_over(&mut scene),
+            None => system.add_to(&mut scene),
+        };
+        shown.map_err(|error| error.rather_at(place))?;
     }
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();

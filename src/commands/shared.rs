@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 use std::time::Duration;
 
-use burgeon::picture::{Background, Picture};
+use burgeon::picture::{Background, Look, Picture};
 use burgeon::presets::Presets;
 use burgeon::script::{Limits, Options};
 use burgeon::{Error, Result};
@@ -129,9 +129,28 @@ pub(crate) struct PictureFlags {
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, help_heading = "Pictures")]
     elevation: Option<f64>,
 
+    /// Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
+    #[arg(long, value_name = "X,Y,Z,M", value_parser = look, allow_hyphen_values = true, help_heading = "Pictures")]
+    look: Option<Look>,
+
     /// What is behind the model
     #[arg(long, value_enum, default_value_t = Behind::Light, help_heading = "Pictures")]
     background: Behind,
+}
+
+/// Reads `X,Y,Z,M`.
+fn look(text: &str) -> std::result::Result<Look, String> {
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|part| part.trim().parse::<f64>())
+        .collect::<std::result::Result<_, _>>()
+        .unwrap_or_default();
+    match numbers.as_slice() {
+        [x, y, z, radius] if numbers.iter().all(|number| number.is_finite()) && *radius > 0.0 => {
+            Ok(Look { at: [*x, *y, *z], radius: *radius })
+        }
+        _ => Err("write a place and a distance above 0, such as 10,-5,0,40".to_owned()),
+    }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
@@ -149,6 +168,7 @@ impl PictureFlags {
             height,
             azimuth: self.azimuth,
             elevation: self.elevation,
+            look: self.look,
             background: match self.background {
                 Behind::Light => Background::Light,
                 Behind::Dark => Background::Dark,

@@ -10,7 +10,7 @@ use super::Plan;
 use super::batch::NONE;
 use super::step::{Outcome, Stepper};
 use crate::error::{Error, Result};
-use crate::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, Symbol, module_text};
+use crate::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_text};
 use crate::script::{Declared, Interpretations, Machine};
 use crate::terrain::{Area, Begin, Block, Divide};
 

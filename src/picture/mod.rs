@@ -38,10 +38,11 @@ mod samples;
 mod tests;
 
 pub use extent::Extent;
-pub use settings::{Background, Picture, Quality};
+pub use settings::{Background, Look, Picture, Quality};
 
 use crate::error::Result;
 use crate::scene::Scene;
+use glam::DVec3;
 use image::RgbaImage;
 
 /// The picture of `scene` as sRGB with straight opacity; opaque unless the background is clear.
@@ -67,12 +68,19 @@ fn photograph(scene: &Scene, extent: Option<&Extent>, picture: &Picture) -> Resu
     let textures = texture::load(&scene.materials)?;
     let detail = settings::Detail::of(picture.quality, stage.triangles());
     let size = [picture.width, picture.height];
-    let (eye, camera) = match extent {
-        None => {
+    let (eye, camera) = match (extent, picture.look) {
+        (None, None) => {
             let eye = view::viewpoint(&stage.hull, picture);
             (eye, camera::Camera::fit(stage.points(), eye, size))
         }
-        Some(extent) => {
+        (None, Some(look)) => {
+            let eye = view::viewpoint(&stage.hull, picture);
+            let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
+            let points = axes.map(|axis| DVec3::from(look.at) + axis * look.radius);
+            let points = points.map(|point| stage.shrink.transform_point3(point).as_vec3a());
+            (eye, camera::Camera::fit(points, eye, size))
+        }
+        (Some(extent), _) => {
             let points = extent.points(&stage.shrink);
             let eye = view::viewpoint(&points, picture);
             (eye, camera::Camera::fit(points.into_iter(), eye, size))

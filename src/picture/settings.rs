@@ -18,12 +18,24 @@ pub struct Picture {
     /// How high the camera stands above the horizon (degrees), -90 to 90. Without it the model's shape
     /// decides: lower for what is tall, higher for what is low.
     pub elevation: Option<f64>,
+    /// What is looked at: a place (m), and how far (m) around it is in the picture. Without it the whole model is.
+    pub look: Option<Look>,
     /// What is behind the model.
     pub background: Background,
     /// Whether a ground under the model's lowest point catches its shadow.
     pub ground: bool,
     /// How much time to spend.
     pub quality: Quality,
+}
+
+/// A ball that fills a picture.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Look {
+    /// Its centre (m): x, y and z.
+    pub at: [f64; 3],
+    /// Its radius (m).
+    pub radius: f64,
 }
 
 /// What is behind the model.
@@ -58,6 +70,7 @@ impl Default for Picture {
             height: 960,
             azimuth: None,
             elevation: None,
+            look: None,
             background: Background::Light,
             ground: true,
             quality: Quality::Fine,

@@ -5,8 +5,10 @@
 //! one has left.
 
 use std::collections::BTreeMap;
+use std::hash::{Hash, Hasher};
 
 use glam::DVec2;
+use rustc_hash::FxHasher;
 use serde::{Deserialize, Serialize};
 
 use super::block::Area;
@@ -110,8 +112,11 @@ impl Edit {
                 _ => "its path has fewer than two points",
             });
         }
-        if sizes.iter().any(|size| *size < 0.0) || matches!(self, Self::Dig { width, .. } if *width <= 0.0) {
+        if sizes.iter().any(|size| *size < 0.0) {
             return Some("its width or margin is below 0");
+        }
+        if matches!(self, Self::Dig { width, .. } if *width == 0.0) {
+            return Some("its width is 0");
         }
         None
     }
@@ -131,6 +136,9 @@ pub struct Edits {
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 struct Kept {
     order: usize,
+    /// A number for what it is.
+    #[serde(skip)]
+    mark: u64,
     #[serde(flatten)]
     edit: Edit,
 }
@@ -177,32 +185,17 @@ impl Edits {
                 .help(format!("it reaches from ({}, {}) to ({}, {}) m", corner.x, corner.y, far.x, far.y)));
         }
         let cell = smallest(world, low, high);
-        self.cells.entry(cell).or_default().push(Kept { order: self.count, edit });
+        let mut hasher = FxHasher::default();
+        (self.count, serde_json::to_string(&edit).unwrap_or_default()).hash(&mut hasher);
+        let kept = Kept { order: self.count, mark: hasher.finish(), edit };
+        self.cells.entry(cell).or_default().push(kept);
         self.count += 1;
         Ok(())
     }
 
     /// Changes the heights (m) of the cells of `area` at `level`.
     pub(super) fn apply(&self, world: &World, level: u32, area: Area, heights: &mut [f64]) {
-        if self.is_empty() || area.is_empty() {
-            return;
-        }
-        let half = world.cell(level) / 2.0;
-        let (west, north) = area.at(0);
-        let (east, south) = area.at(area.len() - 1);
-        let (a, b) = (world.middle(level, west, north), world.middle(level, east, south));
-        let (low, high) = (a.min(b) - half, a.max(b) + half);
-        let mut met: Vec<&Kept> = self
-            .cells
-            .values()
-            .flatten()
-            .filter(|kept| {
-                let (from, to) = kept.edit.bounds();
-                from.cmple(high).all() && to.cmpge(low).all()
-            })
-            .collect();
-        met.sort_by_key(|kept| kept.order);
-        for kept in met {
+        for kept in self.met(world, level, area) {
             let (from, to) = kept.edit.bounds();
             for ((x, y), height) in area.cells().zip(heights.iter_mut()) {
                 let place = world.middle(level, x, y);
@@ -211,6 +204,31 @@ impl Edits {
                 }
             }
         }
+    }
+
+    /// A number for all that changes the cells of `area` at `level`; 0 where nothing does.
+    pub(super) fn mark(&self, world: &World, level: u32, area: Area) -> u64 {
+        let met = self.met(world, level, area);
+        met.iter().fold(0, |mark: u64, kept| mark.rotate_left(7) ^ kept.mark)
+    }
+
+    /// The edits that reach cells of `area` at `level`, in their order.
+    fn met(&self, world: &World, level: u32, area: Area) -> Vec<&Kept> {
+        if self.is_empty() || area.is_empty() {
+            return Vec::new();
+        }
+        let half = world.cell(level) / 2.0;
+        let (west, north) = area.at(0);
+        let (east, south) = area.at(area.len() - 1);
+        let (a, b) = (world.middle(level, west, north), world.middle(level, east, south));
+        let (low, high) = (a.min(b) - half, a.max(b) + half);
+        let reaches = |kept: &&Kept| {
+            let (from, to) = kept.edit.bounds();
+            from.cmple(high).all() && to.cmpge(low).all()
+        };
+        let mut met: Vec<&Kept> = self.cells.values().flatten().filter(reaches).collect();
+        met.sort_by_key(|kept| kept.order);
+        met
     }
 
     /// The text of a file that holds them.

@@ -72,13 +72,9 @@ impl Ground {
         self.expand(&fit, divide)
     }
 
-    /// Has `edits` in place of those that it had; what they change is expanded by the next focus.
+    /// Has `edits` in place of those that it had, from the next focus on.
     pub fn edit(&mut self, edits: &Arc<Edits>) {
-        if self.edits == *edits {
-            return;
-        }
         self.edits = Arc::clone(edits);
-        self.tiles.clear();
     }
 
     fn expand(&mut self, fit: &Fit, divide: &dyn Divide) -> Result<()> {
@@ -86,7 +82,8 @@ impl Ground {
         let mut missing = Vec::new();
         for (index, &detail) in fit.details.iter().enumerate() {
             let place = fit.place(index);
-            match self.tile(place).filter(|tile| tile.detail == detail) {
+            let mark = || self.edits.mark(&self.world, place.level + detail, Tile::wanted(place, detail));
+            match self.tile(place).filter(|tile| tile.detail == detail && tile.mark == mark()) {
                 Some(tile) => tiles[index] = Some(Arc::clone(tile)),
                 None => missing.push((index, place, detail)),
             }
@@ -132,7 +129,10 @@ impl Ground {
             self.add_measured(&**measured, level, wanted, &mut heights);
         }
         self.edits.apply(&self.world, level, wanted, &mut heights);
-        Ok((index, Tile::new(place, detail, &cells, wanted, heights)))
+        let mark = self.edits.mark(&self.world, level, wanted);
+        let mut tile = Tile::new(place, detail, &cells, wanted, heights);
+        tile.mark = mark;
+        Ok((index, tile))
     }
 
     /// Adds measured heights (m) to those of the cells of `area`, which stay as they are only between the samples, and

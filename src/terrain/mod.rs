@@ -10,6 +10,7 @@ mod edits;
 mod ground;
 mod mesh;
 mod noise;
+mod river;
 mod table;
 #[cfg(test)]
 mod tests;
@@ -22,6 +23,7 @@ pub use edits::{Edit, Edits};
 pub use ground::{Ground, Map};
 pub use mesh::Mesh;
 pub use noise::octaves;
+pub use river::Drainage;
 pub use table::{Draw, Quadrants, RuleTable};
 pub use tile::{Place, Tile};
 pub use view::{DEEPEST, MOST_HEIGHTS, Ring, View};

@@ -24,6 +24,8 @@ pub struct Tile {
     pub place: Place,
     /// How often it is divided.
     pub detail: u32,
+    /// A number for the edits that it has; 0 without any.
+    pub(super) mark: u64,
     /// The cells whose heights are known: its own, and one more on each side within the world.
     area: Area,
     heights: Vec<f64>,
@@ -50,7 +52,7 @@ impl Tile {
             let first = cells.area.index(own.x, y);
             symbols.extend_from_slice(&cells.symbols[first..first + own.columns]);
         }
-        Self { place, detail, area: wanted, heights, symbols }
+        Self { place, detail, mark: 0, area: wanted, heights, symbols }
     }
 
     /// The number of heights that it was expanded for.

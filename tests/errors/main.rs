@@ -20,4 +20,5 @@ mod scope;
 mod successors;
 mod support;
 mod syntax;
+mod terrain;
 mod variations;

@@ -58,7 +58,8 @@ pub(super) fn paint(
 ) -> Result<(Vec<u8>, usize)> {
     let (corner, size) = tile.bounds(ground.world());
     let cells = 1usize << tile.detail;
-    let fine = if cells <= MOST_TEXELS / 2 { 2 } else { 1 };
+    // One tile alone is seen as a whole, many of them are far from most eyes.
+    let fine = if ground.tiles().len() == 1 { 2 } else { 1 };
     let across = (cells * fine).min(MOST_TEXELS) + 1;
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
     let step = size / (across - 1) as f64;

@@ -20,22 +20,26 @@ fields! {
         pub curvature: Vec<f64> = Vec::new(),
         /// The symbols of the cells where it is; all, if there are none.
         pub symbols: Vec<String> = Vec::new(),
-        /// How far (0 to 1) noise shifts where it fades in, and makes it patchy.
+        /// How far (0 to 1) noise shifts where it fades in.
         pub noise: f64 = 0.0,
-        /// The size (m) of patches.
+        /// How much (0 to 1) it is missing between patches.
+        pub patches: f64 = 0.0,
+        /// The size (m) of patches, and of what noise shifts.
         pub scale: f64 = 50.0,
     }
 }
 
 impl Parameter for Mask {
     fn luau() -> String {
-        "{ height: { number }?, slope: { number }?, curvature: { number }?, symbols: { string }?, noise: number?, scale: number? }"
+        "{ height: { number }?, slope: { number }?, curvature: { number }?, symbols: { string }?, noise: number?, patches: number?, scale: number? }"
             .into()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
         let Value::Table(table) = &value else {
-            return Err(Expected::new("a table of height, slope, curvature, symbols, noise and scale"));
+            return Err(Expected::new(
+                "a table of height, slope, curvature, symbols, noise, patches and scale",
+            ));
         };
         let mask = Self::from_table(table)
             .map_err(|error| Expected::new(format!("a place ({})", error.message())))?;
@@ -44,8 +48,10 @@ impl Parameter for Mask {
                 return Err(Expected::new(format!("a place whose {name} is a range, such as {{ 30, 45 }}")));
             }
         }
-        if mask.scale <= 0.0 || !(0.0..=1.0).contains(&mask.noise) {
-            return Err(Expected::new("a place whose scale is above 0 and whose noise is from 0 to 1"));
+        if mask.scale <= 0.0 || [mask.noise, mask.patches].iter().any(|part| !(0.0..=1.0).contains(part)) {
+            return Err(Expected::new(
+                "a place whose scale is above 0, and whose noise and patches are from 0 to 1",
+            ));
         }
         Ok(mask)
     }
@@ -111,22 +117,18 @@ impl Mask {
         if !symbols.is_empty() && !ground.symbol(spot.place).is_some_and(|symbol| symbols.contains(&symbol)) {
             return 0.0;
         }
-        let shift =
-            if self.noise > 0.0 { octaves(spot.place / self.scale, 4, seed) * self.noise } else { 0.0 };
+        let noisy = self.noise > 0.0 || self.patches > 0.0;
+        let noise = if noisy { octaves(spot.place / self.scale, 4, seed) } else { 0.0 };
+        let shift = noise * self.noise;
         let slope = if self.slope.is_empty() { 0.0 } else { spot.up.z.clamp(-1.0, 1.0).acos().to_degrees() };
         let values = [spot.height, slope, spot.curvature];
-        let mut amount = 1.0;
-        let mut fades = false;
+        let mut amount = 1.0 - self.patches * (1.0 - eased(0.5 + 2.5 * noise));
         for ((_, range), value) in self.ranges().into_iter().zip(values) {
             if let [from, to] = *range {
                 let step = f64::from(u8::from(value >= from));
                 let along = if from == to { step } else { (value - from) / (to - from) };
                 amount *= eased(along + shift);
-                fades = true;
             }
-        }
-        if !fades && self.noise > 0.0 {
-            amount = eased(0.5 + shift * 1.5);
         }
         amount
     }

@@ -4,6 +4,7 @@ mod edits;
 mod looks;
 mod mask;
 mod plants;
+mod river;
 mod rules;
 mod sides;
 mod view;
@@ -21,12 +22,14 @@ pub use plants::Plants;
 pub use rules::{LayerRules, RuleLayer, RuleLayers, System};
 pub use water::Water;
 
+use river::River;
+
 use super::{Color, Drawing, Elevation, Expected, Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::rules::{Key, Symbol};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
 use crate::terrain::{
-    Divide, Edit, Edits, Ground, Layer, Map, Measured, Mesh as Triangulation, Rules, View, World,
+    Divide, Drainage, Edit, Edits, Ground, Layer, Map, Measured, Mesh as Triangulation, Rules, View, World,
 };
 
 fields! {
@@ -78,8 +81,14 @@ fields! {
 pub struct Terrain {
     options: Arc<Options>,
     ground: Ground,
+    /// The ground without what passes change, which the next pass finds.
+    plain: Ground,
     /// What the present pass has asked for: a place and what is seen from there.
     wanted: Option<(DVec2, View)>,
+    /// The ways down on the ground as it is expanded, once a river has asked.
+    drainage: Option<Drainage>,
+    /// The rivers that the present pass has let run.
+    rivers: Vec<River>,
     /// The changes of the ground that come from a file.
     kept: Arc<Edits>,
     /// These, and what the present pass has changed.
@@ -126,6 +135,22 @@ methods! {
         /// the depth is below 0.
         pub fn dig(&mut self, path: Vec<Vector>, width: f64, depth: f64) -> Result<()> {
             self.change(Edit::Dig { path: flat(&path), width, depth })
+        }
+
+        /// Lets a river of `width` (m) run from a place downhill, to the standing water, the rim or an earlier river; its
+        /// bed is dug when the pass ends.
+        pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
+            if !(width > 0.0 && width <= self.options.size) {
+                return Err(Error::new(format!("terrain:river: width is {width} m")).help("give metres above 0"));
+            }
+            let at = source.0.truncate();
+            self.ground.height(at).ok_or_else(|| self.nothing(at))?;
+            let way = self.drainage()?.river(at);
+            let Some(way) = way else { return Ok(()) };
+            let depth = width * SHALLOW;
+            let path = way.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
+            self.rivers.push(River { way, width });
+            self.change(Edit::Cut { path, width, margin: width * 1.5 })
         }
 
         /// Height (m) of the ground at a place; fails where nothing is expanded.
@@ -229,10 +254,14 @@ impl Terrain {
         if let Some(levels) = options.levels {
             View::whole(&world, levels).check(&world, options.position.0.truncate())?;
         }
+        let world = Arc::new(world);
         Ok(Self {
-            ground: Ground::new(Arc::new(world)),
+            plain: Ground::new(Arc::clone(&world)),
+            ground: Ground::new(world),
             options: Arc::new(options),
             wanted: None,
+            drainage: None,
+            rivers: Vec::new(),
             kept: Arc::clone(&kept),
             edits: kept,
             key: Key::default(),
@@ -273,6 +302,14 @@ impl Terrain {
         ))
     }
 
+    fn drainage(&mut self) -> Result<&mut Drainage> {
+        if self.drainage.is_none() {
+            let water = self.options.water.as_ref().map(|water| water.level);
+            self.drainage = Some(Drainage::new(&self.ground.map()?, water));
+        }
+        self.drainage.as_mut().ok_or_else(|| Error::new("terrain: there are no ways down"))
+    }
+
     fn change(&mut self, edit: Edit) -> Result<()> {
         Arc::make_mut(&mut self.edits).add(self.ground.world(), edit)
     }
@@ -299,7 +336,8 @@ impl Terrain {
             }
         }
         self.begun = true;
-        self.ground = Ground::new(Arc::new(world));
+        self.plain = Ground::new(Arc::new(world));
+        self.ground = self.plain.clone();
         Ok(())
     }
 
@@ -307,6 +345,9 @@ impl Terrain {
         mask.numbers(&self.names)
     }
 }
+
+/// How deep a river's bed is, as a multiple of its width.
+const SHALLOW: f64 = 0.12;
 
 /// The pairs of heights (m) of a change, in order.
 fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
@@ -385,11 +426,15 @@ impl Object for Terrain {
         self.key = Key(seed);
         let world = self.ground.world();
         let world = World { key: world.key.map(|_| Key(seed)), ..world.clone() };
-        self.ground = Ground::new(Arc::new(world));
+        self.plain = Ground::new(Arc::new(world));
+        self.ground = self.plain.clone();
     }
 
     fn begin(&mut self) {
+        self.ground = self.plain.clone();
         self.wanted = None;
+        self.drainage = None;
+        self.rivers.clear();
         self.edits = Arc::clone(&self.kept);
     }
 
@@ -417,8 +462,14 @@ impl Object for Terrain {
             (None, None) => return Ok(()),
         };
         self.begin_systems(divide)?;
-        self.ground.edit(&self.edits);
-        self.ground.focus(eye, &view, divide)
+        self.plain.edit(&self.kept);
+        self.plain.focus(eye, &view, divide)?;
+        self.ground = self.plain.clone();
+        if self.edits != self.kept {
+            self.ground.edit(&self.edits);
+            self.ground.focus(eye, &view, divide)?;
+        }
+        Ok(())
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
@@ -472,6 +523,17 @@ impl Object for Terrain {
                 Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
             let part = drawing.material(&material);
             sides::draw(&mesh.rim(), base, drawing.part(part))?;
+        }
+        if let Some(water) = &self.options.water {
+            let material = Material { base_color: water.color.0, roughness: 0.12, ..Material::default() };
+            let part = drawing.material(&material);
+            sides::draw_water(&mesh.rim(), water.level, drawing.part(part));
+        }
+        for river in &self.rivers {
+            let water = self.options.water.clone().unwrap_or_default();
+            let material = Material { base_color: water.shallow.0, roughness: 0.12, ..Material::default() };
+            let part = drawing.material(&material);
+            river.draw(drawing.part(part));
         }
         for (number, plants) in (1u64..).zip(&self.options.plants) {
             let key = Key(self.key.0.wrapping_add(number)).child(0);

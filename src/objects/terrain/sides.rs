@@ -1,4 +1,4 @@
-//! The sides and the underside of a piece of ground.
+//! The sides and the underside of a piece of ground, and of the water on it.
 
 use glam::{DVec3, Vec2, Vec3};
 
@@ -16,12 +16,27 @@ pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()>
     let middle = rim.iter().flatten().sum::<DVec3>() / (rim.len().max(1) * 2) as f64;
     for [from, to] in rim {
         let down = |at: &DVec3| DVec3::new(at.x, at.y, base);
-        let way = (*to - *from).with_z(0.0);
-        let out = way.cross(DVec3::Z).normalize_or_zero().as_vec3();
+        let way = *to - *from;
+        let out = DVec3::new(way.y, -way.x, 0.0).normalize_or_zero().as_vec3();
         face(part, &[down(from), down(to), *to, *from], out);
         face(part, &[down(to), down(from), down(&middle)], Vec3::NEG_Z);
     }
     Ok(())
+}
+
+/// Draws upright faces from the edges of `rim` (m) that lie below the height `level` (m) of standing water, up to it.
+pub(super) fn draw_water(rim: &[[DVec3; 2]], level: f64, part: &mut Part) {
+    for [from, to] in rim.iter().filter(|edge| edge.iter().any(|end| end.z < level)) {
+        let up = |at: &DVec3| DVec3::new(at.x, at.y, at.z.max(level));
+        let way = *to - *from;
+        let out = DVec3::new(way.y, -way.x, 0.0).normalize_or_zero().as_vec3();
+        let corners: Vec<DVec3> = match (from.z < level, to.z < level) {
+            (true, true) => vec![*from, *to, up(to), up(from)],
+            (true, false) => vec![*from, from.lerp(*to, (level - from.z) / (to.z - from.z)), up(from)],
+            _ => vec![from.lerp(*to, (level - from.z) / (to.z - from.z)), *to, up(to)],
+        };
+        face(part, &corners, out);
+    }
 }
 
 /// Adds a face with this normal.

@@ -1,0 +1,140 @@
+//! Rivers: where water runs from a place, down to the standing water or over the rim.
+//!
+//! Method: Barnes, Lehman and Mulla, "Priority-flood", 2014: from the outlets on, the lowest cell that is reached next
+//! tells its neighbours the way down, so that every cell has one, through hollows as well.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use glam::{DVec2, DVec3};
+
+use super::ground::Map;
+
+/// The cells of a map and the way down from each.
+#[derive(Clone)]
+pub struct Drainage {
+    columns: usize,
+    rows: usize,
+    corner: DVec2,
+    step: f64,
+    heights: Vec<f64>,
+    /// The cell that water runs to; itself for an outlet.
+    next: Vec<u32>,
+    /// The cells where a river runs already.
+    wet: Vec<bool>,
+}
+
+/// The most cells along a side that are looked at.
+const MOST: usize = 1024;
+
+impl Drainage {
+    /// The ways down on `map`, to its rim and to all ground below `water` (m).
+    pub fn new(map: &Map, water: Option<f64>) -> Self {
+        let every = map.columns.max(map.rows).div_ceil(MOST).max(1);
+        let (columns, rows) = (map.columns.div_ceil(every), map.rows.div_ceil(every));
+        let at = |cell: usize| {
+            let (column, row) = (cell % columns * every, cell / columns * every);
+            map.heights[row.min(map.rows - 1) * map.columns + column.min(map.columns - 1)]
+        };
+        let heights: Vec<f64> = (0..columns * rows).map(at).collect();
+        #[allow(clippy::cast_precision_loss, reason = "few cells")]
+        let step = map.step * every as f64;
+        #[allow(clippy::cast_precision_loss, reason = "few cells")]
+        let north = map.corner.y + map.step * map.rows as f64;
+        let mut drainage = Self {
+            corner: DVec2::new(map.corner.x, north),
+            columns,
+            rows,
+            step,
+            next: vec![u32::MAX; heights.len()],
+            wet: vec![false; heights.len()],
+            heights,
+        };
+        drainage.flood(water);
+        drainage
+    }
+
+    fn flood(&mut self, water: Option<f64>) {
+        // Heights from 0 on have the order of their bits; those below 0 are turned around.
+        let key = |height: f64| {
+            let bits = height.to_bits();
+            if bits >> 63 == 1 { !bits } else { bits | 1 << 63 }
+        };
+        let mut open = BinaryHeap::new();
+        for cell in 0..self.heights.len() {
+            let (column, row) = (cell % self.columns, cell / self.columns);
+            let rim = column == 0 || row == 0 || column + 1 == self.columns || row + 1 == self.rows;
+            if rim || water.is_some_and(|water| self.heights[cell] <= water) {
+                self.next[cell] = narrow(cell);
+                open.push(Reverse((key(self.heights[cell]), narrow(cell))));
+            }
+        }
+        while let Some(Reverse((level, cell))) = open.pop() {
+            let here = cell as usize;
+            let (column, row) = (here % self.columns, here / self.columns);
+            for (right, down) in [(-1, 0), (1, 0), (0, -1), (0, 1), (-1, -1), (1, -1), (-1, 1), (1, 1)] {
+                let (Some(column), Some(row)) =
+                    (column.checked_add_signed(right), row.checked_add_signed(down))
+                else {
+                    continue;
+                };
+                if column >= self.columns || row >= self.rows {
+                    continue;
+                }
+                let there = row * self.columns + column;
+                if self.next[there] == u32::MAX {
+                    self.next[there] = cell;
+                    // Water in a hollow rises to its rim.
+                    open.push(Reverse((level.max(key(self.heights[there])), narrow(there))));
+                }
+            }
+        }
+    }
+
+    /// The way (m) of a river from `source` (m) to an outlet or into an earlier river, never rising; `None` outside, or
+    /// where the way is shorter than two cells.
+    pub fn river(&mut self, source: DVec2) -> Option<Vec<DVec3>> {
+        let along = DVec2::new(source.x - self.corner.x, self.corner.y - source.y) / self.step;
+        if along.min_element() < 0.0 {
+            return None;
+        }
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not below 0")]
+        let (column, row) = (along.x as usize, along.y as usize);
+        if column >= self.columns || row >= self.rows {
+            return None;
+        }
+        let mut cell = row * self.columns + column;
+        let mut level = f64::INFINITY;
+        let mut way = Vec::new();
+        loop {
+            level = level.min(self.heights[cell]);
+            way.push(self.middle(cell).extend(level));
+            let met = std::mem::replace(&mut self.wet[cell], true);
+            let next = self.next[cell] as usize;
+            if met || next == cell || next >= self.heights.len() {
+                break;
+            }
+            cell = next;
+        }
+        (way.len() > 2).then(|| rounded(rounded(way)))
+    }
+
+    #[allow(clippy::cast_precision_loss, reason = "few cells")]
+    fn middle(&self, cell: usize) -> DVec2 {
+        let (column, row) = (cell % self.columns, cell / self.columns);
+        self.corner + DVec2::new(column as f64 + 0.5, -(row as f64 + 0.5)) * self.step
+    }
+}
+
+fn narrow(cell: usize) -> u32 {
+    u32::try_from(cell).unwrap_or(u32::MAX)
+}
+
+/// A way whose corners are cut, with the same ends.
+///
+/// Method: Chaikin, "An algorithm for high-speed curve generation", 1974.
+fn rounded(way: Vec<DVec3>) -> Vec<DVec3> {
+    let (Some(&first), Some(&last)) = (way.first(), way.last()) else { return way };
+    let pieces = way.windows(2).flat_map(|pair| [pair[0].lerp(pair[1], 0.25), pair[0].lerp(pair[1], 0.75)]);
+    std::iter::once(first).chain(pieces).chain([last]).collect()
+}
