@@ -7,6 +7,7 @@ mod data;
 mod determinism;
 mod facades;
 mod files;
+mod fitting;
 mod footprints;
 mod limits;
 mod neighbors;

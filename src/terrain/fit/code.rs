@@ -75,6 +75,38 @@ impl Code {
         all
     }
 
+    /// Gives the factors into and out of each symbol the same greatest size, by stretching what the symbol makes; the map
+    /// stays as it is. So factors that would have to be too great are so only where a rule comes back to itself.
+    pub(super) fn balance(&mut self) {
+        for symbol in 1..self.rules.len() {
+            let (mut into, mut out) = (0.0f64, 0.0f64);
+            for (from, rule) in self.rules.iter().enumerate() {
+                for (to, factor) in rule.symbols.iter().zip(rule.factor) {
+                    if from != symbol && *to == symbol {
+                        into = into.max(factor.abs());
+                    } else if from == symbol && *to != symbol {
+                        out = out.max(factor.abs());
+                    }
+                }
+            }
+            if into < 1e-6 || out < 1e-6 {
+                continue;
+            }
+            let stretch = (into / out).sqrt();
+            for (from, rule) in self.rules.iter_mut().enumerate() {
+                if from == symbol {
+                    rule.change = rule.change.map(|change| change * stretch);
+                    rule.factor = rule.factor.map(|factor| factor * stretch);
+                }
+                for (to, factor) in rule.symbols.iter().zip(&mut rule.factor) {
+                    if *to == symbol {
+                        *factor /= stretch;
+                    }
+                }
+            }
+        }
+    }
+
     /// How many quadrants of rules in use become each symbol; the whole counts as one.
     pub(super) fn uses(&self) -> Vec<usize> {
         let mut uses = vec![0; self.rules.len()];

@@ -55,85 +55,84 @@ impl Problem {
         misfit(&code.cells(self.levels), &self.wanted)
     }
 
-    /// For each symbol, what a quadrant would best become with it, the best first; none for a rule that is not in use.
+    /// For each symbol, what each quadrant of the rules of `wanted` symbols would best become with it; nothing for rules
+    /// that are not in use.
     ///
     /// What a symbol itself makes is taken to stay as it is.
-    fn choices(&self, code: &Code, (symbol, quadrant): Place) -> Vec<Choice> {
+    fn survey(&self, code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Vec<Choice>> {
         let cells = code.cells(self.levels);
         let reliefs = code.reliefs(self.levels - 1);
-        let count = code.rules.len();
-        // Of the equations for change and factor: the first is the same for all symbols but for its last column.
-        let (mut cover, mut height) = (0.0, 0.0);
-        let mut by = vec![[0.0; 3]; count];
+        let mut sums = vec![Sums::none(code.rules.len()); code.rules.len() * 4];
         for level in 0..self.levels {
             let below = 2 * (self.levels - level - 1);
             let size = 1 << below;
             let relief = &reliefs[below / 2];
             let totals: Vec<(f64, f64)> =
                 relief.chunks_exact(size).map(|part| (part.iter().sum(), dot(part, part))).collect();
-            for cell in (0..cells[level].symbols.len()).filter(|cell| cells[level].symbols[*cell] == symbol) {
-                let (base, decay) = (cells[level].heights[cell], cells[level].decays[cell]);
-                let child = 4 * cell + quadrant;
-                let wanted = &self.wanted[child << below..][..size];
-                cover += decay * decay * number(size);
-                height += decay * (self.sums[level + 1][child] - base * number(size));
-                for ((by, part), (sum, square)) in by.iter_mut().zip(relief.chunks_exact(size)).zip(&totals) {
-                    by[0] += decay * decay * sum;
-                    by[1] += decay * decay * square;
-                    by[2] += decay * (dot(wanted, part) - base * sum);
+            let here = &cells[level];
+            for (cell, symbol) in here.symbols.iter().enumerate().filter(|(_, symbol)| wanted(**symbol)) {
+                let (base, decay) = (here.heights[cell], here.decays[cell]);
+                for quadrant in 0..4 {
+                    let child = 4 * cell + quadrant;
+                    let wanted = &self.wanted[child << below..][..size];
+                    let sums = &mut sums[symbol * 4 + quadrant];
+                    sums.cover += decay * decay * number(size);
+                    sums.height += decay * (self.sums[level + 1][child] - base * number(size));
+                    if below == 0 {
+                        continue;
+                    }
+                    let parts = relief.chunks_exact(size).zip(&totals);
+                    for (by, (part, (sum, square))) in sums.by.iter_mut().zip(parts) {
+                        by[0] += decay * decay * sum;
+                        by[1] += decay * decay * square;
+                        by[2] += decay * (dot(wanted, part) - base * sum);
+                    }
                 }
             }
         }
-        if cover <= 1e-12 {
-            return Vec::new();
-        }
-        let choice = |(symbol, [mixed, square, along]): (usize, [f64; 3])| {
-            let rest = square - mixed * mixed / cover;
-            let factor = if rest > 1e-9 * (1.0 + square) {
-                ((along - mixed * height / cover) / rest).clamp(-MOST, MOST)
-            } else {
-                0.5
-            };
-            let change = (height - mixed * factor) / cover;
-            let explained = 2.0 * (change * height + factor * along)
-                - (change * change * cover + 2.0 * change * factor * mixed + factor * factor * square);
-            Choice { symbol, change, factor, gain: explained }
-        };
-        let mut choices: Vec<Choice> = by.into_iter().enumerate().map(choice).collect();
-        choices.sort_by(|a, b| b.gain.total_cmp(&a.gain));
-        choices
+        sums.iter().map(Sums::choices).collect()
     }
 
-    /// Gives a quadrant of a rule in use another symbol, one that seems good.
+    /// Gives a quadrant of a rule another symbol, one that seems good.
     pub(super) fn turn(&self, code: &mut Code, stream: &mut Stream) {
-        let used = used(code);
-        let place = (used[stream.below(used.len())], stream.below(4));
-        let now = code.rules[place.0].symbols[place.1];
-        let choices: Vec<Choice> =
-            self.choices(code, place).into_iter().filter(|choice| choice.symbol != now).collect();
-        // Each is half as likely as the one before.
-        let mut rank = 0;
-        while rank + 1 < choices.len() && stream.uniform() < 0.5 {
-            rank += 1;
+        let survey = self.survey(code, |_| true);
+        let mut turns: Vec<(f64, Place, Choice)> = Vec::new();
+        for (place, choices) in survey.iter().enumerate() {
+            let place = (place / 4, place % 4);
+            let now = code.rules[place.0].symbols[place.1];
+            let others = choices.iter().filter(|choice| choice.symbol != now);
+            turns.extend(others.map(|choice| (choices[now].gain - choice.gain, place, *choice)));
         }
-        if let Some(choice) = choices.get(rank) {
-            set(code, place, *choice);
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, place, choice)) = turns.get(rank(turns.len(), 0.9, stream)) {
+            set(code, *place, *choice);
         }
     }
 
-    /// Does without one of the symbols in use: others take its place. Gives its number.
+    /// Does without one of the symbols in use, likely one that others can well replace. Gives its number.
     pub(super) fn retire(&self, code: &mut Code, stream: &mut Stream) -> Option<usize> {
-        let used = used(code);
-        let gone = *used.get(1 + stream.below(used.len() - 1))?;
-        for place in places(code, |symbol| symbol == gone) {
-            if place.0 == gone {
-                continue;
+        let survey = self.survey(code, |_| true);
+        let mut goers: Vec<(f64, usize, Vec<(Place, Choice)>)> = Vec::new();
+        for gone in used(code).into_iter().skip(1) {
+            let mut cost = 0.0;
+            let mut changes = Vec::new();
+            for place in places(code, |symbol| symbol == gone) {
+                let choices = &survey[place.0 * 4 + place.1];
+                let others = choices.iter().filter(|choice| choice.symbol != gone);
+                let best = others.max_by(|a, b| a.gain.total_cmp(&b.gain));
+                if let Some(best) = best.filter(|_| place.0 != gone) {
+                    cost += choices[gone].gain - best.gain;
+                    changes.push((place, *best));
+                }
             }
-            let choices = self.choices(code, place);
-            let choice = choices.into_iter().find(|choice| choice.symbol != gone)?;
-            set(code, place, choice);
+            goers.push((cost, gone, changes));
         }
-        Some(gone)
+        goers.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (_, gone, changes) = goers.get(rank(goers.len(), 0.7, stream))?;
+        for (place, choice) in changes {
+            set(code, *place, *choice);
+        }
+        Some(*gone)
     }
 
     /// Makes `spare`, which is not in use or the next new symbol, a second one of a symbol that stands in several
@@ -160,20 +159,23 @@ impl Problem {
             None => code.rules.push(copy),
         }
         code.rules[place.0].symbols[place.1] = spare;
-        for place in
-            [spare, symbol].into_iter().flat_map(|symbol| (0..4).map(move |quadrant| (symbol, quadrant)))
-        {
-            self.refit(code, place);
-        }
+        self.refit(code, spare);
+        self.refit(code, symbol);
     }
 
-    /// Gives a quadrant what seems best, if that is better.
-    pub(super) fn refit(&self, code: &mut Code, place: Place) {
-        let Some(choice) = self.choices(code, place).first().copied() else { return };
-        let mut made = code.clone();
-        set(&mut made, place, choice);
-        if self.misfit(&made) < self.misfit(code) {
-            *code = made;
+    /// Gives each quadrant of a rule what seems best, where that is better.
+    pub(super) fn refit(&self, code: &mut Code, symbol: usize) {
+        let survey = self.survey(code, |known| known == symbol);
+        let mut misfit = self.misfit(code);
+        for quadrant in 0..4 {
+            let choices = survey[symbol * 4 + quadrant].iter();
+            let Some(choice) = choices.max_by(|a, b| a.gain.total_cmp(&b.gain)) else { return };
+            let mut made = code.clone();
+            set(&mut made, (symbol, quadrant), *choice);
+            let found = self.misfit(&made);
+            if found < misfit {
+                (*code, misfit) = (made, found);
+            }
         }
     }
 
@@ -191,6 +193,53 @@ impl Problem {
         }
         missing
     }
+}
+
+/// Of the equations for the change and the factor of a quadrant, for each symbol that it may become.
+#[derive(Clone)]
+struct Sums {
+    /// The squared decays.
+    cover: f64,
+    /// The heights that are wanted, times the decays.
+    height: f64,
+    /// The relief and its square, times the squared decays, and the relief times the heights, for each symbol.
+    by: Vec<[f64; 3]>,
+}
+
+impl Sums {
+    fn none(symbols: usize) -> Self {
+        Self { cover: 0.0, height: 0.0, by: vec![[0.0; 3]; symbols] }
+    }
+
+    /// What the quadrant would best become with each symbol.
+    fn choices(&self) -> Vec<Choice> {
+        let (cover, height) = (self.cover, self.height);
+        if cover <= 1e-12 {
+            return Vec::new();
+        }
+        let choice = |(symbol, [mixed, square, along]): (usize, &[f64; 3])| {
+            let rest = square - mixed * mixed / cover;
+            let factor = if rest > 1e-9 * (1.0 + square) {
+                ((along - mixed * height / cover) / rest).clamp(-MOST, MOST)
+            } else {
+                0.5
+            };
+            let change = (height - mixed * factor) / cover;
+            let explained = 2.0 * (change * height + factor * along)
+                - (change * change * cover + 2.0 * change * factor * mixed + factor * factor * square);
+            Choice { symbol, change, factor, gain: explained }
+        };
+        self.by.iter().enumerate().map(choice).collect()
+    }
+}
+
+/// A number below `count`, each less likely than the one before, `less` times.
+fn rank(count: usize, less: f64, stream: &mut Stream) -> usize {
+    let mut rank = 0;
+    while rank + 1 < count && stream.uniform() < less {
+        rank += 1;
+    }
+    rank
 }
 
 fn set(code: &mut Code, (symbol, quadrant): Place, choice: Choice) {

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::code::{Code, Rule, along};
 use super::fitted::Fitted;
 use super::moves::Problem;
-use super::targets::Target;
+use super::targets::{Target, number};
 use crate::random::Stream;
 
 /// How many cells across the search looks at, at most; what it finds is improved and measured on the whole target.
@@ -75,20 +75,19 @@ impl Search {
         }
         let fine = problem(target, target.across());
         let coarse = problem(target, target.across().min(COARSE));
-        let chain = |number| Chain {
+        let chain = |count| Chain {
             code: begin.clone(),
             error: f64::INFINITY,
             best: begin.clone(),
             least: f64::INFINITY,
-            stream: Stream::new(self.seed.wrapping_mul(CHAINS).wrapping_add(number)),
+            stream: Stream::new(self.seed.wrapping_mul(CHAINS).wrapping_add(count)),
             tried: 0,
         };
         let mut chains: Vec<Chain> = (0..CHAINS).map(chain).collect();
         let mut best = Fitted::new(begin.clone(), target);
         let (mut least, mut since) = (f64::INFINITY, 0);
         for round in 0..self.rounds {
-            #[allow(clippy::cast_precision_loss, reason = "a cycle has few rounds")]
-            let boldness = 0.04 * (1.0 - (round % CYCLE) as f64 / CYCLE as f64).powi(2);
+            let boldness = 0.04 * (1.0 - number(round % CYCLE) / number(CYCLE)).powi(2);
             chains.par_iter_mut().for_each(|chain| chain.round(&coarse, self.symbols, boldness, stop));
             chains.sort_by(|a, b| a.least.total_cmp(&b.least));
             since += 1;
@@ -133,15 +132,13 @@ impl Chain {
                 return;
             }
             let mut code = self.code.clone();
-            let grows = code.rules.len() < symbols;
+            let unused = code.uses().iter().position(|uses| *uses == 0);
+            let spare = unused.or((code.rules.len() < symbols).then_some(code.rules.len()));
             if !self.error.is_finite() {
-                for quadrant in 0..4 {
-                    problem.refit(&mut code, (0, quadrant));
-                }
-            } else if grows {
-                let spare = code.rules.len();
+                problem.refit(&mut code, 0);
+            } else if let Some(spare) = spare {
                 problem.split(&mut code, spare, &mut self.stream);
-            } else if symbols > 1 && self.stream.uniform() < 0.4 {
+            } else if symbols > 1 && self.stream.uniform() < 0.5 {
                 if let Some(spare) = problem.retire(&mut code, &mut self.stream) {
                     problem.split(&mut code, spare, &mut self.stream);
                 }
@@ -151,7 +148,7 @@ impl Chain {
             problem.improve(&mut code, 3);
             self.tried += 1;
             let error = problem.error(&code);
-            if error < self.error * (1.0 + boldness) || grows {
+            if error < self.error * (1.0 + boldness) || spare.is_some() {
                 (self.code, self.error) = (code, error);
                 if self.error < self.least {
                     (self.best, self.least) = (self.code.clone(), self.error);
@@ -166,7 +163,7 @@ fn problem(target: &Target, across: usize) -> Problem {
     let (low, high) = target.range();
     let part = target.across() / across;
     let mut wanted = vec![0.0; across * across];
-    let share = 1.0 / super::targets::number(part * part);
+    let share = 1.0 / number(part * part);
     for (at, height) in target.heights().iter().enumerate() {
         let (x, y) = (at % target.across() / part, at / target.across() / part);
         wanted[along(x, y)] += share * (height - low) / (high - low);

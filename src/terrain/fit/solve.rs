@@ -20,21 +20,20 @@ pub(super) fn misfit(cells: &[Level], target: &[f64]) -> f64 {
 
 /// Makes the map of `code` more like `target`, along the Z curve, in at most `steps` steps; never less.
 pub(super) fn improve(code: &mut Code, target: &[f64], levels: usize, steps: usize) {
-    let mut cells = code.cells(levels);
-    let mut best = misfit(&cells, target);
+    let mut best = misfit(&code.cells(levels), target);
     let mut damping = 1e-3;
     for _ in 0..steps {
-        let equations = Equations::gather(code, &cells, target, levels);
+        code.balance();
+        let equations = Equations::gather(code, &code.cells(levels), target, levels);
         let before = best;
         for _ in 0..4 {
-            let better = equations.solve(damping).map(|step| {
+            let found = equations.solve(damping).map(|step| {
                 let code = stepped(code, &step);
-                let cells = code.cells(levels);
-                (misfit(&cells, target), code, cells)
+                (misfit(&code.cells(levels), target), code)
             });
-            match better {
-                Some((misfit, found, made)) if misfit < best => {
-                    (best, *code, cells) = (misfit, found, made);
+            match found {
+                Some((misfit, found)) if misfit < best => {
+                    (best, *code) = (misfit, found);
                     damping = (damping * 0.1).max(1e-9);
                     break;
                 }
