@@ -52,7 +52,8 @@ fn a_script_reads_what_was_found_and_has_the_map_of_the_search() {
     let target = Target::named("crater").unwrap();
     let search = Search { rounds: 2, seed: 5, symbols: 9, ..Search::default() };
     let fitted = search.run(&target, &|| false, &mut |_| {});
-    assert_eq!(document["error"].as_f64(), Some(fitted.error()));
+    // Read as a number it could be off in its last digit.
+    assert!(said.stdout.contains(&format!("\"error\":{},", fitted.error())), "{}", said.stdout);
     assert_eq!(document["symbols"], fitted.symbols());
     assert_eq!((document["tried"].as_u64(), &document["file"]), (Some(192), &"rules.lua".into()));
     let text = folder.read("rules.lua");

@@ -63,13 +63,12 @@ impl Problem {
         let cells = code.cells(self.levels);
         let reliefs = code.reliefs(self.levels - 1);
         let mut sums = vec![Sums::none(code.rules.len()); code.rules.len() * 4];
-        for level in 0..self.levels {
+        for (level, here) in cells.iter().enumerate().take(self.levels) {
             let below = 2 * (self.levels - level - 1);
             let size = 1 << below;
             let relief = &reliefs[below / 2];
             let totals: Vec<(f64, f64)> =
                 relief.chunks_exact(size).map(|part| (part.iter().sum(), dot(part, part))).collect();
-            let here = &cells[level];
             for (cell, symbol) in here.symbols.iter().enumerate().filter(|(_, symbol)| wanted(**symbol)) {
                 let (base, decay) = (here.heights[cell], here.decays[cell]);
                 for quadrant in 0..4 {
@@ -112,7 +111,7 @@ impl Problem {
     /// Does without one of the symbols in use, likely one that others can well replace. Gives its number.
     pub(super) fn retire(&self, code: &mut Code, stream: &mut Stream) -> Option<usize> {
         let survey = self.survey(code, |_| true);
-        let mut goers: Vec<(f64, usize, Vec<(Place, Choice)>)> = Vec::new();
+        let mut goers = Vec::new();
         for gone in used(code).into_iter().skip(1) {
             let mut cost = 0.0;
             let mut changes = Vec::new();

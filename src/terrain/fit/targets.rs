@@ -6,8 +6,11 @@ use crate::terrain::octaves;
 /// How many cells across the maps are that are known by name.
 const ACROSS: usize = 128;
 
-/// The names, and what gives the height (m) at a place: how far (0 to 1) it is from the west and from the south.
-const NAMED: [(&str, fn(f64, f64) -> f64); 5] =
+/// The height (m) at a place: how far (0 to 1) it is from the west and from the south.
+type Formula = fn(f64, f64) -> f64;
+
+/// The maps that are known by name.
+const NAMED: [(&str, Formula); 5] =
     [("hill", hill), ("ridge", ridge), ("crater", crater), ("plain", plain), ("mountains", mountains)];
 
 /// A square height map.
