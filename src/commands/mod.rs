@@ -5,6 +5,7 @@
 
 mod check;
 mod completions;
+mod fit;
 #[cfg(feature = "live")]
 mod live;
 mod new;
@@ -39,6 +40,7 @@ enum Command {
     Live(live::Serve),
     Check(check::Check),
     Variations(Box<variations::Variations>),
+    Fit(fit::Fit),
     New(new::New),
     Sources(sources::Sources),
     Completions(completions::Completions),
@@ -56,6 +58,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Live(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
+        Command::Fit(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),

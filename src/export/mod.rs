@@ -67,6 +67,13 @@ pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
 /// Fails if the extension is not a format, the folder is not there or takes no files, or `path` is a folder.
 pub fn check_writable(path: &Path) -> Result<()> {
     Format::of(path)?;
+    check_file(path)
+}
+
+/// Whether [`write_file()`] could write to `path`: to be asked before a long run. It leaves nothing behind.
+///
+/// Fails if the folder is not there or takes no files, or `path` is a folder.
+pub fn check_file(path: &Path) -> Result<()> {
     let mut files = Files::beside(path)?;
     files.write(path, |_| Ok(()))
 }

@@ -68,6 +68,11 @@ impl Camera {
         }
     }
 
+    /// The same camera for a model that also reaches nearer to it than the points that it was fitted to.
+    pub(super) fn inside(self) -> Self {
+        Self { near: self.near * 0.02, ..self }
+    }
+
     /// The pixel coordinates of a point in the camera's axes, and its depth, 0 at the nearest to 1 infinitely
     /// far. The depth of a plane is linear over the picture. Not finite for a point not in front.
     pub(super) fn project(&self, point: Vec3A) -> Vec3A {

@@ -13,6 +13,7 @@ fn small() -> Picture {
         height: 96,
         azimuth: Some(135.0),
         elevation: Some(20.0),
+        look: None,
         background: Background::Clear,
         ground: false,
         quality: Quality::Draft,

@@ -7,6 +7,7 @@
 
 mod block;
 mod edits;
+pub mod fit;
 mod ground;
 mod mesh;
 mod noise;

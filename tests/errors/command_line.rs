@@ -266,6 +266,7 @@ fn help_reads_well() {
       live         Shows what a script makes in the browser, and shows it anew on every save
       check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
+      fit          Searches for a rule table whose terrain is like a height map
       new          Makes a script to start from
       sources      Lists the layers of data files, with their attributes, coordinate systems and extents
       completions  Prints a script that completes the command line in a shell

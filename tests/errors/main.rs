@@ -8,6 +8,7 @@ mod determinism;
 mod elevation;
 mod facades;
 mod files;
+mod fitting;
 mod footprints;
 mod limits;
 mod neighbors;

@@ -1,0 +1,217 @@
+//! `burgeon fit`: from a height map to a rule table for terrain.
+
+use std::fs::File;
+use std::io::{Read, Write as _};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::mpsc::channel;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use burgeon::derive::grouped;
+use burgeon::export;
+use burgeon::sources::elevation::{Raster, Wanted};
+use burgeon::terrain::fit::{Fitted, Search, Target};
+use burgeon::{Error, Result};
+use clap::Args;
+use serde_json::json;
+
+use super::progress::Progress;
+use super::report;
+use super::shared::{on_interrupt, seconds, threads, whole};
+
+/// What a file that this command wrote says first.
+const MARK: &str = "--!strict\n-- A rule table for terrain";
+
+/// How long (s) the best table may take to be written after an interrupt.
+const PATIENCE: Duration = Duration::from_secs(10);
+
+/// Searches for a rule table whose terrain is like a height map
+#[derive(Args)]
+pub(crate) struct Fit {
+    /// The height map: hill, ridge, crater, plain or mountains
+    target: String,
+
+    /// The module of rules to write, a .lua file
+    #[arg(short, long, value_name = "FILE", value_parser = output, required = true)]
+    output: PathBuf,
+
+    /// The seed of all random numbers
+    #[arg(long, value_name = "N", value_parser = whole::<u64>, default_value_t = 0, allow_negative_numbers = true)]
+    seed: u64,
+
+    /// Stops after this time, with the best that was found
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value_t = 60.0, allow_negative_numbers = true)]
+    seconds: f64,
+
+    /// Stops after N rounds, so that the result does not depend on the time [default: no such limit]
+    #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
+    rounds: Option<usize>,
+
+    /// Symbols that the table may have, 1 to 64
+    #[arg(long, value_name = "N", default_value_t = 16, value_parser = clap::value_parser!(u8).range(1..=64),
+          allow_negative_numbers = true)]
+    symbols: u8,
+
+    /// Works with N threads; the result of a round does not depend on it [default: one for each core]
+    #[arg(long, value_name = "N", value_parser = threads, allow_negative_numbers = true)]
+    threads: Option<u16>,
+
+    /// Prints one JSON document, for machines, in place of text for people
+    #[arg(long)]
+    json: bool,
+}
+
+/// The best error so far, and how many tables were tried.
+type Best = Arc<Mutex<Option<(f64, usize)>>>;
+
+impl Fit {
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        let begin = Instant::now();
+        let target = target(&self.target)?;
+        self.check_output()?;
+        let over = Arc::new(AtomicBool::new(false));
+        let (written, done) = channel::<()>();
+        let interrupted = Arc::clone(&over);
+        let done = Mutex::new(done);
+        on_interrupt(move || {
+            interrupted.store(true, Ordering::Release);
+            // Either it is written or it takes too long.
+            let _ = done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(PATIENCE);
+        })?;
+        let fitted = self.search(&target, begin, &over)?;
+        let text = fitted.module(&[
+            format!("{}: fitted to {}.", MARK.trim_start_matches("--!strict\n-- "), self.target),
+            format!(
+                "Root mean square error {} of heights scaled to 0..1; seed {}.",
+                fitted.error(),
+                self.seed
+            ),
+        ]);
+        export::write_file(&self.output, |out| out.write_all(text.as_bytes()))?;
+        self.tell(&fitted, begin.elapsed());
+        // Nobody waits, unless there was an interrupt.
+        let _ = written.send(());
+        Ok(())
+    }
+
+    fn search(&self, target: &Target, begin: Instant, over: &AtomicBool) -> Result<Fitted> {
+        let limit = Duration::from_secs_f64(self.seconds);
+        let best = Best::default();
+        let shown = Arc::clone(&best);
+        let message = move || {
+            message(
+                *shown.lock().unwrap_or_else(PoisonError::into_inner),
+                limit.saturating_sub(begin.elapsed()),
+            )
+        };
+        let _progress = Progress::saying(message, !self.json);
+        let stop = || over.load(Ordering::Acquire) || begin.elapsed() >= limit;
+        let mut tell = |fitted: &Fitted| {
+            *best.lock().unwrap_or_else(PoisonError::into_inner) = Some((fitted.error(), fitted.tried));
+        };
+        let search = Search {
+            seed: self.seed,
+            symbols: usize::from(self.symbols),
+            rounds: self.rounds.unwrap_or(usize::MAX),
+            ..Search::default()
+        };
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, usize::from)).build();
+        let pool = pool.map_err(|error| {
+            Error::new(format!("cannot start threads: {error}")).help("use fewer: --threads 1")
+        })?;
+        Ok(pool.install(|| search.run(target, &stop, &mut tell)))
+    }
+
+    /// Refuses, before any work, a file that could not be written when it is done, and one that holds something else.
+    fn check_output(&self) -> Result<()> {
+        let path = &self.output;
+        let shown = path.display();
+        if path.is_dir() {
+            return Err(Error::new(format!("cannot write {shown}: it is a folder"))
+                .help(format!("name a file in it, such as {}", path.join("rules.lua").display())));
+        }
+        export::check_file(path)?;
+        if !path.is_file() {
+            return Ok(());
+        }
+        let mut first = Vec::new();
+        let read = File::open(path).and_then(|file| file.take(MARK.len() as u64).read_to_end(&mut first));
+        if read.is_err() || !(first.is_empty() || first == MARK.as_bytes()) {
+            return Err(Error::new(format!(
+                "{} is there already, and is no fitted rule table",
+                path.display()
+            ))
+            .help("name another file, or move that one away"));
+        }
+        Ok(())
+    }
+
+    fn tell(&self, fitted: &Fitted, elapsed: Duration) {
+        if self.json {
+            let document = json!({
+                "ok": true,
+                "target": self.target,
+                "file": self.output,
+                "error": fitted.error(),
+                "symbols": fitted.symbols(),
+                "tried": fitted.tried,
+                "seconds": elapsed.as_secs_f64(),
+            });
+            report::print(&format!("{document}\n"));
+            return;
+        }
+        report::eprint(&format!(
+            "{}: root mean square error {:.4} with {} symbols, of {} tables tried; {} in all\n",
+            self.output.display(),
+            fitted.error(),
+            fitted.symbols(),
+            grouped(fitted.tried),
+            report::time(elapsed)
+        ));
+    }
+}
+
+/// How many cells a side of a height map from a file is given.
+const ACROSS: usize = 128;
+
+/// The height map that the command line names: one by formula, or a file of heights.
+fn target(name: &str) -> Result<Target> {
+    let path = Path::new(name);
+    if !path.exists() {
+        return Target::named(name);
+    }
+    // What black and white are does not matter, since both maps are scaled, nor where a picture lies.
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let placeless = ["png", "r32", "f32", "r64", "f64"].contains(&extension.as_str());
+    let wanted = Wanted {
+        low: Some(0.0),
+        high: Some(1.0),
+        bounds: placeless.then_some([0.0, 0.0, 1.0, 1.0]),
+        ..Wanted::default()
+    };
+    let raster = Raster::open(path, name, &wanted)?;
+    let heights: Vec<f64> = raster.heights.iter().map(|height| f64::from(*height)).collect();
+    Target::resample(raster.columns, raster.rows, &heights, ACROSS)
+}
+
+fn message(best: Option<(f64, usize)>, left: Duration) -> String {
+    let left = format!("{} s left", left.as_secs());
+    match best {
+        Some((error, tried)) => format!("error {error:.4}, {} tables tried, {left}", grouped(tried)),
+        None => format!("the first tables, {left}"),
+    }
+}
+
+fn output(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    if Path::new(text).extension().is_some_and(|extension| extension == "lua") {
+        Ok(path)
+    } else {
+        Err("a rule table is a module for scripts: name a .lua file".to_owned())
+    }
+}
