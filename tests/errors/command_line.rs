@@ -302,6 +302,8 @@ fn help_reads_well() {
           --json                Prints one JSON document, for machines, in place of text for people
       -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
+          --heights <FILE>      Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
+          --edits <FILE>        Writes the changes of the ground of the terrain, for edits(FILE) in a script
           --report <FILE>       Writes which features were skipped or simplified, and why, as JSON; - is standard output
           --watch               Runs and writes again whenever a file of the script changes, until interrupted
           --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded
@@ -317,6 +319,7 @@ fn help_reads_well() {
           --size <WIDTHxHEIGHT>      Width and height of a picture in pixels [default: 1280x960]
           --azimuth <DEGREES>        Where the camera stands: 0 is north, 90 east (degrees) [default: by the model]
           --elevation <DEGREES>      How high the camera stands above the horizon (degrees) [default: by the model]
+          --look <X,Y,Z,M>           Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
           --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
     "##);
     assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r##"

@@ -27,44 +27,44 @@ fn rule_tables_are_checked_whole() {
         "rules = { { from = 2, rules = { A = { \"A\", \"A\", \"A\", \"A\" } } } }",
         "rules = 7",
     ]), @r##"
-size = 100
-error: s.lua:1: terrain: there are no rules
-  | local land = lsystem({ object = terrain({ size = 100 }) })
-  help: write rules = { A = { "A", "A", "A", "A", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }
+    size = 100
+    error: s.lua:1: terrain: there are no rules
+      | local land = lsystem({ object = terrain({ size = 100 }) })
+      help: write rules = { A = { "A", "A", "A", "A", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }
 
-rules = { A = { "A", "A", "A" } }
-error: s.lua:1: terrain: rules must be a table whose rule for A has four symbols, one for each quadrant; it has 3, not {A={"A","A","A"}}
-  | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A" } } }) })
+    rules = { A = { "A", "A", "A" } }
+    error: s.lua:1: terrain: rules must be a table whose rule for A has four symbols, one for each quadrant; it has 3, not {A={"A","A","A"}}
+      | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A" } } }) })
 
-rules = { Hill = { "Hill", "Hil", "Hill", "Hill" } }
-error: s.lua:1: terrain: rules must be a table with a rule for each symbol: the rule for Hill has Hil, which has none (did you mean Hill?), not {Hill={"Hill","Hil","Hill","Hill"}}
-  | local land = lsystem({ object = terrain({ rules = { Hill = { "Hill", "Hil", "Hill", "Hill" } } }) })
+    rules = { Hill = { "Hill", "Hil", "Hill", "Hill" } }
+    error: s.lua:1: terrain: rules must be a table with a rule for each symbol: the rule for Hill has Hil, which has none (did you mean Hill?), not {Hill={"Hill","Hil","Hill","Hill"}}
+      | local land = lsystem({ object = terrain({ rules = { Hill = { "Hill", "Hil", "Hill", "Hill" } } }) })
 
-rules = { A = { "A", "A", "A", "A", chance = 1 } }
-error: s.lua:1: terrain: rules must be a table whose rules have change, decay and weight; the rule for A has chance, not {A={"A","A","A","A",chance=1}}
-  | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", chance = 1 } } }) })
+    rules = { A = { "A", "A", "A", "A", chance = 1 } }
+    error: s.lua:1: terrain: rules must be a table whose rules have change, decay and weight; the rule for A has chance, not {A={"A","A","A","A",chance=1}}
+      | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", chance = 1 } } }) })
 
-rules = { A = { "A", "A", "A", "A", change = { 1, 2 } } }
-error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or one or a range { least, greatest } for each quadrant, not {A={"A","A","A","A",change={1,2}}}
-  | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", change = { 1, 2 } } } }) })
+    rules = { A = { "A", "A", "A", "A", change = { 1, 2 } } }
+    error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or one or a range { least, greatest } for each quadrant, not {A={"A","A","A","A",change={1,2}}}
+      | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", change = { 1, 2 } } } }) })
 
-rules = { A = { "A", "A", "A", "A", change = { 1, 2, 3, { 5, 4 } } } }
-error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or one or a range { least, greatest } for each quadrant, not a table
-  | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", change = { 1, 2, 3, { 5, 4 } } } } }) })
+    rules = { A = { "A", "A", "A", "A", change = { 1, 2, 3, { 5, 4 } } } }
+    error: s.lua:1: terrain: rules must be a table whose rule for A has change as a number, or one or a range { least, greatest } for each quadrant, not a table
+      | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A", change = { 1, 2, 3, { 5, 4 } } } } }) })
 
-rules = { A = { "A", "A", "A", "A" } }, start = "B"
-error: s.lua:1: terrain: there is no rule for B, the start
-  | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A" } }, start = "B" }) })
-  help: there are A
+    rules = { A = { "A", "A", "A", "A" } }, start = "B"
+    error: s.lua:1: terrain: there is no rule for B, the start
+      | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A" } }, start = "B" }) })
+      help: there are A
 
-rules = { { from = 2, rules = { A = { "A", "A", "A", "A" } } } }
-error: s.lua:1: terrain: rules must be a list of rules from level 0 on and then from higher levels, in order, not {{from=2,rules={A={"A","A","A","A"}}}}
-  | local land = lsystem({ object = terrain({ rules = { { from = 2, rules = { A = { "A", "A", "A", "A" } } } } }) })
+    rules = { { from = 2, rules = { A = { "A", "A", "A", "A" } } } }
+    error: s.lua:1: terrain: rules must be a list of rules from level 0 on and then from higher levels, in order, not {{from=2,rules={A={"A","A","A","A"}}}}
+      | local land = lsystem({ object = terrain({ rules = { { from = 2, rules = { A = { "A", "A", "A", "A" } } } } }) })
 
-rules = 7
-error: s.lua:1: terrain: rules must be a table of rules, such as { A = { "A", "B", "B", "A", change = { 1, -1, 0, 0.5 }, decay = 0.5 }, ... }, a system whose rules divide cells, or a list of { from = level, rules = ... }, not 7
-  | local land = lsystem({ object = terrain({ rules = 7 }) })
-"##);
+    rules = 7
+    error: s.lua:1: terrain: rules must be a table of rules, such as { A = { "A", "B", "B", "A", change = { 1, -1, 0, 0.5 }, decay = 0.5 }, ... }, a system whose rules divide cells, or a list of { from = level, rules = ... }, not 7
+      | local land = lsystem({ object = terrain({ rules = 7 }) })
+    "##);
 }
 
 #[test]
@@ -81,46 +81,49 @@ fn sizes_and_views_are_checked_with_their_numbers() {
         &format!("levels = 3, covers = {{ {{ }}, {{ on = {{ symbols = {{ \"B\" }} }} }} }}, {rules}"),
         &format!("levels = 3, plants = {{ {{ density = 5 }} }}, {rules}"),
     ]), @r##"
-size = 0, rules = { A = { "A", "A", "A", "A" } }
-error: s.lua:1: terrain: size is 0 m
-  | local land = lsystem({ object = terrain({ size = 0, rules = { A = { "A", "A", "A", "A" } } }) })
-  help: give a length above 0 and up to 1e9 m
+    size = 0, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: size is 0 m
+      | local land = lsystem({ object = terrain({ size = 0, rules = { A = { "A", "A", "A", "A" } } }) })
+      help: give a length above 0 and up to 1e9 m
 
-size = 1e7, levels = 28, rules = { A = { "A", "A", "A", "A" } }
-error: s.lua:1: terrain: that would be 72057594037927936 heights, which take 576.5 PB
-  | local land = lsystem({ object = terrain({ size = 1e7, levels = 28, rules = { A = { "A", "A", "A", "A" } } }) })
-  help: at most 67108864 are expanded at once: use fewer levels, or focus on a part
+    size = 1e7, levels = 28, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: that would be 72057594037927936 heights, which take 576.5 PB
+      | local land = lsystem({ object = terrain({ size = 1e7, levels = 28, rules = { A = { "A", "A", "A", "A" } } }) })
+      help: at most 67108864 are expanded at once: use fewer levels, or focus on a part
 
-levels = 40, rules = { A = { "A", "A", "A", "A" } }
-error: s.lua:1: view: cells are divided 40 times in all
-  | local land = lsystem({ object = terrain({ levels = 40, rules = { A = { "A", "A", "A", "A" } } }) })
-  help: divide them at most 30 times
+    levels = 40, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: view: cells are divided 40 times in all
+      | local land = lsystem({ object = terrain({ levels = 40, rules = { A = { "A", "A", "A", "A" } } }) })
+      help: divide them at most 30 times
 
-rules = { A = { "A", "A", "A", "A" } }
-error: terrain: nothing of it is expanded
-  help: give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule
+    rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: nothing of it is expanded
+      | local land = lsystem({ object = terrain({ rules = { A = { "A", "A", "A", "A" } } }) })
+      help: give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule
 
-levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } }
-error: s.lua:1: terrain: remap goes from 5 to 1
-  | local land = lsystem({ object = terrain({ levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } } }) })
-  help: write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights
+    levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: remap goes from 5 to 1
+      | local land = lsystem({ object = terrain({ levels = 3, remap = { { 5, 0 }, { 1, 2 } }, rules = { A = { "A", "A", "A", "A" } } }) })
+      help: write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights
 
-levels = 3, base = 10, rules = { A = { "A", "A", "A", "A" } }
-error: terrain: base is 10 m, above the ground at its rim
-  help: give a height below 0.0 m
+    levels = 3, base = 10, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: base is 10 m, above the ground at its rim
+      | local land = lsystem({ object = terrain({ levels = 3, base = 10, rules = { A = { "A", "A", "A", "A" } } }) })
+      help: give a height below 0.0 m
 
-levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } }
-error: s.lua:1: terrain: covers must be a list whose item 1 is a cover (cover has no field called colour), not {{colour="#ffffff"}}
-  | local land = lsystem({ object = terrain({ levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } } }) })
+    levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: covers must be a list whose item 1 is a cover (cover has no field called colour), not {{colour="#ffffff"}}
+      | local land = lsystem({ object = terrain({ levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } } }) })
 
-levels = 3, covers = { { }, { on = { symbols = { "B" } } } }, rules = { A = { "A", "A", "A", "A" } }
-error: terrain: no rule makes B
-  help: the cells are A
+    levels = 3, covers = { { }, { on = { symbols = { "B" } } } }, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: no rule makes B
+      | local land = lsystem({ object = terrain({ levels = 3, covers = { { }, { on = { symbols = { "B" } } } }, rules = { A = { "A", "A", "A", "A" } } }) })
+      help: the cells are A
 
-levels = 3, plants = { { density = 5 } }, rules = { A = { "A", "A", "A", "A" } }
-error: s.lua:1: terrain: plants must be a list whose item 1 is plants with at least one model: { models = { tree:derive() } }, not {{density=5}}
-  | local land = lsystem({ object = terrain({ levels = 3, plants = { { density = 5 } }, rules = { A = { "A", "A", "A", "A" } } }) })
-"##);
+    levels = 3, plants = { { density = 5 } }, rules = { A = { "A", "A", "A", "A" } }
+    error: s.lua:1: terrain: plants must be a list whose item 1 is plants with at least one model: { models = { tree:derive() } }, not {{density=5}}
+      | local land = lsystem({ object = terrain({ levels = 3, plants = { { density = 5 } }, rules = { A = { "A", "A", "A", "A" } } }) })
+    "##);
 }
 
 /// What is told of an interpretation rule that does something with a terrain of 1024 m.
@@ -150,62 +153,62 @@ fn what_lies_outside_is_told_where_it_is_asked() {
         let _ = writeln!(text, "{body}\n{}", asked(body));
     }
     insta::assert_snapshot!(text, @r##"
-this:focus(9000, 0, { cell = 128, rings = { { 2, 3 } } })
-error: s.lua:4: rule Look() (interpretation): the focus (9000, 0) is outside the terrain
-  | land:interpret("Look()", function(this) this:focus(9000, 0, { cell = 128, rings = { { 2, 3 } } }) end)
-  module: Look, step 0
-  help: it reaches from (-512, -512) to (512, 512) m
+    this:focus(9000, 0, { cell = 128, rings = { { 2, 3 } } })
+    error: s.lua:4: rule Look() (interpretation): the focus (9000, 0) is outside the terrain
+      | land:interpret("Look()", function(this) this:focus(9000, 0, { cell = 128, rings = { { 2, 3 } } }) end)
+      module: Look, step 0
+      help: it reaches from (-512, -512) to (512, 512) m
 
-this:focus(0, 0, { cell = 100, rings = { { 2, 3 } } })
-error: s.lua:4: rule Look() (interpretation): view: cells of 100 m do not divide a world of 1024 m
-  | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 100, rings = { { 2, 3 } } }) end)
-  module: Look, step 0
-  help: halve its size again and again; the nearest such size is 128 m
+    this:focus(0, 0, { cell = 100, rings = { { 2, 3 } } })
+    error: s.lua:4: rule Look() (interpretation): view: cells of 100 m do not divide a world of 1024 m
+      | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 100, rings = { { 2, 3 } } }) end)
+      module: Look, step 0
+      help: halve its size again and again; the nearest such size is 128 m
 
-this:focus(0, 0, { cell = 128, rings = { { 4, 3 }, { 2, 1 } } })
-error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view whose rings grow, and are divided less the farther they are, not {cell=128,rings={{4,3},{2,1}}}
-  | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 128, rings = { { 4, 3 }, { 2, 1 } } }) end)
-  module: Look, step 0
+    this:focus(0, 0, { cell = 128, rings = { { 4, 3 }, { 2, 1 } } })
+    error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view whose rings grow, and are divided less the farther they are, not {cell=128,rings={{4,3},{2,1}}}
+      | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 128, rings = { { 4, 3 }, { 2, 1 } } }) end)
+      module: Look, step 0
 
-this:focus(0, 0, { cell = 1, rings = { { 1024, 12 } } })
-error: s.lua:4: rule Look() (interpretation): terrain: that would be 17592186044416 heights, which take 140.7 TB
-  | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 1, rings = { { 1024, 12 } } }) end)
-  module: Look, step 0
-  help: at most 67108864 are expanded at once: use fewer levels, or focus on a part
+    this:focus(0, 0, { cell = 1, rings = { { 1024, 12 } } })
+    error: s.lua:4: rule Look() (interpretation): terrain: that would be 17592186044416 heights, which take 140.7 TB
+      | land:interpret("Look()", function(this) this:focus(0, 0, { cell = 1, rings = { { 1024, 12 } } }) end)
+      module: Look, step 0
+      help: at most 67108864 are expanded at once: use fewer levels, or focus on a part
 
-this:focus(0, 0)
-error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view: { cell = 512, rings = { { 4, 8 }, { 8, 6 } } }, which divides the nearest 4 x 4 cells 8 times, not nothing
-  | land:interpret("Look()", function(this) this:focus(0, 0) end)
-  module: Look, step 0
+    this:focus(0, 0)
+    error: s.lua:4: rule Look() (interpretation): terrain:focus: view must be a view: { cell = 512, rings = { { 4, 8 }, { 8, 6 } } }, which divides the nearest 4 x 4 cells 8 times, not nothing
+      | land:interpret("Look()", function(this) this:focus(0, 0) end)
+      module: Look, step 0
 
-print(this:height({ 600, 0 }))
-error: s.lua:4: rule Look() (interpretation): terrain: nothing is expanded at (600, 0)
-  | land:interpret("Look()", function(this) print(this:height({ 600, 0 })) end)
-  module: Look, step 0
-  help: it reaches from (-512, -512) to (512, 512) m; what is not focused on is contracted
+    print(this:height({ 600, 0 }))
+    error: s.lua:4: rule Look() (interpretation): terrain: nothing is expanded at (600, 0)
+      | land:interpret("Look()", function(this) print(this:height({ 600, 0 })) end)
+      module: Look, step 0
+      help: it reaches from (-512, -512) to (512, 512) m; what is not focused on is contracted
 
-this:flatten({ { 0, 0 }, { 1, 0 } })
-error: s.lua:4: rule Look() (interpretation): the ground cannot be changed so: its outline has fewer than three points
-  | land:interpret("Look()", function(this) this:flatten({ { 0, 0 }, { 1, 0 } }) end)
-  module: Look, step 0
+    this:flatten({ { 0, 0 }, { 1, 0 } })
+    error: s.lua:4: rule Look() (interpretation): the ground cannot be changed so: its outline has fewer than three points
+      | land:interpret("Look()", function(this) this:flatten({ { 0, 0 }, { 1, 0 } }) end)
+      module: Look, step 0
 
-this:cut({ { 9000, 0, 3 }, { 9500, 0, 4 } }, 5)
-error: s.lua:4: rule Look() (interpretation): (8992.5, -7.5) is outside the terrain
-  | land:interpret("Look()", function(this) this:cut({ { 9000, 0, 3 }, { 9500, 0, 4 } }, 5) end)
-  module: Look, step 0
-  help: it reaches from (-512, -512) to (512, 512) m
+    this:cut({ { 9000, 0, 3 }, { 9500, 0, 4 } }, 5)
+    error: s.lua:4: rule Look() (interpretation): (8992.5, -7.5) is outside the terrain
+      | land:interpret("Look()", function(this) this:cut({ { 9000, 0, 3 }, { 9500, 0, 4 } }, 5) end)
+      module: Look, step 0
+      help: it reaches from (-512, -512) to (512, 512) m
 
-this:dig({ { 0, 0 }, { 9, 0 } }, 0, 4)
-error: s.lua:4: rule Look() (interpretation): the ground cannot be changed so: its width or margin is below 0
-  | land:interpret("Look()", function(this) this:dig({ { 0, 0 }, { 9, 0 } }, 0, 4) end)
-  module: Look, step 0
+    this:dig({ { 0, 0 }, { 9, 0 } }, 0, 4)
+    error: s.lua:4: rule Look() (interpretation): the ground cannot be changed so: its width is 0
+      | land:interpret("Look()", function(this) this:dig({ { 0, 0 }, { 9, 0 } }, 0, 4) end)
+      module: Look, step 0
 
-this:river({ 0, 0 }, -2)
-error: s.lua:4: rule Look() (interpretation): terrain:river: width is -2 m
-  | land:interpret("Look()", function(this) this:river({ 0, 0 }, -2) end)
-  module: Look, step 0
-  help: give metres above 0
-"##);
+    this:river({ 0, 0 }, -2)
+    error: s.lua:4: rule Look() (interpretation): terrain:river: width is -2 m
+      | land:interpret("Look()", function(this) this:river({ 0, 0 }, -2) end)
+      module: Look, step 0
+      help: give metres above 0
+    "##);
 }
 
 /// What is told of a terrain that the rules `rules` of a system divide.
@@ -233,54 +236,54 @@ fn cells_that_a_system_divides_have_four_quadrants_and_a_height() {
         let _ = writeln!(text, "{rules}\n{}", divided(rules));
     }
     insta::assert_snapshot!(text, @r##"
-cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h) end)
-error: s.lua:4: rule Hill(h): a cell becomes 3 modules, where it has four quadrants
-  | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h) end)
-  module: Hill(5), step 1
-  help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
+    cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h) end)
+    error: s.lua:4: rule Hill(h): a cell becomes 3 modules, where it has four quadrants
+      | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h) end)
+      module: Hill(5), step 1
+      help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
 
-cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return nil end)
-error: s.lua:4: rule Hill(h): a cell becomes nothing, where it has four quadrants
-  | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return nil end)
-  module: Hill(5), step 1
-  help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
+    cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return nil end)
+    error: s.lua:4: rule Hill(h): a cell becomes nothing, where it has four quadrants
+      | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return nil end)
+      module: Hill(5), step 1
+      help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
 
-cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), { Hill(h) }, Hill(h), Hill(h) end)
-error: s.lua:4: rule Hill(h): a cell becomes 6 modules, where it has four quadrants
-  | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), { Hill(h) }, Hill(h), Hill(h) end)
-  module: Hill(5), step 1
-  help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
+    cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), { Hill(h) }, Hill(h), Hill(h) end)
+    error: s.lua:4: rule Hill(h): a cell becomes 6 modules, where it has four quadrants
+      | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), { Hill(h) }, Hill(h), Hill(h) end)
+      module: Hill(5), step 1
+      help: return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is
 
-cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Bush() end)
-error: s.lua:4: rule Hill(h): Bush is no cell of a terrain: it has no parameter called height
-  | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Bush() end)
-  help: declare it with one: module("Bush", "height", ...)
+    cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Bush() end)
+    error: s.lua:4: rule Hill(h): Bush is no cell of a terrain: it has no parameter called height
+      | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Bush() end)
+      help: declare it with one: module("Bush", "height", ...)
 
-cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Hill(1 / 0) end)
-error: s.lua:4: rule Hill(h): the height of Hill(inf) is no finite number
-  | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Hill(1 / 0) end)
-  help: give each quadrant a height in metres
+    cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Hill(1 / 0) end)
+    error: s.lua:4: rule Hill(h): the height of Hill(inf) is no finite number
+      | cells:axiom(Hill(5)) cells:rule("Hill(h)", function(this, h) return Hill(h), Hill(h), Hill(h), Hill(1 / 0) end)
+      help: give each quadrant a height in metres
 
-cells:axiom(Hill(5)) cells:rule("Hill > Hill", function(this) return nil end)
-error: s.lua:3: the cells of a terrain have no neighbours in their chain
-  | local cells = lsystem()
-  help: write rules for single modules, without < and >
+    cells:axiom(Hill(5)) cells:rule("Hill > Hill", function(this) return nil end)
+    error: s.lua:3: the cells of a terrain have no neighbours in their chain
+      | local cells = lsystem()
+      help: write rules for single modules, without < and >
 
-cells:axiom(Hill(5), Hill(6))
-error: s.lua:3: a terrain begins with one cell
-  | local cells = lsystem()
-  help: give its system one module without branches: cells:axiom(Hill(0, 100))
+    cells:axiom(Hill(5), Hill(6))
+    error: s.lua:3: a terrain begins with one cell
+      | local cells = lsystem()
+      help: give its system one module without branches: cells:axiom(Hill(0, 100))
 
-cells:axiom(Bush())
-error: s.lua:6: Bush is no cell of a terrain: it has no parameter called height
-  | land:derive()
-  help: declare it with one: module("Bush", "height", ...)
+    cells:axiom(Bush())
+    error: s.lua:6: Bush is no cell of a terrain: it has no parameter called height
+      | land:derive()
+      help: declare it with one: module("Bush", "height", ...)
 
 
-error: s.lua:6: the system has no axiom
-  | land:derive()
-  help: write system:axiom(A(1))
-"##);
+    error: s.lua:6: the system has no axiom
+      | land:derive()
+      help: write system:axiom(A(1))
+    "##);
 }
 
 #[test]
@@ -336,5 +339,18 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
     ] {
         text += &folder.refuses(arguments);
     }
-    insta::assert_snapshot!(text, @"");
+    insta::assert_snapshot!(text, @r##"
+    error: c.lua:2: kept.json holds edits of another world: 1024 m from (-512, -512) on
+      | local land = lsystem({ object = terrain({ size = 2048, levels = 6, edits = edits("kept.json"), rules = { A = { "A", "A", "A", "A", change = { 3, -2, 1, 0 } } } 
+      help: this one is 2048 m from (-1024, -1024) on
+    error: d.lua:2: broken.json holds no edits of a terrain: invalid type: integer `3`, expected a string at line 1 column 13
+      | local land = lsystem({ object = terrain({ size = 1024, levels = 6, edits = edits("broken.json"), rules = { A = { "A", "A", "A", "A", change = { 3, -2, 1, 0 } } 
+      help: such a file is written by burgeon run --edits FILE
+    error: there is no terrain to write the heights or the edits of
+      help: write lsystem({ object = terrain({ ... }) }):derive()
+    error: cannot write a.glb: its extension is no format of height maps
+      help: the formats are .png, .asc, .tif, .r32 and .r64
+    error: the edits would overwrite the script a.lua
+      help: name another file: --edits ground.json, or - for standard output
+    "##);
 }
