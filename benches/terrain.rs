@@ -102,18 +102,28 @@ fn main() {
     if is_wanted("full") {
         full();
     }
+    if is_wanted("system") {
+        system();
+    }
 }
 
 fn view() {
     let before = held();
+    let mut ground = Ground::new(Arc::new(world(true, true)));
+    ground.focus(DVec2::new(16_123_456.0, 9_876_543.0), &reference(), &Tables).expect("a view");
+    println!(
+        "{:<58} {:8.1} MB of tiles; the process holds {:.1} MB, {before:.1} MB at its start",
+        "memory of the reference view",
+        ground.bytes() as f64 / 1e6,
+        held()
+    );
+    drop(ground);
     for (name, drawn, smooth) in [("plain", false, false), ("drawn and smooth", true, true)] {
         let world = Arc::new(world(drawn, smooth));
         let eye = DVec2::new(16_123_456.0, 9_876_543.0);
-        let mut bytes = 0;
         let time = least(5, || {
             let mut ground = Ground::new(Arc::clone(&world));
             ground.focus(eye, &reference(), &Tables).expect("a view");
-            bytes = ground.bytes();
             assert_eq!(ground.heights(), 1_267_456);
         });
         tell(&format!("reference view, 1,267,456 heights, {name}"), time);
@@ -125,12 +135,6 @@ fn view() {
             ground.focus(at, &reference(), &Tables).expect("a view");
         });
         tell(&format!("moving by one cell, {name}"), step);
-        println!(
-            "{:<58} {:8.1} MB of tiles; the process holds {:.1} MB, {before:.1} MB at its start",
-            "memory",
-            bytes as f64 / 1e6,
-            held()
-        );
     }
 }
 
@@ -212,4 +216,38 @@ fn full() {
         });
         tell(&format!("4096 x 4096 heights by a rule table, {name}"), time);
     }
+}
+
+/// A terrain that the rules of a system divide, with one triangle for each half of it.
+const SYSTEM: &str = r#"
+local Hill = module("Hill", "height", "step")
+local Vale = module("Vale", "height", "step")
+local cells = lsystem()
+cells:axiom(Hill(0, 400))
+cells:rule("Hill(h, d)", function(this, h, d)
+  local e = d * 0.55
+  return Hill(h + 0.4 * d, e), Vale(h - 0.3 * d, e), Hill(h + 0.2 * d, e), Vale(h - 0.1 * d, e)
+end)
+cells:rule("Vale(h, d)", function(this, h, d)
+  local e = d * 0.5
+  return Vale(h - 0.2 * d, e), Vale(h + 0.3 * d, e), Hill(h + 0.1 * d, e), Vale(h, e)
+end)
+lsystem({ object = terrain({ levels = LEVELS, rules = cells, smooth = false, error = 1e9 }) }):derive()
+"#;
+
+fn system() {
+    let folder = std::env::temp_dir().join(format!("burgeon-terrain-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("a folder");
+    let path = folder.join("cells.lua");
+    let run = |levels: u32| {
+        std::fs::write(&path, SYSTEM.replace("LEVELS", &levels.to_string())).expect("a script");
+        least(3, || {
+            burgeon::run(&path, burgeon::script::Options::default()).expect("a run");
+        })
+    };
+    let (small, large) = (run(1), run(12));
+    let both = (large.0.saturating_sub(small.0), large.1.saturating_sub(small.1));
+    tell("4096 x 4096 heights by the rules of a system, in a run", both);
+    tell("the same run with 2 x 2 heights", small);
+    std::fs::remove_dir_all(&folder).expect("an end");
 }

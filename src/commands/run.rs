@@ -8,9 +8,10 @@ use std::time::Instant;
 use burgeon::derive::{Derived, Report};
 use burgeon::export::{self, heights::HeightMap};
 use burgeon::objects::Terrain;
+use burgeon::picture::Picture;
 use burgeon::presets::Presets;
 use burgeon::script::{Param, Preset, Session};
-use burgeon::terrain::Map;
+use burgeon::terrain::{Map, Place};
 use burgeon::{Error, Result};
 use clap::Args;
 
@@ -41,6 +42,10 @@ pub(crate) struct Run {
     /// Writes the changes of the ground of the terrain, for edits(FILE) in a script
     #[arg(long, value_name = "FILE")]
     edits: Option<PathBuf>,
+
+    /// Writes a .glb for each tile of the terrain into this folder
+    #[arg(long, value_name = "FOLDER")]
+    tiles: Option<PathBuf>,
 
     /// Writes which features were skipped or simplified, and why, as JSON; - is standard output
     #[arg(long, value_name = "FILE")]
@@ -124,6 +129,9 @@ impl Run {
                 let text = terrain(&run)?.edits_json();
                 export::write_file(path, |out| out.write_all(text.as_bytes()))?;
             }
+            if let Some(folder) = &self.tiles {
+                write_tiles(&run, folder)?;
+            }
             if let Some(path) = &self.report {
                 write_report(path, &run.report())?;
             }
@@ -204,6 +212,20 @@ impl Run {
 }
 
 /// Writes what was skipped or simplified.
+/// Writes each tile of the terrain as a file of its own, called by level, column and row.
+fn write_tiles(run: &burgeon::Run, folder: &Path) -> Result<()> {
+    let tiles = terrain(run)?.ground().tiles();
+    std::fs::create_dir_all(folder)
+        .map_err(|error| Error::new(format!("cannot make the folder {}: {error}", folder.display())))?;
+    for tile in tiles {
+        let Place { level, x, y } = tile.place;
+        let name = format!("{level}/{x}/{y}");
+        let scene = run.scene.only(|instance| instance.name.rsplit(' ').next() == Some(name.as_str()));
+        export::write(&scene, &folder.join(format!("{level}_{x}_{y}.glb")), &Picture::default())?;
+    }
+    Ok(())
+}
+
 /// The terrain of a run; there has to be one.
 fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     let objects = run.systems.iter().flat_map(|system| &system.objects);

@@ -66,6 +66,25 @@ impl Scene {
         }
     }
 
+    /// The scene with those instances alone that are to be kept, and what they need.
+    #[must_use]
+    pub fn only(&self, keep: impl Fn(&Instance) -> bool) -> Self {
+        let mut scene = Self::default();
+        let mut meshes = vec![None; self.meshes.len()];
+        for instance in self.instances.iter().filter(|instance| keep(instance)) {
+            let mesh = *meshes[instance.mesh].get_or_insert_with(|| {
+                let mut mesh = self.meshes[instance.mesh].clone();
+                for part in &mut mesh.parts {
+                    part.material = scene.material(&self.materials[part.material]);
+                }
+                scene.meshes.push(mesh);
+                scene.meshes.len() - 1
+            });
+            scene.instances.push(Instance { mesh, ..instance.clone() });
+        }
+        scene
+    }
+
     /// The number of triangles that are seen, instances counted each.
     pub fn triangles(&self) -> usize {
         self.instances.iter().map(|instance| self.meshes[instance.mesh].triangles()).sum()

@@ -65,9 +65,9 @@ fn the_way_to_a_place_does_not_matter() {
         let world = Arc::new(world(5, drawn, smooth));
         let mut stream = Stream::new(9);
         let mut walker = Ground::new(Arc::clone(&world));
-        for _ in 0..20 {
+        for _ in 0..100 {
             let at = eye(&mut stream);
-            for _ in 0..5 {
+            for _ in 0..10 {
                 let step = DVec2::new(stream.uniform() - 0.5, stream.uniform() - 0.5) * 3000.0;
                 let near = (at + step).clamp(world.corner, world.corner + world.size);
                 walker.focus(near, &view(), &Tables).unwrap();
@@ -237,4 +237,81 @@ fn triangles_leave_no_gap_and_stay_within_the_error() {
 
 fn low_of(origin: &DVec3) -> DVec2 {
     origin.truncate()
+}
+
+#[test]
+fn rivers_never_rise_and_end_at_the_rim_in_water_or_in_another() {
+    let mut stream = Stream::new(2);
+    let mut count = 0;
+    for seed in 0..8 {
+        let world = Arc::new(World { size: 4096.0, ..world(seed, true, true) });
+        let mut ground = Ground::new(Arc::clone(&world));
+        let middle = world.corner + world.size / 2.0;
+        ground.focus(middle, &View::whole(&world, 7), &Tables).unwrap();
+        let map = ground.map().unwrap();
+        let mut sorted = map.heights.clone();
+        sorted.sort_by(f64::total_cmp);
+        let water = sorted[sorted.len() / 10];
+        let mut drainage = Drainage::new(&map, Some(water));
+        let mut ways: Vec<Vec<DVec3>> = Vec::new();
+        for _ in 0..12 {
+            let source = world.corner + DVec2::new(stream.uniform(), stream.uniform()) * world.size;
+            let Some(way) = drainage.river(source) else { continue };
+            assert!(way.windows(2).all(|pair| pair[1].z <= pair[0].z + 1e-9), "{seed}");
+            assert!(way[0].truncate().distance(source) < 64.0);
+            let end = way[way.len() - 1];
+            let to_rim = (end.truncate() - middle).abs().max_element();
+            let joins = ways.iter().flatten().any(|at| at.truncate().distance(end.truncate()) < 64.0);
+            assert!(to_rim > world.size / 2.0 - 64.0 || end.z <= water || joins, "{seed}: {end}");
+            ways.push(way);
+            count += 1;
+        }
+    }
+    assert!(count > 60, "{count} rivers");
+}
+
+#[test]
+fn edits_act_in_their_order_whatever_is_expanded_and_come_back_from_a_file() {
+    let world = Arc::new(world(3, true, true));
+    let middle = world.corner + DVec2::splat(20_000.0);
+    let square = |half: f64| {
+        [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .map(|(x, y)| (middle + DVec2::new(x, y) * half).to_array())
+    };
+    let mut edits = Edits::default();
+    let outline = square(300.0).to_vec();
+    edits.add(&world, Edit::Flatten { outline, height: 700.0, margin: 50.0 }).unwrap();
+    let path = vec![(middle - 900.0).to_array(), (middle + 900.0).to_array()];
+    edits.add(&world, Edit::Dig { path, width: 80.0, depth: 30.0 }).unwrap();
+    let edits = Arc::new(edits);
+    let mut ground = Ground::new(Arc::clone(&world));
+    ground.edit(&edits);
+    ground.focus(middle, &view(), &Tables).unwrap();
+    let beside = middle + DVec2::new(200.0, -200.0);
+    assert_eq!(ground.height(beside), Some(700.0));
+    // The ditch was dug into what had been made level.
+    let bottom = ground.height(middle).unwrap();
+    assert!((669.0..675.0).contains(&bottom), "{bottom}");
+    let before: Vec<Option<f64>> =
+        ground.tiles().iter().map(|tile| ground.height(tile.bounds(&world).0)).collect();
+    // Away, so that all of it is contracted, and back.
+    ground.focus(world.corner + 1.0, &view(), &Tables).unwrap();
+    assert_eq!(ground.height(beside), None);
+    ground.focus(middle, &view(), &Tables).unwrap();
+    let after: Vec<Option<f64>> =
+        ground.tiles().iter().map(|tile| ground.height(tile.bounds(&world).0)).collect();
+    assert_eq!(before, after);
+    let text = edits.to_json(&world);
+    let read = Edits::from_json(&text, "ground.json", &world).unwrap();
+    assert_eq!(read, *edits);
+    assert_eq!(read.to_json(&world), text);
+    let elsewhere = World { size: 1000.0, ..(*world).clone() };
+    assert!(Edits::from_json(&text, "ground.json", &elsewhere).is_err());
+    // Without edits the tiles that they reached are as they were.
+    ground.edit(&Arc::default());
+    ground.focus(middle, &view(), &Tables).unwrap();
+    let mut plain = Ground::new(Arc::clone(&world));
+    plain.focus(middle, &view(), &Tables).unwrap();
+    assert_eq!(ground.height(beside), plain.height(beside));
+    assert_ne!(ground.height(beside), Some(700.0));
 }

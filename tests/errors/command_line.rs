@@ -304,6 +304,7 @@ fn help_reads_well() {
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
           --heights <FILE>      Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
           --edits <FILE>        Writes the changes of the ground of the terrain, for edits(FILE) in a script
+          --tiles <FOLDER>      Writes a .glb for each tile of the terrain into this folder
           --report <FILE>       Writes which features were skipped or simplified, and why, as JSON; - is standard output
           --watch               Runs and writes again whenever a file of the script changes, until interrupted
           --save-preset <NAME>  Saves the seed and the values of --set and --preset under a name, once the run has succeeded

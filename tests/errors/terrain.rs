@@ -354,3 +354,19 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
       help: name another file: --edits ground.json, or - for standard output
     "##);
 }
+
+#[test]
+fn tiles_are_files_of_their_own_that_tell_where_they_are() {
+    let script = "local Look = module(\"Look\")\n\
+        local land = lsystem({ object = terrain({ rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 3, -2, 1, 0 } } } }) })\n\
+        land:axiom(Look())\n\
+        land:interpret(\"Look()\", function(this) this:focus(0, 0, { cell = 128, rings = { { 2, 4 }, { 4, 2 } } }) end)\n\
+        land:derive(0)\n";
+    let folder = Folder::new().with("s.lua", script);
+    folder.burgeon(&["run", "s.lua", "--tiles", "tiles"]).done();
+    let files = folder.files();
+    let tiles: Vec<&String> = files.keys().filter(|name| name.starts_with("tiles/")).collect();
+    assert_eq!(tiles.len(), 16);
+    assert!(files["tiles/3_3_4.glb"] > files["tiles/3_2_2.glb"]);
+    assert!(folder.refuses(&["run", "s.lua", "--tiles", "s.lua"]).contains("cannot make the folder s.lua"));
+}
