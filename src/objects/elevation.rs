@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use super::parameter::Expected;
+use super::parameter::{Expected, object};
 use super::{Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::sources::elevation::{Relief, Wanted};
@@ -144,14 +144,8 @@ impl Parameter for Elevation {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let found = match &value {
-            Value::Object(object) => {
-                let any: &dyn std::any::Any = &**object;
-                any.downcast_ref::<Self>().cloned()
-            }
-            _ => None,
-        };
-        found.ok_or_else(|| Expected::new("an elevation, made once before: elevation(\"N43E007.hgt\")"))
+        let what = "an elevation, made once before: elevation(\"N43E007.hgt\")";
+        object(value, what).map(|elevation: Arc<Self>| (*elevation).clone())
     }
 
     fn into_value(self) -> Value {

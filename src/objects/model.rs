@@ -1,10 +1,10 @@
 //! What a derived system has drawn, or a file holds, as one thing that systems can place.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
+use super::parameter::object;
 use super::{Expected, Kind, Object, Parameter, Table, Value};
 use crate::error::{Error, Result};
 use crate::scene::{Instance, Material, Part, Scene};
@@ -102,10 +102,7 @@ impl Parameter for Arc<Model> {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("what derive returned, or model(\"window.glb\")");
-        let Value::Object(object) = value else { return Err(what()) };
-        let any: Arc<dyn Any + Send + Sync> = object;
-        any.downcast().map_err(|_| what())
+        object(value, "what derive returned, or model(\"window.glb\")")
     }
 
     fn into_value(self) -> Value {

@@ -1,10 +1,11 @@
 //! The types that fields, arguments and results of methods may have, and how each reads a script's value.
 
+use std::any::Any;
 use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Boxed, Key, Table, Value};
+use super::{Boxed, Key, Object, Table, Value};
 use crate::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
@@ -105,6 +106,13 @@ macro_rules! answers {
 }
 
 answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
+
+/// The object of type `T` that a value is; otherwise `what` was expected.
+pub(super) fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expected> {
+    let Value::Object(object) = value else { return Err(Expected::new(what)) };
+    let any: Arc<dyn Any + Send + Sync> = object;
+    any.downcast().map_err(|_| Expected::new(what))
+}
 
 impl Parameter for f64 {
     const IS_NUMBER: bool = true;

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use rstar::primitives::Line;
 use rstar::{PointDistance, RTree};
 
-use super::parameter::Expected;
+use super::parameter::{Expected, object};
 use super::{Features, Kind, Object, Parameter, Shape, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::sources::Geometry;
@@ -182,14 +182,8 @@ impl Parameter for Streets {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let found = match &value {
-            Value::Object(object) => {
-                let any: &dyn std::any::Any = &**object;
-                any.downcast_ref::<Self>().cloned()
-            }
-            _ => None,
-        };
-        found.ok_or_else(|| Expected::new("streets, made once before: streets(source)"))
+        object(value, "streets, made once before: streets(source)")
+            .map(|streets: Arc<Self>| (*streets).clone())
     }
 
     fn into_value(self) -> Value {

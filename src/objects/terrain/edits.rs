@@ -1,9 +1,9 @@
 //! A file of changes of the ground, on its way from the script's folder to a terrain.
 
-use std::any::Any;
 use std::sync::Arc;
 
 use crate::error::Error;
+use crate::objects::parameter::object;
 use crate::objects::{Expected, Kind, Object, Parameter, Table, Value};
 
 /// The text of a file that keeps changes of the ground.
@@ -33,10 +33,7 @@ impl Parameter for EditFile {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("edits that were kept: edits(\"ground.json\")");
-        let Value::Object(object) = value else { return Err(what()) };
-        let any: Arc<dyn Any + Send + Sync> = object;
-        any.downcast::<Self>().map(|file| (*file).clone()).map_err(|_| what())
+        object(value, "edits that were kept: edits(\"ground.json\")").map(|file: Arc<Self>| (*file).clone())
     }
 
     fn into_value(self) -> Value {

@@ -10,7 +10,6 @@ mod sides;
 mod view;
 mod water;
 
-use std::any::Any;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
@@ -24,6 +23,7 @@ pub use water::Water;
 
 use river::River;
 
+use super::parameter::object;
 use super::{Color, Drawing, Elevation, Expected, Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
 use crate::rules::{Key, Symbol};
@@ -392,10 +392,7 @@ impl Parameter for Arc<Terrain> {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a terrain that was derived: land:derive().objects[1]");
-        let Value::Object(object) = value else { return Err(what()) };
-        let any: Arc<dyn Any + Send + Sync> = object;
-        any.downcast().map_err(|_| what())
+        object(value, "a terrain that was derived: land:derive().objects[1]")
     }
 
     fn into_value(self) -> Value {
