@@ -7,6 +7,7 @@
 
 mod block;
 mod edits;
+pub mod globe;
 mod ground;
 mod mesh;
 mod noise;
@@ -21,7 +22,7 @@ pub use block::{Area, Block};
 pub use edits::{Edit, Edits};
 pub use ground::{Ground, Map};
 pub use mesh::Mesh;
-pub use noise::octaves;
+pub use noise::{octaves, octaves_around};
 pub use table::{Draw, Quadrants, RuleTable};
 pub use tile::{Place, Tile};
 pub use view::{DEEPEST, MOST_HEIGHTS, Ring, View};

@@ -1,6 +1,6 @@
 //! Noise by place: smooth, between -1 and 1, the same everywhere at all times.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Value noise at `place`, which changes over a distance of 1.
 fn noise(place: DVec2, seed: u64) -> f64 {
@@ -19,6 +19,34 @@ pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
     let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
     for octave in 0..octaves {
         sum += noise(place * scale, seed.wrapping_add(u64::from(octave))) * strength;
+        whole += strength;
+        (strength, scale) = (strength * 0.5, scale * 2.03);
+    }
+    if whole > 0.0 { sum / whole } else { 0.0 }
+}
+
+/// Value noise at `place` in space, which changes over a distance of 1.
+fn noise_around(place: DVec3, seed: u64) -> f64 {
+    let cell = place.floor();
+    let part = place - cell;
+    let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    let level = |up: f64| {
+        // Each level of corners has numbers of its own.
+        let seed = seed ^ (cell.z + up + 0.0).to_bits().wrapping_mul(0xD6E8_FEB8_6659_FD93);
+        let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
+        let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
+        let far = at(0.0, 1.0) + (at(1.0, 1.0) - at(0.0, 1.0)) * ease.x;
+        near + (far - near) * ease.y
+    };
+    let below = level(0.0);
+    below + (level(1.0) - below) * ease.z
+}
+
+/// As [`octaves`], at a place in space.
+pub fn octaves_around(place: DVec3, octaves: u32, seed: u64) -> f64 {
+    let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
+    for octave in 0..octaves {
+        sum += noise_around(place * scale, seed.wrapping_add(u64::from(octave))) * strength;
         whole += strength;
         (strength, scale) = (strength * 0.5, scale * 2.03);
     }

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Expected, Parameter, Table, Value};
 use crate::rules::Symbol;
-use crate::terrain::{Ground, octaves};
+use crate::terrain::{Ground, octaves, octaves_around};
 
 fields! {
     /// Where a cover lies or plants grow.
@@ -18,6 +18,8 @@ fields! {
         pub slope: Vec<f64> = Vec::new(),
         /// From which curvature (1/m) to which it fades in; hollows are above 0, crests below.
         pub curvature: Vec<f64> = Vec::new(),
+        /// From which latitude (degrees, north or south) to which it fades in; on planets only.
+        pub latitude: Vec<f64> = Vec::new(),
         /// The symbols of the cells where it is; all, if there are none.
         pub symbols: Vec<String> = Vec::new(),
         /// How far (0 to 1) noise shifts where it fades in, and makes it patchy.
@@ -29,13 +31,13 @@ fields! {
 
 impl Parameter for Mask {
     fn luau() -> String {
-        "{ height: { number }?, slope: { number }?, curvature: { number }?, symbols: { string }?, noise: number?, scale: number? }"
+        "{ height: { number }?, slope: { number }?, curvature: { number }?, latitude: { number }?, symbols: { string }?, noise: number?, scale: number? }"
             .into()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
         let Value::Table(table) = &value else {
-            return Err(Expected::new("a table of height, slope, curvature, symbols, noise and scale"));
+            return Err(Expected::new("a table of height, slope, curvature, latitude, symbols, noise and scale"));
         };
         let mask = Self::from_table(table)
             .map_err(|error| Expected::new(format!("a place ({})", error.message())))?;
@@ -55,13 +57,28 @@ impl Parameter for Mask {
     }
 }
 
+/// A place, as patches know it.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::objects) enum Place {
+    /// On flat ground (m).
+    Flat(DVec2),
+    /// On a globe (m, from its middle).
+    Round(DVec3),
+}
+
 /// How the ground is at a place.
-pub(super) struct Spot {
-    place: DVec2,
+pub(in crate::objects) struct Spot {
+    pub place: Place,
+    /// m.
     pub height: f64,
-    up: DVec3,
+    /// degrees.
+    pub slope: f64,
     /// 1/m; above 0 in hollows.
-    curvature: f64,
+    pub curvature: f64,
+    /// degrees from the equator.
+    pub latitude: f64,
+    /// The symbol of the cell there.
+    pub symbol: Option<Symbol>,
 }
 
 impl Spot {
@@ -76,26 +93,33 @@ impl Spot {
         } else {
             0.0
         };
-        Self { place, height, up, curvature }
+        let slope = up.z.clamp(-1.0, 1.0).acos().to_degrees();
+        let symbol = ground.symbol(place);
+        Self { place: Place::Flat(place), height, slope, curvature, latitude: 0.0, symbol }
     }
 }
 
 impl Mask {
-    fn ranges(&self) -> [(&'static str, &[f64]); 3] {
-        [("height", &self.height), ("slope", &self.slope), ("curvature", &self.curvature)]
+    fn ranges(&self) -> [(&'static str, &[f64]); 4] {
+        [
+            ("height", &self.height),
+            ("slope", &self.slope),
+            ("curvature", &self.curvature),
+            ("latitude", &self.latitude),
+        ]
     }
 
     /// Whether it asks for the curvature of the ground.
-    pub(super) fn is_bent(&self) -> bool {
+    pub(in crate::objects) fn is_bent(&self) -> bool {
         !self.curvature.is_empty()
     }
 
-    /// The numbers of its symbols among `names`.
-    pub(super) fn numbers(&self, names: &[String]) -> Result<Vec<Symbol>> {
+    /// The numbers of its symbols among `names`, the cells of a `kind` of object.
+    pub(in crate::objects) fn numbers(&self, kind: &str, names: &[String]) -> Result<Vec<Symbol>> {
         let number = |symbol: &String| {
             let found = names.iter().position(|name| name == symbol).and_then(|at| Symbol::try_from(at).ok());
             found.ok_or_else(|| {
-                let error = Error::new(format!("terrain: no rule makes {symbol}"));
+                let error = Error::new(format!("{kind}: no rule makes {symbol}"));
                 match nearest(symbol, names.iter().map(String::as_str)) {
                     Some(near) => error.help(format!("did you mean {near}?")),
                     None => error.help(format!("the cells are {}", names.join(", "))),
@@ -107,14 +131,16 @@ impl Mask {
 
     /// How much (0 to 1) of it there is at a spot. `symbols` are the numbers of its symbols; masks with other `seed`s
     /// have other patches.
-    pub(super) fn at(&self, ground: &Ground, spot: &Spot, symbols: &[Symbol], seed: u64) -> f64 {
-        if !symbols.is_empty() && !ground.symbol(spot.place).is_some_and(|symbol| symbols.contains(&symbol)) {
+    pub(in crate::objects) fn at(&self, spot: &Spot, symbols: &[Symbol], seed: u64) -> f64 {
+        if !symbols.is_empty() && !spot.symbol.is_some_and(|symbol| symbols.contains(&symbol)) {
             return 0.0;
         }
-        let shift =
-            if self.noise > 0.0 { octaves(spot.place / self.scale, 4, seed) * self.noise } else { 0.0 };
-        let slope = if self.slope.is_empty() { 0.0 } else { spot.up.z.clamp(-1.0, 1.0).acos().to_degrees() };
-        let values = [spot.height, slope, spot.curvature];
+        let shift = match spot.place {
+            _ if self.noise <= 0.0 => 0.0,
+            Place::Flat(place) => octaves(place / self.scale, 4, seed) * self.noise,
+            Place::Round(place) => octaves_around(place / self.scale, 4, seed) * self.noise,
+        };
+        let values = [spot.height, spot.slope, spot.curvature, spot.latitude];
         let mut amount = 1.0;
         let mut fades = false;
         for ((_, range), value) in self.ranges().into_iter().zip(values) {
