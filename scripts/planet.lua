@@ -1,13 +1,14 @@
 --!strict
 -- A planet of seas and continents, seen from its orbit down to the ground. Its faces divide by rules for three
 -- scales: plates of rock and the deep, then lowlands and mountain belts, then hills, valleys and ridges.
-local seed = param("seed", { default = 7, min = 0, max = 1000, step = 1, text = "Which planet it is" })
+local seed = param("seed", { default = 57, min = 0, max = 1000, step = 1, text = "Which planet it is" })
 local approach =
   param("approach", { default = 0, min = 0, max = 1, text = "From the orbit (0) down to the ground (1)" })
 local radius =
   param("radius", { default = 3000000, min = 100000, max = 7000000, unit = "m", text = "Of the planet" })
 local sea = param("sea", { default = 0, min = -3000, max = 3000, unit = "m", text = "Level of the seas" })
-local cold = param("cold", { default = 0, min = -20, max = 40, unit = "deg", text = "How far the ice reaches" })
+local cold =
+  param("cold", { default = 0, min = -20, max = 40, unit = "deg", text = "How far the ice reaches" })
 
 -- Each rule has a symbol and a change of height for each quadrant. The changes are drawn, and become smaller with
 -- every level: by the decay.
@@ -28,15 +29,18 @@ local plates = {
 
 local belts = {
   Low = {
-    { "Low", "Low", "Low", "Low", change = { FEW, FEW, FEW, FEW }, decay = 0.55, weight = 4 },
-    { "Low", "High", "High", "Low", change = { SOME, UP, UP, SOME }, decay = 0.6 },
-    { "High", "Low", "Low", "High", change = { UP, SOME, SOME, UP }, decay = 0.6 },
+    { "Low", "Low", "Low", "Low", change = { FEW, FEW, FEW, FEW }, decay = 0.55, weight = 5 },
+    { "Low", "High", "High", "Low", change = { SOME, UP, UP, SOME }, decay = 0.64 },
+    { "High", "Low", "Low", "High", change = { UP, SOME, SOME, UP }, decay = 0.64 },
   },
   High = {
-    { "High", "High", "High", "High", change = { ANY, ANY, ANY, ANY }, decay = 0.57, weight = 3 },
-    { "High", "Low", "High", "Low", change = { UP, SOME, UP, SOME }, decay = 0.55 },
+    { "High", "High", "High", "High", change = { ANY, ANY, ANY, ANY }, decay = 0.66, weight = 5 },
+    { "High", "Low", "High", "Low", change = { UP, SOME, UP, SOME }, decay = 0.6 },
   },
 }
+
+-- The eye comes down to a coast: each step of the way divides its height by the same number.
+local height = 3 * radius * (2 / (3 * radius)) ^ approach
 
 local land = lsystem({
   object = planet({
@@ -47,7 +51,8 @@ local land = lsystem({
       { from = 5, rules = belts, start = "Low", decay = 900 },
     },
     levels = 22,
-    closeness = 9 - 6 * math.min(1, approach * 2),
+    closeness = 9 - 6 * math.min(1, approach * 3),
+    error = 0.02,
     axis = { 0, -0.75, 0.66 },
     horizon = approach > 0,
     water = { level = sea, color = "#0a2a4d", shallow = "#2f7f94", clarity = 350 },
@@ -59,20 +64,25 @@ local land = lsystem({
       { color = "#6f8246", on = { latitude = { 30, 38 }, noise = 0.6, scale = radius / 10 } },
       { color = "#3c5a38", on = { latitude = { 45, 54 }, noise = 0.6, scale = radius / 14 } },
       { color = "#8a8566", on = { latitude = { 60 - cold, 67 - cold }, noise = 0.5, scale = radius / 14 } },
+      -- Woods and meadows, which one sees from nearer and nearer.
+      { color = "#34502a", on = { noise = 1, scale = 60000, height = { 1400, 700 } }, amount = 0.45 },
+      { color = "#7d8450", on = { noise = 1, scale = 4000 }, amount = 0.35 },
+      { color = "#3b4a26", on = { noise = 1, scale = 250 }, amount = 0.4 },
       { color = "#7d6c55", on = { height = { 1300, 2300 }, noise = 0.4, scale = radius / 30 } },
-      { color = "#d8c79a", on = { height = { sea + 90, sea + 20 } }, amount = 0.7 },
+      { color = "#6b6459", on = { slope = { 20, 32 }, noise = 0.3, scale = 800 } },
+      { color = "#d8c79a", on = { height = { sea + 60, sea + 5 }, noise = 0.3, scale = 5000 }, amount = 0.6 },
       { color = "#f4f6f8", on = { height = { 2600, 3400 }, noise = 0.4, scale = radius / 30 } },
       { color = "#f4f6f8", on = { latitude = { 68 - cold, 75 - cold }, noise = 0.6, scale = radius / 12 } },
     },
   }),
 })
 
--- The eye comes down to a place on top: each step of the way divides its height by the same number.
-local Eye = module("Eye", "height")
-land:axiom(Eye(3 * radius * (2 / (3 * radius)) ^ approach))
-land:interpret("Eye(height)", function(this, height)
+local Eye = module("Eye")
+land:axiom(Eye())
+land:interpret("Eye", function(this)
   if approach > 0 then
-    this:focus(0, 0, radius + height)
+    local ground = this:surface({ 0, 0, 1 })
+    this:focus(0, 0, ground.z + height)
   end
 end)
 

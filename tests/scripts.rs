@@ -48,7 +48,7 @@ fn named(before: &str, after: &str) -> BTreeSet<String> {
 fn the_gallery_shows_every_script_and_no_other() {
     let shipped: BTreeSet<String> =
         scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(shipped.len(), 15);
+    assert_eq!(shipped.len(), 16);
     assert_eq!(named("](scripts/", ".lua)"), shipped);
     let mut shown = named("](docs/pictures/", ".png)");
     assert!(["variations", "live", "village", "roofs", "quay"].iter().all(|name| shown.remove(*name)));
@@ -112,7 +112,7 @@ fn every_lua_block_of_the_readme_runs() {
         assert!(run.systems.iter().map(|system| system.modules()).sum::<usize>() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 7);
+    assert_eq!(count, 8);
     assert_eq!(count, README.matches("```lua").count(), "a fragment would go untested");
 }
 

@@ -13,6 +13,7 @@ mod limits;
 mod neighbors;
 mod params;
 mod patterns;
+mod planets;
 mod presets;
 mod reports;
 mod sandbox;

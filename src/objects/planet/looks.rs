@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::Options;
 use crate::error::Result;
-use crate::objects::terrain::looks::{blend, half_texel, image, material, texels};
+use crate::objects::terrain::looks::{blend, image, material, texels};
 use crate::objects::terrain::mask::{Place, Spot};
 use crate::rules::Symbol;
 use crate::scene::Material;
@@ -25,10 +25,12 @@ pub(super) fn of(
         let base_color = options.color.0;
         return Ok(Material { name: name.to_owned(), base_color, roughness, ..Material::default() });
     }
-    let across = texels(tile);
     let relief = Relief::new(globe, tile);
     let plain = [0, 1, 2].map(|at| options.color.0[at]);
-    let bytes = image(across, |column, row| {
+    let across = texels(tile);
+    let whole = across + 2 * MARGIN;
+    let bytes = image(whole, |column, row| {
+        let [column, row] = [column, row].map(|at| at.saturating_sub(MARGIN).min(across - 1));
         let spot = relief.spot(options, globe, (face, tile), (column, row, across));
         let water = options.water.as_ref().filter(|water| spot.height < water.level);
         let Some(water) = water else {
@@ -45,12 +47,25 @@ pub(super) fn of(
         }
         color
     });
-    material(name.to_owned(), &bytes, across, globe.world().cell(tile.place.level), roughness)
+    #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+    let size = texel(globe, tile) * (whole - 1) as f64;
+    material(name.to_owned(), &bytes, whole, size, roughness)
 }
 
+/// How many texels an image reaches beyond its tile: seen from afar they mix with those at the rim, and those of the
+/// opposite rim do not.
+const MARGIN: usize = 4;
+
 /// How far (m) texture coordinates begin from the rim of a tile.
+#[allow(clippy::cast_precision_loss, reason = "texels are few")]
 pub(super) fn begin(globe: &Globe, tile: &Tile) -> f64 {
-    half_texel(globe.world().cell(tile.place.level), texels(tile))
+    texel(globe, tile) * (MARGIN as f64 + 0.5)
+}
+
+/// The size (m) of texels.
+#[allow(clippy::cast_precision_loss, reason = "texels are few")]
+fn texel(globe: &Globe, tile: &Tile) -> f64 {
+    globe.world().cell(tile.place.level) / (texels(tile) - 1) as f64
 }
 
 /// Heights and slopes at all corners of the cells of a tile.

@@ -34,8 +34,8 @@ fields! {
         pub closeness: f64 = 3.0,
         /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
         pub smooth: bool = true,
-        /// How far (m) the triangles may be from the surface; a tenth of the cells there, if it is left out.
-        pub error: Option<f64> = None,
+        /// How far the triangles may be from the surface, in sizes of the cells there.
+        pub error: f64 = 0.05,
         /// Its middle (m).
         pub position: Vector = Vector(DVec3::ZERO),
         /// The direction of its north pole, from which latitudes are told.
@@ -135,8 +135,8 @@ impl Planet {
             return Err(Error::new(format!("planet: radius is {} m", options.radius))
                 .help("give a length above 0 and up to 1e9 m"));
         }
-        if options.error.is_some_and(|error| error < 0.0) {
-            return Err(Error::new("planet: error is below 0").help("give metres from 0 on"));
+        if options.error < 0.0 {
+            return Err(Error::new("planet: error is below 0").help("give a part of a cell's size, such as 0.05"));
         }
         if !(DETAIL..=DEEPEST).contains(&options.levels) {
             return Err(Error::new(format!("planet: levels is {}", options.levels))
@@ -267,21 +267,21 @@ impl Object for Planet {
         let mesh = GlobeMesh::new(globe, self.options.error);
         let masks = self.masks()?;
         let hidden = self.eye.filter(|_| self.options.horizon);
-        let tiles: Vec<_> = globe
-            .tiles()
-            .filter(|(face, tile)| hidden.is_none_or(|eye| globe.is_above_horizon(eye, *face, tile)))
-            .collect();
+        let tiles: Vec<_> = globe.tiles().collect();
         let made: Vec<_> = tiles
             .into_par_iter()
             .map(|(face, tile)| {
+                let pieces = mesh.write(face, tile, looks::begin(globe, tile), hidden);
+                if pieces.is_empty() {
+                    return Ok(None);
+                }
                 let place = tile.place;
                 let of = format!("{name} {face}/{}/{}/{}", place.level, place.x, place.y);
-                let pieces = mesh.write(face, tile, looks::begin(globe, tile));
                 let looks = looks::of(&self.options, globe, (face, tile), &masks, &of)?;
-                Ok((of, pieces, looks))
+                Ok(Some((of, pieces, looks)))
             })
             .collect::<Result<_>>()?;
-        for (of, pieces, land) in made {
+        for (of, pieces, land) in made.into_iter().flatten() {
             let water = Material { name: format!("{} water", land.name), roughness: 0.3, ..land.clone() };
             let mut parts = Vec::new();
             for (mut part, material) in [(pieces.land, land), (pieces.water, water)] {

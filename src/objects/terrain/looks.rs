@@ -107,7 +107,7 @@ pub(super) fn to_srgb(channel: f32) -> u8 {
 
 /// How far (m) the texels of an image with `across` a side lie from its rim, laid over a tile of `size` (m).
 #[allow(clippy::cast_precision_loss, reason = "texels are few")]
-pub(in crate::objects) fn half_texel(size: f64, across: usize) -> f64 {
+pub(super) fn half_texel(size: f64, across: usize) -> f64 {
     size / (across - 1) as f64 / 2.0
 }
 

@@ -135,26 +135,32 @@ impl Mask {
         if !symbols.is_empty() && !spot.symbol.is_some_and(|symbol| symbols.contains(&symbol)) {
             return 0.0;
         }
+        let values = [spot.height, spot.slope, spot.curvature, spot.latitude];
+        let along = |((_, range), value): ((&str, &[f64]), f64)| match *range {
+            [from, to] if from == to => Some(f64::from(u8::from(value >= from))),
+            [from, to] => Some((value - from) / (to - from)),
+            _ => None,
+        };
+        let fades = || self.ranges().into_iter().zip(values).filter_map(along);
+        // Where noise cannot change anything, it need not be known.
+        if fades().any(|along| along <= -self.noise) {
+            return 0.0;
+        }
         let shift = match spot.place {
             _ if self.noise <= 0.0 => 0.0,
+            _ if self.is_fading() && fades().all(|along| along >= 1.0 + self.noise) => 0.0,
             Place::Flat(place) => octaves(place / self.scale, 4, seed) * self.noise,
             Place::Round(place) => octaves_around(place / self.scale, 4, seed) * self.noise,
         };
-        let values = [spot.height, spot.slope, spot.curvature, spot.latitude];
-        let mut amount = 1.0;
-        let mut fades = false;
-        for ((_, range), value) in self.ranges().into_iter().zip(values) {
-            if let [from, to] = *range {
-                let step = f64::from(u8::from(value >= from));
-                let along = if from == to { step } else { (value - from) / (to - from) };
-                amount *= eased(along + shift);
-                fades = true;
-            }
+        if self.noise > 0.0 && !self.is_fading() {
+            return eased(0.5 + shift * 1.5);
         }
-        if !fades && self.noise > 0.0 {
-            amount = eased(0.5 + shift * 1.5);
-        }
-        amount
+        fades().map(|along| eased(along + shift)).product()
+    }
+
+    /// Whether it fades in or out by anything but noise.
+    fn is_fading(&self) -> bool {
+        self.ranges().iter().any(|(_, range)| !range.is_empty())
     }
 }
 

@@ -13,7 +13,7 @@ use rustc_hash::FxHashMap;
 
 use super::expand::{Areas, NONE, expand, padded};
 use super::faces::{Spot, aliases, corner};
-use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree, ball};
+use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
 use super::sphere::{direction, place, side};
 use crate::error::Result;
 use crate::rules::Symbol;
@@ -139,17 +139,11 @@ impl Globe {
         self.tree.leaves.iter().map(|(face, _)| *face).zip(self.tiles.iter().map(|tile| &**tile))
     }
 
-    /// Whether any of a tile is above the horizon of an eye (m).
-    ///
-    /// A place is above it while the angle to it is not greater than those from the eye and from the place to where a
-    /// line between them touches the sphere.
-    pub fn is_above_horizon(&self, eye: DVec3, face: usize, tile: &Tile) -> bool {
-        let (middle, reach) = ball((face, tile.place));
-        let own = Tile::own(tile.place, tile.detail);
-        let highest = own.cells().map(|(x, y)| tile.cell(x, y)).fold(0.0, f64::max);
-        let to_touch = |from: f64| (self.radius / from.max(self.radius)).acos();
-        let angle = eye.angle_between(middle) - 2.0 * (reach / 2.0).min(1.0).asin();
-        angle <= to_touch(eye.length()) + to_touch(self.radius + highest)
+    /// Whether a point (m) is above the horizon of an eye (m): the angle between them is not greater than those from each
+    /// to where a line through it touches the sphere.
+    pub(super) fn is_above_horizon(&self, eye: DVec3, point: DVec3) -> bool {
+        let to_touch = |at: DVec3| (self.radius / at.length().max(self.radius)).acos();
+        eye.angle_between(point) <= to_touch(eye) + to_touch(point)
     }
 
     /// The number of heights that are expanded.

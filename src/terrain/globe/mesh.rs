@@ -25,8 +25,8 @@ pub struct GlobeMesh<'a> {
     grids: Vec<Grid>,
     /// The corners where triangles are halved, by their names on the first face that has them.
     halved: FxHashSet<u64>,
-    /// How far (m) triangles may be from the ground; a tenth of its cells, if it is left out.
-    error: Option<f64>,
+    /// How far triangles may be from the ground, in sizes of the cells there.
+    error: f64,
 }
 
 /// The triangles over one tile.
@@ -40,9 +40,16 @@ pub struct Pieces {
     pub water: Part,
 }
 
+impl Pieces {
+    /// Whether there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.land.triangles.is_empty() && self.water.triangles.is_empty()
+    }
+}
+
 impl<'a> GlobeMesh<'a> {
-    /// The fewest triangles from which the ground is nowhere farther than `error` (m), or a tenth of the cells there.
-    pub fn new(globe: &'a Globe, error: Option<f64>) -> Self {
+    /// The fewest triangles from which the ground is nowhere farther than `error`, in sizes of the cells there.
+    pub fn new(globe: &'a Globe, error: f64) -> Self {
         let tiles: Vec<(usize, &Tile)> = globe.tiles().collect();
         let grids = tiles.par_iter().map(|(face, tile)| grid(globe, *face, tile)).collect();
         let mut mesh = Self { globe, grids, halved: FxHashSet::default(), error };
@@ -80,9 +87,11 @@ impl<'a> GlobeMesh<'a> {
         {
             return None;
         }
-        let error = self.error.unwrap_or_else(|| self.globe.world().cell(tile.level()) / 10.0);
-        let [from, to] = [triangle.a, triangle.b].map(|[x, y]| self.globe.direction((face, x, y)));
-        let bulge = from.distance_squared(to) / 8.0 * self.globe.radius();
+        let error = self.error * self.globe.world().cell(tile.level());
+        let cell = self.globe.world().cell(self.globe.finest());
+        #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+        let square: f64 = (0..2).map(|axis| ((triangle.a[axis] - triangle.b[axis]) as f64 * cell).powi(2)).sum();
+        let bulge = square * STRETCH / (8.0 * self.globe.radius());
         (bulge > error || grid.is_far(triangle, error)).then_some((face, middle[0], middle[1]))
     }
 
@@ -107,11 +116,15 @@ impl<'a> GlobeMesh<'a> {
         }
     }
 
-    /// The triangles over a tile. Its south-west corner gets the texture coordinates `begin` (m), from where they count.
-    pub fn write(&self, face: usize, tile: &Tile, begin: f64) -> Pieces {
+    /// The triangles over a tile, of which `eye` (m), if there is one, sees any corner above its horizon. The south-west
+    /// corner of the tile gets the texture coordinates `begin` (m), from where they count.
+    pub fn write(&self, face: usize, tile: &Tile, begin: f64, eye: Option<DVec3>) -> Pieces {
         let globe = self.globe;
         let own = step(globe, tile);
-        let origin = snapped(ball((face, tile.place)).0 * globe.radius(), own);
+        // On the ground in its middle, so that all of it is near.
+        let middle = tile.cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
+        let out = globe.radius() + globe.shown(middle);
+        let origin = snapped(ball((face, tile.place)).0 * out, own);
         let mut pieces = Pieces { origin, ..Pieces::default() };
         let mut known: [FxHashMap<Corner, u32>; 2] = Default::default();
         let mut open: Vec<Triangle> = roots(tile.place, globe.finest()).into_iter().rev().collect();
@@ -122,6 +135,10 @@ impl<'a> GlobeMesh<'a> {
                 continue;
             }
             let corners = [triangle.a, triangle.b, triangle.apex];
+            let seen = |eye| corners.iter().any(|[x, y]| globe.is_above_horizon(eye, globe.point((face, *x, *y))));
+            if eye.is_some_and(|eye| !seen(eye)) {
+                continue;
+            }
             let wet = |[x, y]: Corner| globe.sea().is_some_and(|sea| globe.corner((face, x, y)) <= sea);
             let (part, known) = match corners.into_iter().all(wet) {
                 true => (&mut pieces.water, &mut known[1]),
@@ -152,6 +169,9 @@ impl<'a> GlobeMesh<'a> {
         u32::try_from(part.positions.len() - 1).unwrap_or(u32::MAX)
     }
 }
+
+/// By how much the square of a length is greater on the sphere than on a face, at most.
+const STRETCH: f64 = 2.0;
 
 /// The heights that are seen at all corners of the cells of a tile.
 fn grid(globe: &Globe, face: usize, tile: &Tile) -> Grid {

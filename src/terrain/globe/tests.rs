@@ -52,12 +52,12 @@ fn eye(stream: &mut Stream) -> DVec3 {
 }
 
 /// Checks that each edge of the triangles of a globe has exactly one other at its other side, with the same ends.
-fn check_closed(globe: &Globe, error: Option<f64>) -> usize {
+fn check_closed(globe: &Globe, error: f64) -> usize {
     let mesh = GlobeMesh::new(globe, error);
     let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
     let (mut count, mut volume) = (0, 0.0);
     for (face, tile) in globe.tiles() {
-        let pieces = mesh.write(face, tile, 0.0);
+        let pieces = mesh.write(face, tile, 0.0, None);
         for part in [&pieces.land, &pieces.water] {
             let point = |at: u32| pieces.origin + part.positions[at as usize].as_dvec3();
             let bits = |at: u32| point(at).to_array().map(|number| (number + 0.0).to_bits());
@@ -93,8 +93,8 @@ fn a_globe_at_mixed_detail_has_no_open_edge() {
         let levels = globe.tiles().map(|(_, tile)| tile.place.level);
         let (low, high) = levels.fold((99, 0), |(low, high), level| (level.min(low), level.max(high)));
         assert!(high - low >= 2, "{low} {high}");
-        let fine = check_closed(&globe, Some(0.5));
-        let coarse = check_closed(&globe, None);
+        let fine = check_closed(&globe, 0.002);
+        let coarse = check_closed(&globe, 0.1);
         assert!(coarse < fine, "{coarse} {fine}");
     }
 }
@@ -123,8 +123,8 @@ fn the_way_to_a_place_does_not_matter() {
 
 #[test]
 fn the_edges_of_the_cube_do_not_show() {
-    for smooth in [false, true] {
-        let mut globe = Globe::new(world(9, smooth), RADIUS, None);
+    for seed in 0..3 {
+        let mut globe = Globe::new(world(seed, true), RADIUS, None);
         globe.focus(None, 6.0, 9, &Tables).unwrap();
         let step = globe.world().cell(globe.finest()) / RADIUS;
         // Steps across each edge of the cube, and across as many other great circles.
@@ -159,7 +159,7 @@ fn the_edges_of_the_cube_do_not_show() {
             others = (others.0 + found.0, others.1 + found.1);
         }
         for ratio in [edges.0 / others.0, edges.1 / others.1] {
-            assert!((0.5..2.0).contains(&ratio), "{smooth}: {edges:?} {others:?}");
+            assert!((0.5..2.0).contains(&ratio), "{seed}: {edges:?} {others:?}");
         }
     }
 }
@@ -173,15 +173,17 @@ fn an_eye_near_the_ground_sees_it_closely() {
     globe.focus(Some(way * (RADIUS + height.max(0.0) + 2.0)), 2.0, 18, &Tables).unwrap();
     assert_eq!(globe.finest(), 18);
     assert_eq!(globe.height(way).unwrap().to_bits(), height.to_bits());
-    assert!(globe.heights() < 2_000_000);
+    assert!(globe.heights() < 5_000_000);
 }
 
 #[test]
-fn what_is_behind_the_horizon_is_known() {
+fn what_is_behind_the_horizon_can_be_left_out() {
     let mut globe = Globe::new(world(4, true), RADIUS, None);
     let eye = DVec3::X * (RADIUS * 1.05);
     globe.focus(Some(eye), 2.0, 12, &Tables).unwrap();
-    let seen = globe.tiles().filter(|(face, tile)| globe.is_above_horizon(eye, *face, tile)).count();
-    assert!(seen > 10 && seen < globe.tiles().count());
-    assert!(globe.tiles().all(|(face, tile)| face != 2 || !globe.is_above_horizon(eye, face, tile)));
+    let mesh = GlobeMesh::new(&globe, 0.1);
+    let seen = |face, tile| !mesh.write(face, tile, 0.0, Some(eye)).is_empty();
+    let count = globe.tiles().filter(|(face, tile)| seen(*face, tile)).count();
+    assert!(count > 10 && count < globe.tiles().count());
+    assert!(globe.tiles().all(|(face, tile)| face != 2 || !seen(face, tile)));
 }
