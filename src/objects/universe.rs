@@ -135,10 +135,38 @@ const PLAIN: Sort = Sort {
 };
 
 const GALAXIES: &[Sort] = &[
-    Sort { name: "spiral", weight: 6.0, radius: (2e4, 9e4), color: [190, 205, 255], shape: (0.04, 2), ..PLAIN },
-    Sort { name: "barred", weight: 3.0, radius: (2e4, 8e4), color: [215, 212, 240], shape: (0.04, 4), ..PLAIN },
-    Sort { name: "elliptical", weight: 2.0, radius: (1e4, 2e5), color: [255, 225, 185], shape: (0.6, 0), ..PLAIN },
-    Sort { name: "irregular", weight: 3.0, radius: (3e3, 1.5e4), color: [185, 215, 255], shape: (0.4, 0), ..PLAIN },
+    Sort {
+        name: "spiral",
+        weight: 6.0,
+        radius: (2e4, 9e4),
+        color: [190, 205, 255],
+        shape: (0.04, 2),
+        ..PLAIN
+    },
+    Sort {
+        name: "barred",
+        weight: 3.0,
+        radius: (2e4, 8e4),
+        color: [215, 212, 240],
+        shape: (0.04, 4),
+        ..PLAIN
+    },
+    Sort {
+        name: "elliptical",
+        weight: 2.0,
+        radius: (1e4, 2e5),
+        color: [255, 225, 185],
+        shape: (0.6, 0),
+        ..PLAIN
+    },
+    Sort {
+        name: "irregular",
+        weight: 3.0,
+        radius: (3e3, 1.5e4),
+        color: [185, 215, 255],
+        shape: (0.4, 0),
+        ..PLAIN
+    },
 ];
 
 /// By the classes of Morgan and Keenan, as often as near the sun.
@@ -249,7 +277,11 @@ impl Whose {
 }
 
 /// A number of a thing or a cube. Fails if it is not whole.
-#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the number is whole and below 2^53")]
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the number is whole and below 2^53"
+)]
 fn whole(number: f64) -> Result<usize> {
     if number.fract() == 0.0 && number.abs() < 9_007_199_254_740_992.0 {
         return Ok((number as i64) as usize);
@@ -347,7 +379,8 @@ mod tests {
                     assert!(orbit > last);
                     last = orbit;
                     kinds.insert(String::from_value(field(&planet, "kind")).unwrap());
-                    warm += i32::from((0.5..1.5).contains(&f64::from_value(field(&planet, "light")).unwrap()));
+                    warm +=
+                        i32::from((0.5..1.5).contains(&f64::from_value(field(&planet, "light")).unwrap()));
                     assert!(Color::from_value(field(&planet, "color")).is_ok());
                 }
             }

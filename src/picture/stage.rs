@@ -150,8 +150,7 @@ impl<'a> Stage<'a> {
             let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
             let triangles = &draw.part.triangles[from..to];
             let matrix = to_double(view) * draw.exact;
-            let turn =
-                |point: &glam::Vec3| project(matrix.transform_point3(point.as_dvec3()).as_vec3a());
+            let turn = |point: &glam::Vec3| project(matrix.transform_point3(point.as_dvec3()).as_vec3a());
             let (least, most) =
                 triangles.iter().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(*i), b.max(*i)));
             let (least, most) = (least as usize, most as usize);

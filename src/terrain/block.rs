@@ -71,12 +71,7 @@ impl Area {
     #[must_use]
     pub fn grown(self, margin: u32) -> Self {
         let (less, more) = (i64::from(margin), 2 * margin as usize);
-        Self {
-            x: self.x - less,
-            y: self.y - less,
-            columns: self.columns + more,
-            rows: self.rows + more,
-        }
+        Self { x: self.x - less, y: self.y - less, columns: self.columns + more, rows: self.rows + more }
     }
 
     /// The smallest area that holds this one and another.

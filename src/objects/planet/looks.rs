@@ -86,7 +86,8 @@ impl<'a> Relief<'a> {
         let mut corners = Vec::with_capacity(across * across);
         for y in (own.y..).take(across) {
             for x in (own.x..).take(across) {
-                let [a, b, c, d] = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)].map(|(x, y)| tile.cell(x, y));
+                let [a, b, c, d] =
+                    [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)].map(|(x, y)| tile.cell(x, y));
                 let slope = DVec2::new(b + d - a - c, c + d - a - b) / (2.0 * cell);
                 corners.push(slope.extend(tile.corner(x, y)));
             }
@@ -120,9 +121,12 @@ impl<'a> Relief<'a> {
         let here = north.lerp(at(0, 1).lerp(at(1, 1), part.x), part.y);
         let own = Tile::own(self.tile.place, self.tile.detail);
         let (x, y) = (own.x + x as i64, own.y + y as i64);
-        let around: f64 = [(-1, 0), (1, 0), (0, -1), (0, 1)].map(|(right, down)| tile.cell(x + right, y + down)).iter().sum();
+        let around: f64 = [(-1, 0), (1, 0), (0, -1), (0, 1)]
+            .map(|(right, down)| tile.cell(x + right, y + down))
+            .iter()
+            .sum();
         Spot {
-            place: Place::Round(way * globe.radius()),
+            place: Place::Round(way * globe.radius(), texel(globe, tile)),
             height: here.z,
             slope: here.truncate().length().atan().to_degrees(),
             curvature: (around - 4.0 * tile.cell(x, y)) / (self.cell * self.cell),

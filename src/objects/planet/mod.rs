@@ -136,7 +136,9 @@ impl Planet {
                 .help("give a length above 0 and up to 1e9 m"));
         }
         if options.error < 0.0 {
-            return Err(Error::new("planet: error is below 0").help("give a part of a cell's size, such as 0.05"));
+            return Err(
+                Error::new("planet: error is below 0").help("give a part of a cell's size, such as 0.05")
+            );
         }
         if !(DETAIL..=DEEPEST).contains(&options.levels) {
             return Err(Error::new(format!("planet: levels is {}", options.levels))
@@ -208,7 +210,8 @@ impl Planet {
 
 fn towards(direction: Vector) -> Result<DVec3> {
     direction.0.try_normalize().ok_or_else(|| {
-        Error::new("planet: the direction has no length").help("give a place seen from its middle, such as { 1, 0, 0 }")
+        Error::new("planet: the direction has no length")
+            .help("give a place seen from its middle, such as { 1, 0, 0 }")
     })
 }
 

@@ -37,7 +37,9 @@ impl Parameter for Mask {
 
     fn from_value(value: Value) -> Result<Self, Expected> {
         let Value::Table(table) = &value else {
-            return Err(Expected::new("a table of height, slope, curvature, latitude, symbols, noise and scale"));
+            return Err(Expected::new(
+                "a table of height, slope, curvature, latitude, symbols, noise and scale",
+            ));
         };
         let mask = Self::from_table(table)
             .map_err(|error| Expected::new(format!("a place ({})", error.message())))?;
@@ -62,8 +64,8 @@ impl Parameter for Mask {
 pub(in crate::objects) enum Place {
     /// On flat ground (m).
     Flat(DVec2),
-    /// On a globe (m, from its middle).
-    Round(DVec3),
+    /// On a globe (m, from its middle), seen with grains of a size (m).
+    Round(DVec3, f64),
 }
 
 /// How the ground is at a place.
@@ -150,7 +152,9 @@ impl Mask {
             _ if self.noise <= 0.0 => 0.0,
             _ if self.is_fading() && fades().all(|along| along >= 1.0 + self.noise) => 0.0,
             Place::Flat(place) => octaves(place / self.scale, 4, seed) * self.noise,
-            Place::Round(place) => octaves_around(place / self.scale, 4, seed) * self.noise,
+            Place::Round(place, grain) => {
+                octaves_around(place / self.scale, 4, seed, grain / self.scale) * self.noise
+            }
         };
         if self.noise > 0.0 && !self.is_fading() {
             return eased(0.5 + shift * 1.5);

@@ -280,7 +280,8 @@ impl RuleLayers {
     /// What to tell people of decays that do not shrink.
     pub(in crate::objects) fn warnings(&self, kind: &str) -> Vec<String> {
         let grown = self.0.iter().find_map(RuleLayer::grows);
-        let warning = |decay| format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
+        let warning =
+            |decay| format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
         grown.map(warning).into_iter().collect()
     }
 }

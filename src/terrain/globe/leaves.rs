@@ -3,9 +3,9 @@
 use glam::{DVec2, DVec3};
 
 use super::sphere::{direction, side};
-use crate::error::Result;
+use crate::error::{Error, Result};
 use crate::terrain::tile::Place;
-use crate::terrain::view::{MOST_HEIGHTS, too_many};
+use crate::terrain::view::MOST_HEIGHTS;
 use crate::terrain::world::World;
 
 /// How often each tile is divided.
@@ -64,8 +64,11 @@ impl Tree {
         let may = level + DETAIL < sight.levels.min(DEEPEST);
         if !may || distance(radius, sight, leaf) >= sight.closeness * size {
             self.leaves.push(leaf);
-            let heights = (self.leaves.len() as u64) << (2 * DETAIL);
-            return if heights > MOST_HEIGHTS { Err(too_many(heights)) } else { Ok(Link::Leaf(self.leaves.len() - 1)) };
+            if (self.leaves.len() as u64) << (2 * DETAIL) > MOST_HEIGHTS {
+                return Err(Error::new(format!("planet: that would be more than {MOST_HEIGHTS} heights"))
+                    .help("lower closeness or levels: most of it is far away"));
+            }
+            return Ok(Link::Leaf(self.leaves.len() - 1));
         }
         let index = self.divided.len();
         self.divided.push([Link::Divided(index); 4]);
@@ -108,7 +111,10 @@ fn distance(radius: f64, sight: &Sight, leaf: Leaf) -> f64 {
 pub(super) fn ball((face, Place { level, y, x }): Leaf) -> (DVec3, f64) {
     let across = World::across(level) as f64;
     let at = |right: f64, down: f64| {
-        direction(face, DVec2::new(2.0 * (x as f64 + right) / across - 1.0, 1.0 - 2.0 * (y as f64 + down) / across))
+        direction(
+            face,
+            DVec2::new(2.0 * (x as f64 + right) / across - 1.0, 1.0 - 2.0 * (y as f64 + down) / across),
+        )
     };
     let middle = at(0.5, 0.5);
     let corners = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];

@@ -90,7 +90,8 @@ impl<'a> GlobeMesh<'a> {
         let error = self.error * self.globe.world().cell(tile.level());
         let cell = self.globe.world().cell(self.globe.finest());
         #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
-        let square: f64 = (0..2).map(|axis| ((triangle.a[axis] - triangle.b[axis]) as f64 * cell).powi(2)).sum();
+        let square: f64 =
+            (0..2).map(|axis| ((triangle.a[axis] - triangle.b[axis]) as f64 * cell).powi(2)).sum();
         let bulge = square * STRETCH / (8.0 * self.globe.radius());
         (bulge > error || grid.is_far(triangle, error)).then_some((face, middle[0], middle[1]))
     }
@@ -122,7 +123,8 @@ impl<'a> GlobeMesh<'a> {
         let globe = self.globe;
         let own = step(globe, tile);
         // On the ground in its middle, so that all of it is near.
-        let middle = tile.cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
+        let middle = tile
+            .cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
         let out = globe.radius() + globe.shown(middle);
         let origin = snapped(ball((face, tile.place)).0 * out, own);
         let mut pieces = Pieces { origin, ..Pieces::default() };
@@ -135,7 +137,8 @@ impl<'a> GlobeMesh<'a> {
                 continue;
             }
             let corners = [triangle.a, triangle.b, triangle.apex];
-            let seen = |eye| corners.iter().any(|[x, y]| globe.is_above_horizon(eye, globe.point((face, *x, *y))));
+            let seen =
+                |eye| corners.iter().any(|[x, y]| globe.is_above_horizon(eye, globe.point((face, *x, *y))));
             if eye.is_some_and(|eye| !seen(eye)) {
                 continue;
             }
@@ -153,8 +156,18 @@ impl<'a> GlobeMesh<'a> {
     }
 
     /// Adds a corner to a part, and gives its number there.
-    #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
-    fn add(&self, tile: &Tile, (face, [x, y]): (usize, Corner), (origin, begin): (DVec3, f64), part: &mut Part) -> u32 {
+    #[allow(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        reason = "texture coordinates are f32"
+    )]
+    fn add(
+        &self,
+        tile: &Tile,
+        (face, [x, y]): (usize, Corner),
+        (origin, begin): (DVec3, f64),
+        part: &mut Part,
+    ) -> u32 {
         let globe = self.globe;
         let spot = (face, x, y);
         let coarsest = globe.coarsest(spot).map_or(tile, |(tile, _)| tile);
