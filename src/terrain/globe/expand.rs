@@ -6,6 +6,7 @@
 
 use super::faces::{Spot, cell};
 use crate::error::Result;
+use crate::rules::Key;
 use crate::terrain::block::{Area, Block};
 use crate::terrain::world::{Divide, World, smooth};
 
@@ -21,29 +22,30 @@ pub(super) fn expand(
     world: &World,
     wanted: &[Areas],
     divide: &dyn Divide,
-    found: &mut dyn FnMut(u32, &[Block; 6]),
+    found: &mut dyn FnMut(u32, &[Block]),
 ) -> Result<()> {
-    let Some(deepest) = (0..).zip(wanted).map(|(level, _)| level).last() else { return Ok(()) };
+    let levels: Vec<(u32, &Areas)> = (0..).zip(wanted).collect();
+    let Some((deepest, _)) = levels.last().copied() else { return Ok(()) };
     let margin = i64::from(world.smooth);
     let mut needed: Vec<Areas> = Vec::with_capacity(wanted.len());
-    for (level, mut areas) in (0u32..).zip(wanted.iter().copied()).collect::<Vec<_>>().into_iter().rev() {
+    for (level, wanted) in levels.iter().rev() {
+        let mut areas = **wanted;
         if let Some(below) = needed.last() {
             for (area, below) in areas.iter_mut().zip(below) {
                 *area = area.joined(below.above(margin));
             }
         }
-        needed.push(settled(&areas, World::across(level)));
+        needed.push(settled(&areas, World::across(*level)));
     }
     needed.reverse();
-    let mut blocks: [Block; 6] = std::array::from_fn(|face| {
-        let mut root = world.root();
-        root.keys = world.key.map(|key| key.child(face)).into_iter().collect();
-        root
-    });
-    for (level, (wanted, needed)) in (0u32..).zip(wanted.iter().zip(&needed)) {
+    let root = |face| Block {
+        keys: world.key.map(|key: Key| key.child(face)).into_iter().collect(),
+        ..world.root()
+    };
+    let mut blocks: Vec<Block> = (0..6).map(root).collect();
+    for ((level, wanted), needed) in levels.into_iter().zip(&needed) {
         if level > 0 {
-            let last = level == deepest;
-            blocks = divided(world, &blocks, needed, last, divide)?;
+            blocks = divided(world, &blocks, needed, level == deepest, divide)?;
         }
         if wanted.iter().any(|area| !area.is_empty()) {
             found(level, &blocks);
@@ -55,11 +57,11 @@ pub(super) fn expand(
 /// The cells of `needed`, out of those above them.
 fn divided(
     world: &World,
-    above: &[Block; 6],
+    above: &[Block],
     needed: &Areas,
     last: bool,
     divide: &dyn Divide,
-) -> Result<[Block; 6]> {
+) -> Result<Vec<Block>> {
     let mut made = Vec::with_capacity(6);
     for (face, needed) in needed.iter().enumerate() {
         let cells = &above[face];
@@ -81,11 +83,11 @@ fn divided(
         world.begin_layer(&mut block);
         made.push(block);
     }
-    made.try_into().map_err(|_| crate::error::Error::new("a cube has six faces"))
+    Ok(made)
 }
 
 /// The numbers of the cells of `area`, which may lie beyond the sides of `face`.
-pub(super) fn padded(blocks: &[Block; 6], face: usize, area: Area, of: fn(&Block) -> &[f64]) -> Vec<f64> {
+pub(super) fn padded(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -> &[f64]) -> Vec<f64> {
     let across = World::across(blocks[face].level);
     let known = |(face, x, y): Spot| {
         let (face, x, y) = cell((face, x, y), across)?;

@@ -127,6 +127,10 @@ impl<'a> GlobeMesh<'a> {
             .cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
         let out = globe.radius() + globe.shown(middle);
         let origin = snapped(ball((face, tile.place)).0 * out, own);
+        // Where all of the tile is above the horizon, its triangles need not be asked.
+        let rim =
+            corners(tile.place, globe.finest()).map(|[x, y]| globe.direction((face, x, y)) * globe.radius());
+        let eye = eye.filter(|eye| !rim.iter().all(|corner| globe.is_above_horizon(*eye, *corner)));
         let mut pieces = Pieces { origin, ..Pieces::default() };
         let mut known: [FxHashMap<Corner, u32>; 2] = Default::default();
         let mut open: Vec<Triangle> = roots(tile.place, globe.finest()).into_iter().rev().collect();
