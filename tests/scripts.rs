@@ -59,7 +59,7 @@ fn named(before: &str, after: &str) -> BTreeSet<String> {
 fn the_gallery_shows_every_script_and_no_other() {
     let shipped: BTreeSet<String> =
         scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
-    assert_eq!(shipped.len(), 18);
+    assert_eq!(shipped.len(), 19);
     assert_eq!(named("](scripts/", ".lua)"), shipped);
     let mut shown = named("](docs/pictures/", ".png)");
     assert!(["variations", "live", "village", "roofs", "quay"].iter().all(|name| shown.remove(*name)));
@@ -124,7 +124,7 @@ fn every_lua_block_of_the_readme_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 9);
+    assert_eq!(count, 10);
     assert_eq!(count, README.matches("```lua").count(), "a fragment would go untested");
 }
 

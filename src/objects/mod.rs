@@ -21,10 +21,13 @@ mod makers;
 mod model;
 mod note;
 mod parameter;
+pub mod planet;
+mod seed;
 mod streets;
 mod surface;
 pub mod terrain;
 mod turtle;
+mod universe;
 mod value;
 
 pub use boxed::Boxed;
@@ -39,10 +42,13 @@ pub(crate) use makers::Makers;
 pub use model::Model;
 pub use note::Note;
 pub use parameter::{Answer, Color, Expected, Parameter, Vector};
+pub use planet::Planet;
+pub use seed::Seed;
 pub use streets::{Lines, Streets};
 pub use surface::Surface;
 pub use terrain::Terrain;
 pub use turtle::Turtle;
+pub use universe::Universe;
 pub use value::{Key, Table, Value};
 
 use std::any::Any;
@@ -55,9 +61,11 @@ use crate::terrain::Divide;
 pub static KINDS: &[&Kind] = &[
     &Extruder::KIND,
     &Footprint::KIND,
+    &Planet::KIND,
     &Streets::KIND,
     &Terrain::KIND,
     &Turtle::KIND,
+    &Universe::KIND,
     &facade::PANEL,
     &facade::BORDERED,
     &facade::EXTRUDED,

@@ -33,6 +33,8 @@ pub(super) struct Draw<'a> {
     pub part: &'a Part,
     /// From the mesh's coordinates to the stage's.
     pub place: Affine3A,
+    /// The same, exactly: corners that meshes share stay one point, wherever their origins are.
+    exact: DAffine3,
     /// The number of its first triangle.
     pub first: u32,
     /// Whether the placement turns counter-clockwise into clockwise.
@@ -69,17 +71,17 @@ impl<'a> Stage<'a> {
         let mut places = Vec::new();
         let mut count = 0_u32;
         for instance in &scene.instances {
-            let place = shrink * instance.transform;
-            if !place.is_finite() {
+            let exact = shrink * instance.transform;
+            if !exact.is_finite() {
                 continue;
             }
-            let place = to_single(&place);
+            let place = to_single(&exact);
             places.push((instance.mesh, place));
             let mirrored = place.matrix3.determinant() < 0.0;
             for part in &scene.meshes[instance.mesh].parts {
                 let material = &scene.materials[part.material];
                 let (opacity, double_sided) = (material.base_color[3], material.double_sided);
-                draws.push(Draw { part, place, first: count, mirrored, opacity, double_sided });
+                draws.push(Draw { part, place, exact, first: count, mirrored, opacity, double_sided });
                 let length = u32::try_from(part.triangles.len()).ok();
                 count = length
                     .and_then(|length| count.checked_add(length))
@@ -147,8 +149,8 @@ impl<'a> Stage<'a> {
             let from = (numbers.start.max(draw.first) - draw.first) as usize;
             let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
             let triangles = &draw.part.triangles[from..to];
-            let matrix = *view * draw.place;
-            let turn = |point: &glam::Vec3| project(matrix.transform_point3a(Vec3A::from(*point)));
+            let matrix = to_double(view) * draw.exact;
+            let turn = |point: &glam::Vec3| project(matrix.transform_point3(point.as_dvec3()).as_vec3a());
             let (least, most) =
                 triangles.iter().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(*i), b.max(*i)));
             let (least, most) = (least as usize, most as usize);
@@ -179,6 +181,11 @@ pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
     let half = (high - low).length() / 2.0;
     // A model without size, such as a point, is shown as if it measured a metre.
     ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
+}
+
+/// `place` at double precision.
+fn to_double(place: &Affine3A) -> DAffine3 {
+    DAffine3 { matrix3: place.matrix3.as_dmat3(), translation: place.translation.as_dvec3() }
 }
 
 /// `place` at single precision.

@@ -52,6 +52,38 @@ impl Area {
         Self { x, y, columns, rows }
     }
 
+    /// The cells whose quadrants cover this area, and `margin` more on each side, also outside the world.
+    #[must_use]
+    pub fn above(self, margin: i64) -> Self {
+        let span = |first: i64, count: usize| {
+            let low = first.div_euclid(2) - margin;
+            let high = (first + count_of(count) - 1).div_euclid(2) + margin;
+            (low, usize::try_from(high - low + 1).unwrap_or(0))
+        };
+        if self.is_empty() {
+            return self;
+        }
+        let ((x, columns), (y, rows)) = (span(self.x, self.columns), span(self.y, self.rows));
+        Self { x, y, columns, rows }
+    }
+
+    /// The area with `margin` cells more on each side, also outside the world.
+    #[must_use]
+    pub fn grown(self, margin: u32) -> Self {
+        let (less, more) = (i64::from(margin), 2 * margin as usize);
+        Self { x: self.x - less, y: self.y - less, columns: self.columns + more, rows: self.rows + more }
+    }
+
+    /// The smallest area that holds this one and another.
+    #[must_use]
+    pub fn joined(self, other: Self) -> Self {
+        match (self.is_empty(), other.is_empty()) {
+            (true, _) => other,
+            (_, true) => self,
+            _ => Self::around([self, other].into_iter().flat_map(|it| [it.at(0), it.at(it.len() - 1)])),
+        }
+    }
+
     /// The quadrants of its cells.
     #[must_use]
     pub fn quadrants(self) -> Self {

@@ -11,41 +11,41 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ground::Ground;
-use super::tile::Tile;
+use super::tile::{Place, Tile};
 use crate::scene::Part;
 
 /// A corner of the smallest cells: column from the west and row from the north.
-type Corner = [i64; 2];
+pub(super) type Corner = [i64; 2];
 
 /// A triangle with its right angle at `apex`.
 #[derive(Debug, Clone, Copy)]
-struct Triangle {
-    a: Corner,
-    b: Corner,
-    apex: Corner,
+pub(super) struct Triangle {
+    pub a: Corner,
+    pub b: Corner,
+    pub apex: Corner,
 }
 
 impl Triangle {
     /// The middle of its longest side, where it is halved; `None` for one that cannot be halved.
-    fn middle(&self) -> Option<Corner> {
+    pub(super) fn middle(&self) -> Option<Corner> {
         let sum = [self.a[0] + self.b[0], self.a[1] + self.b[1]];
         (sum[0] & 1 == 0 && sum[1] & 1 == 0).then(|| [sum[0] >> 1, sum[1] >> 1])
     }
 
-    fn halves(&self, middle: Corner) -> [Self; 2] {
+    pub(super) fn halves(&self, middle: Corner) -> [Self; 2] {
         [Self { a: self.apex, b: self.a, apex: middle }, Self { a: self.b, b: self.apex, apex: middle }]
     }
 }
 
 /// The heights (m) at all corners of the cells of a tile.
-struct Grid {
-    heights: Vec<f64>,
+pub(super) struct Grid {
+    pub heights: Vec<f64>,
     /// Corners along a side.
-    across: usize,
+    pub across: usize,
     /// The first of its corners.
-    first: Corner,
+    pub first: Corner,
     /// How many times its cells are as large as the smallest: this power of two.
-    shift: u32,
+    pub shift: u32,
 }
 
 impl Grid {
@@ -72,7 +72,7 @@ impl Grid {
 
     /// Whether the ground is anywhere farther than `error` (m) from a triangle, all of whose corners are its own.
     #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
-    fn is_far(&self, triangle: &Triangle, error: f64) -> bool {
+    pub(super) fn is_far(&self, triangle: &Triangle, error: f64) -> bool {
         let own = |corner: Corner| {
             let [x, y] = [0, 1].map(|axis| usize::try_from((corner[axis] - self.first[axis]) >> self.shift));
             (x.unwrap_or(0), y.unwrap_or(0))
@@ -140,8 +140,8 @@ impl<'a> Mesh<'a> {
         let mut mesh = Self { ground, grids, halved: FxHashSet::default(), error };
         let mut wanted = Vec::new();
         for tile in ground.tiles() {
-            wanted.extend(mesh.corners(tile));
-            for triangle in mesh.roots(tile) {
+            wanted.extend(corners(tile.place, ground.finest()));
+            for triangle in roots(tile.place, ground.finest()) {
                 wanted.extend(mesh.want(&triangle));
             }
         }
@@ -149,23 +149,6 @@ impl<'a> Mesh<'a> {
             mesh.halve(corner, &mut wanted);
         }
         mesh
-    }
-
-    /// The corners of a tile: north-west, north-east, south-west and south-east.
-    fn corners(&self, tile: &Tile) -> [Corner; 4] {
-        let size = 1i64 << (self.ground.finest() - tile.place.level);
-        let [x, y] = [tile.place.x * size, tile.place.y * size];
-        [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
-    }
-
-    /// The two triangles that a tile begins with, counter-clockwise from above.
-    fn roots(&self, tile: &Tile) -> [Triangle; 2] {
-        let [a, b, c, d] = self.corners(tile);
-        if (tile.place.x + tile.place.y) & 1 == 0 {
-            [Triangle { a, b: d, apex: b }, Triangle { a: d, b: a, apex: c }].map(turned)
-        } else {
-            [Triangle { a: b, b: c, apex: a }, Triangle { a: c, b, apex: d }].map(turned)
-        }
     }
 
     /// Where a triangle has to be halved, if it has.
@@ -193,7 +176,7 @@ impl<'a> Mesh<'a> {
         if !self.halved.insert(key(corner)) {
             return;
         }
-        let Some((parents, ends)) = self.diamond(corner) else { return };
+        let Some((parents, ends)) = diamond(corner, 1 << self.ground.finest()) else { return };
         wanted.extend(parents);
         for apex in parents {
             let triangle = Triangle { a: ends[0], b: ends[1], apex };
@@ -203,34 +186,12 @@ impl<'a> Mesh<'a> {
         }
     }
 
-    /// The two corners at the right angles of the triangles that are halved at `corner`, and the ends of their longest
-    /// side; `None` for corners of the world.
-    fn diamond(&self, [x, y]: Corner) -> Option<([Corner; 2], [Corner; 2])> {
-        let world = 1i64 << self.ground.finest();
-        let step = (x | y) & -(x | y);
-        if step == 0 || step >= world {
-            return None;
-        }
-        let (odd_x, odd_y) = (x & step != 0, y & step != 0);
-        let beside = |right: i64, down: i64| [x + right * step, y + down * step];
-        Some(if odd_x && odd_y {
-            let (one, other) = ([beside(-1, -1), beside(1, 1)], [beside(1, -1), beside(-1, 1)]);
-            let [cx, cy] = one[0];
-            let even = ((cx / (2 * step)) + (cy / (2 * step))) & 1 == 0;
-            if even { (other, one) } else { (one, other) }
-        } else if odd_x {
-            ([beside(0, -1), beside(0, 1)], [beside(-1, 0), beside(1, 0)])
-        } else {
-            ([beside(-1, 0), beside(1, 0)], [beside(0, -1), beside(0, 1)])
-        })
-    }
-
     /// The triangles over a tile, as numbers of its corners.
     fn triangles(&self, tile: &Tile) -> (Vec<Corner>, Vec<[u32; 3]>) {
         let mut corners = Vec::new();
         let mut known: FxHashMap<u64, u32> = FxHashMap::default();
         let mut triangles = Vec::new();
-        let mut open: Vec<Triangle> = self.roots(tile).into_iter().rev().collect();
+        let mut open: Vec<Triangle> = roots(tile.place, self.ground.finest()).into_iter().rev().collect();
         while let Some(triangle) = open.pop() {
             match triangle.middle().filter(|middle| self.halved.contains(&key(*middle))) {
                 Some(middle) => open.extend(triangle.halves(middle).into_iter().rev()),
@@ -287,6 +248,44 @@ impl<'a> Mesh<'a> {
             }
         }
         edges
+    }
+}
+
+/// The two corners at the right angles of the triangles that are halved at a corner, and the ends of their longest side;
+/// `None` for the corners of a world of `across` smallest cells.
+pub(super) fn diamond([x, y]: Corner, across: i64) -> Option<([Corner; 2], [Corner; 2])> {
+    let step = (x | y) & -(x | y);
+    if step == 0 || step >= across {
+        return None;
+    }
+    let (odd_x, odd_y) = (x & step != 0, y & step != 0);
+    let beside = |right: i64, down: i64| [x + right * step, y + down * step];
+    Some(if odd_x && odd_y {
+        let (one, other) = ([beside(-1, -1), beside(1, 1)], [beside(1, -1), beside(-1, 1)]);
+        let [cx, cy] = one[0];
+        let even = ((cx / (2 * step)) + (cy / (2 * step))) & 1 == 0;
+        if even { (other, one) } else { (one, other) }
+    } else if odd_x {
+        ([beside(0, -1), beside(0, 1)], [beside(-1, 0), beside(1, 0)])
+    } else {
+        ([beside(-1, 0), beside(1, 0)], [beside(0, -1), beside(0, 1)])
+    })
+}
+
+/// The corners of a tile, in cells of the level `finest`: north-west, north-east, south-west and south-east.
+pub(super) fn corners(place: Place, finest: u32) -> [Corner; 4] {
+    let size = 1i64 << (finest - place.level);
+    let [x, y] = [place.x * size, place.y * size];
+    [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
+}
+
+/// The two triangles that a tile begins with, counter-clockwise from above.
+pub(super) fn roots(place: Place, finest: u32) -> [Triangle; 2] {
+    let [a, b, c, d] = corners(place, finest);
+    if (place.x + place.y) & 1 == 0 {
+        [Triangle { a, b: d, apex: b }, Triangle { a: d, b: a, apex: c }].map(turned)
+    } else {
+        [Triangle { a: b, b: c, apex: a }, Triangle { a: c, b, apex: d }].map(turned)
     }
 }
 

@@ -8,6 +8,7 @@
 mod block;
 mod edits;
 pub mod fit;
+pub mod globe;
 mod ground;
 mod mesh;
 mod noise;
@@ -23,7 +24,7 @@ pub use block::{Area, Block};
 pub use edits::{Edit, Edits};
 pub use ground::{Ground, Map};
 pub use mesh::Mesh;
-pub use noise::octaves;
+pub use noise::{octaves, octaves_around};
 pub use river::Drainage;
 pub use table::{Draw, Quadrants, RuleTable};
 pub use tile::{Place, Tile};

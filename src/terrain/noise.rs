@@ -1,6 +1,6 @@
 //! Noise by place: smooth, between -1 and 1, the same everywhere at all times.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// Value noise at `place`, which changes over a distance of 1.
 fn noise(place: DVec2, seed: u64) -> f64 {
@@ -25,6 +25,36 @@ pub fn octaves(place: DVec2, octaves: u32, seed: u64) -> f64 {
     if whole > 0.0 { sum / whole } else { 0.0 }
 }
 
+/// Value noise at `place` in space, which changes over a distance of 1.
+fn noise_around(place: DVec3, seed: u64) -> f64 {
+    let cell = place.floor();
+    let part = place - cell;
+    let ease = part * part * part * (part * (part * 6.0 - 15.0) + 10.0);
+    let level = |up: f64| {
+        // Each level of corners has numbers of its own.
+        let seed = seed ^ (cell.z + up + 0.0).to_bits().wrapping_mul(0xD6E8_FEB8_6659_FD93);
+        let at = |right: f64, down: f64| corner(cell.x + right, cell.y + down, seed);
+        let near = at(0.0, 0.0) + (at(1.0, 0.0) - at(0.0, 0.0)) * ease.x;
+        let far = at(0.0, 1.0) + (at(1.0, 1.0) - at(0.0, 1.0)) * ease.x;
+        near + (far - near) * ease.y
+    };
+    let below = level(0.0);
+    below + (level(1.0) - below) * ease.z
+}
+
+/// As [`octaves`], at a place in space; without those that are smaller than `finest`, which nobody would see.
+pub fn octaves_around(place: DVec3, octaves: u32, seed: u64, finest: f64) -> f64 {
+    let (mut sum, mut whole, mut strength, mut scale) = (0.0, 0.0, 1.0, 1.0);
+    for octave in 0..octaves {
+        if scale * finest < 1.0 {
+            sum += noise_around(place * scale, seed.wrapping_add(u64::from(octave))) * strength;
+        }
+        whole += strength;
+        (strength, scale) = (strength * 0.5, scale * 2.03);
+    }
+    if whole > 0.0 { sum / whole } else { 0.0 }
+}
+
 /// A number between -1 and 1 for a corner.
 #[allow(clippy::cast_precision_loss, reason = "53 bits fit an f64 exactly")]
 fn corner(x: f64, y: f64, seed: u64) -> f64 {
@@ -32,4 +62,24 @@ fn corner(x: f64, y: f64, seed: u64) -> f64 {
     bits = (bits ^ (bits >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
     bits = (bits ^ (bits >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     ((bits ^ (bits >> 31)) >> 11) as f64 / 4_503_599_627_370_496.0 - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_in_space_is_smooth_and_around_zero() {
+        let (mut sum, mut most) = (0.0, 0.0f64);
+        for step in 0..20_000 {
+            let place = DVec3::new(0.37, -0.21, 0.11) * f64::from(step) * 0.01;
+            let here = octaves_around(place, 4, 3, 0.0);
+            let there = octaves_around(place + DVec3::splat(1e-4), 4, 3, 0.0);
+            assert!(here.abs() <= 1.0 && (here - there).abs() < 0.01);
+            sum += here;
+            most = most.max((octaves_around(place, 4, 3, 0.3) - here).abs());
+        }
+        assert!((sum / 20_000.0).abs() < 0.1 && most > 0.0 && most < 0.5);
+        assert!(octaves_around(DVec3::ONE * 0.3, 4, 3, 2.0).abs() < 1e-300);
+    }
 }

@@ -174,11 +174,7 @@ impl World {
             let cells = block.as_ref().unwrap_or(from);
             let divided = below.parents(0, Self::across(cells.level));
             let last = last && step + 1 == steps;
-            let mut made = match &self.layer(cells.level).rules {
-                Rules::None => undivided(cells, divided),
-                Rules::Table(table) => table.divide(cells, divided, last),
-                Rules::System(system) => divide.divide(*system, cells, divided, last)?,
-            };
+            let mut made = self.quarter(cells, divided, last, divide)?;
             if self.smooth {
                 smooth(cells, &mut made);
             }
@@ -199,13 +195,28 @@ impl World {
         }
     }
 
+    /// The quadrants of the cells of `area`, by the rules alone.
+    pub(super) fn quarter(
+        &self,
+        cells: &Block,
+        area: Area,
+        last: bool,
+        divide: &dyn Divide,
+    ) -> Result<Block> {
+        match &self.layer(cells.level).rules {
+            Rules::None => Ok(undivided(cells, area)),
+            Rules::Table(table) => Ok(table.divide(cells, area, last)),
+            Rules::System(system) => divide.divide(*system, cells, area, last),
+        }
+    }
+
     fn layer(&self, level: u32) -> &Layer {
         let known = self.layers.iter().rev().find(|layer| layer.from <= level);
         known.unwrap_or(&self.layers[0])
     }
 
     /// Gives the cells what the rules from their level on begin with.
-    fn begin_layer(&self, block: &mut Block) {
+    pub(super) fn begin_layer(&self, block: &mut Block) {
         let Some(layer) = self.layers.iter().find(|layer| layer.from == block.level) else { return };
         block.symbols.fill(layer.start);
         block.stride = layer.rest.len();
@@ -249,7 +260,7 @@ fn undivided(cells: &Block, area: Area) -> Block {
 /// runs through it, and what their own heights add to those of the cells.
 ///
 /// Method: Doo and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978, on a grid.
-fn smooth(cells: &Block, made: &mut Block) {
+pub(super) fn smooth(cells: &Block, made: &mut Block) {
     let area = made.area;
     let columns = area.columns;
     if columns == 0 {

@@ -48,45 +48,44 @@ impl Parameter for Cover {
 /// How many texels a side of a tile's image has at most.
 const MOST_TEXELS: usize = 2048;
 
-/// The image of what lies on `tile`, where cells of the symbols `names` know which they are; and its size (m). Its
-/// outermost texels lie on the tile's rim, so that images of neighbours meet.
-pub(super) fn paint(
-    ground: &Ground,
-    tile: &Tile,
-    covers: &[Cover],
-    names: &[Vec<u16>],
-) -> Result<(Vec<u8>, usize)> {
+/// The image of what lies on `tile`, where cells of the symbols `names` know which they are; and how many texels a side
+/// of it has. Its outermost texels lie on the tile's rim, so that images of neighbours meet.
+pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover], names: &[Vec<u16>]) -> (Vec<u8>, usize) {
     let (corner, size) = tile.bounds(ground.world());
-    let cells = 1usize << tile.detail;
     // One tile alone is seen as a whole, many of them are far from most eyes.
     let fine = if ground.tiles().len() == 1 { 2 } else { 1 };
-    let across = (cells * fine).min(MOST_TEXELS) + 1;
+    let across = texels(tile, fine);
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
     let step = size / (across - 1) as f64;
     let reach = ground.world().cell(tile.level());
-    let rows: Vec<Vec<u8>> = (0..across)
-        .into_par_iter()
-        .map(|row| {
-            let mut bytes = Vec::with_capacity(across * 3);
-            for column in 0..across {
-                #[allow(clippy::cast_precision_loss, reason = "texels are few")]
-                let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
-                let place = (corner + offset).min(corner + size);
-                let color = color(ground, place, reach, covers, names);
-                bytes.extend(color.map(to_srgb));
-            }
-            bytes
-        })
-        .collect();
-    Ok((rows.concat(), across))
+    let bent = covers.iter().any(|cover| cover.on.is_bent());
+    let bytes = image(across, |column, row| {
+        #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+        let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
+        let place = (corner + offset).min(corner + size);
+        blend(&Spot::new(ground, place, reach, bent), covers, names)
+    });
+    (bytes, across)
 }
 
-fn color(ground: &Ground, place: DVec2, reach: f64, covers: &[Cover], names: &[Vec<u16>]) -> [f32; 3] {
-    let spot = Spot::new(ground, place, reach, covers.iter().any(|cover| cover.on.is_bent()));
+/// How many texels a side of a tile's image has, `fine` for each cell.
+pub(in crate::objects) fn texels(tile: &Tile, fine: usize) -> usize {
+    ((1usize << tile.detail) * fine).min(MOST_TEXELS) + 1
+}
+
+/// An image of `across` texels a side, each of the colour that `color` gives for its column and row from the north.
+pub(in crate::objects) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sync) -> Vec<u8> {
+    let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(to_srgb)).collect();
+    let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(row).collect();
+    rows.concat()
+}
+
+/// The colour of a spot under `covers`.
+pub(in crate::objects) fn blend(spot: &Spot, covers: &[Cover], names: &[Vec<u16>]) -> [f32; 3] {
     let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
     for (number, (cover, names)) in (0..).zip(covers.iter().zip(names)).skip(1) {
         #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-        let amount = (cover.on.at(ground, &spot, names, number) * cover.amount) as f32;
+        let amount = (cover.on.at(spot, names, number) * cover.amount) as f32;
         for (at, into) in color.iter_mut().enumerate() {
             *into += (cover.color.0[at] - *into) * amount;
         }
@@ -113,7 +112,7 @@ pub(super) fn half_texel(size: f64, across: usize) -> f64 {
 }
 
 /// A material with an image of `across` texels a side, laid over a tile of `size` (m).
-pub(super) fn material(
+pub(in crate::objects) fn material(
     name: String,
     bytes: &[u8],
     across: usize,

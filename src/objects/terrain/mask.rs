@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Expected, Parameter, Table, Value};
 use crate::rules::Symbol;
-use crate::terrain::{Ground, octaves};
+use crate::terrain::{Ground, octaves, octaves_around};
 
 fields! {
     /// Where a cover lies or plants grow.
@@ -18,6 +18,8 @@ fields! {
         pub slope: Vec<f64> = Vec::new(),
         /// From which curvature (1/m) to which it fades in; hollows are above 0, crests below.
         pub curvature: Vec<f64> = Vec::new(),
+        /// From which latitude (degrees, north or south) to which it fades in; on planets only.
+        pub latitude: Vec<f64> = Vec::new(),
         /// The symbols of the cells where it is; all, if there are none.
         pub symbols: Vec<String> = Vec::new(),
         /// How far (0 to 1) noise shifts where it fades in.
@@ -31,14 +33,14 @@ fields! {
 
 impl Parameter for Mask {
     fn luau() -> String {
-        "{ height: { number }?, slope: { number }?, curvature: { number }?, symbols: { string }?, noise: number?, patches: number?, scale: number? }"
+        "{ height: { number }?, slope: { number }?, curvature: { number }?, latitude: { number }?, symbols: { string }?, noise: number?, patches: number?, scale: number? }"
             .into()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
         let Value::Table(table) = &value else {
             return Err(Expected::new(
-                "a table of height, slope, curvature, symbols, noise, patches and scale",
+                "a table of height, slope, curvature, latitude, symbols, noise, patches and scale",
             ));
         };
         let mask = Self::from_table(table)
@@ -61,13 +63,28 @@ impl Parameter for Mask {
     }
 }
 
+/// A place, as patches know it.
+#[derive(Debug, Clone, Copy)]
+pub(in crate::objects) enum Place {
+    /// On flat ground (m).
+    Flat(DVec2),
+    /// On a globe (m, from its middle), seen with grains of a size (m).
+    Round(DVec3, f64),
+}
+
 /// How the ground is at a place.
-pub(super) struct Spot {
-    place: DVec2,
+pub(in crate::objects) struct Spot {
+    pub place: Place,
+    /// m.
     pub height: f64,
-    up: DVec3,
+    /// degrees.
+    pub slope: f64,
     /// 1/m; above 0 in hollows.
-    curvature: f64,
+    pub curvature: f64,
+    /// degrees from the equator.
+    pub latitude: f64,
+    /// The symbol of the cell there.
+    pub symbol: Option<Symbol>,
 }
 
 impl Spot {
@@ -82,26 +99,33 @@ impl Spot {
         } else {
             0.0
         };
-        Self { place, height, up, curvature }
+        let slope = up.z.clamp(-1.0, 1.0).acos().to_degrees();
+        let symbol = ground.symbol(place);
+        Self { place: Place::Flat(place), height, slope, curvature, latitude: 0.0, symbol }
     }
 }
 
 impl Mask {
-    fn ranges(&self) -> [(&'static str, &[f64]); 3] {
-        [("height", &self.height), ("slope", &self.slope), ("curvature", &self.curvature)]
+    fn ranges(&self) -> [(&'static str, &[f64]); 4] {
+        [
+            ("height", &self.height),
+            ("slope", &self.slope),
+            ("curvature", &self.curvature),
+            ("latitude", &self.latitude),
+        ]
     }
 
     /// Whether it asks for the curvature of the ground.
-    pub(super) fn is_bent(&self) -> bool {
+    pub(in crate::objects) fn is_bent(&self) -> bool {
         !self.curvature.is_empty()
     }
 
-    /// The numbers of its symbols among `names`.
-    pub(super) fn numbers(&self, names: &[String]) -> Result<Vec<Symbol>> {
+    /// The numbers of its symbols among `names`, the cells of a `kind` of object.
+    pub(in crate::objects) fn numbers(&self, kind: &str, names: &[String]) -> Result<Vec<Symbol>> {
         let number = |symbol: &String| {
             let found = names.iter().position(|name| name == symbol).and_then(|at| Symbol::try_from(at).ok());
             found.ok_or_else(|| {
-                let error = Error::new(format!("terrain: no rule makes {symbol}"));
+                let error = Error::new(format!("{kind}: no rule makes {symbol}"));
                 match nearest(symbol, names.iter().map(String::as_str)) {
                     Some(near) => error.help(format!("did you mean {near}?")),
                     None => error.help(format!("the cells are {}", names.join(", "))),
@@ -113,24 +137,29 @@ impl Mask {
 
     /// How much (0 to 1) of it there is at a spot. `symbols` are the numbers of its symbols; masks with other `seed`s
     /// have other patches.
-    pub(super) fn at(&self, ground: &Ground, spot: &Spot, symbols: &[Symbol], seed: u64) -> f64 {
-        if !symbols.is_empty() && !ground.symbol(spot.place).is_some_and(|symbol| symbols.contains(&symbol)) {
+    pub(in crate::objects) fn at(&self, spot: &Spot, symbols: &[Symbol], seed: u64) -> f64 {
+        if !symbols.is_empty() && !spot.symbol.is_some_and(|symbol| symbols.contains(&symbol)) {
             return 0.0;
         }
-        let noisy = self.noise > 0.0 || self.patches > 0.0;
-        let noise = if noisy { octaves(spot.place / self.scale, 4, seed) } else { 0.0 };
-        let shift = noise * self.noise;
-        let slope = if self.slope.is_empty() { 0.0 } else { spot.up.z.clamp(-1.0, 1.0).acos().to_degrees() };
-        let values = [spot.height, slope, spot.curvature];
-        let mut amount = 1.0 - self.patches * (1.0 - eased(0.5 + 2.5 * noise));
-        for ((_, range), value) in self.ranges().into_iter().zip(values) {
-            if let [from, to] = *range {
-                let step = f64::from(u8::from(value >= from));
-                let along = if from == to { step } else { (value - from) / (to - from) };
-                amount *= eased(along + shift);
-            }
+        let values = [spot.height, spot.slope, spot.curvature, spot.latitude];
+        let along = |((_, range), value): ((&str, &[f64]), f64)| match *range {
+            [from, to] if from == to => Some(f64::from(u8::from(value >= from))),
+            [from, to] => Some((value - from) / (to - from)),
+            _ => None,
+        };
+        let fades = || self.ranges().into_iter().zip(values).filter_map(along);
+        // Where noise cannot change anything, it need not be known.
+        if fades().any(|along| along <= -self.noise) {
+            return 0.0;
         }
-        amount
+        let noisy = self.patches > 0.0 || (self.noise > 0.0 && fades().any(|along| along < 1.0 + self.noise));
+        let noise = match spot.place {
+            _ if !noisy => 0.0,
+            Place::Flat(place) => octaves(place / self.scale, 4, seed),
+            Place::Round(place, grain) => octaves_around(place / self.scale, 4, seed, grain / self.scale),
+        };
+        let patches = 1.0 - self.patches * (1.0 - eased(0.5 + 2.5 * noise));
+        patches * fades().map(|along| eased(along + noise * self.noise)).product::<f64>()
     }
 }
 

@@ -1,11 +1,11 @@
 //! The terrain: ground made by dividing a square into quadrants, expanded where it is looked at.
 
 mod edits;
-mod looks;
-mod mask;
+pub(super) mod looks;
+pub(super) mod mask;
 mod plants;
 mod river;
-mod rules;
+pub(super) mod rules;
 mod sides;
 mod view;
 mod water;
@@ -208,43 +208,32 @@ impl Terrain {
         if options.error.is_some_and(|error| error < 0.0) {
             return Err(Error::new("terrain: error is below 0").help("give metres from 0 on"));
         }
-        let mut layers = options.rules.0.clone();
-        if layers.is_empty() && options.elevation.is_none() {
-            return Err(Error::new("terrain: there are no rules").help(
-                "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
-            ));
+        let masks = options.covers.iter().map(|cover| &cover.on);
+        if masks.chain(options.plants.iter().map(|plants| &plants.on)).any(|mask| !mask.latitude.is_empty()) {
+            return Err(Error::new("terrain: flat ground has no latitude")
+                .help("tell by height or slope where something is, or make a planet"));
         }
-        if let Some(first) = layers.first_mut() {
-            first.start = first.start.take().or_else(|| options.start.clone());
-            first.height += options.height;
+        if options.rules.0.is_empty() && options.elevation.is_none() {
+            return Err(rules::none("terrain"));
         }
-        let mut decay = options.decay;
-        let mut built = Vec::new();
         let corner = options.position.0.truncate() - options.size / 2.0;
-        if let Some(elevation) = &options.elevation {
-            let fine = finer(elevation, corner, options.size)?;
-            built.push(Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new() });
-            layers.iter_mut().for_each(|layer| layer.from += fine);
+        let fine = match &options.elevation {
+            Some(elevation) => finer(elevation, corner, options.size)?,
+            None => 0,
+        };
+        let mut built =
+            options.rules.build("terrain", options.start.as_ref(), (options.height, options.decay), fine)?;
+        if options.elevation.is_some() {
+            let level = Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new() };
+            built.layers.insert(0, level);
         }
-        let mut names = Vec::new();
-        for layer in &layers {
-            decay = layer.decay.unwrap_or(decay);
-            built.push(layer.build(decay)?);
-            if let LayerRules::Table(table) = &layer.rules {
-                names.clone_from(&table.names);
-            }
-        }
-        let drawn = layers.iter().any(|layer| match &layer.rules {
-            LayerRules::Table(table) => table.is_random(),
-            LayerRules::System(_) => true,
-        });
         let world = World {
             corner,
             size: options.size,
-            layers: built,
+            layers: built.layers,
             smooth: options.smooth,
             remap: remap(&options.remap)?,
-            key: drawn.then(Key::default),
+            key: built.drawn.then(Key::default),
             measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
         };
         let kept = match &options.edits {
@@ -266,7 +255,7 @@ impl Terrain {
             edits: kept,
             key: Key::default(),
             begun: false,
-            names: Arc::new(names),
+            names: Arc::new(built.names),
         })
     }
 
@@ -342,7 +331,7 @@ impl Terrain {
     }
 
     fn numbers(&self, mask: &Mask) -> Result<Vec<Symbol>> {
-        mask.numbers(&self.names)
+        mask.numbers("terrain", &self.names)
     }
 }
 
@@ -440,10 +429,7 @@ impl Object for Terrain {
     }
 
     fn warnings(&self) -> Vec<String> {
-        let grown = self.options.rules.0.iter().find_map(RuleLayer::grows);
-        let warning =
-            |decay| format!("terrain: a decay of {decay} does not converge: heights grow with every level");
-        grown.map(warning).into_iter().collect()
+        self.options.rules.warnings("terrain")
     }
 
     fn grows(&self) -> bool {
@@ -493,7 +479,7 @@ impl Object for Terrain {
                     Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
                 part.material = scene.material(&material);
             } else {
-                let (bytes, across) = looks::paint(ground, tile, &self.options.covers, &masks)?;
+                let (bytes, across) = looks::paint(ground, tile, &self.options.covers, &masks);
                 mesh.write(tile, origin, looks::half_texel(size, across), &mut part);
                 let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
                 part.material = scene.material(&material);

@@ -129,7 +129,7 @@ impl Plants {
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
         ground.height(place)?;
         let spot = Spot::new(ground, place, reach, self.on.is_bent());
-        if luck >= chance * self.on.at(ground, &spot, symbols, key.0) {
+        if luck >= chance * self.on.at(&spot, symbols, key.0) {
             return None;
         }
         let model = stream.below(self.models.len());

@@ -237,9 +237,65 @@ fn draw(value: Value) -> Option<Draw> {
     }
 }
 
+/// The rules of a world.
+pub(in crate::objects) struct Built {
+    pub layers: Vec<Layer>,
+    /// The names of the symbols of its last cells; of systems they are not known yet.
+    pub names: Vec<String>,
+    /// Whether they draw random numbers.
+    pub drawn: bool,
+}
+
+impl RuleLayers {
+    /// The rules as the world of a `kind` of object has them, which begins with the symbol `start`, the height `height`
+    /// (m) and the decay `decay` (m); all of them from `finer` levels farther on.
+    pub(in crate::objects) fn build(
+        &self,
+        kind: &str,
+        start: Option<&String>,
+        (height, mut decay): (f64, f64),
+        finer: u32,
+    ) -> Result<Built, crate::error::Error> {
+        let mut given = self.0.clone();
+        if let Some(first) = given.first_mut() {
+            first.start = first.start.take().or_else(|| start.cloned());
+            first.height += height;
+        }
+        let mut built = Built { layers: Vec::new(), names: Vec::new(), drawn: false };
+        for mut layer in given {
+            decay = layer.decay.unwrap_or(decay);
+            layer.from += finer;
+            built.layers.push(layer.build(kind, decay)?);
+            built.drawn |= match &layer.rules {
+                LayerRules::Table(table) => {
+                    built.names.clone_from(&table.names);
+                    table.is_random()
+                }
+                LayerRules::System(_) => true,
+            };
+        }
+        Ok(built)
+    }
+
+    /// What to tell people of decays that do not shrink.
+    pub(in crate::objects) fn warnings(&self, kind: &str) -> Vec<String> {
+        let grown = self.0.iter().find_map(RuleLayer::grows);
+        let warning =
+            |decay| format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
+        grown.map(warning).into_iter().collect()
+    }
+}
+
+/// The error of a `kind` of object without rules.
+pub(in crate::objects) fn none(kind: &str) -> crate::error::Error {
+    crate::error::Error::new(format!("{kind}: there are no rules")).help(
+        "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
+    )
+}
+
 impl RuleLayer {
     /// The rules as the world has them, where cells get the decay `decay` (m) unless these rules give another.
-    pub(super) fn build(&self, decay: f64) -> Result<Layer, crate::error::Error> {
+    fn build(&self, kind: &str, decay: f64) -> Result<Layer, crate::error::Error> {
         let rest = vec![self.decay.unwrap_or(decay)];
         let (rules, start, rest) = match &self.rules {
             LayerRules::Table(table) => {
@@ -248,7 +304,7 @@ impl RuleLayer {
                     None => 0,
                     Some(start) => names.clone().position(|name| name == start).ok_or_else(|| {
                         let error = crate::error::Error::new(format!(
-                            "terrain: there is no rule for {start}, the start"
+                            "{kind}: there is no rule for {start}, the start"
                         ));
                         match nearest(start, names.clone()) {
                             Some(near) => error.help(format!("did you mean {near}?")),
@@ -266,7 +322,7 @@ impl RuleLayer {
     }
 
     /// The greatest factor by which a decay grows where it does not shrink.
-    pub(super) fn grows(&self) -> Option<f64> {
+    fn grows(&self) -> Option<f64> {
         match &self.rules {
             LayerRules::Table(table) => Some(table.greatest_decay()).filter(|decay| *decay >= 1.0),
             LayerRules::System(_) => None,

@@ -49,6 +49,13 @@ impl Parameter for Water {
 const MOST_TEXELS: usize = 512;
 
 impl Water {
+    /// Its colour where it is so deep (m).
+    #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
+    pub(in crate::objects) fn tint(&self, depth: f64) -> [f32; 3] {
+        let clear = (-depth.max(0.0) / self.clarity).exp() as f32;
+        [0, 1, 2].map(|at| self.color.0[at] + (self.shallow.0[at] - self.color.0[at]) * clear)
+    }
+
     /// The surface over `tile` and an image for it with its texels along a side; `None` where all ground is above it.
     /// All points are told from `origin` (m).
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "texels are few")]
@@ -68,9 +75,7 @@ impl Water {
                 let place = (corner + DVec2::new(column as f64, row as f64) * step).min(corner + size);
                 let depth = self.level - ground.height(place).unwrap_or(self.level);
                 wet |= depth > 0.0;
-                let clear = (-depth.max(0.0) / self.clarity).exp() as f32;
-                let channel = |at: usize| self.color.0[at] + (self.shallow.0[at] - self.color.0[at]) * clear;
-                bytes.extend([0, 1, 2].map(|at| super::looks::to_srgb(channel(at))));
+                bytes.extend(self.tint(depth).map(super::looks::to_srgb));
             }
         }
         if !wet {

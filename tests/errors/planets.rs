@@ -1,0 +1,96 @@
+//! Planets that cannot be, and things that are asked of the universe in vain.
+
+use insta::assert_snapshot;
+
+use crate::support::Folder;
+
+/// What a script is told whose third line is `line`.
+fn told(line: &str) -> String {
+    let rules = r#"local rules = { A = { "A", "A", "A", "A", change = 0, decay = 0.5 } }"#;
+    let script = format!("{rules}\nlocal A = module(\"A\")\n{line}\n");
+    Folder::new().with("s.lua", script).refuses(&["run", "s.lua"])
+}
+
+#[test]
+fn a_planet_that_cannot_be_is_refused() {
+    assert_snapshot!(told("planet({ radius = 0, rules = rules })"), @r#"
+    error: s.lua:3: planet: radius is 0 m
+      | planet({ radius = 0, rules = rules })
+      help: give a length above 0 and up to 1e9 m
+    "#);
+    assert_snapshot!(told("planet({ radius = 1000 })"), @r#"
+    error: s.lua:3: planet: there are no rules
+      | planet({ radius = 1000 })
+      help: write rules = { A = { "A", "A", "A", "A", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }
+    "#);
+    assert_snapshot!(told("planet({ levels = 40, rules = rules })"), @r#"
+    error: s.lua:3: planet: levels is 40
+      | planet({ levels = 40, rules = rules })
+      help: divide its faces from 6 to 28 times
+    "#);
+    assert_snapshot!(told("planet({ start = \"B\", rules = rules })"), @r#"
+    error: s.lua:3: planet: there is no rule for B, the start
+      | planet({ start = "B", rules = rules })
+      help: there are A
+    "#);
+    assert_snapshot!(told("planet({ axis = { 0, 0, 0 }, rules = rules })"), @r#"
+    error: s.lua:3: planet: axis has no direction
+      | planet({ axis = { 0, 0, 0 }, rules = rules })
+      help: write axis = { 0, 0, 1 }
+    "#);
+    assert_snapshot!(told("planet({ seed = 1.5, rules = rules })"), @r#"
+    error: s.lua:3: planet: seed must be a whole number below 2^53, or a string, not 1.5
+      | planet({ seed = 1.5, rules = rules })
+    "#);
+}
+
+#[test]
+fn a_focus_inside_a_planet_is_refused() {
+    let focus = "local s = lsystem({ object = planet({ radius = 1000, rules = rules }) }) s:axiom(A()) \
+                 s:interpret(\"A\", function(this) this:focus(0, 10, 0) end) s:derive(0)";
+    assert_snapshot!(told(focus), @r#"
+    error: s.lua:3: rule A (interpretation): planet: the focus (0, 10, 0) is inside the planet, 10 m from its middle
+      | local s = lsystem({ object = planet({ radius = 1000, rules = rules }) }) s:axiom(A()) s:interpret("A", function(this) this:focus(0, 10, 0) end) s:derive(0)
+      module: A, step 0
+      help: its ground is about 1000 m from its middle: look from farther out
+    "#);
+}
+
+#[test]
+fn a_planet_that_would_be_too_much_is_refused() {
+    let near = "lsystem({ object = planet({ closeness = 100, levels = 20, rules = rules }) }):derive(0)";
+    assert_snapshot!(told(near), @r#"
+    error: s.lua:3: planet: that would be more than 67108864 heights
+      | lsystem({ object = planet({ closeness = 100, levels = 20, rules = rules }) }):derive(0)
+      help: lower closeness or levels: most of it is far away
+    "#);
+}
+
+#[test]
+fn flat_ground_has_no_latitude() {
+    let cover = "terrain({ levels = 3, rules = rules, covers = { { on = { latitude = { 0, 1 } } } } })";
+    assert_snapshot!(told(cover), @r#"
+    error: s.lua:3: terrain: flat ground has no latitude
+      | terrain({ levels = 3, rules = rules, covers = { { on = { latitude = { 0, 1 } } } } })
+      help: tell by height or slope where something is, or make a planet
+    "#);
+}
+
+#[test]
+fn what_the_universe_has_not_is_told() {
+    let begin = "local all = universe({ seed = 3 }) local one = all:galaxy(0, 0, 0)";
+    assert_snapshot!(told("universe({ seed = 3 }):galaxy(0.5, 0, 0)"), @r#"
+    error: s.lua:3: universe: 0.5 is no whole number below 2^53
+      | universe({ seed = 3 }):galaxy(0.5, 0, 0)
+      help: galaxies, stars and planets are numbered
+    "#);
+    assert_snapshot!(told(&format!("{begin} all:star(one, 0)")), @r#"
+    error: s.lua:3: universe:star: there is no star number 0
+      | local all = universe({ seed = 3 }) local one = all:galaxy(0, 0, 0) all:star(one, 0)
+      help: there are 2083416648, from 1
+    "#);
+    assert_snapshot!(told(&format!("{begin} all:planet(one, 1)")), @r#"
+    error: s.lua:3: universe:planet: star must be a star, as universe:star gives it, not a table
+      | local all = universe({ seed = 3 }) local one = all:galaxy(0, 0, 0) all:planet(one, 1)
+    "#);
+}
