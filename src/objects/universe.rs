@@ -62,8 +62,9 @@ methods! {
             let number = star.0.number("planet", index)?;
             let key = star.0.key.child(number);
             let mut stream = key.stream();
-            // Each orbit is wider than the one before by about the same factor.
-            let orbit = 0.25 * 1.7f64.powf(index + 0.6 * stream.uniform());
+            // Each orbit is wider than the one before by about the same factor, and all are wider around bright stars.
+            let first = 0.25 * star.0.sort.light.powf(0.3);
+            let orbit = first * 1.7f64.powf(index + 0.6 * stream.uniform());
             let (turn, tilt) = (stream.uniform() * TAU, (stream.uniform() - 0.5) * 0.08);
             let position = DVec3::new(turn.cos(), turn.sin(), tilt) * orbit * EARTH_ORBIT;
             let light = star.0.sort.light / (orbit * orbit);
