@@ -35,7 +35,7 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Run(run::Run),
+    Run(Box<run::Run>),
     #[cfg(feature = "live")]
     Live(live::Serve),
     Check(check::Check),

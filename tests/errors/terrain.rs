@@ -74,7 +74,7 @@ fn sizes_and_views_are_checked_with_their_numbers() {
         &format!("size = 0, {rules}"),
         &format!("size = 1e7, levels = 28, {rules}"),
         &format!("levels = 40, {rules}"),
-        &format!("{rules}"),
+        rules,
         &format!("levels = 3, remap = {{ {{ 5, 0 }}, {{ 1, 2 }} }}, {rules}"),
         &format!("levels = 3, base = 10, {rules}"),
         &format!("levels = 3, covers = {{ {{ colour = \"#ffffff\" }} }}, {rules}"),

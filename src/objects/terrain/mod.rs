@@ -1,11 +1,13 @@
 //! The terrain: ground made by dividing a square into quadrants, expanded where it is looked at.
 
+mod build;
 mod edits;
 pub(super) mod looks;
 pub(super) mod mask;
 mod plants;
 mod river;
 pub(super) mod rules;
+mod show;
 mod sides;
 mod view;
 mod water;
@@ -24,13 +26,11 @@ pub use water::Water;
 use river::River;
 
 use super::parameter::object;
-use super::{Color, Drawing, Elevation, Expected, Kind, Object, Parameter, Table, Value, Vector};
+use super::{Color, Elevation, Expected, Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
-use crate::rules::{Key, Symbol};
-use crate::scene::{Instance, Material, Mesh, Part, Scene};
-use crate::terrain::{
-    Divide, Drainage, Edit, Edits, Ground, Layer, Map, Measured, Mesh as Triangulation, Rules, View, World,
-};
+use crate::rules::Key;
+use crate::scene::Scene;
+use crate::terrain::{Divide, Drainage, Edit, Edits, Ground, Map, Rules, View, World};
 
 fields! {
     /// What `terrain { ... }` takes.
@@ -201,41 +201,7 @@ impl Terrain {
 
     /// A terrain of which nothing is expanded.
     pub fn new(options: Options) -> Result<Self> {
-        if !(options.size > 0.0 && options.size <= 1e9) {
-            return Err(Error::new(format!("terrain: size is {} m", options.size))
-                .help("give a length above 0 and up to 1e9 m"));
-        }
-        if options.error.is_some_and(|error| error < 0.0) {
-            return Err(Error::new("terrain: error is below 0").help("give metres from 0 on"));
-        }
-        let masks = options.covers.iter().map(|cover| &cover.on);
-        if masks.chain(options.plants.iter().map(|plants| &plants.on)).any(|mask| !mask.latitude.is_empty()) {
-            return Err(Error::new("terrain: flat ground has no latitude")
-                .help("tell by height or slope where something is, or make a planet"));
-        }
-        if options.rules.0.is_empty() && options.elevation.is_none() {
-            return Err(rules::none("terrain"));
-        }
-        let corner = options.position.0.truncate() - options.size / 2.0;
-        let fine = match &options.elevation {
-            Some(elevation) => finer(elevation, corner, options.size)?,
-            None => 0,
-        };
-        let mut built =
-            options.rules.build("terrain", options.start.as_ref(), (options.height, options.decay), fine)?;
-        if options.elevation.is_some() {
-            let level = Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new() };
-            built.layers.insert(0, level);
-        }
-        let world = World {
-            corner,
-            size: options.size,
-            layers: built.layers,
-            smooth: options.smooth,
-            remap: remap(&options.remap)?,
-            key: built.drawn.then(Key::default),
-            measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
-        };
+        let (world, names) = build::world(&options)?;
         let kept = match &options.edits {
             Some(file) => Arc::new(Edits::from_json(&file.text, &file.name, &world)?),
             None => Arc::default(),
@@ -255,7 +221,7 @@ impl Terrain {
             edits: kept,
             key: Key::default(),
             begun: false,
-            names: Arc::new(built.names),
+            names: Arc::new(names),
         })
     }
 
@@ -303,11 +269,6 @@ impl Terrain {
         Arc::make_mut(&mut self.edits).add(self.ground.world(), edit)
     }
 
-    /// How far (m) triangles may be from the surface.
-    fn error(&self) -> f64 {
-        self.options.error.unwrap_or_else(|| self.ground.world().cell(self.ground.finest()) / 10.0)
-    }
-
     /// Gives the levels that systems divide what those begin with, once.
     fn begin_systems(&mut self, divide: &dyn Divide) -> Result<()> {
         let world = self.ground.world();
@@ -329,50 +290,10 @@ impl Terrain {
         self.ground = self.plain.clone();
         Ok(())
     }
-
-    fn numbers(&self, mask: &Mask) -> Result<Vec<Symbol>> {
-        mask.numbers("terrain", &self.names)
-    }
 }
 
 /// How deep a river's bed is, as a multiple of its width.
 const SHALLOW: f64 = 0.12;
-
-/// The pairs of heights (m) of a change, in order.
-fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
-    let wrong = |what: String| {
-        Error::new(format!("terrain: {what}"))
-            .help("write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights")
-    };
-    let pair = |pair: &Vec<f64>| <[f64; 2]>::try_from(pair.as_slice()).ok();
-    let pairs = pairs.iter().map(pair).collect::<Option<Vec<_>>>();
-    let pairs = pairs.ok_or_else(|| wrong("remap has something that is no pair of heights".into()))?;
-    if let Some(pair) = pairs.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
-        return Err(wrong(format!("remap goes from {} to {}", pair[0][0], pair[1][0])));
-    }
-    Ok(pairs)
-}
-
-/// The first level whose cells are smaller than the distance of the samples of `elevation`. Fails unless it has heights
-/// for all of the square of `size` (m) from `corner` (m) on.
-fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
-    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-        let at = corner + DVec2::new(x, y) * size;
-        if elevation.height_at(at).is_none() {
-            let (low, high) = (elevation.low(), elevation.high());
-            return Err(Error::new(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(
-                format!(
-                    "it reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) m: make the terrain smaller, or move it with position",
-                    low.x, low.y, high.x, high.y
-                ),
-            ));
-        }
-    }
-    let levels = (size / elevation.step()).log2().max(0.0).ceil();
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 30")]
-    let levels = levels.min(30.0) as u32;
-    Ok(levels.max(1))
-}
 
 /// A terrain of a script, to be asked by others.
 impl Parameter for Arc<Terrain> {
@@ -456,73 +377,6 @@ impl Object for Terrain {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        let ground = &self.ground;
-        if ground.heights() == 0 {
-            return Err(Error::new("terrain: nothing of it is expanded").help(
-                "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
-            ));
-        }
-        let mesh = Triangulation::new(ground, self.error());
-        let lift = DVec3::Z * self.options.position.0.z;
-        let masks = self.options.covers.iter().map(|cover| self.numbers(&cover.on));
-        let masks = masks.collect::<Result<Vec<_>>>()?;
-        for tile in ground.tiles() {
-            let (corner, size) = tile.bounds(ground.world());
-            let origin = (corner + size / 2.0).extend(0.0);
-            let place = tile.place;
-            let of = format!("{name} {}/{}/{}", place.level, place.x, place.y);
-            let mut parts = Vec::new();
-            let mut part = Part::default();
-            if self.options.covers.is_empty() {
-                mesh.write(tile, origin, 0.0, &mut part);
-                let material =
-                    Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
-                part.material = scene.material(&material);
-            } else {
-                let (bytes, across) = looks::paint(ground, tile, &self.options.covers, &masks);
-                mesh.write(tile, origin, looks::half_texel(size, across), &mut part);
-                let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
-                part.material = scene.material(&material);
-            }
-            parts.push(part);
-            let water = self.options.water.as_ref();
-            if let Some((part, bytes, across)) = water.and_then(|water| water.surface(ground, tile, origin)) {
-                let material = looks::material(format!("{of} water"), &bytes, across, size, 0.12)?;
-                parts.push(Part { material: scene.material(&material), ..part });
-            }
-            scene.meshes.push(Mesh { name: of.clone(), parts, ..Mesh::default() });
-            scene.instances.push(Instance {
-                mesh: scene.meshes.len() - 1,
-                transform: glam::DAffine3::from_translation(origin + lift),
-                name: of,
-                feature: feature.map(str::to_owned),
-                origin: None,
-                placement: None,
-            });
-        }
-        let mut drawing = Drawing::default();
-        if let Some(base) = self.options.base {
-            let material =
-                Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
-            let part = drawing.material(&material);
-            sides::draw(&mesh.rim(), base, drawing.part(part))?;
-        }
-        if let Some(water) = &self.options.water {
-            let material = Material { base_color: water.color.0, roughness: 0.12, ..Material::default() };
-            let part = drawing.material(&material);
-            sides::draw_water(&mesh.rim(), water.level, drawing.part(part));
-        }
-        for river in &self.rivers {
-            let water = self.options.water.clone().unwrap_or_default();
-            let material = Material { base_color: water.shallow.0, roughness: 0.12, ..Material::default() };
-            let part = drawing.material(&material);
-            river.draw(drawing.part(part));
-        }
-        for (number, plants) in (1u64..).zip(&self.options.plants) {
-            let key = Key(self.key.0.wrapping_add(number)).child(0);
-            plants.scatter(ground, &self.numbers(&plants.on)?, key, &mut drawing)?;
-        }
-        drawing.show(scene, lift, name, feature);
-        Ok(())
+        self.draw(scene, name, feature)
     }
 }
