@@ -158,6 +158,8 @@ struct File {
 struct Stamp {
     corner: [f64; 2],
     size: f64,
+    /// The key that all that is drawn comes from, in hexadecimal; none where nothing is.
+    key: Option<String>,
 }
 
 const FORMAT: &str = "burgeon edits 1";
@@ -250,7 +252,8 @@ impl Edits {
         let here = Stamp::of(world);
         if file.world != here {
             let shown = |stamp: &Stamp| {
-                format!("{} m from ({}, {}) on", stamp.size, stamp.corner[0], stamp.corner[1])
+                let key = stamp.key.as_ref().map(|key| format!(", drawn from {key}")).unwrap_or_default();
+                format!("{} m from ({}, {}) on{key}", stamp.size, stamp.corner[0], stamp.corner[1])
             };
             return Err(Error::new(format!("{name} holds edits of another world: {}", shown(&file.world)))
                 .help(format!("this one is {}", shown(&here))));
@@ -267,7 +270,8 @@ impl Edits {
 
 impl Stamp {
     fn of(world: &World) -> Self {
-        Self { corner: world.corner.to_array(), size: world.size }
+        let key = world.key.map(|key| format!("{:016x}", key.0));
+        Self { corner: world.corner.to_array(), size: world.size, key }
     }
 }
 

@@ -316,6 +316,12 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
         .with("c.lua", script("2048", kept, ""))
         .with("d.lua", script("1024", "edits = edits(\"broken.json\"),", ""))
         .with("e.lua", "local nothing = 1")
+        .with(
+            "f.lua",
+            script("1024", "edits = edits(\"drawn.json\"),", "")
+                .replace("{ 3, -2, 1, 0 }", "{ { 1, 2 }, 0, 0, 0 }"),
+        )
+        .with("g.lua", script("1024", "", square).replace("{ 3, -2, 1, 0 }", "{ { 1, 2 }, 0, 0, 0 }"))
         .with("broken.json", "{ \"format\": 3");
     let height =
         |script: &str| folder.burgeon(&["run", script]).done().stderr.lines().next().map(str::to_owned);
@@ -330,9 +336,12 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
         std::fs::read(folder.path().join("b.r64")).ok()
     );
     assert_eq!(folder.read("kept.json"), folder.read("again.json"));
+    folder.burgeon(&["run", "g.lua", "--edits", "drawn.json"]).done();
+    assert_eq!(height("f.lua").as_deref(), Some("12.5"));
     let mut text = folder.refuses(&["run", "c.lua"]);
     for arguments in [
         &["run", "d.lua"][..],
+        &["run", "f.lua", "--seed", "3"],
         &["run", "e.lua", "--heights", "e.asc"],
         &["run", "a.lua", "--heights", "a.glb"],
         &["run", "a.lua", "--edits", "a.lua"],
@@ -340,12 +349,15 @@ fn edits_are_kept_in_a_file_and_are_those_of_one_world() {
         text += &folder.refuses(arguments);
     }
     insta::assert_snapshot!(text, @r##"
-    error: c.lua:2: kept.json holds edits of another world: 1024 m from (-512, -512) on
-      | local land = lsystem({ object = terrain({ size = 2048, levels = 6, edits = edits("kept.json"), rules = { A = { "A", "A", "A", "A", change = { 3, -2, 1, 0 } } } 
+    error: c.lua:5: kept.json holds edits of another world: 1024 m from (-512, -512) on
+      | local made = land:derive(0)
       help: this one is 2048 m from (-1024, -1024) on
-    error: d.lua:2: broken.json holds no edits of a terrain: invalid type: integer `3`, expected a string at line 1 column 13
-      | local land = lsystem({ object = terrain({ size = 1024, levels = 6, edits = edits("broken.json"), rules = { A = { "A", "A", "A", "A", change = { 3, -2, 1, 0 } } 
+    error: d.lua:5: broken.json holds no edits of a terrain: invalid type: integer `3`, expected a string at line 1 column 13
+      | local made = land:derive(0)
       help: such a file is written by burgeon run --edits FILE
+    error: f.lua:5: drawn.json holds edits of another world: 1024 m from (-512, -512) on, drawn from e220a8397b1dcdaf
+      | local made = land:derive(0)
+      help: this one is 1024 m from (-512, -512) on, drawn from 1d0b14e4db018fed
     error: there is no terrain to write the heights or the edits of
       help: write lsystem({ object = terrain({ ... }) }):derive()
     error: cannot write a.glb: its extension is no format of height maps

@@ -91,6 +91,8 @@ pub struct Terrain {
     rivers: Vec<River>,
     /// The changes of the ground that come from a file.
     kept: Arc<Edits>,
+    /// Whether that file has been read: its world is known only once there is a seed.
+    kept_read: bool,
     /// These, and what the present pass has changed.
     edits: Arc<Edits>,
     key: Key,
@@ -202,10 +204,6 @@ impl Terrain {
     /// A terrain of which nothing is expanded.
     pub fn new(options: Options) -> Result<Self> {
         let (world, names) = build::world(&options)?;
-        let kept = match &options.edits {
-            Some(file) => Arc::new(Edits::from_json(&file.text, &file.name, &world)?),
-            None => Arc::default(),
-        };
         if let Some(levels) = options.levels {
             View::whole(&world, levels).check(&world, options.position.0.truncate())?;
         }
@@ -217,8 +215,9 @@ impl Terrain {
             wanted: None,
             drainage: None,
             rivers: Vec::new(),
-            kept: Arc::clone(&kept),
-            edits: kept,
+            kept: Arc::default(),
+            edits: Arc::default(),
+            kept_read: false,
             key: Key::default(),
             begun: false,
             names: Arc::new(names),
@@ -267,6 +266,17 @@ impl Terrain {
 
     fn change(&mut self, edit: Edit) -> Result<()> {
         Arc::make_mut(&mut self.edits).add(self.ground.world(), edit)
+    }
+
+    /// Reads the changes that were kept, once.
+    fn read_edits(&mut self) -> Result<()> {
+        if let (Some(file), false) = (&self.options.edits, self.kept_read) {
+            self.kept = Arc::new(Edits::from_json(&file.text, &file.name, self.ground.world())?);
+            // Before the first pass nothing else has changed the ground.
+            self.edits = Arc::clone(&self.kept);
+            self.kept_read = true;
+        }
+        Ok(())
     }
 
     /// Gives the levels that systems divide what those begin with, once.
@@ -366,6 +376,7 @@ impl Object for Terrain {
             (None, None) => return Ok(()),
         };
         self.begin_systems(divide)?;
+        self.read_edits()?;
         self.plain.edit(&self.kept);
         self.plain.focus(eye, &view, divide)?;
         self.ground = self.plain.clone();
