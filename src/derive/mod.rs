@@ -76,6 +76,17 @@ pub(crate) struct Plan {
 }
 
 impl Plan {
+    /// Tells objects that expand by themselves that the script is only checked.
+    fn sketch(&self) -> Result<()> {
+        let Some(objects) = &self.objects else { return Ok(()) };
+        (0..self.chains).try_for_each(|chain| {
+            objects.write(chain, |object| {
+                object.sketch();
+                Ok(())
+            })
+        })
+    }
+
     /// Has objects that expand by themselves do so.
     fn grow(&self, cells: &Cells<'_>) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
@@ -156,6 +167,9 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let mut stepper = Stepper::new(Arc::clone(&plan));
     let cells = Cells::new(machine);
     let interprets = plan.objects.is_some() && !options.check;
+    if options.check {
+        plan.sketch()?;
+    }
     let mut done = 0;
     let mut trace = traced.map(|_| {
         let place = machine.library.systems.borrow()[index].axiom_place.clone();

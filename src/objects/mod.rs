@@ -136,6 +136,9 @@ pub trait Object: Any + Send + Sync {
         Ok(())
     }
 
+    /// Takes that its script is only checked: nothing is expanded or shown, and it answers as if it were even.
+    fn sketch(&mut self) {}
+
     /// What it had to do otherwise than it was asked since the pass began.
     fn notes(&self) -> &[Note] {
         &[]

@@ -382,3 +382,13 @@ fn tiles_are_files_of_their_own_that_tell_where_they_are() {
     assert!(files["tiles/3_3_4.glb"] > files["tiles/3_2_2.glb"]);
     assert!(folder.refuses(&["run", "s.lua", "--tiles", "s.lua"]).contains("cannot make the folder s.lua"));
 }
+
+#[test]
+fn a_script_that_asks_the_ground_can_be_checked() {
+    let script = "local land = lsystem({ object = terrain({ levels = 3, rules = { A = { \"A\", \"A\", \"A\", \"A\", change = 1 } } }) })\n\
+        local ground = land:derive().objects[1]\n\
+        print(ground:height({ 3, 4 }) + ground:slope({ 3, 4 }), ground:symbol({ 3, 4 }))\n";
+    let folder = Folder::new().with("s.lua", script);
+    folder.burgeon(&["check", "s.lua"]).done();
+    assert!(folder.burgeon(&["run", "s.lua"]).done().stderr.starts_with("175\tA\n"));
+}

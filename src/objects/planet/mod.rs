@@ -66,6 +66,8 @@ pub struct Planet {
     wanted: Option<DVec3>,
     /// From where it is seen (m, from its middle).
     eye: Option<DVec3>,
+    /// Whether the script is only checked.
+    sketched: bool,
     /// Whether it is known what the systems begin with that divide its cells.
     begun: bool,
     /// The names of the symbols of its cells, by number.
@@ -90,19 +92,19 @@ methods! {
 
         /// Height (m) of the ground in a direction from its middle; below the water that of the sea's floor.
         pub fn height(&self, direction: Vector) -> Result<f64> {
-            self.globe.height(towards(direction)?).ok_or_else(nothing)
+            self.known(self.globe.height(towards(direction)?), 0.0)
         }
 
         /// Where the ground or the water is (m) in a direction from its middle.
         pub fn surface(&self, direction: Vector) -> Result<DVec3> {
             let way = towards(direction)?;
-            let height = self.globe.height(way).ok_or_else(nothing)?;
+            let height = self.known(self.globe.height(way), 0.0)?;
             Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
         }
 
         /// The symbol of the cell in a direction from its middle.
         pub fn symbol(&self, direction: Vector) -> Result<String> {
-            let symbol = self.globe.symbol(towards(direction)?).ok_or_else(nothing)?;
+            let symbol = self.known(self.globe.symbol(towards(direction)?), 0)?;
             Ok(self.names.get(usize::from(symbol)).cloned().unwrap_or_default())
         }
 
@@ -128,6 +130,14 @@ impl Planet {
         methods: Self::METHODS,
         construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
     };
+
+    /// What was `found`; where nothing is expanded, an error, or `even` while the script is only checked.
+    fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
+        match found {
+            None if self.sketched => Ok(even),
+            found => found.ok_or_else(nothing),
+        }
+    }
 
     /// A planet of which nothing is expanded.
     pub fn new(options: Options) -> Result<Self> {
@@ -171,6 +181,7 @@ impl Planet {
             globe: Globe::new(world, options.radius, sea),
             options: Arc::new(options),
             wanted: None,
+            sketched: false,
             eye: None,
             begun: false,
             names: Arc::new(built.names),
@@ -246,6 +257,10 @@ impl Object for Planet {
 
     fn begin(&mut self) {
         self.wanted = None;
+    }
+
+    fn sketch(&mut self) {
+        self.sketched = true;
     }
 
     fn begins_empty(&self) -> bool {

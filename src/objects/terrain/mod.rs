@@ -96,6 +96,8 @@ pub struct Terrain {
     /// These, and what the present pass has changed.
     edits: Arc<Edits>,
     key: Key,
+    /// Whether the script is only checked.
+    sketched: bool,
     /// Whether it is known what the systems begin with that divide its cells.
     begun: bool,
     /// The names of the symbols of its cells, by number.
@@ -158,26 +160,26 @@ methods! {
         /// Height (m) of the ground at a place; fails where nothing is expanded.
         pub fn height(&self, place: Vector) -> Result<f64> {
             let at = place.0.truncate();
-            self.ground.height(at).map(|height| height + self.options.position.0.z).ok_or_else(|| self.nothing(at))
+            Ok(self.known(at, self.ground.height(at), 0.0)? + self.options.position.0.z)
         }
 
         /// The way up from the ground at a place, as a vector of length 1.
         pub fn normal(&self, place: Vector) -> Result<DVec3> {
             let at = place.0.truncate();
-            self.ground.way_up(at).ok_or_else(|| self.nothing(at))
+            self.known(at, self.ground.way_up(at), DVec3::Z)
         }
 
         /// How steep (degrees) the ground is at a place.
         pub fn slope(&self, place: Vector) -> Result<f64> {
             let at = place.0.truncate();
-            let up = self.ground.way_up(at).ok_or_else(|| self.nothing(at))?;
+            let up = self.known(at, self.ground.way_up(at), DVec3::Z)?;
             Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
         }
 
         /// The symbol of the cell at a place.
         pub fn symbol(&self, place: Vector) -> Result<String> {
             let at = place.0.truncate();
-            let symbol = self.ground.symbol(at).ok_or_else(|| self.nothing(at))?;
+            let symbol = self.known(at, self.ground.symbol(at), 0)?;
             Ok(self.names.get(usize::from(symbol)).cloned().unwrap_or_default())
         }
 
@@ -219,6 +221,7 @@ impl Terrain {
             edits: Arc::default(),
             kept_read: false,
             key: Key::default(),
+            sketched: false,
             begun: false,
             names: Arc::new(names),
         })
@@ -239,6 +242,14 @@ impl Terrain {
     /// The ground that is expanded.
     pub fn ground(&self) -> &Ground {
         &self.ground
+    }
+
+    /// What was `found` at a place (m); where nothing is expanded, an error, or `even` while the script is only checked.
+    fn known<T>(&self, at: DVec2, found: Option<T>, even: T) -> Result<T> {
+        match found {
+            None if self.sketched => Ok(even),
+            found => found.ok_or_else(|| self.nothing(at)),
+        }
     }
 
     fn nothing(&self, at: DVec2) -> Error {
@@ -353,6 +364,10 @@ impl Object for Terrain {
         self.drainage = None;
         self.rivers.clear();
         self.edits = Arc::clone(&self.kept);
+    }
+
+    fn sketch(&mut self) {
+        self.sketched = true;
     }
 
     fn begins_empty(&self) -> bool {
