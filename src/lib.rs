@@ -17,6 +17,8 @@
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
+//! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is expanded
+//!   of it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height map.
 //! - [`objects`]: what rules ask and interpretations change: each an [`Object`](objects::Object), listed in
 //!   [`KINDS`](objects::KINDS).
 //! - [`rules`]: a [`Grammar`](rules::Grammar) of [`Pattern`](rules::Pattern)s that match along a
