@@ -46,6 +46,7 @@ fn world(drawn: bool, smooth: bool) -> World {
             start: 0,
             height: 0.0,
             rest: vec![4000.0],
+            names: Arc::default(),
         }],
         smooth,
         key: drawn.then(|| Key::seed(1)),

@@ -333,10 +333,10 @@ impl Ground {
         Some(north.lerp(south, part.y).normalize())
     }
 
-    /// The symbol of the cell at `place` (m); `None` where nothing is expanded.
-    pub fn symbol(&self, place: DVec2) -> Option<u16> {
+    /// The name of the symbol of the cell at `place` (m); `None` where nothing is expanded.
+    pub fn symbol(&self, place: DVec2) -> Option<&str> {
         let (tile, (x, y), _) = self.find(place)?;
-        Some(tile.symbol(x, y))
+        Some(self.world.name(tile.level(), tile.symbol(x, y)))
     }
 
     /// The first and the last corner of the smallest cells of the square that is expanded.

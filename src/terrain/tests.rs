@@ -41,6 +41,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
             start: 0,
             height: 100.0,
             rest: vec![2000.0],
+            names: Arc::default(),
         }],
         smooth,
         key: drawn.then(|| Key::seed(seed)),
@@ -314,4 +315,22 @@ fn edits_act_in_their_order_whatever_is_expanded_and_come_back_from_a_file() {
     plain.focus(middle, &view(), &Tables).unwrap();
     assert_eq!(ground.height(beside), plain.height(beside));
     assert_ne!(ground.height(beside), Some(700.0));
+}
+
+#[test]
+fn cells_are_called_as_the_rules_of_their_level_call_them() {
+    let mut world = world(3, false, false);
+    let named = |names: [&str; 4]| Arc::new(names.map(str::to_owned).to_vec());
+    let first = Layer { names: named(["A", "B", "C", "D"]), ..world.layers[0].clone() };
+    let fine = Layer { from: 9, start: 2, names: named(["E", "F", "G", "H"]), ..first.clone() };
+    world.layers = vec![first, fine];
+    let mut ground = Ground::new(Arc::new(world));
+    let ring = |(across, levels)| Ring { across, levels };
+    let view = View { cell: 512.0, rings: [(2, 3), (4, 1)].map(ring).to_vec() };
+    let eye = ground.world().corner + 20_000.0;
+    ground.focus(eye, &view, &Tables).unwrap();
+    // Tiles are of level 7: the outer ones end at level 8, before the other rules begin.
+    let name = |away: f64| ground.symbol(eye + DVec2::new(away, 0.0)).unwrap();
+    assert!("EFGH".contains(name(0.0)) && "ABCD".contains(name(900.0)), "{} {}", name(0.0), name(900.0));
+    assert!(!name(0.0).is_empty() && !name(900.0).is_empty());
 }

@@ -43,6 +43,8 @@ pub struct Layer {
     pub height: f64,
     /// The other parameters that each gets.
     pub rest: Vec<f64>,
+    /// The names of the symbols of its cells, by number; of a system only once it is known what that begins with.
+    pub names: Arc<Vec<String>>,
 }
 
 /// The cell that a system begins with.
@@ -125,6 +127,31 @@ impl World {
     /// Whether the rules of a script divide any of its cells.
     pub fn has_systems(&self) -> bool {
         self.layers.iter().any(|layer| matches!(layer.rules, Rules::System(_)))
+    }
+
+    /// The world once it is known what the systems begin with that divide its cells; `None` where there is nothing to
+    /// learn.
+    pub fn begun(&self, divide: &dyn Divide) -> Result<Option<Self>> {
+        let unknown = |layer: &Layer| matches!(layer.rules, Rules::System(_)) && layer.names.is_empty();
+        if !self.layers.iter().any(unknown) {
+            return Ok(None);
+        }
+        let mut world = self.clone();
+        for layer in world.layers.iter_mut().filter(|layer| unknown(layer)) {
+            if let Rules::System(system) = layer.rules {
+                let begin = divide.begin(system)?;
+                layer.start = begin.symbol;
+                layer.height += begin.height;
+                layer.rest = begin.rest;
+                layer.names = Arc::new(begin.names);
+            }
+        }
+        Ok(Some(world))
+    }
+
+    /// The name of a symbol among those of the cells of `level`; empty where nothing has divided them.
+    pub fn name(&self, level: u32, symbol: Symbol) -> &str {
+        self.layer(level).names.get(usize::from(symbol)).map_or("", String::as_str)
     }
 
     /// The cells of `area` at `level`. They depend on the world and their places alone.

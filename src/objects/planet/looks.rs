@@ -6,18 +6,15 @@ use super::Options;
 use crate::error::Result;
 use crate::objects::terrain::looks::{blend, image, material, texels};
 use crate::objects::terrain::mask::{Place, Spot};
-use crate::rules::Symbol;
 use crate::scene::Material;
 use crate::terrain::Tile;
 use crate::terrain::globe::{Globe, latitude, within};
 
-/// The material called `name` of a tile with its face. `masks` are the numbers of the symbols of covers, and of what
-/// lies on the water.
+/// The material called `name` of a tile with its face.
 pub(super) fn of(
     options: &Options,
     globe: &Globe,
     (face, tile): (usize, &Tile),
-    masks: &[Vec<Symbol>],
     name: &str,
 ) -> Result<Material> {
     let roughness = 0.95;
@@ -34,13 +31,13 @@ pub(super) fn of(
         let spot = relief.spot(options, globe, (face, tile), (column, row, across));
         let water = options.water.as_ref().filter(|water| spot.height < water.level);
         let Some(water) = water else {
-            return if options.covers.is_empty() { plain } else { blend(&spot, &options.covers, masks) };
+            return if options.covers.is_empty() { plain } else { blend(&spot, &options.covers) };
         };
         let mut color = water.tint(water.level - spot.height);
-        if let (Some(ice), Some(names)) = (&options.ice, masks.last()) {
+        if let Some(ice) = &options.ice {
             let spot = Spot { height: water.level, slope: 0.0, ..spot };
             #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-            let amount = (ice.on.at(&spot, names, 0) * ice.amount) as f32;
+            let amount = (ice.on.at(&spot, 0) * ice.amount) as f32;
             for (at, into) in color.iter_mut().enumerate() {
                 *into += (ice.color.0[at] - *into) * amount;
             }
@@ -103,13 +100,13 @@ impl<'a> Relief<'a> {
         clippy::cast_possible_wrap,
         reason = "texels and cells of a tile are few"
     )]
-    fn spot(
+    fn spot<'b>(
         &self,
         options: &Options,
-        globe: &Globe,
+        globe: &'b Globe,
         (face, tile): (usize, &Tile),
         (column, row, across): (usize, usize, usize),
-    ) -> Spot {
+    ) -> Spot<'b> {
         let part = DVec2::new(column as f64, row as f64) / (across - 1) as f64;
         let way = within(face, tile, part);
         let along = part * (self.across - 1) as f64;
@@ -131,7 +128,7 @@ impl<'a> Relief<'a> {
             slope: here.truncate().length().atan().to_degrees(),
             curvature: (around - 4.0 * tile.cell(x, y)) / (self.cell * self.cell),
             latitude: latitude(way, options.axis.0),
-            symbol: Some(tile.symbol(x, y)),
+            symbol: Some(globe.world().name(tile.level(), tile.symbol(x, y))),
         }
     }
 }

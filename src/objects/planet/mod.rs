@@ -10,10 +10,10 @@ use rayon::prelude::*;
 use super::terrain::{Cover, RuleLayers, Water, rules};
 use super::{Color, Kind, Object, Seed, Table, Vector};
 use crate::error::{Error, Result};
-use crate::rules::{Key, Symbol};
+use crate::rules::Key;
 use crate::scene::{Instance, Material, Mesh, Scene};
 use crate::terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
-use crate::terrain::{Divide, Rules, World};
+use crate::terrain::{Divide, World};
 
 fields! {
     /// What `planet { ... }` takes.
@@ -68,10 +68,6 @@ pub struct Planet {
     eye: Option<DVec3>,
     /// Whether the script is only checked.
     sketched: bool,
-    /// Whether it is known what the systems begin with that divide its cells.
-    begun: bool,
-    /// The names of the symbols of its cells, by number.
-    names: Arc<Vec<String>>,
 }
 
 methods! {
@@ -104,8 +100,7 @@ methods! {
 
         /// The symbol of the cell in a direction from its middle.
         pub fn symbol(&self, direction: Vector) -> Result<String> {
-            let symbol = self.known(self.globe.symbol(towards(direction)?), 0)?;
-            Ok(self.names.get(usize::from(symbol)).cloned().unwrap_or_default())
+            self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
         }
 
         /// How many heights are expanded at present.
@@ -183,40 +178,12 @@ impl Planet {
             wanted: None,
             sketched: false,
             eye: None,
-            begun: false,
-            names: Arc::new(built.names),
         })
     }
 
     /// The globe that is expanded.
     pub fn globe(&self) -> &Globe {
         &self.globe
-    }
-
-    /// Gives the levels that systems divide what those begin with, once.
-    fn begin_systems(&mut self, divide: &dyn Divide) -> Result<()> {
-        if self.begun || !self.globe.world().has_systems() {
-            return Ok(());
-        }
-        let mut world = self.globe.world().clone();
-        for layer in &mut world.layers {
-            if let Rules::System(system) = layer.rules {
-                let begin = divide.begin(system)?;
-                layer.start = begin.symbol;
-                layer.height += begin.height;
-                layer.rest = begin.rest;
-                self.names = Arc::new(begin.names);
-            }
-        }
-        self.begun = true;
-        self.globe = Globe::new(world, self.options.radius, self.globe.sea());
-        Ok(())
-    }
-
-    /// The numbers of the symbols of its covers, and of what lies on the water.
-    fn masks(&self) -> Result<Vec<Vec<Symbol>>> {
-        let covers = self.options.covers.iter().chain(&self.options.ice);
-        covers.map(|cover| cover.on.numbers("planet", &self.names)).collect()
     }
 }
 
@@ -276,7 +243,9 @@ impl Object for Planet {
     }
 
     fn grow(&mut self, divide: &dyn Divide) -> Result<()> {
-        self.begin_systems(divide)?;
+        if let Some(world) = self.globe.world().begun(divide)? {
+            self.globe = Globe::new(world, self.options.radius, self.globe.sea());
+        }
         self.eye = self.wanted;
         self.globe.focus(self.eye, self.options.closeness, self.options.levels, divide)
     }
@@ -284,7 +253,9 @@ impl Object for Planet {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let globe = &self.globe;
         let mesh = GlobeMesh::new(globe, self.options.error);
-        let masks = self.masks()?;
+        for cover in self.options.covers.iter().chain(&self.options.ice) {
+            cover.on.check("planet", globe.world())?;
+        }
         let hidden = self.eye.filter(|_| self.options.horizon);
         let tiles: Vec<_> = globe.tiles().collect();
         let made: Vec<_> = tiles
@@ -296,7 +267,7 @@ impl Object for Planet {
                 }
                 let place = tile.place;
                 let of = format!("{name} {face}/{}/{}/{}", place.level, place.x, place.y);
-                let looks = looks::of(&self.options, globe, (face, tile), &masks, &of)?;
+                let looks = looks::of(&self.options, globe, (face, tile), &of)?;
                 Ok(Some((of, pieces, looks)))
             })
             .collect::<Result<_>>()?;

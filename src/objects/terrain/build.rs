@@ -10,8 +10,8 @@ use crate::objects::Elevation;
 use crate::rules::Key;
 use crate::terrain::{Layer, Measured, Rules, World};
 
-/// The world that `options` describe, and the names of the symbols of its cells. Fails for what cannot be.
-pub(super) fn world(options: &Options) -> Result<(World, Vec<String>)> {
+/// The world that `options` describe. Fails for what cannot be.
+pub(super) fn world(options: &Options) -> Result<World> {
     if !(options.size > 0.0 && options.size <= 1e9) {
         return Err(Error::new(format!("terrain: size is {} m", options.size))
             .help("give a length above 0 and up to 1e9 m"));
@@ -35,11 +35,17 @@ pub(super) fn world(options: &Options) -> Result<(World, Vec<String>)> {
     let mut built =
         options.rules.build("terrain", options.start.as_ref(), (options.height, options.decay), fine)?;
     if options.elevation.is_some() {
-        let level = Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new() };
+        let level = Layer {
+            from: 0,
+            rules: Rules::None,
+            start: 0,
+            height: 0.0,
+            rest: Vec::new(),
+            names: Arc::default(),
+        };
         built.layers.insert(0, level);
     }
-    let names = built.names;
-    let world = World {
+    Ok(World {
         corner,
         size: options.size,
         layers: built.layers,
@@ -47,8 +53,7 @@ pub(super) fn world(options: &Options) -> Result<(World, Vec<String>)> {
         remap: remap(&options.remap)?,
         key: built.drawn.then(Key::default),
         measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
-    };
-    Ok((world, names))
+    })
 }
 
 /// The pairs of heights (m) of a change, in order.

@@ -48,9 +48,9 @@ impl Parameter for Cover {
 /// How many texels a side of a tile's image has at most.
 const MOST_TEXELS: usize = 2048;
 
-/// The image of what lies on `tile`, where cells of the symbols `names` know which they are; and how many texels a side
+/// The image of what lies on `tile`, and how many texels a side
 /// of it has. Its outermost texels lie on the tile's rim, so that images of neighbours meet.
-pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover], names: &[Vec<u16>]) -> (Vec<u8>, usize) {
+pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover]) -> (Vec<u8>, usize) {
     let (corner, size) = tile.bounds(ground.world());
     // One tile alone is seen as a whole, many of them are far from most eyes.
     let fine = if ground.tiles().len() == 1 { 2 } else { 1 };
@@ -63,7 +63,7 @@ pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover], names: &[Vec
         #[allow(clippy::cast_precision_loss, reason = "texels are few")]
         let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
         let place = (corner + offset).min(corner + size);
-        blend(&Spot::new(ground, place, reach, bent), covers, names)
+        blend(&Spot::new(ground, place, reach, bent), covers)
     });
     (bytes, across)
 }
@@ -81,11 +81,11 @@ pub(in crate::objects) fn image(across: usize, color: impl Fn(usize, usize) -> [
 }
 
 /// The colour of a spot under `covers`.
-pub(in crate::objects) fn blend(spot: &Spot, covers: &[Cover], names: &[Vec<u16>]) -> [f32; 3] {
+pub(in crate::objects) fn blend(spot: &Spot<'_>, covers: &[Cover]) -> [f32; 3] {
     let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
-    for (number, (cover, names)) in (0..).zip(covers.iter().zip(names)).skip(1) {
+    for (number, cover) in (0..).zip(covers).skip(1) {
         #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-        let amount = (cover.on.at(spot, names, number) * cover.amount) as f32;
+        let amount = (cover.on.at(spot, number) * cover.amount) as f32;
         for (at, into) in color.iter_mut().enumerate() {
             *into += (cover.color.0[at] - *into) * amount;
         }

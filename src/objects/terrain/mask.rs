@@ -6,8 +6,7 @@ use glam::{DVec2, DVec3};
 
 use crate::error::{Error, Result, nearest};
 use crate::objects::{Expected, Parameter, Table, Value};
-use crate::rules::Symbol;
-use crate::terrain::{Ground, octaves, octaves_around};
+use crate::terrain::{Ground, World, octaves, octaves_around};
 
 fields! {
     /// Where a cover lies or plants grow.
@@ -73,7 +72,7 @@ pub(in crate::objects) enum Place {
 }
 
 /// How the ground is at a place.
-pub(in crate::objects) struct Spot {
+pub(in crate::objects) struct Spot<'a> {
     pub place: Place,
     /// m.
     pub height: f64,
@@ -83,13 +82,13 @@ pub(in crate::objects) struct Spot {
     pub curvature: f64,
     /// degrees from the equator.
     pub latitude: f64,
-    /// The symbol of the cell there.
-    pub symbol: Option<Symbol>,
+    /// The name of the symbol of the cell there.
+    pub symbol: Option<&'a str>,
 }
 
-impl Spot {
+impl<'a> Spot<'a> {
     /// The ground at `place` (m); its curvature over `reach` (m), if that is wanted.
-    pub(super) fn new(ground: &Ground, place: DVec2, reach: f64, bent: bool) -> Self {
+    pub(super) fn new(ground: &'a Ground, place: DVec2, reach: f64, bent: bool) -> Self {
         let height = ground.height(place).unwrap_or(0.0);
         let up = ground.way_up(place).unwrap_or(DVec3::Z);
         let beside = |x: f64, y: f64| ground.height(place + DVec2::new(x, y) * reach).unwrap_or(height);
@@ -120,25 +119,25 @@ impl Mask {
         !self.curvature.is_empty()
     }
 
-    /// The numbers of its symbols among `names`, the cells of a `kind` of object.
-    pub(in crate::objects) fn numbers(&self, kind: &str, names: &[String]) -> Result<Vec<Symbol>> {
-        let number = |symbol: &String| {
-            let found = names.iter().position(|name| name == symbol).and_then(|at| Symbol::try_from(at).ok());
-            found.ok_or_else(|| {
-                let error = Error::new(format!("{kind}: no rule makes {symbol}"));
-                match nearest(symbol, names.iter().map(String::as_str)) {
-                    Some(near) => error.help(format!("did you mean {near}?")),
-                    None => error.help(format!("the cells are {}", names.join(", "))),
-                }
-            })
+    /// Fails if no cell of the world of a `kind` of object has one of its symbols.
+    pub(in crate::objects) fn check(&self, kind: &str, world: &World) -> Result<()> {
+        let names = || world.layers.iter().flat_map(|layer| layer.names.iter()).map(String::as_str);
+        let Some(unknown) = self.symbols.iter().find(|symbol| names().all(|name| name != symbol.as_str()))
+        else {
+            return Ok(());
         };
-        self.symbols.iter().map(number).collect()
+        let error = Error::new(format!("{kind}: no rule makes {unknown}"));
+        let known: Vec<&str> = names().filter(|name| !name.is_empty()).collect();
+        Err(match nearest(unknown, known.iter().copied()) {
+            Some(near) => error.help(format!("did you mean {near}?")),
+            None => error.help(format!("the cells are {}", known.join(", "))),
+        })
     }
 
-    /// How much (0 to 1) of it there is at a spot. `symbols` are the numbers of its symbols; masks with other `seed`s
-    /// have other patches.
-    pub(in crate::objects) fn at(&self, spot: &Spot, symbols: &[Symbol], seed: u64) -> f64 {
-        if !symbols.is_empty() && !spot.symbol.is_some_and(|symbol| symbols.contains(&symbol)) {
+    /// How much (0 to 1) of it there is at a spot; masks with other `seed`s have other patches.
+    pub(in crate::objects) fn at(&self, spot: &Spot<'_>, seed: u64) -> f64 {
+        let here = |symbol: &String| spot.symbol == Some(symbol.as_str());
+        if !self.symbols.is_empty() && !self.symbols.iter().any(here) {
             return 0.0;
         }
         let values = [spot.height, spot.slope, spot.curvature, spot.latitude];

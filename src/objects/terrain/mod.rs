@@ -30,7 +30,7 @@ use super::{Color, Elevation, Expected, Kind, Object, Parameter, Table, Value, V
 use crate::error::{Error, Result};
 use crate::rules::Key;
 use crate::scene::Scene;
-use crate::terrain::{Divide, Drainage, Edit, Edits, Ground, Map, Rules, View, World};
+use crate::terrain::{Divide, Drainage, Edit, Edits, Ground, Map, View, World};
 
 fields! {
     /// What `terrain { ... }` takes.
@@ -98,10 +98,6 @@ pub struct Terrain {
     key: Key,
     /// Whether the script is only checked.
     sketched: bool,
-    /// Whether it is known what the systems begin with that divide its cells.
-    begun: bool,
-    /// The names of the symbols of its cells, by number.
-    names: Arc<Vec<String>>,
 }
 
 methods! {
@@ -179,8 +175,7 @@ methods! {
         /// The symbol of the cell at a place.
         pub fn symbol(&self, place: Vector) -> Result<String> {
             let at = place.0.truncate();
-            let symbol = self.known(at, self.ground.symbol(at), 0)?;
-            Ok(self.names.get(usize::from(symbol)).cloned().unwrap_or_default())
+            self.known(at, self.ground.symbol(at), "").map(str::to_owned)
         }
 
         /// How many heights are expanded at present.
@@ -205,7 +200,7 @@ impl Terrain {
 
     /// A terrain of which nothing is expanded.
     pub fn new(options: Options) -> Result<Self> {
-        let (world, names) = build::world(&options)?;
+        let world = build::world(&options)?;
         if let Some(levels) = options.levels {
             View::whole(&world, levels).check(&world, options.position.0.truncate())?;
         }
@@ -222,8 +217,6 @@ impl Terrain {
             kept_read: false,
             key: Key::default(),
             sketched: false,
-            begun: false,
-            names: Arc::new(names),
         })
     }
 
@@ -287,28 +280,6 @@ impl Terrain {
             self.edits = Arc::clone(&self.kept);
             self.kept_read = true;
         }
-        Ok(())
-    }
-
-    /// Gives the levels that systems divide what those begin with, once.
-    fn begin_systems(&mut self, divide: &dyn Divide) -> Result<()> {
-        let world = self.ground.world();
-        if self.begun || !world.has_systems() {
-            return Ok(());
-        }
-        let mut world = world.clone();
-        for layer in &mut world.layers {
-            if let Rules::System(system) = layer.rules {
-                let begin = divide.begin(system)?;
-                layer.start = begin.symbol;
-                layer.height += begin.height;
-                layer.rest = begin.rest;
-                self.names = Arc::new(begin.names);
-            }
-        }
-        self.begun = true;
-        self.plain = Ground::new(Arc::new(world));
-        self.ground = self.plain.clone();
         Ok(())
     }
 }
@@ -390,7 +361,10 @@ impl Object for Terrain {
             }
             (None, None) => return Ok(()),
         };
-        self.begin_systems(divide)?;
+        if let Some(world) = self.ground.world().begun(divide)? {
+            self.plain = Ground::new(Arc::new(world));
+            self.ground = self.plain.clone();
+        }
         self.read_edits()?;
         self.plain.edit(&self.kept);
         self.plain.focus(eye, &view, divide)?;

@@ -9,7 +9,7 @@ use super::mask::{Mask, Spot};
 use crate::error::{Error, Result};
 use crate::objects::{Drawing, Expected, Model, Parameter, Table, Value};
 use crate::random::Stream;
-use crate::rules::{Key, Symbol};
+use crate::rules::Key;
 use crate::terrain::Ground;
 
 fields! {
@@ -61,13 +61,7 @@ impl Parameter for Plants {
 
 impl Plants {
     /// Places them on all of `ground`. Which there are depends on the world, the `key` and the place alone.
-    pub(super) fn scatter(
-        &self,
-        ground: &Ground,
-        symbols: &[Symbol],
-        key: Key,
-        drawing: &mut Drawing,
-    ) -> Result<()> {
+    pub(super) fn scatter(&self, ground: &Ground, key: Key, drawing: &mut Drawing) -> Result<()> {
         let world = ground.world();
         // The squares of a level on each of which at most one grows.
         let most = 10_000.0 / self.density;
@@ -99,7 +93,7 @@ impl Plants {
             let grown: Vec<Vec<(usize, DAffine3)>> = (y..y + across)
                 .into_par_iter()
                 .map(|y| {
-                    let one = |x: u64| self.one(ground, symbols, key, (x, y), (cell, chance), reach);
+                    let one = |x: u64| self.one(ground, key, (x, y), (cell, chance), reach);
                     (x..x + across).filter_map(one).collect()
                 })
                 .collect();
@@ -115,7 +109,6 @@ impl Plants {
     fn one(
         &self,
         ground: &Ground,
-        symbols: &[Symbol],
         key: Key,
         (x, y): (u64, u64),
         (cell, chance): (f64, f64),
@@ -129,7 +122,7 @@ impl Plants {
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
         ground.height(place)?;
         let spot = Spot::new(ground, place, reach, self.on.is_bent());
-        if luck >= chance * self.on.at(&spot, symbols, key.0) {
+        if luck >= chance * self.on.at(&spot, key.0) {
             return None;
         }
         let model = stream.below(self.models.len());

@@ -240,8 +240,6 @@ fn draw(value: Value) -> Option<Draw> {
 /// The rules of a world.
 pub(in crate::objects) struct Built {
     pub layers: Vec<Layer>,
-    /// The names of the symbols of its last cells; of systems they are not known yet.
-    pub names: Vec<String>,
     /// Whether they draw random numbers.
     pub drawn: bool,
 }
@@ -261,16 +259,13 @@ impl RuleLayers {
             first.start = first.start.take().or_else(|| start.cloned());
             first.height += height;
         }
-        let mut built = Built { layers: Vec::new(), names: Vec::new(), drawn: false };
+        let mut built = Built { layers: Vec::new(), drawn: false };
         for mut layer in given {
             decay = layer.decay.unwrap_or(decay);
             layer.from += finer;
             built.layers.push(layer.build(kind, decay)?);
             built.drawn |= match &layer.rules {
-                LayerRules::Table(table) => {
-                    built.names.clone_from(&table.names);
-                    table.is_random()
-                }
+                LayerRules::Table(table) => table.is_random(),
                 LayerRules::System(_) => true,
             };
         }
@@ -318,7 +313,11 @@ impl RuleLayer {
             LayerRules::System(system) => (Rules::System(system.index), 0, Vec::new()),
         };
         let start = Symbol::try_from(start).unwrap_or(0);
-        Ok(Layer { from: self.from, rules, start, height: self.height, rest })
+        let names = match &self.rules {
+            LayerRules::Table(table) => Arc::new(table.names.clone()),
+            LayerRules::System(_) => Arc::default(),
+        };
+        Ok(Layer { from: self.from, rules, start, height: self.height, rest, names })
     }
 
     /// The greatest factor by which a decay grows where it does not shrink.

@@ -2,11 +2,10 @@
 
 use glam::{DAffine3, DVec3};
 
-use super::mask::Mask;
 use super::{Terrain, looks, sides};
 use crate::error::{Error, Result};
 use crate::objects::Drawing;
-use crate::rules::{Key, Symbol};
+use crate::rules::Key;
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
 use crate::terrain::Mesh as Triangulation;
 
@@ -21,8 +20,10 @@ impl Terrain {
         }
         let mesh = Triangulation::new(ground, self.error());
         let lift = DVec3::Z * self.options.position.0.z;
-        let masks = self.options.covers.iter().map(|cover| self.numbers(&cover.on));
-        let masks = masks.collect::<Result<Vec<_>>>()?;
+        let masks = self.options.covers.iter().map(|cover| &cover.on);
+        for mask in masks.chain(self.options.plants.iter().map(|plants| &plants.on)) {
+            mask.check("terrain", ground.world())?;
+        }
         for tile in ground.tiles() {
             let (corner, size) = tile.bounds(ground.world());
             let origin = (corner + size / 2.0).extend(0.0);
@@ -36,7 +37,7 @@ impl Terrain {
                     Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
                 part.material = scene.material(&material);
             } else {
-                let (bytes, across) = looks::paint(ground, tile, &self.options.covers, &masks);
+                let (bytes, across) = looks::paint(ground, tile, &self.options.covers);
                 mesh.write(tile, origin, looks::half_texel(size, across), &mut part);
                 let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
                 part.material = scene.material(&material);
@@ -77,7 +78,7 @@ impl Terrain {
         }
         for (number, plants) in (1u64..).zip(&self.options.plants) {
             let key = Key(self.key.0.wrapping_add(number)).child(0);
-            plants.scatter(ground, &self.numbers(&plants.on)?, key, &mut drawing)?;
+            plants.scatter(ground, key, &mut drawing)?;
         }
         drawing.show(scene, lift, name, feature);
         Ok(())
@@ -86,9 +87,5 @@ impl Terrain {
     /// How far (m) triangles may be from the surface.
     fn error(&self) -> f64 {
         self.options.error.unwrap_or_else(|| self.ground.world().cell(self.ground.finest()) / 10.0)
-    }
-
-    fn numbers(&self, mask: &Mask) -> Result<Vec<Symbol>> {
-        mask.numbers("terrain", &self.names)
     }
 }

@@ -57,6 +57,7 @@ impl Fitted {
                 start: 0,
                 height: self.height,
                 rest: vec![self.decay],
+                names: Arc::default(),
             }],
             smooth: false,
             key: None,

@@ -16,7 +16,6 @@ use super::faces::{Spot, aliases, corner};
 use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
 use super::sphere::{direction, place, side};
 use crate::error::Result;
-use crate::rules::Symbol;
 use crate::terrain::block::{Area, Block};
 use crate::terrain::tile::Tile;
 use crate::terrain::world::{Divide, World};
@@ -259,9 +258,9 @@ impl Globe {
     }
 
     /// The symbol of the cell in a direction; `None` where nothing is expanded.
-    pub fn symbol(&self, direction: DVec3) -> Option<Symbol> {
+    pub fn symbol(&self, direction: DVec3) -> Option<&str> {
         let (tile, (_, x, y), _) = self.find(direction)?;
-        Some(tile.symbol(x, y))
+        Some(self.world.name(tile.level(), tile.symbol(x, y)))
     }
 
     /// The direction (a unit vector) of a corner of the smallest cells, by its name on the first face that has it.

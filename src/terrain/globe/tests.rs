@@ -34,6 +34,7 @@ fn world(seed: u64, smooth: bool) -> World {
             start: 0,
             height: 0.0,
             rest: vec![800.0],
+            names: Arc::default(),
         }],
         smooth,
         key: Some(Key::seed(seed)),
