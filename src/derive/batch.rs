@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use super::Plan;
 use super::output::{Output, Use};
 use crate::error::{Error, Result};
-use crate::rules::{Bindings, Chain, Choice, END, Key, Links, Mark, Symbol, module_text};
+use crate::rules::{Bindings, CLOSE, Chain, Choice, END, Key, Links, Mark, OPEN, Symbol, module_text};
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.
@@ -15,6 +15,11 @@ pub(super) const NONE: u16 = u16::MAX;
 const STAY: u32 = 0x8000_0000;
 /// Marks the number of a shape, in the counts that Lua writes.
 const SHAPE: u32 = 0x4000_0000;
+/// Marks an application whose modules are in another order than they were made, in the counts that Lua writes.
+const ORDERED: u32 = 0x2000_0000;
+/// Brackets in the order that Lua writes.
+const OPENS: u32 = 0xFFFF_FFFE;
+const CLOSES: u32 = 0xFFFF_FFFF;
 
 /// A piece of the chain: from a mark up to another symbol.
 #[derive(Debug, Clone, Copy)]
@@ -32,6 +37,15 @@ pub(crate) struct Scratch {
     bindings: Bindings,
     /// The most random numbers that each rule has drawn for one module.
     draws: Vec<usize>,
+    arranged: Arranged,
+}
+
+/// A successor whose modules are in another order than they were made.
+#[derive(Default)]
+struct Arranged {
+    symbols: Vec<Symbol>,
+    /// Where the parameters of each module that was made begin.
+    starts: Vec<usize>,
 }
 
 /// A module that has rules.
@@ -50,11 +64,49 @@ struct Group {
     symbols: Vec<Symbol>,
     params: Vec<f64>,
     ends: Vec<u32>,
+    /// For each application whose modules are in another order: the number of its items, and the items.
+    order: Vec<u32>,
     next: usize,
     symbol_at: usize,
     param_at: usize,
+    order_at: usize,
     made: usize,
     time: Duration,
+}
+
+impl Group {
+    fn rewind(&mut self) {
+        (self.next, self.symbol_at, self.param_at, self.order_at, self.made) = (0, 0, 0, 0, 0);
+    }
+
+    /// The successor of the application whose modules end at `end`: its symbols, and its parameters behind `params`.
+    fn arrange(&mut self, end: u32, arities: &[u8], to: &mut Arranged, params: &mut Vec<f64>) {
+        let arity = |symbol: Symbol| usize::from(arities[usize::from(symbol)]);
+        let made = &self.symbols[self.symbol_at..end as usize];
+        self.symbol_at = end as usize;
+        to.starts.clear();
+        for symbol in made {
+            to.starts.push(self.param_at);
+            self.param_at += arity(*symbol);
+        }
+        let count = self.order[self.order_at] as usize;
+        let items = &self.order[self.order_at + 1..][..count];
+        self.order_at += 1 + count;
+        to.symbols.clear();
+        for item in items {
+            let symbol = match *item {
+                OPENS => OPEN,
+                CLOSES => CLOSE,
+                place => {
+                    let symbol = made[place as usize];
+                    let start = to.starts[place as usize];
+                    params.extend_from_slice(&self.params[start..start + arity(symbol)]);
+                    symbol
+                }
+            };
+            to.symbols.push(symbol);
+        }
+    }
 }
 
 /// The step at hand, for one thread.
@@ -316,12 +368,13 @@ impl Batch<'_> {
                 Err(error) => return Err(self.blame(error, rule, members, scratch)),
             };
         scratch.draws[usize::from(rule)] = draws.max(current.drawn.get());
-        let (symbols, params) = prelude.outputs().map_err(lua)?;
+        let (symbols, params, order, items) = prelude.outputs().map_err(lua)?;
         let group = &mut scratch.groups[usize::from(rule)];
         read_column(symbols, modules, &mut group.symbols).map_err(plain)?;
         read_column(params, bytes / 8, &mut group.params).map_err(plain)?;
         read_column(counts, members.len(), &mut group.ends).map_err(plain)?;
-        (group.next, group.symbol_at, group.param_at, group.made) = (0, 0, 0, 0);
+        read_column(order, items, &mut group.order).map_err(plain)?;
+        group.rewind();
         Ok(())
     }
 
@@ -371,15 +424,21 @@ impl Batch<'_> {
     fn applied(&self, piece: Piece, scratch: &Scratch) -> Vec<(u16, u32)> {
         let shapes = self.machine.current.shapes.borrow();
         let mut applied = vec![(NONE, 1); piece.end - piece.begin.module];
-        let mut read = vec![(0, 0); scratch.groups.len()];
+        let mut read = vec![(0, 0, 0); scratch.groups.len()];
         for active in scratch.active.iter().filter(|active| active.rule != NONE) {
-            let (next, from) = &mut read[usize::from(active.rule)];
-            let end = scratch.groups[usize::from(active.rule)].ends[*next];
+            let (next, from, item) = &mut read[usize::from(active.rule)];
+            let group = &scratch.groups[usize::from(active.rule)];
+            let end = group.ends[*next];
             *next += 1;
             let count = if end & STAY != 0 {
                 1
             } else if end & SHAPE != 0 {
                 narrow(shapes[(end & !SHAPE) as usize].symbols.len())
+            } else if end & ORDERED != 0 {
+                *from = end & !ORDERED;
+                let count = group.order[*item];
+                *item += 1 + count as usize;
+                count
             } else {
                 end - std::mem::replace(from, end)
             };
@@ -430,6 +489,9 @@ impl Batch<'_> {
             let (symbols, params) = if end & SHAPE != 0 {
                 let shape = &shapes[(end & !SHAPE) as usize];
                 (shape.symbols.as_slice(), shape.params)
+            } else if end & ORDERED != 0 {
+                group.arrange(end & !ORDERED, grammar.arities(), &mut scratch.arranged, &mut out.params);
+                (scratch.arranged.symbols.as_slice(), 0)
             } else {
                 let symbols = &group.symbols[group.symbol_at..end as usize];
                 group.symbol_at = end as usize;

@@ -6,6 +6,7 @@ use std::rc::Rc;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Arc, Weak};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
 use rustc_hash::FxHashMap;
 
@@ -33,6 +34,9 @@ struct Helper {
     thread: JoinHandle<()>,
 }
 
+/// About what it costs to start a helper.
+const STARTING: Duration = Duration::from_millis(20);
+
 /// A machine's part in a run: the one that leads, or one that follows.
 pub(crate) struct Crew {
     /// What each call of `derive` has given so far, in order.
@@ -41,14 +45,22 @@ pub(crate) struct Crew {
 }
 
 enum Role {
-    Lead { helpers: Vec<Helper>, watchdog: Arc<Watchdog> },
-    Follow { inbox: Rc<Receiver<Message>>, recorded: Vec<Result<Arc<Derived>>> },
+    /// With the time when there was work for helpers first.
+    Lead {
+        helpers: Vec<Helper>,
+        watchdog: Arc<Watchdog>,
+        since: Option<Instant>,
+    },
+    Follow {
+        inbox: Rc<Receiver<Message>>,
+        recorded: Vec<Result<Arc<Derived>>>,
+    },
 }
 
 impl Crew {
     /// The part of the machine whose result counts.
     pub(crate) fn leading(watchdog: &Arc<Watchdog>) -> Self {
-        let role = Role::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog) };
+        let role = Role::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog), since: None };
         Self { done: RefCell::default(), role: RefCell::new(role) }
     }
 
@@ -82,13 +94,27 @@ impl Crew {
     }
 
     /// Gives a job of `pieces` pieces to as many helpers as can be of use.
-    pub(crate) fn hand_out(&self, machine: &Machine, pieces: usize, job: impl Fn() -> Job) -> Result<()> {
+    ///
+    /// Helpers are started for `many` pieces, or when there has been work for them for longer than their start takes.
+    pub(crate) fn hand_out(
+        &self,
+        machine: &Machine,
+        pieces: usize,
+        many: usize,
+        job: impl Fn() -> Job,
+    ) -> Result<()> {
         let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
         let threads = machine.session.options.threads.unwrap_or_else(cores);
         let useful = threads.min(pieces).saturating_sub(1);
         let mut role = self.role.borrow_mut();
-        let Role::Lead { helpers, watchdog } = &mut *role else { return Ok(()) };
-        while helpers.len() < useful {
+        let Role::Lead { helpers, watchdog, since } = &mut *role else { return Ok(()) };
+        if useful == 0 {
+            return Ok(());
+        }
+        let pays = machine.session.options.threads.is_some()
+            || pieces >= many
+            || since.get_or_insert_with(Instant::now).elapsed() > STARTING;
+        while pays && helpers.len() < useful {
             helpers.push(Helper::start(&machine.session, watchdog, self.done.borrow().clone())?);
         }
         for helper in helpers.iter().take(useful) {

@@ -11,6 +11,9 @@ use crate::error::{Error, Result};
 use crate::rules::{Chain, Links, Mark};
 use crate::script::{Declared, Machine};
 
+/// Pieces of a chain from which rewriting it takes longer than starting a helper.
+const MANY: usize = 16;
+
 /// The work of one step, shared by the threads.
 pub(crate) struct Rewriting {
     pub plan: Arc<Plan>,
@@ -139,7 +142,7 @@ impl Stepper {
             results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
             ready: Condvar::new(),
         });
-        machine.crew.hand_out(machine, count, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
+        machine.crew.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
         let result = self.merge(machine, declared, &rewriting);
         if result.is_err() {
             rewriting.abandon();

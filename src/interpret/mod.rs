@@ -65,7 +65,7 @@ impl Interpreting {
             failure: Mutex::new(None),
             uses: Mutex::new(vec![Use::default(); uses.len()]),
         });
-        machine.crew.hand_out(machine, count, || Job::Interpret(Arc::downgrade(&interpreting)))?;
+        machine.crew.hand_out(machine, count, 2, || Job::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = machine.crew.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);

@@ -159,6 +159,10 @@ impl Walk<'_> {
         } else {
             self.edit(begin.bytes(), begin.bytes(), " __list(".to_owned());
             self.edit(end.bytes(), end.bytes(), ")".to_owned());
+            let list = "__list".to_owned();
+            if let Some(function) = self.functions.last_mut().filter(|it| !it.shapes.contains(&list)) {
+                function.shapes.push(list);
+            }
         }
     }
 

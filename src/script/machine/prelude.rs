@@ -114,8 +114,8 @@ impl Prelude {
         self.entries.call(size)
     }
 
-    /// The columns of new symbols and parameters.
-    pub(crate) fn outputs(&self) -> mlua::Result<(Buffer, Buffer)> {
+    /// The columns of new symbols and parameters, and that of their order with its length.
+    pub(crate) fn outputs(&self) -> mlua::Result<(Buffer, Buffer, Buffer, usize)> {
         self.outputs.call(())
     }
 
