@@ -78,17 +78,17 @@ impl Segment {
     /// The returned frame includes the twist, so a segment that begins there continues this one exactly.
     /// The stations lie on the arc, their headings along it. Fails if a value is not finite, without steps,
     /// and if a step bends or twists by half a turn or more, since the surface would meet itself.
-    pub fn stations(&self, start: Frame, stations: &mut Vec<Station>) -> Result<Frame> {
+    pub fn stations(&self, start: Frame, stations: &mut impl Extend<Station>) -> Result<Frame> {
         self.refuse_impossible()?;
-        for step in 0..=self.steps {
+        stations.extend((0..=self.steps).map(|step| {
             let fraction = step as f64 / self.steps as f64;
-            stations.push(Station {
+            Station {
                 frame: self.frame(start, fraction),
                 scale: self.from.lerp(self.to, fraction),
                 twist: self.twist * fraction,
                 sharp: self.sharp && step == 0,
-            });
-        }
+            }
+        }));
         let mut end = self.frame(start, 1.0);
         end.roll(self.twist);
         end.orthonormalize();
@@ -97,18 +97,19 @@ impl Segment {
 
     /// The frame without twist at a `fraction` of the way.
     fn frame(&self, start: Frame, fraction: f64) -> Frame {
+        let angle = self.bend * fraction;
+        if angle == 0.0 {
+            return Frame { position: start.position + start.heading * (self.length * fraction), ..start };
+        }
         let (sin, cos) = self.toward.sin_cos();
         let direction = start.left * cos - start.up * sin;
-        let angle = self.bend * fraction;
         // The chord of an arc is at half of its angle, and shorter than it by the sine's quotient.
         let half = angle / 2.0;
         let shortening = if half.abs() < 1e-8 { 1.0 } else { half.sin() / half };
         let chord = start.heading * half.cos() + direction * half.sin();
         let mut frame = start;
         frame.position += chord * (self.length * fraction * shortening);
-        if angle != 0.0 {
-            frame.rotate(DQuat::from_axis_angle(start.heading.cross(direction), angle));
-        }
+        frame.rotate(DQuat::from_axis_angle(start.heading.cross(direction), angle));
         frame
     }
 

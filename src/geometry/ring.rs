@@ -2,6 +2,8 @@
 
 use glam::{DVec2, DVec3, Vec3};
 
+use smallvec::SmallVec;
+
 use super::{Frame, Section, Station};
 use crate::error::{Error, Result};
 
@@ -10,6 +12,9 @@ pub(super) const NOTHING: f64 = 1.0 / (1 << 22) as f64;
 
 /// Coordinates and factors are no greater, so that squares and products of them fit into f32 and f64.
 pub(super) const MOST: f64 = 1e9;
+
+/// As many points as most sections have at most: their rings take no memory of their own.
+pub(super) const FEW: usize = 8;
 
 /// A section that reaches no further (m) from its axis is squeezed onto it, so that no face is a sliver.
 const LEAST_REACH: f64 = 1e-6;
@@ -26,7 +31,9 @@ impl Pose {
     /// The directions of the section's x and y.
     pub(super) fn axes(&self) -> (DVec3, DVec3) {
         let mut frame = self.frame;
-        frame.roll(self.twist);
+        if self.twist != 0.0 {
+            frame.roll(self.twist);
+        }
         (-frame.left, -frame.up)
     }
 }
@@ -43,9 +50,9 @@ pub(super) struct Ring {
     /// The direction in which the ring's plane is crossed.
     pub(super) normal: DVec3,
     /// The points (m), in the section's order.
-    pub(super) exact: Vec<DVec3>,
+    pub(super) exact: SmallVec<[DVec3; FEW]>,
     /// The points (m) as they are exported.
-    pub(super) points: Vec<Vec3>,
+    pub(super) points: SmallVec<[Vec3; FEW]>,
     /// Whether the surface has an edge along the ring.
     pub(super) sharp: bool,
 }
@@ -107,12 +114,12 @@ pub(super) fn rings(section: &Section, stations: &[Station], closed: bool) -> Re
 }
 
 /// Runs of stations at one place, each with the direction in which its plane is crossed.
-fn groups(stations: &[Station], closed: bool) -> Vec<(std::ops::Range<usize>, DVec3)> {
+fn groups(stations: &[Station], closed: bool) -> impl Iterator<Item = (std::ops::Range<usize>, DVec3)> {
     let apart = |a: usize, b: usize| {
         let [a, b] = [a, b].map(|index| stations[index].frame.position);
         a.distance_squared(b) > NOTHING * NOTHING
     };
-    let mut groups = Vec::new();
+    let mut groups: SmallVec<[_; 2]> = SmallVec::new();
     let mut start = 0;
     for end in 1..=stations.len() {
         if end == stations.len() || apart(start, end) {
@@ -125,7 +132,7 @@ fn groups(stations: &[Station], closed: bool) -> Vec<(std::ops::Range<usize>, DV
         groups[0].1 = groups[count - 1].1;
         groups[count - 1].2 = groups[0].2;
     }
-    groups.into_iter().map(|(range, before, after)| (range, (before + after).normalize_or_zero())).collect()
+    groups.into_iter().map(|(range, before, after)| (range, (before + after).normalize_or_zero()))
 }
 
 fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, normal: DVec3) -> Result<Ring> {
@@ -145,7 +152,7 @@ fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, norma
         position + offset - heading * (offset.dot(normal) / slope)
     };
     let straight = slope > 1.0 - 1e-15;
-    let exact: Vec<DVec3> = if straight {
+    let exact: SmallVec<[DVec3; FEW]> = if straight {
         section.points().map(|point| position + x * (scale.x * point.x) + y * (scale.y * point.y)).collect()
     } else {
         section.points().map(place).collect()

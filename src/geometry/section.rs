@@ -1,7 +1,10 @@
 //! Cross-sections: the flat shape that a sweep moves through space.
 
+use std::sync::OnceLock;
+
 use glam::DVec2;
 
+use super::skin::Skin;
 use super::{cap, outline};
 use crate::error::{Error, Result};
 
@@ -34,11 +37,19 @@ impl SectionPoint {
 /// x is to the right and y upwards, looking against the extruding direction. The outer ring is
 /// counter-clockwise and the holes are clockwise, whichever way they were given. An open section is one line
 /// without holes; swept, it gives a ribbon, whose front is to the right of the line's direction.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone)]
 pub struct Section {
     rings: Vec<Vec<Knot>>,
     open: bool,
     cap: Vec<[usize; 3]>,
+    /// Its division into faces, with edges at all points or at the sharp ones, once it has been asked for.
+    skins: [OnceLock<Skin>; 2],
+}
+
+impl PartialEq for Section {
+    fn eq(&self, other: &Self) -> bool {
+        self.open == other.open && self.rings == other.rings
+    }
 }
 
 /// A corner of a section, or a point inserted into one of its edges.
@@ -64,7 +75,7 @@ impl Section {
     /// A ring of points that is known to be counter-clockwise, convex and sound.
     pub(super) fn convex<const N: usize>(points: [SectionPoint; N]) -> Self {
         let cap = (1..N - 1).map(|corner| [0, corner, corner + 1]).collect();
-        Self { rings: vec![knots(&points)], open: false, cap }
+        Self { rings: vec![knots(&points)], open: false, cap, skins: Default::default() }
     }
 
     /// A ring of sharp points (m) with holes, otherwise like [`Section::new`].
@@ -83,6 +94,7 @@ impl Section {
     #[must_use]
     pub fn marked(mut self, smooth: bool) -> Self {
         self.rings.iter_mut().flatten().for_each(|knot| knot.smooth = smooth);
+        self.skins = Default::default();
         self
     }
 
@@ -98,6 +110,7 @@ impl Section {
                 knot.smooth = before.angle_to(after).abs() <= angle;
             }
         }
+        self.skins = Default::default();
         self
     }
 
@@ -163,7 +176,7 @@ impl Section {
         let outlines: Vec<Vec<DVec2>> =
             rings.iter().map(|ring| ring.iter().map(|knot| knot.at).collect()).collect();
         let cap = if open { Vec::new() } else { cap::triangulate(&outlines)? };
-        Ok(Self { rings, open, cap })
+        Ok(Self { rings, open, cap, skins: Default::default() })
     }
 
     /// Whether the section is a line and its sweep a ribbon.
@@ -211,6 +224,11 @@ impl Section {
 
     pub(super) fn rings(&self) -> &[Vec<Knot>] {
         &self.rings
+    }
+
+    /// Its division into faces, with edges at the sharp points, or at all points unless it is shaded as round `around`.
+    pub(super) fn skin(&self, around: bool) -> &Skin {
+        self.skins[usize::from(around)].get_or_init(|| Skin::new(self, around))
     }
 
     fn knots(&self) -> impl Iterator<Item = &Knot> {

@@ -3,8 +3,10 @@
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
+use smallvec::{SmallVec, smallvec};
 
 use super::Section;
+use super::ring::FEW;
 use super::section::Knot;
 
 /// One vertex in each row around: a point of the section and the outline's direction there.
@@ -30,8 +32,11 @@ pub(super) struct Strip {
     pub(super) straight: bool,
 }
 
+/// Texture coordinates (m) around the section.
+pub(super) type Across = SmallVec<[f64; 2 * FEW]>;
+
 /// The division of a section's outline.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub(super) struct Skin {
     pub(super) columns: Vec<Column>,
     pub(super) strips: Vec<Strip>,
@@ -78,8 +83,8 @@ impl Skin {
     /// Texture coordinates (m) of all columns along a ring of points, after the strips' middles.
     ///
     /// They run to both sides from the middle of each strip, so that a face which tapers is not sheared.
-    pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> Vec<f64> {
-        let mut across = vec![0.0; self.columns.len()];
+    pub(super) fn across(&self, points: &[DVec3], middles: &[f64]) -> Across {
+        let mut across: Across = smallvec![0.0; self.columns.len()];
         for (strip, middle) in self.strips.iter().zip(middles) {
             let mut sum = 0.0;
             for column in strip.columns.start + 1..strip.columns.end {
@@ -92,7 +97,7 @@ impl Skin {
     }
 
     /// The middle (m) of each strip on the way around its ring.
-    pub(super) fn middles(&self, points: &[DVec3]) -> Vec<f64> {
+    pub(super) fn middles(&self, points: &[DVec3]) -> Across {
         let (mut ring, mut sum) = (0, 0.0);
         let middle = |strip: &Strip| {
             if strip.ring != ring {

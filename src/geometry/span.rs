@@ -3,9 +3,10 @@
 use std::f64::consts::FRAC_PI_2;
 
 use glam::{DMat3, DQuat, DVec2, DVec3};
+use smallvec::{SmallVec, smallvec};
 
 use super::Section;
-use super::ring::{NOTHING, Pose, Ring};
+use super::ring::{FEW, NOTHING, Pose, Ring};
 use super::skin::{Skin, Tangent};
 use crate::error::{Error, Result};
 
@@ -16,6 +17,9 @@ pub(super) struct Shading {
     pub(super) along: bool,
 }
 
+/// A normal for each column.
+pub(super) type Normals = SmallVec<[DVec3; 2 * FEW]>;
+
 /// The surface between two rings.
 #[derive(Debug)]
 pub(super) struct Span {
@@ -24,7 +28,7 @@ pub(super) struct Span {
     /// Whether both rings are at the same place.
     pub(super) step: bool,
     /// Unit normals of all columns at the first and at the second ring.
-    pub(super) normals: [Vec<DVec3>; 2],
+    pub(super) normals: [Normals; 2],
 }
 
 impl Span {
@@ -54,21 +58,18 @@ impl Span {
         let sign = if turned < 0.0 { -direction } else { direction };
         let chord = b.before.frame.position - a.after.frame.position;
         let step = chord.length() <= NOTHING;
-        let normals = match shading {
+        let mut normals = match shading {
             Shading { around: false, along: false } => flat(skin, a, b),
             Shading { along, .. } => smooth(section, skin, [a, b], along),
         };
-        Ok(Some(Self {
-            sign,
-            step,
-            normals: normals.map(|side| side.into_iter().map(|n| n * sign).collect()),
-        }))
+        normals.iter_mut().flatten().for_each(|normal| *normal *= sign);
+        Ok(Some(Self { sign, step, normals }))
     }
 }
 
 /// Both columns of a face with the face's own normal.
-fn flat(skin: &Skin, a: &Ring, b: &Ring) -> [Vec<DVec3>; 2] {
-    let mut normals = vec![DVec3::Z; skin.columns.len()];
+fn flat(skin: &Skin, a: &Ring, b: &Ring) -> [Normals; 2] {
+    let mut normals: Normals = smallvec![DVec3::Z; skin.columns.len()];
     for strip in &skin.strips {
         for column in strip.columns.start..strip.columns.end - 1 {
             let [left, right] = [column, column + 1].map(|column| skin.columns[column].point);
@@ -81,7 +82,7 @@ fn flat(skin: &Skin, a: &Ring, b: &Ring) -> [Vec<DVec3>; 2] {
 }
 
 /// The normals of the surface that the faces stand for: across the outline and the way of each point.
-fn smooth(section: &Section, skin: &Skin, [a, b]: [&Ring; 2], along: bool) -> [Vec<DVec3>; 2] {
+fn smooth(section: &Section, skin: &Skin, [a, b]: [&Ring; 2], along: bool) -> [Normals; 2] {
     let points: Vec<DVec2> = section.points().collect();
     let motion = Motion::new(&a.after, &b.before);
     let sides = [Side::new(&a.after, &b.before), Side::new(&b.before, &a.after)];

@@ -1,6 +1,7 @@
 //! The surface of a sweep while it is being built: rows of vertices, faces between them, and the ends.
 
 use glam::{DVec2, DVec3, Vec2, Vec3};
+use smallvec::{SmallVec, smallvec};
 
 use super::quad::Quad;
 use super::ring::{NOTHING, Ring};
@@ -16,9 +17,9 @@ pub(super) struct Surface<'a> {
     section: &'a Section,
     rings: &'a [Ring],
     options: &'a SweepOptions,
-    skin: Skin,
+    skin: &'a Skin,
     /// From each ring to the next one.
-    spans: Vec<Option<Span>>,
+    spans: SmallVec<[Option<Span>; 1]>,
     /// -1 if the way goes against its headings.
     direction: f64,
     open: Vec<[Vec3; 2]>,
@@ -39,18 +40,15 @@ impl<'a> Surface<'a> {
         rings: &'a [Ring],
         options: &'a SweepOptions,
     ) -> Result<Self> {
-        let skin = Skin::new(section, options.around);
-        let pairs: Vec<[&Ring; 2]> = pairs(rings, options.closed).collect();
-        let forwards: f64 = pairs
-            .iter()
+        let skin = section.skin(options.around);
+        let pairs = || pairs(rings, options.closed);
+        let forwards: f64 = pairs()
             .map(|[a, b]| (b.centre() - a.centre()).dot(a.after.frame.heading + b.before.frame.heading))
             .sum();
         let direction = if forwards < 0.0 { -1.0 } else { 1.0 };
         let shading = Shading { around: options.around, along: options.along };
-        let spans = pairs
-            .into_iter()
-            .map(|pair| Span::new(section, &skin, pair, direction, shading))
-            .collect::<Result<Vec<_>>>()?;
+        let spans =
+            pairs().map(|pair| Span::new(section, skin, pair, direction, shading)).collect::<Result<_>>()?;
         Ok(Self {
             part,
             section,
@@ -67,6 +65,9 @@ impl<'a> Surface<'a> {
     /// Adds the sides and the ends.
     pub(super) fn build(mut self) -> Result<Swept> {
         self.refuse_too_many()?;
+        let (columns, points) = (self.skin.columns.len(), self.section.points().count());
+        let (spans, ends) = (self.spans.len(), 2 * points);
+        self.part.make_room(2 * columns * spans + ends, 2 * columns * spans + ends);
         let before = (self.part.positions.len(), self.part.triangles.len());
         let v = self.sides()?;
         if self.section.is_open() {
@@ -206,7 +207,7 @@ impl<'a> Surface<'a> {
     fn faces(&mut self, index: usize, [below, above]: [Row; 2]) -> Result<()> {
         let (a, b) = (&self.rings[index], &self.rings[(index + 1) % self.rings.len()]);
         let Some(Span { sign, step, .. }) = self.spans[index] else { return Ok(()) };
-        let mut sides = vec![0.0; self.section.ring_count()];
+        let mut sides: SmallVec<[f64; 1]> = smallvec![0.0; self.section.ring_count()];
         for strip in &self.skin.strips {
             for column in strip.columns.start..strip.columns.end - 1 {
                 let [left, right] = [column, column + 1].map(|column| self.skin.columns[column].point);

@@ -6,6 +6,7 @@ mod tests;
 use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
+use smallvec::{SmallVec, smallvec};
 
 use super::{Color, Kind, Object, Table, Vector};
 use super::{Drawing, Surface};
@@ -55,9 +56,22 @@ pub struct Extruder {
     first_section: Arc<Section>,
     state: State,
     stack: Vec<State>,
+    /// The cross-sections that were set last, since the same ones are set again and again.
+    known: Vec<(Shape, Arc<Section>)>,
     drawing: Drawing,
     open_edges: usize,
 }
+
+/// A cross-section that a few numbers describe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Shape {
+    Regular(u32),
+    Star(u32, f64),
+    Rectangle(f64, f64),
+}
+
+/// How many cross-sections are kept.
+const KNOWN: usize = 16;
 
 #[derive(Clone)]
 struct State {
@@ -72,42 +86,39 @@ struct State {
     around: u32,
     smooth: bool,
     caps: [bool; 2],
-    material: Material,
+    material: Arc<Material>,
     run: Option<Run>,
 }
 
 /// Segments that make one solid.
 #[derive(Clone)]
 struct Run {
-    stations: Vec<Station>,
+    stations: SmallVec<[Station; 2]>,
     /// The modules that led to each station.
-    makers: Vec<u32>,
+    makers: SmallVec<[u32; 2]>,
     section: Arc<Section>,
     end: Frame,
     scale: DVec2,
     smooth: bool,
     caps: [bool; 2],
-    material: Material,
+    material: Arc<Material>,
 }
 
 methods! {
     Extruder = "extruder" {
         /// Sets the cross-section to a regular polygon with `sides` and radius 1.
         pub fn regular(&mut self, sides: u32) -> Result<()> {
-            self.state.section = Arc::new(Section::regular(sides as usize)?);
-            Ok(())
+            self.set(Shape::Regular(sides))
         }
 
         /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
         pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
-            self.state.section = Arc::new(Section::star(points as usize, inner)?);
-            Ok(())
+            self.set(Shape::Star(points, inner))
         }
 
         /// Sets the cross-section to a rectangle around the middle (m).
         pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
-            self.state.section = Arc::new(Section::rectangle(width, height)?);
-            Ok(())
+            self.set(Shape::Rectangle(width, height))
         }
 
         /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
@@ -205,12 +216,12 @@ methods! {
 
         /// Sets the colour of what is drawn.
         pub fn color(&mut self, color: Color) {
-            self.state.material.base_color = color.0;
+            Arc::make_mut(&mut self.state.material).base_color = color.0;
         }
 
         /// Sets the whole material of what is drawn.
         pub fn material(&mut self, material: Surface) -> Result<()> {
-            self.state.material = material.material()?;
+            self.state.material = Arc::new(material.material()?);
             Ok(())
         }
 
@@ -280,9 +291,31 @@ impl Extruder {
             first_section: section,
             state,
             stack: Vec::new(),
+            known: Vec::new(),
             drawing: Drawing::default(),
             open_edges: 0,
         })
+    }
+
+    /// Sets the cross-section to `shape`.
+    fn set(&mut self, shape: Shape) -> Result<()> {
+        let known = self.known.iter().find(|(known, _)| *known == shape);
+        self.state.section = match known {
+            Some((_, section)) => Arc::clone(section),
+            None => {
+                let section = Arc::new(match shape {
+                    Shape::Regular(sides) => Section::regular(sides as usize)?,
+                    Shape::Star(points, inner) => Section::star(points as usize, inner)?,
+                    Shape::Rectangle(width, height) => Section::rectangle(width, height)?,
+                });
+                if self.known.len() == KNOWN {
+                    self.known.remove(0);
+                }
+                self.known.push((shape, Arc::clone(&section)));
+                section
+            }
+        };
+        Ok(())
     }
 
     fn segment(&mut self, length: f64) -> Result<()> {
@@ -311,13 +344,13 @@ impl Extruder {
                 && (Arc::ptr_eq(&run.section, &section) || run.section == section)
                 && run.smooth == state.smooth
                 && run.caps == state.caps
-                && run.material == state.material
+                && (Arc::ptr_eq(&run.material, &state.material) || run.material == state.material)
         });
         if !continues {
             self.close()?;
         }
         let state = &mut self.state;
-        let mut stations = Vec::with_capacity(segment.steps + 1);
+        let mut stations = SmallVec::new();
         let end = segment.stations(state.frame, &mut stations)?;
         let maker = self.drawing.maker();
         match &mut state.run {
@@ -329,7 +362,7 @@ impl Extruder {
             }
             None => {
                 state.run = Some(Run {
-                    makers: vec![maker; stations.len()],
+                    makers: smallvec![maker; stations.len()],
                     stations,
                     section,
                     end,
@@ -390,7 +423,7 @@ impl State {
             around: options.around,
             smooth: options.smooth,
             caps: [options.caps; 2],
-            material,
+            material: Arc::new(material),
             run: None,
         }
     }
