@@ -96,7 +96,7 @@ fn write_part(
         let point = instance.transform.transform_point3(position.as_dvec3()) - origin;
         write_vector("v", point, out)?;
     }
-    for normal in &part.normals {
+    for normal in part.normals.iter().map(|normal| normal.vector()) {
         write_vector("vn", (turned * normal.as_dvec3()).try_normalize().unwrap_or(DVec3::Z), out)?;
     }
     if let Some([width, height]) = size {

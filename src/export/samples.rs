@@ -14,7 +14,7 @@ pub(super) fn cube(name: &str, material: usize) -> Mesh {
             let first = part.positions.len() as u32;
             for (x, y) in [(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)] {
                 part.positions.push(normal * 0.5 + u * x + v * y + Vec3::Z * 0.5);
-                part.normals.push(normal);
+                part.normals.push(normal.into());
                 part.uvs.push(Vec2::new(x + 0.5, y + 0.5));
             }
             part.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
@@ -145,9 +145,9 @@ fn odd() -> Scene {
     let mut roof = mesh.parts[0].clone();
     roof.material = 1;
     roof.triangles = mesh.parts[0].triangles.split_off(6);
-    roof.normals[0] = Vec3::ZERO;
-    roof.normals[1] = Vec3::NAN;
-    roof.normals[2] = Vec3::splat(1e-30);
+    roof.normals[0] = Vec3::ZERO.into();
+    roof.normals[1] = Vec3::NAN.into();
+    roof.normals[2] = Vec3::splat(1e-30).into();
     roof.triangles.push([3, 3, 4]);
     mesh.parts.push(roof.clone());
     mesh.parts.push(Part { material: 2, triangles: vec![[1, 1, 1]], ..roof.clone() });
@@ -169,7 +169,7 @@ pub(super) fn hill(n: u32) -> Scene {
                 8.0 / 15.0 * (x / 15.0).cos() * (y / 20.0).cos(),
                 -0.4 * (x / 15.0).sin() * (y / 20.0).sin(),
             );
-            part.normals.push(Vec3::new(-slope.x, -slope.y, 1.0).normalize());
+            part.normals.push(Vec3::new(-slope.x, -slope.y, 1.0).into());
             part.uvs.push(Vec2::new(x, y));
             if i < n && j < n {
                 let corner = i * (n + 1) + j;
@@ -214,7 +214,7 @@ pub(super) fn town(side: usize) -> Scene {
         }
         for point in face {
             roof.positions.push(point);
-            roof.normals.push(normal);
+            roof.normals.push(normal.into());
             roof.uvs.push(Vec2::ZERO);
         }
     }
@@ -287,7 +287,7 @@ pub(super) fn all(folder: &Path) -> Vec<(&'static str, Scene)> {
     let part = &mut long.meshes[0].parts[0];
     for i in 0..70_000 {
         part.positions.push(Vec3::new((i % 100) as f32, (i / 100) as f32, -1.0));
-        part.normals.push(Vec3::Z);
+        part.normals.push(crate::scene::Normal::Z);
         part.uvs.push(Vec2::ZERO);
     }
     let last = part.positions.len() as u32 - 1;

@@ -46,7 +46,7 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
         u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
     for (point, flat) in points.iter().zip(&flat) {
         part.positions.push(point.as_vec3());
-        part.normals.push(normal.as_vec3());
+        part.normals.push(normal.into());
         part.uvs.push(flat.as_vec2());
     }
     // The ring is closed by repeating its first corner.
@@ -84,7 +84,7 @@ pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result
             let angle = std::f64::consts::TAU * f64::from(side % sides) / f64::from(sides);
             let normal = DVec3::new(sin * angle.cos(), sin * angle.sin(), cos);
             part.positions.push((center + normal * radius).as_vec3());
-            part.normals.push(normal.as_vec3());
+            part.normals.push(normal.into());
             let (u, v) = (
                 f64::from(side) / f64::from(sides) * std::f64::consts::TAU,
                 1.0 - f64::from(row) / f64::from(rows),

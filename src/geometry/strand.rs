@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3, Vec3A};
 
 use super::ring::MOST;
 use crate::error::{Error, Result};
-use crate::scene::Part;
+use crate::scene::{Normal, Part};
 
 /// The greatest number of sides of a strand.
 pub const MOST_SIDES: usize = 64;
@@ -202,7 +202,7 @@ impl Strand {
         let (left, step) = (-around / 2.0, around / (self.circle.len() - 1) as f32);
         let (position, v) = (self.position.as_vec3a(), self.v as f32);
         let place = |point: &Vec2| Vec3::from(position + (wide_x * point.x + wide_y * point.y));
-        let normal = |point: &Vec2| Vec3::from(lift + (flat_x * point.x + flat_y * point.y));
+        let normal = |point: &Vec2| Normal::from(lift + (flat_x * point.x + flat_y * point.y));
         part.positions.extend(self.circle.iter().map(place));
         part.normals.extend(self.circle.iter().map(normal));
         part.uvs.extend((0..self.circle.len()).map(|i| Vec2::new(left + step * i as f32, v)));
@@ -218,7 +218,7 @@ impl Strand {
         let normal = |pair: usize| {
             let middle = self.circle[pair % (count - 1)] + self.circle[(pair + 1) % (count - 1)];
             let radial = (self.side * middle.x + y * middle.y).normalize();
-            Vec3::from((radial + direction * slope).normalize_or(direction * outwards))
+            Normal::from((radial + direction * slope).normalize_or(direction * outwards))
         };
         part.normals.extend((0..count).map(normal));
         part.uvs.extend(std::iter::repeat_n(Vec2::new(0.0, self.v as f32), count));
@@ -246,7 +246,7 @@ impl Strand {
         let (normal, mirrored) = if start { (-direction, -1.0) } else { (direction, 1.0) };
         let radius = self.radius.max(self.least_radius());
         part.positions.extend_from_within(ring as usize..ring as usize + sides);
-        part.normals.extend(std::iter::repeat_n(Vec3::from(normal), sides));
+        part.normals.extend(std::iter::repeat_n(Normal::from(normal), sides));
         part.uvs.extend(self.circle[..sides].iter().map(|point| *point * Vec2::new(mirrored, 1.0) * radius));
         let fan = (1..sides as u32 - 1).map(|i| [first, first + i, first + i + 1]);
         part.triangles.extend(fan.map(|[a, b, c]| if start { [a, c, b] } else { [a, b, c] }));
@@ -307,7 +307,7 @@ mod tests {
             strand.extend_to(&mut part, position, radius).expect("a place");
         }
         strand.end(&mut part);
-        assert!(part.normals.iter().all(|normal| (normal.length() - 1.0).abs() < 1e-5));
+        assert!(part.normals.iter().all(|normal| (normal.vector().length() - 1.0).abs() < 1e-5));
         assert!(part.uvs.iter().all(|uv| uv.is_finite()));
         part
     }
@@ -320,7 +320,7 @@ mod tests {
         part.triangles.iter().all(|triangle| {
             let [a, b, c] = triangle.map(|corner| part.positions[corner as usize]);
             let face = (b - a).cross(c - a);
-            triangle.iter().all(|&corner| face.dot(part.normals[corner as usize]) > 0.0)
+            triangle.iter().all(|&corner| face.dot(part.normals[corner as usize].vector()) > 0.0)
         })
     }
 
@@ -346,10 +346,11 @@ mod tests {
             assert!(check([&part]).is_solid() && looks_outwards(&part));
             assert!((volume([&part]) - polygon(6) * 0.25).abs() < 1e-6);
             assert_eq!(part.triangles.len(), 6 + 4);
-            let slopes =
-                part.normals.iter().filter(|normal| normal.y.abs() < 0.99).map(|normal| normal.y.abs());
+            let slopes = part.normals.iter().map(|normal| normal.vector().y.abs()).filter(|y| *y < 0.99);
             assert!(slopes.clone().count() == 14);
-            slopes.for_each(|y| assert!((y - (0.5f32 / 3.0) / (1.0f32 + 0.25 / 9.0).sqrt()).abs() < 1e-5));
+            slopes.for_each(|y| {
+                assert!((y - (0.5f32 / 3.0) / (1.0f32 + 0.25 / 9.0).sqrt()).abs() < Normal::PRECISION)
+            });
         }
     }
 

@@ -9,7 +9,7 @@ use super::skin::Skin;
 use super::span::{Shading, Span};
 use super::{Lengthwise, Section, SweepOptions, Swept};
 use crate::error::{Error, Result};
-use crate::scene::Part;
+use crate::scene::{Normal, Part};
 
 /// A sweep that is being built.
 pub(super) struct Surface<'a> {
@@ -178,7 +178,7 @@ impl<'a> Surface<'a> {
                 if ring.is_apex() { self.tip_normal(span, side, column) } else { span.normals[side][column] };
             let normal = neighbour.map_or(normal, |other| (normal + other[column]).normalize_or(normal));
             self.part.positions.push(ring.points[self.skin.columns[column].point]);
-            self.part.normals.push(normal.as_vec3());
+            self.part.normals.push(normal.into());
             self.part.uvs.push(Vec2::new((span.sign * u) as f32, v as f32));
         }
         Row { first }
@@ -252,7 +252,7 @@ impl<'a> Surface<'a> {
         }
         let first = self.part.positions.len() as u32;
         let scale = ring.after.scale;
-        let normal = (ring.normal * outwards).as_vec3();
+        let normal = Normal::from(ring.normal * outwards);
         for (point, &position) in self.section.points().zip(&ring.points) {
             let DVec2 { x, y } = point * scale;
             self.part.positions.push(position);

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::Model;
 use super::distance::Nearest;
 use super::makers::Makers;
-use crate::scene::{Instance, Material, Mesh, Part, Scene};
+use crate::scene::{Instance, Material, Mesh, Normal, Part, Scene};
 
 /// The faces that an object has drawn, by material, and the models that it has placed.
 #[derive(Clone, Default)]
@@ -104,9 +104,7 @@ impl Drawing {
                 into.positions
                     .extend(part.positions.iter().map(|at| frame.transform_point3(at.as_dvec3()).as_vec3()));
                 into.normals.extend(
-                    part.normals
-                        .iter()
-                        .map(|normal| (turned * normal.as_dvec3()).normalize_or_zero().as_vec3()),
+                    part.normals.iter().map(|normal| Normal::from(turned * normal.vector().as_dvec3())),
                 );
                 into.uvs.extend_from_slice(&part.uvs);
                 into.triangles.extend(part.triangles.iter().map(|corners| {

@@ -410,8 +410,9 @@ impl Object for Turtle {
     }
 
     fn push(&mut self) {
-        let strand = self.state.strand.take();
-        self.stack.push(State { strand, ..self.state.clone() });
+        // A copy of the strand is dropped here and does not go on.
+        self.stack.push(self.state.clone());
+        self.state.strand = None;
     }
 
     fn pop(&mut self) -> Result<()> {

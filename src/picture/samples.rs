@@ -1,6 +1,6 @@
 //! Small scenes for the tests of this stage.
 
-use crate::scene::{Instance, Material, Mesh, Part, Scene};
+use crate::scene::{Instance, Material, Mesh, Normal, Part, Scene};
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 /// A scene of one mesh at the origin.
@@ -24,7 +24,7 @@ pub(super) fn quad(part: &mut Part, corners: [Vec3; 4]) {
     let (u, v) = ((corners[1] - corners[0]).length(), (corners[3] - corners[0]).length());
     let normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalize();
     part.positions.extend(corners);
-    part.normals.extend([normal; 4]);
+    part.normals.extend([Normal::from(normal); 4]);
     part.uvs.extend([Vec2::ZERO, Vec2::new(u, 0.0), Vec2::new(u, v), Vec2::new(0.0, v)]);
     part.triangles.extend([[first, first + 1, first + 2], [first, first + 2, first + 3]]);
 }
@@ -39,7 +39,7 @@ pub(super) fn prism(part: &mut Part, low: &[Vec3], high: &[Vec3]) {
     for (ring, up) in [(high, true), (low, false)] {
         let first = part.positions.len() as u32;
         part.positions.extend(ring);
-        part.normals.extend(vec![if up { Vec3::Z } else { Vec3::NEG_Z }; count]);
+        part.normals.extend(vec![Normal::from(if up { Vec3::Z } else { Vec3::NEG_Z }); count]);
         part.uvs.extend(ring.iter().map(|p| p.truncate()));
         for i in 1..count as u32 - 1 {
             part.triangles.push(if up {

@@ -81,7 +81,7 @@ impl Surface {
         let weights = [1.0 - inside.x - inside.y, inside.x, inside.y];
         let turn = draw.place.matrix3.inverse().transpose();
         let normals = triangle.map(|i| {
-            let local = part.normals.get(i).copied().unwrap_or_default();
+            let local = part.normals.get(i).map_or(Vec3::ZERO, |normal| normal.vector());
             (turn * Vec3A::from(local)).normalize_or(plane) * side
         });
         let blended = normals[0] * weights[0] + normals[1] * weights[1] + normals[2] * weights[2];

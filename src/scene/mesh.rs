@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::Origin;
+use super::{Normal, Origin};
 use crate::memory::make_room;
 
 /// A shape: parts that share one coordinate system, one part for each material.
@@ -29,7 +29,7 @@ pub struct Part {
     /// Points (m).
     pub positions: Vec<Vec3>,
     /// Unit vectors.
-    pub normals: Vec<Vec3>,
+    pub normals: Vec<Normal>,
     /// Texture coordinates in metres, u to the right and v upwards; an exporter divides by the texture's size.
     pub uvs: Vec<Vec2>,
     /// Indices of corners.

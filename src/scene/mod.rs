@@ -5,10 +5,12 @@
 
 mod material;
 mod mesh;
+mod normal;
 mod shared;
 
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
+pub use normal::Normal;
 pub use shared::Shared;
 
 use glam::{DAffine3, DVec3};

@@ -219,7 +219,7 @@ impl<'a> Mesh<'a> {
             let place = self.ground.place(x, y);
             let height = self.ground.corner(x, y).unwrap_or(0.0);
             part.positions.push((place.extend(height) - origin).as_vec3());
-            part.normals.push(self.ground.normal(x, y).as_vec3());
+            part.normals.push(self.ground.normal(x, y).into());
             let [u, v] = (place - south_west + begin).to_array();
             #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
             part.uvs.push(Vec2::new(u as f32, v as f32));

@@ -177,7 +177,9 @@ impl Block<'_> {
     fn write(&self, out: &mut impl Write) -> io::Result<()> {
         match self {
             Self::Positions(part) => stream(out, part.positions.iter().map(|at| y_up(*at).to_array())),
-            Self::Normals(part) => stream(out, part.normals.iter().map(|it| y_up(unit(*it)).to_array())),
+            Self::Normals(part) => {
+                stream(out, part.normals.iter().map(|it| y_up(unit(it.vector())).to_array()))
+            }
             Self::TexCoords(part, size) => stream(out, part.uvs.iter().map(|uv| tex_coord(*uv, *size))),
             Self::Short(part, first) => {
                 stream(out, triangles(part).map(|corners| corners.map(|corner| corner as u16 + first)))

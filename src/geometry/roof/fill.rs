@@ -28,7 +28,7 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
         u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
     for (point, flat) in rings.iter().flatten().zip(flats.iter().flatten()) {
         part.positions.push(point.as_vec3());
-        part.normals.push(normal.as_vec3());
+        part.normals.push(normal.into());
         part.uvs.push(flat.as_vec2());
     }
     #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]

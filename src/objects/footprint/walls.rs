@@ -316,7 +316,7 @@ impl Frontage {
                 self.passed + DVec2::new(corner.x + corner.z, corner.y)
             };
             part.positions.push(self.place(corner).as_vec3());
-            part.normals.push(normal);
+            part.normals.push(normal.into());
             part.uvs.push(uv.as_vec2());
         }
         part.triangles.push([base, base + 1, base + 2]);

@@ -6,7 +6,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root};
 
 use super::bytes::Bytes;
-use crate::scene::Part;
+use crate::scene::{Normal, Part};
 
 /// The farthest (m) that a point may be from the model's origin.
 const FARTHEST: f32 = 1e7;
@@ -79,7 +79,12 @@ pub(super) fn part(
         None => flatten(&mut part),
     }
     if part.uvs.is_empty() {
-        part.uvs = part.positions.iter().zip(&part.normals).map(|(at, normal)| along(*at, *normal)).collect();
+        part.uvs = part
+            .positions
+            .iter()
+            .zip(&part.normals)
+            .map(|(at, normal)| along(*at, normal.vector()))
+            .collect();
     }
     keep_used(&mut part);
     Ok(Some(part))
@@ -127,7 +132,7 @@ fn take_normals(part: &mut Part, normals: &[[f32; 3]]) {
     }
     let unit = |(normal, around): (&[f32; 3], Vec3)| {
         let normal = z_up(Vec3::from(*normal)).try_normalize();
-        normal.or_else(|| around.try_normalize()).unwrap_or(Vec3::Z)
+        Normal::from(normal.or_else(|| around.try_normalize()).unwrap_or(Vec3::Z))
     };
     part.normals = normals.iter().zip(around).map(unit).collect();
 }
@@ -141,7 +146,7 @@ fn flatten(part: &mut Part) {
         flat.triangles.push([first, first + 1, first + 2]);
         for corner in triangle.map(|corner| corner as usize) {
             flat.positions.push(part.positions[corner]);
-            flat.normals.push(normal);
+            flat.normals.push(normal.into());
             flat.uvs.extend(part.uvs.get(corner));
         }
     }

@@ -34,7 +34,7 @@ fn sample() -> Scene {
             let first = u32::try_from(part.positions.len()).unwrap();
             for (a, b) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
                 part.positions.push(from + u * a + v * b);
-                part.normals.push(normal);
+                part.normals.push(normal.into());
                 part.uvs.push(Vec2::new(a, b) * 2.0);
             }
             part.triangles.extend([[0, 1, 2], [0, 2, 3]].map(|corners| corners.map(|corner| corner + first)));
@@ -89,7 +89,7 @@ fn what_was_written_is_read_again() {
         assert_eq!(part.uvs[2], Vec2::new(4.0, 8.0));
         for [a, b, c] in &part.triangles {
             let [a, b, c] = [a, b, c].map(|corner| part.positions[*corner as usize]);
-            assert!((b - a).cross(c - a).dot(part.normals[0]) >= 0.0);
+            assert!((b - a).cross(c - a).dot(part.normals[0].vector()) >= 0.0);
         }
         // And what was read can be written.
         crate::export::write(&scene, &folder.path().join("again.glb"), &Picture::default()).unwrap();
@@ -140,7 +140,7 @@ fn what_a_file_leaves_out_is_computed() {
     let part = &scene.meshes[0].parts[0];
     // Upright, seen from the south; 5 m towards the viewer of a file is 5 m south.
     assert_eq!(part.positions, [Vec3::ZERO, Vec3::new(2., 0., 0.), Vec3::new(0., 0., 2.)]);
-    assert_eq!((part.normals[0], part.uvs[1]), (Vec3::NEG_Y, Vec2::new(2.0, 0.0)));
+    assert_eq!((part.normals[0].vector(), part.uvs[1]), (Vec3::NEG_Y, Vec2::new(2.0, 0.0)));
     assert_eq!(scene.instances[0].transform.translation, DVec3::new(0.0, -5.0, 0.0));
     assert_eq!((scene.materials[0].base_color, scene.materials[0].metallic), ([1.0; 4], 1.0));
 }

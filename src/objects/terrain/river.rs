@@ -1,8 +1,8 @@
 //! The water of a river: a ribbon along its way.
 
-use glam::{DVec3, Vec2, Vec3};
+use glam::{DVec3, Vec2};
 
-use crate::scene::Part;
+use crate::scene::{Normal, Part};
 
 /// A river.
 #[derive(Clone)]
@@ -31,7 +31,7 @@ impl River {
             for (side, u) in [(side, 0.0), (-side, 2.0 * half)] {
                 let place = (at.truncate() + side).extend(at.z - self.width * BELOW);
                 part.positions.push(place.as_vec3());
-                part.normals.push(Vec3::Z);
+                part.normals.push(Normal::Z);
                 #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
                 part.uvs.push(Vec2::new(u as f32, run as f32));
             }

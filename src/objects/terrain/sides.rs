@@ -44,7 +44,7 @@ fn face(part: &mut Part, corners: &[DVec3], normal: Vec3) {
     let Ok(first) = u32::try_from(part.positions.len()) else { return };
     for at in corners {
         part.positions.push(at.as_vec3());
-        part.normals.push(normal);
+        part.normals.push(normal.into());
         let along = if normal.z == 0.0 { at.truncate().length() } else { at.x };
         let up = if normal.z == 0.0 { at.z } else { at.y };
         #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]

@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3, Vec2, Vec3};
+use glam::{DVec2, DVec3, Vec2};
 
 use crate::error::Result;
 use crate::objects::{Color, Expected, Parameter, Table, Value};
-use crate::scene::Part;
+use crate::scene::{Normal, Part};
 use crate::terrain::{Ground, Tile};
 
 fields! {
@@ -87,7 +87,7 @@ impl Water {
         let part = Part {
             material: 0,
             positions: positions.to_vec(),
-            normals: vec![Vec3::Z; 4],
+            normals: vec![Normal::Z; 4],
             uvs: uvs.map(|uv| Vec2::new(uv.x, uv.y)).to_vec(),
             triangles: vec![[0, 1, 2], [0, 2, 3]],
         };

@@ -177,7 +177,7 @@ impl<'a> GlobeMesh<'a> {
         let coarsest = globe.coarsest(spot).map_or(tile, |(tile, _)| tile);
         let point = snapped(globe.point(spot), step(globe, coarsest));
         part.positions.push((point - origin).as_vec3());
-        part.normals.push(globe.normal(spot).as_vec3());
+        part.normals.push(globe.normal(spot).into());
         // From the tile's south-west corner.
         let [_, _, [west, south], _] = corners(tile.place, globe.finest());
         let cell = globe.world().cell(globe.finest());
