@@ -1,6 +1,7 @@
 //! One run of a script, from the file to the scene.
 
 use std::path::Path;
+use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -65,8 +66,7 @@ pub fn run(path: &Path, options: Options) -> Result<Run> {
 /// Runs a session, which may be stopped from outside.
 pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
-    let watchdog = Arc::new(Watchdog::new(session));
-    let machine = Machine::new(session, &watchdog, Crew::leading(&watchdog))?;
+    let machine = leading_machine(session)?;
     machine.run()?;
     let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
     if !problems.is_empty() {
@@ -121,6 +121,13 @@ pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
     if problems.is_empty() { Ok(session.params()) } else { Err(Error::several(problems)) }
 }
 
+/// A machine for a session's script, which is read in the meantime.
+fn leading_machine(session: &Arc<Session>) -> Result<Rc<Machine>> {
+    session.read_ahead();
+    let watchdog = Arc::new(Watchdog::new(session));
+    Machine::new(session, &watchdog, Crew::leading(&watchdog))
+}
+
 /// Runs the script of a session whose options say to check only, for the sake of its parameters.
 pub(crate) fn declare(session: &Arc<Session>) -> Result<()> {
     declare_with(session, &mut Vec::new())
@@ -128,8 +135,7 @@ pub(crate) fn declare(session: &Arc<Session>) -> Result<()> {
 
 /// The same, with the `problems` of its rules.
 fn declare_with(session: &Arc<Session>, problems: &mut Vec<Error>) -> Result<()> {
-    let watchdog = Arc::new(Watchdog::new(session));
-    let machine = Machine::new(session, &watchdog, Crew::leading(&watchdog))?;
+    let machine = leading_machine(session)?;
     let ran = machine.run();
     problems.extend(machine.library.problems.borrow_mut().drain(..));
     ran

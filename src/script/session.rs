@@ -9,7 +9,7 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, analyse, has_metatables};
+use super::analysis::{Analysis, Globals, Reading, has_metatables};
 use super::data::Data;
 use super::param::Param;
 use super::preset::Preset;
@@ -224,6 +224,8 @@ pub struct Session {
     pub(crate) data: Data,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    /// The main file while it is read ahead, and its path.
+    ahead: Mutex<Option<(PathBuf, Reading)>>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
@@ -255,6 +257,7 @@ impl Session {
             data: Data::default(),
             stdlib,
             sources: Mutex::default(),
+            ahead: Mutex::default(),
             sought: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
@@ -383,30 +386,50 @@ impl Session {
         sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
     }
 
+    /// Begins to read the main file, so that it is read while a machine is made. What goes wrong is told when the
+    /// file is asked for.
+    pub(crate) fn read_ahead(&self) {
+        let begin =
+            |path: PathBuf| Some((begin_reading(&path, &self.script.display().to_string()).ok()?, path));
+        let reading = self.script.canonicalize().ok().and_then(begin);
+        *self.ahead.lock().unwrap_or_else(PoisonError::into_inner) =
+            reading.map(|(reading, path)| (path, reading));
+    }
+
     /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
     pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<Source>> {
         let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(source) = sources.get(path) {
             return Ok(Arc::clone(source));
         }
-        let mut bytes = Vec::new();
-        std::fs::File::open(path)
-            .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
-            .map_err(|error| unreadable(Path::new(name), &error))?;
-        if bytes.len() as u64 > LARGEST {
-            return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
-                .help("divide it; other files of its folder come in with require"));
-        }
-        let text = String::from_utf8(bytes).map_err(|_| {
-            Error::new(format!("{name} is not a text file"))
-                .help("scripts are UTF-8 text; check the file's name")
-        })?;
-        let analysis = analyse(name, text.strip_prefix('\u{feff}').unwrap_or(&text), globals);
+        let ahead =
+            self.ahead.lock().unwrap_or_else(PoisonError::into_inner).take_if(|(main, _)| main == path);
+        let reading = match ahead {
+            Some((_, reading)) => reading,
+            None => begin_reading(path, name)?,
+        };
+        let analysis = reading.finish(globals);
         self.note(&analysis);
         let source = Arc::new(Source { name: name.to_owned(), analysis });
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
+}
+
+/// Begins to read the file at `path`; `name` is for messages.
+fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
+    let mut bytes = Vec::new();
+    std::fs::File::open(path)
+        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
+        .map_err(|error| unreadable(Path::new(name), &error))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
+            .help("divide it; other files of its folder come in with require"));
+    }
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Error::new(format!("{name} is not a text file")).help("scripts are UTF-8 text; check the file's name")
+    })?;
+    Ok(Reading::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
 }
 
 /// A folder of data files, without links in its path.

@@ -13,7 +13,7 @@ mod walk;
 
 use std::sync::Arc;
 use std::sync::atomic::AtomicUsize;
-use std::sync::mpsc::channel;
+use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
 use mlua::chunk::Compiler;
@@ -71,22 +71,42 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
 pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
-    // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
-    if Compiler::new().compile(text).is_err() {
-        return unread(text, Vec::new());
-    }
-    let (sender, receiver) = channel();
-    let (name, source, known) = (file.to_owned(), text.to_owned(), globals.clone());
-    // The receiver may have given up.
-    let read = move || drop(sender.send(analyse_compiled(&name, &source, &known)));
-    let started = std::thread::Builder::new().stack_size(STACK).spawn(read).is_ok();
-    match receiver.recv_timeout(PATIENCE) {
-        Ok(analysis) if started => analysis,
-        _ => {
-            let error = Error::new(format!("reading {file} takes too long"))
-                .help("nest strings such as `a {`b`}` less deeply, or divide the file");
-            unread(text, vec![error])
+    Reading::begin(file, text).finish(globals)
+}
+
+/// A script that is being read in a thread of its own, which waits for what the script may use.
+pub(crate) struct Reading {
+    file: String,
+    text: String,
+    globals: Sender<Globals>,
+    /// Nothing comes of a thread that could not be started.
+    analysis: Receiver<Analysis>,
+}
+
+impl Reading {
+    /// Begins to read `text`, the content of `file`.
+    pub(crate) fn begin(file: &str, text: &str) -> Self {
+        let (sender, analysis) = channel();
+        let (globals, known) = channel();
+        let (file, text) = (file.to_owned(), text.to_owned());
+        let (name, source) = (file.clone(), text.clone());
+        // Whoever asked may have given up.
+        let read = move || drop(sender.send(read(&name, &source, &known)));
+        if std::thread::Builder::new().stack_size(STACK).spawn(read).is_err() {
+            return Self { file, text, globals, analysis: channel().1 };
         }
+        Self { file, text, globals, analysis }
+    }
+
+    /// What the script is found to be, given what it may use.
+    pub(crate) fn finish(self, globals: &Globals) -> Analysis {
+        // A thread that has ended already needs no globals.
+        let _ = self.globals.send(globals.clone());
+        self.analysis.recv_timeout(PATIENCE).unwrap_or_else(|_| {
+            let error = Error::new(format!("reading {} takes too long", self.file))
+                .help("nest strings such as `a {`b`}` less deeply, or divide the file");
+            unread(&self.text, vec![error])
+        })
     }
 }
 
@@ -95,7 +115,11 @@ fn unread(text: &str, problems: Vec<Error>) -> Analysis {
     Analysis { text: text.to_owned(), problems, random: true, quiet: Vec::new() }
 }
 
-fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
+fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
+    // Luau bounds the nesting of what it compiles; the parser used here does not, so it comes second.
+    if Compiler::new().compile(text).is_err() {
+        return unread(text, Vec::new());
+    }
     let refuse = |line: usize| {
         let place = Place { file: file.to_owned(), line };
         let error = Error::new("this part of Luau's syntax is not known to Burgeon")
@@ -106,6 +130,8 @@ fn analyse_compiled(file: &str, text: &str, globals: &Globals) -> Analysis {
         Ok(ast) => ast,
         Err(errors) => return refuse(errors.first().map_or(1, |error| error.range().0.line())),
     };
+    // Nobody waits for the analysis if none come.
+    let globals = &globals.recv().unwrap_or_default();
     // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
     let mut first = Walk::new(file, globals, Facts::default());
     first.run(&ast);

@@ -1,6 +1,7 @@
 //! The functions that Rust gives to `prelude.luau`.
 
 use std::rc::Rc;
+use std::sync::LazyLock;
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
@@ -158,6 +159,15 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
     Ok(host)
 }
 
+/// Whether Luau makes native code for this processor. Asking takes tens of microseconds where the computer is virtual.
+static SUPPORTED: LazyLock<bool> = LazyLock::new(|| {
+    #[allow(unsafe_code, reason = "mlua does not tell")]
+    // SAFETY: the function takes nothing and only looks at what the processor says of itself.
+    unsafe {
+        mlua::ffi::luau_codegen_supported() != 0
+    }
+});
+
 /// Makes native code of a Lua function and of those within it, unless it has been made.
 pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
     #[allow(unsafe_code, reason = "mlua makes native code of whole files only")]
@@ -165,7 +175,7 @@ pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
     // code generation for this state, which it has done wherever it made native code itself.
     unsafe {
         lua.exec_raw::<()>(function, |state| {
-            if mlua::ffi::luau_codegen_supported() != 0 {
+            if *SUPPORTED {
                 mlua::ffi::luau_codegen_compile(state, -1);
             }
             mlua::ffi::lua_settop(state, 0);
