@@ -78,6 +78,7 @@ impl Crew {
             Some(derived) => derived,
             None => serve(machine, &inbox, index)?,
         };
+        machine.library.systems.borrow()[index].catch_up(machine);
         self.done.borrow_mut().push(derived.clone());
         derived.map(Some)
     }

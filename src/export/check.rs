@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::scene::{Mesh, Part, Scene};
 use glam::DVec3;
+use rayon::prelude::*;
 
 /// The largest coordinate (m) and the largest number of a transform; their products still are numbers in f32.
 const LARGEST: f64 = 1e15;
@@ -34,13 +35,14 @@ pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
             return Err(error.help("look for a division by zero in a length, a scale or an angle"));
         }
     }
+    let sound = scene.meshes.par_iter().zip(&meshes).map(|(mesh, shown)| {
+        let mut parts = mesh.parts.iter().filter(|_| *shown);
+        parts.try_for_each(|part| check_part(scene, part))
+    });
+    let sound: Vec<Result<(), String>> = sound.collect();
     let mut materials = vec![false; scene.materials.len()];
-    for (i, mesh) in scene.meshes.iter().enumerate() {
-        if meshes[i] {
-            for part in &mesh.parts {
-                check_part(scene, part).map_err(|what| unsound(mesh, i, &what))?;
-            }
-        }
+    for (i, (mesh, sound)) in scene.meshes.iter().zip(sound).enumerate() {
+        sound.map_err(|what| unsound(mesh, i, &what))?;
         meshes[i] &= shown_parts(mesh).next().is_some();
         if meshes[i] {
             for part in shown_parts(mesh) {
@@ -53,7 +55,12 @@ pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
 
 /// The triangles of `part` with three different corners; the others cover nothing and are not written.
 pub(super) fn triangles(part: &Part) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
-    part.triangles.iter().copied().filter(|[a, b, c]| a != b && b != c && c != a)
+    shown(&part.triangles)
+}
+
+/// Those of `triangles` with three different corners.
+pub(super) fn shown(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
+    triangles.iter().copied().filter(|[a, b, c]| a != b && b != c && c != a)
 }
 
 /// The parts of `mesh` that have a triangle.

@@ -8,6 +8,7 @@
 
 mod body;
 mod decompose;
+mod description;
 mod material;
 mod mesh;
 mod place;
@@ -23,9 +24,10 @@ use super::texture::Images;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
 use body::Body;
+use description::Description;
 use gltf_json as json;
 use json::extras::RawValue;
-use std::io::{self, Write};
+use std::io::Write;
 
 /// Where the images of a document are.
 enum Textures {
@@ -37,7 +39,7 @@ enum Textures {
 
 /// The description and what it describes.
 struct Document<'a> {
-    root: json::Root,
+    description: Description<'a>,
     body: Body<'a>,
     layout: Layout,
 }
@@ -70,9 +72,9 @@ fn bytes(scene: &Scene, measured: bool) -> Result<(Vec<u8>, Layout)> {
     let document = Document::new(&checked, &images, &Textures::Embedded, measured)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
-    bytes.reserve_exact(head.len() + document.body.length() as usize);
-    bytes.extend(head);
-    document.body.write(&mut bytes).map_err(Error::new)?;
+    let length: usize = head.iter().map(Vec::len).sum();
+    bytes.reserve_exact(length + document.body.length() as usize);
+    document.body.write(head, &mut bytes).map_err(Error::new)?;
     Ok((bytes, document.layout))
 }
 
@@ -81,19 +83,9 @@ pub(super) fn write_glb(scene: &Scene, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let document = Document::new(&checked, &images, &Textures::Embedded, false)?;
-    let (head, body) = rayon::join(|| document.head(), || document.body.gathered());
-    let (head, body) = (head?, body.map_err(Error::new)?);
-    let Document { root, body: rest, .. } = document;
-    // What describes a city takes as long to free as to write.
-    rayon::spawn(move || drop(root));
+    let head = document.head()?;
     let path = files.main().to_owned();
-    files.write(&path, |out| {
-        out.write_all(&head)?;
-        match &body {
-            Some(bytes) => out.write_all(bytes),
-            None => rest.write(out),
-        }
-    })
+    files.write(&path, |out| document.body.write(head, out))
 }
 
 /// Writes a `.gltf` file, its `.bin` file and copies of the textures.
@@ -105,61 +97,57 @@ pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
         files.write(&files.sibling(name), |out| out.write_all(&file.bytes))?;
     }
     let mut document = Document::new(&checked, &images, &Textures::Beside(names), false)?;
-    if let Some(buffer) = document.root.buffers.first_mut() {
+    if let Some(buffer) = document.description.root.buffers.first_mut() {
         let name = format!("{}.bin", files.stem());
         buffer.uri = Some(uri(&name));
-        files.write(&files.sibling(&name), |out| document.body.write(out))?;
+        files.write(&files.sibling(&name), |out| document.body.write(Vec::new(), out))?;
     }
     let path = files.main().to_owned();
-    files.write(&path, |out| document.root.to_writer_pretty(out).map_err(io::Error::from))
+    files.write(&path, |out| document.description.write_pretty(out))
 }
 
 impl<'a> Document<'a> {
     fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures, measured: bool) -> Result<Self> {
-        let mut root = json::Root {
-            asset: json::Asset {
-                generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
-                version: "2.0".into(),
-                ..json::Asset::default()
-            },
-            scene: Some(json::Index::new(0)),
-            ..json::Root::default()
+        let mut description = Description::default();
+        description.root.asset = json::Asset {
+            generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
+            version: "2.0".into(),
+            ..json::Asset::default()
         };
         let mut body = Body::default();
-        let materials = material::write(checked, images, textures, &mut root, &mut body);
-        let meshes = mesh::write(checked, measured, &materials, &mut root, &mut body);
-        let placed = place::write(checked, &meshes, &mut root, &mut body);
+        let materials = material::write(checked, images, textures, &mut description.root, &mut body);
+        let meshes = mesh::write(checked, measured, &materials, &mut description, &mut body);
+        let placed = place::write(checked, &meshes, &mut description, &mut body);
         let extras = (!placed.features.is_empty())
             .then(|| {
                 RawValue::from_string(serde_json::json!({ "features": placed.features }).to_string()).ok()
             })
             .flatten();
-        root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes: placed.nodes });
-        body.describe(&mut root)?;
-        let meshes = meshes.iter().map(|mesh| mesh.map(|index| index.value())).collect();
-        Ok(Self { root, body, layout: Layout { places: placed.places, meshes } })
+        let nodes = placed.nodes.iter().map(|node| json::Index::new(*node as u32)).collect();
+        description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
+        body.describe(&mut description.root)?;
+        Ok(Self { description, body, layout: Layout { places: placed.places, meshes } })
     }
 
-    /// All of a `.glb` file but the body: both headers and the description between them.
-    fn head(&self) -> Result<Vec<u8>> {
-        let mut text =
-            self.root.to_vec().map_err(|error| Error::new(format!("cannot write glTF: {error}")))?;
-        text.resize(text.len().next_multiple_of(4), b' ');
+    /// All of a `.glb` file but the body, in pieces: both headers and the description between them.
+    fn head(&self) -> Result<Vec<Vec<u8>>> {
+        let mut pieces = self.description.text()?;
+        let written: usize = pieces.iter().map(Vec::len).sum();
+        let length = written.next_multiple_of(4);
+        pieces.push(vec![b' '; length - written]);
         let body = self.body.length();
         let tail = if body > 0 { 8 + body } else { 0 };
-        let total = body::within_limit(20 + text.len() as u64 + tail)?;
-        let mut head = Vec::with_capacity(28 + text.len());
-        head.extend(b"glTF");
-        for number in [2, total, text.len() as u32] {
+        let total = body::within_limit(20 + length as u64 + tail)?;
+        let mut head = b"glTF".to_vec();
+        for number in [2, total, length as u32] {
             head.extend(number.to_le_bytes());
         }
         head.extend(b"JSON");
-        head.extend(text);
+        pieces.insert(0, head);
         if body > 0 {
-            head.extend((body as u32).to_le_bytes());
-            head.extend(b"BIN\0");
+            pieces.push([(body as u32).to_le_bytes(), *b"BIN\0"].concat());
         }
-        Ok(head)
+        Ok(pieces)
     }
 }
 

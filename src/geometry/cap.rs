@@ -2,8 +2,9 @@
 
 use geo::{Coord, LineString, Polygon, TriangulateEarcut};
 use glam::DVec2;
-use rustc_hash::{FxHashMap, FxHashSet};
+use rustc_hash::FxHashSet;
 
+use super::sides::Sides;
 use crate::error::{Error, Result};
 
 /// Fills a polygon: counter-clockwise triangles of indices into the points of all `rings`, one after another.
@@ -18,16 +19,18 @@ pub(super) fn triangulate(rings: &[Vec<DVec2>]) -> Result<Vec<[usize; 3]>> {
     let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
     let mut triangles = earcut(rings, &points);
     let border = border(rings);
+    let mut sides = Sides::of(&triangles, points.len());
     for _ in 0..points.len() {
-        let unmatched = unmatched(&triangles, &border);
+        let unmatched = unmatched(&triangles, &sides, &border);
         if unmatched.is_empty() {
             break;
         }
         split_at_skipped_points(&mut triangles, &points, &unmatched);
+        sides = Sides::of(&triangles, points.len());
     }
-    flip(&mut triangles, &points);
+    flip(&mut triangles, &mut sides, &points);
     let sound = triangles.iter().all(|&[a, b, c]| twice_area(points[a], points[b], points[c]) > 0.0);
-    if !sound || !unmatched(&triangles, &border).is_empty() {
+    if !sound || !unmatched(&triangles, &sides, &border).is_empty() {
         return Err(Error::new(
             "the cross-section cannot be filled with triangles, as it is too narrow somewhere",
         )
@@ -54,24 +57,23 @@ fn earcut(rings: &[Vec<DVec2>], points: &[DVec2]) -> Vec<[usize; 3]> {
     triangles
 }
 
-/// The directed edges of the rings.
-fn border(rings: &[Vec<DVec2>]) -> Vec<(usize, usize)> {
+/// The directed edges of the rings: for each point the next one of its ring.
+fn border(rings: &[Vec<DVec2>]) -> Vec<usize> {
     let mut first = 0;
-    let mut edges = Vec::new();
+    let mut next = Vec::with_capacity(rings.iter().map(Vec::len).sum());
     for ring in rings {
-        edges.extend((0..ring.len()).map(|i| (first + i, first + (i + 1) % ring.len())));
+        next.extend((0..ring.len()).map(|i| first + (i + 1) % ring.len()));
         first += ring.len();
     }
-    edges
+    next
 }
 
 /// The directed triangle edges that have neither a neighbour running the other way nor an edge of the border.
-fn unmatched(triangles: &[[usize; 3]], border: &[(usize, usize)]) -> Vec<(usize, usize)> {
-    let sides = || triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
-    let inside: FxHashSet<(usize, usize)> = sides().collect();
-    let allowed: FxHashSet<(usize, usize)> = border.iter().copied().collect();
-    let missing = border.iter().filter(|edge| !inside.contains(edge)).map(|&(a, b)| (b, a));
-    sides().filter(|&(a, b)| !inside.contains(&(b, a)) && !allowed.contains(&(a, b))).chain(missing).collect()
+fn unmatched(triangles: &[[usize; 3]], sides: &Sides, border: &[usize]) -> Vec<(usize, usize)> {
+    let all = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]);
+    let missing = border.iter().enumerate().filter(|&(a, &b)| sides.owner(a, b).is_none());
+    let lonely = all.filter(|&(a, b)| sides.owner(b, a).is_none() && border[a] != b);
+    lonely.chain(missing.map(|(a, &b)| (b, a))).collect()
 }
 
 /// Splits each triangle with an unmatched edge at the ends of other unmatched edges that lie on that edge.
@@ -116,31 +118,29 @@ fn skipped(points: &[DVec2], candidates: &[usize], a: usize, b: usize) -> Vec<us
 }
 
 /// Flips inner edges whose opposite angles add up to more than half a turn, until there are none.
-fn flip(triangles: &mut [[usize; 3]], points: &[DVec2]) {
-    let mut owner: FxHashMap<(usize, usize), usize> = FxHashMap::default();
-    for (index, &[a, b, c]) in triangles.iter().enumerate() {
-        owner.extend([((a, b), index), ((b, c), index), ((c, a), index)]);
-    }
+fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
     let mut pending: Vec<(usize, usize)> =
         triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).filter(|(a, b)| a < b).collect();
     // Each flip raises the smallest angles, so it ends by itself; the limit is for angles that rounding ties.
     let mut left = 16 * triangles.len() * triangles.len().min(64);
     while let Some((a, b)) = pending.pop() {
-        let (Some(&one), Some(&two)) = (owner.get(&(a, b)), owner.get(&(b, a))) else { continue };
+        let (Some(one), Some(two)) = (sides.owner(a, b), sides.owner(b, a)) else { continue };
         let (c, d) = (opposite(triangles[one], a, b), opposite(triangles[two], a, b));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|index| points[index]);
-        let angles = angle(pc, pa, pb) + angle(pd, pb, pa);
         let convex = twice_area(pa, pd, pc) > 0.0 && twice_area(pd, pb, pc) > 0.0;
-        if angles <= std::f64::consts::PI + 1e-9 || !convex || left == 0 {
+        // Two angles of at most a quarter turn need not be measured.
+        let small = (pa - pc).dot(pb - pc) >= 0.0 && (pb - pd).dot(pa - pd) >= 0.0;
+        let wide = || angle(pc, pa, pb) + angle(pd, pb, pa) > std::f64::consts::PI + 1e-9;
+        if !convex || small || !wide() || left == 0 {
             continue;
         }
         left -= 1;
         triangles[one] = [a, d, c];
         triangles[two] = [d, b, c];
-        owner.remove(&(a, b));
-        owner.remove(&(b, a));
-        owner.extend([((a, d), one), ((d, c), one), ((c, a), one)]);
-        owner.extend([((d, b), two), ((b, c), two), ((c, d), two)]);
+        sides.remove(a, b);
+        sides.remove(b, a);
+        sides.add([a, d, c], one);
+        sides.add([d, b, c], two);
         pending.extend([(a, d), (d, b), (b, c), (c, a)]);
     }
 }
@@ -173,7 +173,7 @@ mod tests {
     fn area(rings: &[Vec<DVec2>]) -> f64 {
         let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
         let triangles = triangulate(rings).expect("a sound polygon");
-        assert!(unmatched(&triangles, &border(rings)).is_empty());
+        assert!(unmatched(&triangles, &Sides::of(&triangles, points.len()), &border(rings)).is_empty());
         triangles.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c]) / 2.0).sum()
     }
 

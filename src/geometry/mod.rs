@@ -12,6 +12,7 @@ mod ring;
 pub mod roof;
 mod section;
 mod shapes;
+mod sides;
 mod sizes;
 pub mod skeleton;
 mod skin;

@@ -1,6 +1,7 @@
 //! Plans: the outline of a building on the ground, made clean, repaired or refused.
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::outline::{Manner, numbered_rings};
 use super::repair::{Repaired, repair};
@@ -91,10 +92,10 @@ impl Plan {
 
     /// For each edge of all rings, the edges that it stands for: those of the rings that were given, counted from 0
     /// over all of them. An edge goes from its point to the next one.
-    pub fn given_edges(&self) -> Vec<Vec<usize>> {
+    pub fn given_edges(&self) -> Vec<SmallVec<[usize; 2]>> {
         let places = match &self.given {
             Given::Places(places) => places,
-            Given::Edges(edges) => return edges.clone(),
+            Given::Edges(edges) => return edges.iter().map(|edges| SmallVec::from_slice(edges)).collect(),
         };
         let mut given = Vec::with_capacity(self.edges());
         let mut first = 0;

@@ -284,7 +284,8 @@ mod tests {
         assert!(plan.repairs().0.contains(&"loops of the outer ring left out"), "{:?}", plan.repairs());
         // The lower triangle has 2 m along y = 0, the upper one 6 m along y = 6: they meet at y = 1.5.
         assert!((plan.area() - 13.5).abs() < 1e-6, "{}", plan.area());
-        let mut given = plan.given_edges();
+        let mut given: Vec<Vec<usize>> =
+            plan.given_edges().into_iter().map(smallvec::SmallVec::into_vec).collect();
         given.sort();
         assert_eq!(given, [vec![0], vec![1], vec![2]]);
     }

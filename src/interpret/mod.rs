@@ -21,6 +21,10 @@ pub(crate) use apply::Applier;
 /// Entries that one call into Lua interprets.
 const ENTRIES: usize = 4096;
 
+/// Pieces that many chains are dealt out in: what is drawn for one of them may take long, and no thread is to wait for
+/// the last piece of another.
+const DEALT: usize = 64;
+
 /// One pass over all chains, shared by the threads.
 pub(crate) struct Interpreting {
     pub plan: Arc<Plan>,
@@ -44,10 +48,12 @@ impl Interpreting {
         uses: &mut [Use],
     ) -> Result<Chain> {
         let starts = chain.starts(plan.grammar.arities());
+        let many = plan.chains >= 4 * DEALT;
+        let size = if many { plan.batch.min(chain.symbols.len() / DEALT) } else { plan.batch };
         let mut pieces = vec![Mark::default()];
         for start in &starts[1..] {
             let begin = pieces.last().copied().unwrap_or_default();
-            if start.module - begin.module >= plan.batch || start.module == chain.symbols.len() {
+            if start.module - begin.module >= size || start.module == chain.symbols.len() {
                 pieces.push(*start);
             }
         }

@@ -14,6 +14,7 @@ pub use normal::Normal;
 pub use shared::Shared;
 
 use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
 
 /// Everything a run has made, in an order that depends only on the scripts, inputs and seed.
 ///
@@ -59,7 +60,9 @@ pub struct Origin {
 impl Scene {
     /// The index of `material`, added if it is new.
     pub fn material(&mut self, material: &Material) -> usize {
-        match self.materials.iter().position(|known| known == material) {
+        // Colours tell most of them apart at once.
+        let same = |known: &Material| known.base_color == material.base_color && known == material;
+        match self.materials.iter().position(same) {
             Some(index) => index,
             None => {
                 self.materials.push(material.clone());
@@ -94,7 +97,7 @@ impl Scene {
 
     /// The least box (m) around all that is seen, as its lowest and highest corner; `None` if nothing is.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let boxes: Vec<_> = self.meshes.iter().map(Mesh::bounds).collect();
+        let boxes: Vec<_> = self.meshes.par_iter().map(Mesh::bounds).collect();
         let mut bounds: Option<(DVec3, DVec3)> = None;
         for instance in &self.instances {
             let Some((low, high)) = boxes[instance.mesh] else { continue };

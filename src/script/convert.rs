@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use mlua::{Lua, Value as LuaValue};
+use mlua::{Lua, LuaString, Value as LuaValue};
 
 use super::handles::{DerivedHandle, ObjectHandle};
 use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
@@ -43,7 +43,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
         #[allow(clippy::cast_precision_loss, reason = "Luau's own numbers are f64")]
         LuaValue::Integer(value) => Value::Number(*value as f64),
         LuaValue::Number(value) => Value::Number(*value),
-        LuaValue::String(text) => Value::Text(text.to_string_lossy().as_str().into()),
+        LuaValue::String(text) => Value::Text(owned(text)),
         LuaValue::Table(table) => {
             if depth > DEEPEST {
                 return Err(Error::new(format!(
@@ -75,7 +75,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                     LuaValue::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => {
                         Key::Index(number as i64)
                     }
-                    LuaValue::String(name) => Key::Name(name.to_string_lossy().as_str().into()),
+                    LuaValue::String(name) => Key::Name(owned(&name)),
                     other => {
                         return Err(Error::new(format!("a table has a {} as a key", other.type_name()))
                             .help("keys of such tables are names or whole numbers"));
@@ -121,6 +121,10 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                 .help("pass numbers, booleans, strings, tables of these, or objects"));
         }
     })
+}
+
+fn owned(text: &LuaString) -> Arc<str> {
+    String::from_utf8_lossy(&text.as_bytes()).into()
 }
 
 fn no_module() -> Error {

@@ -6,6 +6,7 @@
 mod analysis;
 mod convert;
 mod data;
+mod drawn;
 mod freeze;
 mod handles;
 mod library;

@@ -11,6 +11,7 @@ use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, Reading, has_metatables};
 use super::data::Data;
+use super::drawn::Drawn;
 use super::param::Param;
 use super::preset::Preset;
 use crate::derive::{Trace, Traced};
@@ -222,6 +223,8 @@ pub struct Session {
     data_roots: Vec<PathBuf>,
     /// The data files that were read.
     pub(crate) data: Data,
+    /// How far its random numbers have got.
+    pub(crate) drawn: Drawn,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
     /// The main file while it is read ahead, and its path.
@@ -255,6 +258,7 @@ impl Session {
             root,
             data_roots,
             data: Data::default(),
+            drawn: Drawn::default(),
             stdlib,
             sources: Mutex::default(),
             ahead: Mutex::default(),

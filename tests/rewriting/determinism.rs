@@ -127,6 +127,32 @@ fn a_random_number_of_the_top_level_is_the_same_every_time() {
 }
 
 #[test]
+fn what_the_functions_of_axioms_draw_is_drawn_for_all_threads() {
+    // The first function is quiet, so that other threads do not run it; the second counts what it was called for.
+    let script = r#"
+        local A = module("A", "u"); local B = module("B", "u")
+        local features, count = {}, 0
+        for i = 1, 100 do features[i] = { id = i } end
+        local function derive(axiom)
+          local s = lsystem { object = turtle {} }
+          local before = random()
+          s:axiom(source(features), axiom)
+          s:rule("A(u)", function(this, u) return B(u + before), B(random()) end)
+          s:interpret("B(u)", function(this, u) this:jump({ u, before, random() }) end)
+          s:derive(1)
+        end
+        derive(function(feature) return A(random()) end)
+        derive(function(feature) count += 1 return A(random() + count) end)
+        derive(function(feature) return A(random(5, 6)), A(random()) end)
+    "#;
+    let first = all_chains(&run_with(script, divided(1, 7)));
+    assert_eq!(first.lines().count(), 300);
+    for threads in [2, 7] {
+        assert!(first == all_chains(&run_with(script, divided(threads, 7))), "with {threads} threads");
+    }
+}
+
+#[test]
 fn many_small_chains_are_put_together_in_their_order() {
     let script = r#"
         local A = module("A", "n"); local B = module("B", "n")

@@ -1,6 +1,6 @@
-//! The binary part of a glTF: planned first, so that its description can be written, then streamed.
+//! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
 
-use super::super::check::triangles;
+use super::super::check::{shown, triangles};
 use crate::error::{Error, Result};
 use crate::scene::Part;
 use glam::Vec3;
@@ -8,16 +8,18 @@ use gltf_json as json;
 use json::buffer::{Stride, Target, View};
 use json::validation::Checked::Valid;
 use json::validation::USize64;
+use rayon::prelude::*;
 use std::io::{self, Write};
+use std::ops::Range;
 
 #[cfg(target_endian = "big")]
 compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
 
-/// The most (bytes) that is put together in memory before it is written.
-const GATHERED: u64 = 200 << 20;
+/// Items (vertices, triangles, numbers) that are put together at a time: about a megabyte.
+const STRETCH: usize = 1 << 16;
 
-/// Vertices or triangles that are converted at a time.
-const BATCH: usize = 4096;
+/// Stretches that are put together while those before them are written.
+const AHEAD: usize = 8;
 
 /// Arrays that share a buffer view, since thousands of small views make a file slow to open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -57,9 +59,18 @@ struct Section<'a> {
     length: u64,
 }
 
+/// Some blocks, or a part of one.
+struct Stretch<'a> {
+    blocks: &'a [Block<'a>],
+    /// What is taken of each block.
+    items: Range<usize>,
+    /// Zeros behind it (bytes).
+    padding: usize,
+}
+
 impl<'a> Body<'a> {
     /// Adds `block` to the view of its kind. Returns the view and the offset in it (bytes).
-    pub(super) fn share(&mut self, kind: Shared, block: Block<'a>) -> (json::Index<View>, u64) {
+    pub(super) fn share(&mut self, kind: Shared, block: Block<'a>) -> (u32, u64) {
         let index = match self.sections.iter().position(|section| section.shared == Some(kind)) {
             Some(index) => index,
             None => self.section(Some(kind)),
@@ -68,15 +79,15 @@ impl<'a> Body<'a> {
         let offset = section.length;
         section.length += block.length();
         section.blocks.push(block);
-        (json::Index::new(index as u32), offset)
+        (index as u32, offset)
     }
 
     /// Adds `block` as a view of its own.
-    pub(super) fn add(&mut self, block: Block<'a>) -> json::Index<View> {
+    pub(super) fn add(&mut self, block: Block<'a>) -> u32 {
         let index = self.section(None);
         self.sections[index].length = block.length();
         self.sections[index].blocks.push(block);
-        json::Index::new(index as u32)
+        index as u32
     }
 
     fn section(&mut self, shared: Option<Shared>) -> usize {
@@ -120,26 +131,57 @@ impl<'a> Body<'a> {
         Ok(())
     }
 
-    /// All of it in memory, unless it is too large to be there twice.
-    pub(super) fn gathered(&self) -> io::Result<Option<Vec<u8>>> {
-        if self.length() > GATHERED {
-            return Ok(None);
+    /// Writes `head` and exactly [`length`](Self::length) bytes. While something is written, what comes next is put
+    /// together.
+    pub(super) fn write(&self, head: Vec<Vec<u8>>, out: &mut (impl Write + Send)) -> io::Result<()> {
+        let mut ready = head;
+        for next in self.stretches().chunks(AHEAD) {
+            let write = || ready.iter().try_for_each(|bytes| out.write_all(bytes));
+            let (written, next) = rayon::join(write, || next.par_iter().map(Stretch::bytes).collect());
+            written?;
+            ready = next;
         }
-        let mut bytes = Vec::with_capacity(self.length() as usize);
-        self.write(&mut bytes)?;
-        Ok(Some(bytes))
+        ready.iter().try_for_each(|bytes| out.write_all(bytes))
     }
 
-    /// Writes exactly [`length`](Self::length) bytes.
-    pub(super) fn write(&self, out: &mut impl Write) -> io::Result<()> {
+    /// All of it, in order.
+    fn stretches(&self) -> Vec<Stretch<'_>> {
+        let mut stretches = Vec::new();
         for section in &self.sections {
-            for block in &section.blocks {
-                block.write(out)?;
+            let mut rest = section.blocks.as_slice();
+            while let Some(first) = rest.first() {
+                if first.items() > STRETCH {
+                    let parts = (0..first.items()).step_by(STRETCH).map(|from| from..from + STRETCH);
+                    stretches.extend(parts.map(|items| Stretch { blocks: &rest[..1], items, padding: 0 }));
+                    rest = &rest[1..];
+                    continue;
+                }
+                let mut sum = 0;
+                let fits = |block: &&Block<'_>| {
+                    sum += block.items();
+                    sum <= STRETCH
+                };
+                let (blocks, others) = rest.split_at(rest.iter().take_while(fits).count());
+                stretches.push(Stretch { blocks, items: 0..usize::MAX, padding: 0 });
+                rest = others;
             }
             let padding = section.length.next_multiple_of(4) - section.length;
-            out.write_all(&[0; 4][..padding as usize])?;
+            if let Some(last) = stretches.last_mut() {
+                last.padding = padding as usize;
+            }
         }
-        Ok(())
+        stretches
+    }
+}
+
+impl Stretch<'_> {
+    fn bytes(&self) -> Vec<u8> {
+        let mut bytes = Vec::with_capacity(12 * STRETCH);
+        for block in self.blocks {
+            block.write(self.items.clone(), &mut bytes);
+        }
+        bytes.resize(bytes.len() + self.padding, 0);
+        bytes
     }
 }
 
@@ -174,33 +216,41 @@ impl Block<'_> {
         bytes as u64
     }
 
-    fn write(&self, out: &mut impl Write) -> io::Result<()> {
+    /// What it has before any of it is left out.
+    fn items(&self) -> usize {
         match self {
-            Self::Positions(part) => stream(out, part.positions.iter().map(|at| y_up(*at).to_array())),
+            Self::Positions(part) | Self::Normals(part) | Self::TexCoords(part, _) => part.positions.len(),
+            Self::Short(part, _) | Self::Long(part) => part.triangles.len(),
+            Self::Floats(floats) => floats.len(),
+            Self::Bytes(bytes) => bytes.len(),
+        }
+    }
+
+    /// Writes those `items` that are there.
+    fn write(&self, items: Range<usize>, out: &mut Vec<u8>) {
+        let range = items.start..items.end.min(self.items());
+        match self {
+            Self::Positions(part) => put(out, part.positions[range].iter().map(|at| y_up(*at).to_array())),
             Self::Normals(part) => {
-                stream(out, part.normals.iter().map(|it| y_up(unit(it.vector())).to_array()))
+                put(out, part.normals[range].iter().map(|it| y_up(unit(it.vector())).to_array()))
             }
-            Self::TexCoords(part, size) => stream(out, part.uvs.iter().map(|uv| tex_coord(*uv, *size))),
+            Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
             Self::Short(part, first) => {
-                stream(out, triangles(part).map(|corners| corners.map(|corner| corner as u16 + first)))
+                let shown = shown(&part.triangles[range]);
+                put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));
             }
-            Self::Long(part) => stream(out, triangles(part)),
-            Self::Floats(floats) => out.write_all(bytemuck::cast_slice(floats)),
-            Self::Bytes(bytes) => out.write_all(bytes),
+            Self::Long(part) => put(out, shown(&part.triangles[range])),
+            Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
+            Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),
         }
     }
 }
 
-/// Writes items as they lie in memory, a batch at a time.
-fn stream<T: bytemuck::NoUninit>(out: &mut impl Write, mut items: impl Iterator<Item = T>) -> io::Result<()> {
-    let mut batch = Vec::with_capacity(BATCH);
-    loop {
-        batch.extend(items.by_ref().take(BATCH));
-        if batch.is_empty() {
-            return Ok(());
-        }
-        out.write_all(bytemuck::cast_slice(&batch))?;
-        batch.clear();
+/// Adds items as they lie in memory.
+fn put<T: bytemuck::NoUninit>(out: &mut Vec<u8>, items: impl Iterator<Item = T>) {
+    out.reserve(items.size_hint().1.unwrap_or(0) * size_of::<T>());
+    for item in items {
+        out.extend_from_slice(bytemuck::bytes_of(&item));
     }
 }
 

@@ -56,7 +56,7 @@ fn write_images<'a>(
             Textures::Beside(names) => (None, Some(uri(&names[i]))),
         };
         let source = root.push(json::Image {
-            buffer_view: view,
+            buffer_view: view.map(json::Index::new),
             mime_type: view.map(|_| json::image::MimeType(file.media_type().into())),
             name: name(&file.stem()),
             uri: address,

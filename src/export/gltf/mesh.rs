@@ -2,16 +2,12 @@
 
 use super::super::check::{Checked, shown_parts, triangles};
 use super::body::{Block, Body, Shared, y_up};
-use super::name;
+use super::description::{Accessor, Attributes, Description, Mesh, Primitive};
 use crate::scene::Part;
 use glam::Vec3;
 use gltf_json as json;
-use json::accessor::{ComponentType, GenericComponentType, Type};
-use json::mesh::{Mode, Primitive, Semantic};
-use json::validation::Checked::Valid;
-use json::validation::USize64;
-use std::collections::BTreeMap;
-use std::fmt::Write;
+use json::accessor::{ComponentType, Type};
+use rayon::prelude::*;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
 ///
@@ -20,37 +16,35 @@ pub(super) fn write<'a>(
     checked: &Checked<'a>,
     measured: bool,
     materials: &[Option<json::Index<json::Material>>],
-    root: &mut json::Root,
+    description: &mut Description<'a>,
     body: &mut Body<'a>,
-) -> Vec<Option<json::Index<json::Mesh>>> {
+) -> Vec<Option<usize>> {
     let scene = checked.scene;
+    let measure = |part: &'a Part| {
+        let texture = scene.materials[part.material].texture.as_ref();
+        Shown::measure(part, texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0])))
+    };
+    let shown = scene
+        .meshes
+        .par_iter()
+        .zip(&checked.meshes)
+        .map(|(mesh, shown)| if *shown { shown_parts(mesh).map(measure).collect() } else { Vec::new() });
+    let shown: Vec<Vec<Shown<'a>>> = shown.collect();
+    let parts: usize = shown.iter().map(Vec::len).sum();
+    description.accessors.reserve(2 * scene.meshes.len() + parts);
+    description.meshes.reserve(scene.meshes.len());
     let mut written = Vec::with_capacity(scene.meshes.len());
-    let parts: usize = scene.meshes.iter().map(|mesh| mesh.parts.len()).sum();
-    root.accessors.reserve(3 * scene.meshes.len() + parts);
-    for (mesh, shown) in scene.meshes.iter().zip(&checked.meshes) {
-        written.push(shown.then(|| {
-            let parts = shown_parts(mesh).map(|part| {
-                let texture = scene.materials[part.material].texture.as_ref();
-                Shown {
-                    part,
-                    texture: texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0])),
-                }
-            });
-            let parts: Vec<Shown<'a>> = parts.collect();
-            let vertices = Vertices::of(&parts, root, body);
+    for (mesh, parts) in scene.meshes.iter().zip(&shown) {
+        written.push((!parts.is_empty()).then(|| {
+            let vertices = Vertices::of(parts, description, body);
             let primitives = parts.iter().zip(&vertices);
             let primitives = primitives
                 .map(|(shown, vertices)| {
-                    shown.primitive(vertices, materials[shown.part.material], root, body)
+                    shown.primitive(vertices, materials[shown.part.material], description, body)
                 })
                 .collect();
-            root.push(json::Mesh {
-                extensions: None,
-                extras: None,
-                name: name(&mesh.name),
-                primitives,
-                weights: None,
-            })
+            description.meshes.push(Mesh { name: &mesh.name, primitives });
+            description.meshes.len() - 1
         }));
     }
     written
@@ -60,14 +54,17 @@ pub(super) fn write<'a>(
 struct Shown<'a> {
     part: &'a Part,
     texture: Option<[f64; 2]>,
+    /// How many triangles are written.
+    triangles: usize,
+    /// The box around its points in glTF's coordinates.
+    low: Vec3,
+    high: Vec3,
 }
 
 /// Where the vertices of a part are.
 #[derive(Clone, Copy)]
 struct Vertices {
-    positions: json::Index<json::Accessor>,
-    normals: json::Index<json::Accessor>,
-    tex_coords: Option<json::Index<json::Accessor>>,
+    accessors: Attributes,
     /// The number of the part's first vertex there.
     first: usize,
     /// How many vertices there are.
@@ -80,7 +77,7 @@ const SHORT: usize = u16::MAX as usize;
 impl Vertices {
     /// Adds the vertices of the parts of a mesh. Small parts of a kind share their arrays: what describes an array
     /// takes as much as four vertices, and cities have many small parts.
-    fn of<'a>(parts: &[Shown<'a>], root: &mut json::Root, body: &mut Body<'a>) -> Vec<Self> {
+    fn of<'a>(parts: &[Shown<'a>], description: &mut Description<'a>, body: &mut Body<'a>) -> Vec<Self> {
         let mut found: Vec<Option<Self>> = vec![None; parts.len()];
         for textured in [false, true] {
             let alike: Vec<usize> =
@@ -90,7 +87,7 @@ impl Vertices {
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
                 let members: Vec<&Shown<'a>> = group.iter().map(|index| &parts[*index]).collect();
-                let mut vertices = Self::together(&members, root, body);
+                let mut vertices = Self::together(&members, description, body);
                 for index in group {
                     found[*index] = Some(vertices);
                     vertices.first += parts[*index].part.positions.len();
@@ -101,16 +98,17 @@ impl Vertices {
     }
 
     /// Adds the vertices of `parts`, one after another.
-    fn together<'a>(parts: &[&Shown<'a>], root: &mut json::Root, body: &mut Body<'a>) -> Self {
+    fn together<'a>(parts: &[&Shown<'a>], description: &mut Description<'a>, body: &mut Body<'a>) -> Self {
         let count = parts.iter().map(|shown| shown.part.positions.len()).sum();
-        let (low, high) = bounds(parts.iter().flat_map(|shown| &shown.part.positions));
+        let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.low));
+        let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.high));
         let mut add = |shared: Shared, kind: Type, block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
             let mut place = None;
             for shown in parts {
                 let added = body.share(shared, block(shown));
                 place.get_or_insert(added);
             }
-            place.map(|place| at(place, accessor(ComponentType::F32, kind, count)))
+            accessor(place.unwrap_or_default(), ComponentType::F32, kind, count)
         };
         let positions = add(Shared::Positions, Type::Vec3, &|shown| Block::Positions(shown.part));
         let normals = add(Shared::Normals, Type::Vec3, &|shown| Block::Normals(shown.part));
@@ -120,94 +118,47 @@ impl Vertices {
                 Block::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
             })
         });
-        let nowhere = || accessor(ComponentType::F32, Type::Vec3, 0);
-        let positions = json::Accessor {
-            min: Some(numbers(low.to_array())),
-            max: Some(numbers(high.to_array())),
-            ..positions.unwrap_or_else(nowhere)
+        let positions = Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
+        let accessors = Attributes {
+            positions: description.accessor(positions),
+            normals: description.accessor(normals),
+            tex_coords: tex_coords.map(|accessor| description.accessor(accessor)),
         };
-        Self {
-            positions: root.push(positions),
-            normals: root.push(normals.unwrap_or_else(nowhere)),
-            tex_coords: tex_coords.flatten().map(|accessor| root.push(accessor)),
-            first: 0,
-            count,
-        }
+        Self { accessors, first: 0, count }
     }
 }
 
 impl<'a> Shown<'a> {
+    fn measure(part: &'a Part, texture: Option<[f64; 2]>) -> Self {
+        let mut points = part.positions.iter().map(|at| y_up(*at));
+        let first = points.next().unwrap_or_default();
+        let (low, high) = points.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
+        Self { part, texture, triangles: triangles(part).count(), low, high }
+    }
+
     fn primitive(
         &self,
         vertices: &Vertices,
-        index: Option<json::Index<json::Material>>,
-        root: &mut json::Root,
+        material: Option<json::Index<json::Material>>,
+        description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Primitive {
-        let mut attributes = BTreeMap::new();
-        attributes.insert(Valid(Semantic::Positions), vertices.positions);
-        attributes.insert(Valid(Semantic::Normals), vertices.normals);
-        if let Some(tex_coords) = vertices.tex_coords {
-            attributes.insert(Valid(Semantic::TexCoords(0)), tex_coords);
-        }
         let (kind, place) = if vertices.count <= SHORT {
             (ComponentType::U16, body.share(Shared::Short, Block::Short(self.part, vertices.first as u16)))
         } else {
             (ComponentType::U32, body.share(Shared::Long, Block::Long(self.part)))
         };
-        let indices = at(place, accessor(kind, Type::Scalar, triangles(self.part).count() * 3));
-        Primitive {
-            attributes,
-            extensions: None,
-            extras: None,
-            indices: Some(root.push(indices)),
-            material: index,
-            mode: Valid(Mode::Triangles),
-            targets: None,
-        }
+        let indices = accessor(place, kind, Type::Scalar, self.triangles * 3);
+        Primitive { attributes: vertices.accessors, indices: description.accessor(indices), material }
     }
 }
 
-/// An accessor of `count` items that is nowhere yet.
-pub(super) fn accessor(component: ComponentType, kind: Type, count: usize) -> json::Accessor {
-    json::Accessor {
-        buffer_view: None,
-        byte_offset: None,
-        count: count.into(),
-        component_type: Valid(GenericComponentType(component)),
-        extensions: None,
-        extras: None,
-        type_: Valid(kind),
-        min: None,
-        max: None,
-        name: None,
-        normalized: false,
-        sparse: None,
-    }
-}
-
-fn at((view, offset): (json::Index<json::buffer::View>, u64), accessor: json::Accessor) -> json::Accessor {
-    json::Accessor {
-        buffer_view: Some(view),
-        byte_offset: (offset > 0).then_some(USize64(offset)),
-        ..accessor
-    }
-}
-
-/// The box around `positions` in glTF's coordinates.
-fn bounds<'a>(mut positions: impl Iterator<Item = &'a Vec3>) -> (Vec3, Vec3) {
-    let first = positions.next().map_or(Vec3::ZERO, |at| y_up(*at));
-    positions.fold((first, first), |(low, high), at| (low.min(y_up(*at)), high.max(y_up(*at))))
-}
-
-/// The shortest decimals that read back as these f32.
-fn numbers(vector: [f32; 3]) -> json::Value {
-    let mut text = String::with_capacity(32);
-    let mut shortest = |number: f32| {
-        text.clear();
-        // Writing to a text does not fail.
-        let _ = write!(text, "{number}");
-        text.parse().unwrap_or(f64::from(number))
-    };
-    vector.map(&mut shortest).to_vec().into()
+/// An accessor of `count` items at a place in a view (bytes).
+pub(super) fn accessor(
+    (buffer_view, byte_offset): (u32, u64),
+    component_type: ComponentType,
+    kind: Type,
+    count: usize,
+) -> Accessor {
+    Accessor { buffer_view, byte_offset, count, component_type, kind, min: None, max: None }
 }

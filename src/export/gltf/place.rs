@@ -2,17 +2,15 @@
 
 use super::super::check::Checked;
 use super::decompose::{Steps, Trs, decompose, y_up};
+use super::description::{Description, Feature, Node};
 use super::material::use_extension;
 use super::mesh::accessor;
-use super::name;
 use super::{body::Block, body::Body};
 use crate::scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
-use json::extras::RawValue;
 use json::scene::UnitQuaternion;
-use json::{Index, Node};
 use rustc_hash::FxHashMap;
 
 const INSTANCING: &str = "EXT_mesh_gpu_instancing";
@@ -59,7 +57,7 @@ pub struct Place {
 #[derive(Default)]
 pub(super) struct Placed<'a> {
     /// The nodes of the scene's top.
-    pub(super) nodes: Vec<Index<Node>>,
+    pub(super) nodes: Vec<usize>,
     /// Where each instance is; `None` for one that has nothing to show.
     pub(super) places: Vec<Option<Place>>,
     /// The features that instances which share a node are of.
@@ -69,8 +67,8 @@ pub(super) struct Placed<'a> {
 /// Adds the instances.
 pub(super) fn write<'a>(
     checked: &Checked<'a>,
-    meshes: &[Option<Index<json::Mesh>>],
-    root: &mut json::Root,
+    meshes: &[Option<usize>],
+    description: &mut Description<'a>,
     body: &mut Body<'a>,
 ) -> Placed<'a> {
     let scene = checked.scene;
@@ -105,16 +103,16 @@ pub(super) fn write<'a>(
             members[at.unwrap_or_default()].push(number);
             continue;
         }
-        let (node, shown) = alone(instance, mesh, &transform, root);
+        let (node, shown) = alone(instance, mesh, &transform, description);
         nodes.push(node);
-        places[number] = Some(Place { node: shown.value(), shared: None });
+        places[number] = Some(Place { node: shown, shared: None });
     }
     for ((kind, group), members) in groups.into_iter().zip(members) {
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
-            let node = together(kind, group, mesh, root, body);
+            let node = together(kind, group, mesh, description, body);
             nodes.push(node);
             for (shared, number) in members.into_iter().enumerate() {
-                places[number] = Some(Place { node: node.value(), shared: Some(shared) });
+                places[number] = Some(Place { node, shared: Some(shared) });
             }
         }
     }
@@ -123,12 +121,12 @@ pub(super) fn write<'a>(
         return Placed { nodes, places, features };
     }
     let origin = Node {
-        name: Some("origin".into()),
+        name: "origin",
         translation: translation(y_up(&DAffine3::from_translation(checked.origin)).translation),
         children: Some(nodes),
         ..Node::default()
     };
-    Placed { nodes: vec![root.push(origin)], places, features }
+    Placed { nodes: vec![description.node(origin)], places, features }
 }
 
 impl<'a> Kind<'a> {
@@ -178,51 +176,48 @@ impl Group {
 }
 
 /// A node for one instance; two nodes, one in the other, for a sheared one. The second of the result has the mesh.
-fn alone(
-    instance: &Instance,
-    mesh: Index<json::Mesh>,
+fn alone<'a>(
+    instance: &'a Instance,
+    mesh: usize,
     transform: &DAffine3,
-    root: &mut json::Root,
-) -> (Index<Node>, Index<Node>) {
+    description: &mut Description<'a>,
+) -> (usize, usize) {
     let shown = Node {
         mesh: Some(mesh),
-        name: name(&instance.name),
-        // Here and not in the name, since viewers change names that repeat or have unusual letters.
-        extras: instance.feature.as_ref().and_then(|feature| {
-            RawValue::from_string(serde_json::json!({ "feature": feature }).to_string()).ok()
-        }),
+        name: &instance.name,
+        feature: instance.feature.as_deref().map(|feature| Feature { feature }),
         ..Node::default()
     };
     match decompose(transform) {
         Steps::One(trs) => {
-            let node = root.push(placed(shown, &trs));
+            let node = description.node(placed(shown, &trs));
             (node, node)
         }
         Steps::Two(rest, first) => {
-            let inner = root.push(Node { rotation: rotation(first), ..shown });
-            (root.push(placed(Node { children: Some(vec![inner]), ..Node::default() }, &rest)), inner)
+            let inner = description.node(Node { rotation: rotation(first), ..shown });
+            let outer = Node { children: Some(vec![inner]), ..Node::default() };
+            (description.node(placed(outer, &rest)), inner)
         }
     }
 }
 
 /// A node for all instances of a group.
-fn together(
-    kind: Kind<'_>,
+fn together<'a>(
+    kind: Kind<'a>,
     group: Group,
-    mesh: Index<json::Mesh>,
-    root: &mut json::Root,
-    body: &mut Body<'_>,
-) -> Index<Node> {
-    use_extension(root, INSTANCING);
-    root.extensions_required = vec![INSTANCING.into()];
+    mesh: usize,
+    description: &mut Description<'a>,
+    body: &mut Body<'a>,
+) -> usize {
+    use_extension(&mut description.root, INSTANCING);
+    description.root.extensions_required = vec![INSTANCING.into()];
     let mut attributes = serde_json::Map::new();
     let mut add = |key: &str, floats: Vec<f32>, width: usize, kind: Type, default: &[f32]| {
         if floats.chunks(width).any(|item| item != default) {
             let count = floats.len() / width;
             let view = body.add(Block::Floats(floats));
-            let array =
-                json::Accessor { buffer_view: Some(view), ..accessor(ComponentType::F32, kind, count) };
-            attributes.insert(key.into(), root.push(array).value().into());
+            let array = accessor((view, 0), ComponentType::F32, kind, count);
+            attributes.insert(key.into(), description.accessor(array).into());
         }
     };
     if group.features.iter().any(|feature| *feature >= 0.0) {
@@ -232,19 +227,17 @@ fn together(
     add("TRANSLATION", group.translations, 3, Type::Vec3, &[]);
     add("ROTATION", group.rotations, 4, Type::Vec4, &[0.0, 0.0, 0.0, 1.0]);
     add("SCALE", group.scales, 3, Type::Vec3, &[1.0, 1.0, 1.0]);
-    let mut extension = json::extensions::scene::Node::default();
-    extension.others.insert(INSTANCING.into(), serde_json::json!({ "attributes": attributes }));
-    root.push(Node {
+    description.node(Node {
         mesh: Some(mesh),
-        name: name(kind.name),
+        name: kind.name,
         scale: kind.mirrored.then_some([-1.0, 1.0, 1.0]),
-        extensions: Some(extension),
+        extensions: Some(serde_json::json!({ INSTANCING: { "attributes": attributes } })),
         ..Node::default()
     })
 }
 
 /// `node` with a transform; what is the default is left out.
-fn placed(node: Node, trs: &Trs) -> Node {
+fn placed<'a>(node: Node<'a>, trs: &Trs) -> Node<'a> {
     Node {
         translation: translation(trs.translation),
         rotation: rotation(trs.rotation),

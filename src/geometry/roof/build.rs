@@ -100,11 +100,12 @@ impl Shape {
         for edge in party {
             over[*edge] = Over::Flush;
         }
+        let mut hip = None;
         if ends != Ends::Hips {
-            let hip = Skeleton::new(walls, &vec![Pace::default(); count])?;
+            let hip = hip.insert(Skeleton::new(walls, &vec![Pace::default(); count])?);
             let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
             let kind = if raked { Over::Raked } else { Over::Flush };
-            for edge in gables(walls, &hip, party) {
+            for edge in gables(walls, hip, party) {
                 over[edge] = kind;
             }
         }
@@ -112,7 +113,10 @@ impl Shape {
         loop {
             let (outer, overhang) = self.outline(walls, &over);
             let paces = self.paces(&outer, &over, ends, overhang);
-            let skeleton = match Skeleton::new(&outer, &paces) {
+            let hips = overhang == 0.0 && over.iter().all(|over| *over == Over::Slope);
+            // Without a gable and an overhang, the roof is the one that the gables were looked for in.
+            let known = if hips { hip.take() } else { None };
+            let skeleton = match known.map_or_else(|| Skeleton::new(&outer, &paces), Ok) {
                 Ok(skeleton) => skeleton,
                 Err(error) if !party.is_empty() => return Err(error),
                 Err(error) if over.iter().all(|over| *over == Over::Slope) => {

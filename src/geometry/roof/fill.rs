@@ -1,6 +1,7 @@
 //! Flat polygons as triangles.
 
 use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
 
 use super::super::cap;
 use crate::error::{Error, Result};
@@ -15,22 +16,28 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     let right = (right - normal * normal.dot(right)).normalize_or_zero();
     let up = normal.cross(right);
     let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
-    let flats: Vec<Vec<DVec2>> = rings.iter().map(|ring| ring.iter().map(flat).collect()).collect();
-    let triangles = match flats.as_slice() {
-        [ring] if ring.len() == 3 => vec![[0, 1, 2]],
-        [ring] if ring.len() <= 8 && is_convex(ring) => {
+    let flats: SmallVec<[DVec2; 16]> = rings.iter().flatten().map(flat).collect();
+    let triangles: SmallVec<[[usize; 3]; 16]> = match rings {
+        [ring] if ring.len() == 3 || (ring.len() <= 8 && is_convex(&flats)) => {
             (2..ring.len()).map(|corner| [0, corner - 1, corner]).collect()
         }
-        [ring] => cap::triangulate(&flats).unwrap_or_else(|_| fan(ring)),
-        _ => cap::triangulate(&flats)?,
+        [_] => cap::triangulate(&[flats.to_vec()]).unwrap_or_else(|_| fan(&flats)).into(),
+        _ => {
+            let mut rest = flats.as_slice();
+            let nested = rings.iter().map(|ring| {
+                let (own, others) = rest.split_at(ring.len());
+                rest = others;
+                own.to_vec()
+            });
+            cap::triangulate(&nested.collect::<Vec<_>>())?.into()
+        }
     };
     let base =
         u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
-    for (point, flat) in rings.iter().flatten().zip(flats.iter().flatten()) {
-        part.positions.push(point.as_vec3());
-        part.normals.push(normal.into());
-        part.uvs.push(flat.as_vec2());
-    }
+    part.make_room(flats.len(), triangles.len());
+    part.positions.extend(rings.iter().flatten().map(DVec3::as_vec3));
+    part.normals.resize(part.positions.len(), normal.into());
+    part.uvs.extend(flats.iter().map(DVec2::as_vec2));
     #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
     part.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|corner| corner as u32 + base)));
     Ok(())

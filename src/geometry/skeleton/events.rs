@@ -118,14 +118,15 @@ impl Wavefront {
                 found[rank] = candidate;
             }
         }
-        let corner = &mut self.corners[index];
-        corner.foreseen.clear();
-        corner.foreseen.extend(found.into_iter().rev().filter(|candidate| candidate.1 != usize::MAX));
+        let begin = self.foreseen.len();
+        self.foreseen.extend(found.into_iter().rev().filter(|candidate| candidate.1 != usize::MAX));
+        self.corners[index].foreseen = begin..self.foreseen.len();
         self.expect_next_split(index);
     }
 
     fn expect_next_split(&mut self, index: usize) {
-        if let Some((time, edge)) = self.corners[index].foreseen.pop() {
+        if let Some(last) = self.corners[index].foreseen.next_back() {
+            let (time, edge) = self.foreseen[last];
             self.expect(time, What::Split(index, edge));
         }
     }

@@ -1,6 +1,7 @@
 //! The faces of a skeleton: put together from their borders, and verified.
 
 use glam::DVec2;
+use smallvec::SmallVec;
 
 use super::edge::Edge;
 use super::wavefront::Traced;
@@ -12,14 +13,18 @@ const MERGED: f64 = 1e-3;
 /// How far (m) a corner may be off the plane of its face.
 const OFF_PLANE: f64 = 5e-3;
 
+/// The directed borders of a face: the two peaks of each.
+type Borders = SmallVec<[[usize; 2]; 8]>;
+
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
 pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton> {
     let Traced { edges, peaks, arcs } = traced;
     let merged = merge(&peaks, edges.len());
-    let mut borders: Vec<Vec<[usize; 2]>> = Vec::with_capacity(edges.len());
+    let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
     let mut first = 0;
     for ring in rings {
-        borders.extend((0..ring.len()).map(|index| vec![[first + index, first + (index + 1) % ring.len()]]));
+        let next = |index: usize| first + (index + 1) % ring.len();
+        borders.extend((0..ring.len()).map(|index| Borders::from_iter([[first + index, next(index)]])));
         first += ring.len();
     }
     for arc in &arcs {
@@ -35,8 +40,8 @@ pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton>
 }
 
 /// For each peak the one that stands for it; the first `fixed` stand for themselves.
-fn merge(peaks: &[Peak], fixed: usize) -> Vec<usize> {
-    let mut merged: Vec<usize> = (0..peaks.len()).collect();
+fn merge(peaks: &[Peak], fixed: usize) -> SmallVec<[usize; 64]> {
+    let mut merged: SmallVec<[usize; 64]> = (0..peaks.len()).collect();
     let mut order = merged.clone();
     order.sort_by(|&a, &b| peaks[a].at.x.total_cmp(&peaks[b].at.x));
     for (rank, &a) in order.iter().enumerate() {
@@ -63,7 +68,7 @@ fn leader(merged: &[usize], mut peak: usize) -> usize {
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.
-fn chain(mut borders: Vec<[usize; 2]>) -> Result<Vec<usize>> {
+fn chain(mut borders: Borders) -> Result<Vec<usize>> {
     // What runs both ways bounds nothing.
     let mut index = 1;
     while index < borders.len() {
@@ -77,7 +82,8 @@ fn chain(mut borders: Vec<[usize; 2]>) -> Result<Vec<usize>> {
         }
     }
     let [first, mut at] = borders[0];
-    let mut ring = vec![first];
+    let mut ring = Vec::with_capacity(borders.len());
+    ring.push(first);
     let mut left = borders.len() - 1;
     borders.swap(0, left);
     while at != first {

@@ -1,6 +1,7 @@
 //! What meets in a place is cut there and paired anew.
 
 use glam::DVec2;
+use smallvec::SmallVec;
 
 use super::Peak;
 use super::edge::Direction;
@@ -9,6 +10,9 @@ use crate::error::{Error, Result};
 
 /// Places further (m) from each other than this are not one, even where a corner is at both almost at once.
 const APART: f64 = 1e-4;
+
+/// A list that is short almost always.
+type Few<T> = SmallVec<[T; 12]>;
 
 /// A corner, or a point of an edge (by the corner where the piece of the edge begins), that an event moves.
 #[derive(Debug, Clone, Copy)]
@@ -100,7 +104,7 @@ impl Wavefront {
                 self.end(spot.corner, first_peak + spot.meeting);
             }
         }
-        let mut rays: Vec<Ray> = Vec::with_capacity(2 * pieces.len());
+        let mut rays: Few<Ray> = Few::new();
         for (index, piece) in pieces.iter().enumerate() {
             let (along, direction) = (self.traced.edges[piece.edge].along, self.directions[piece.edge]);
             if let End::Meeting(meeting) = piece.ends[0] {
@@ -112,7 +116,7 @@ impl Wavefront {
             }
         }
         rays.sort_by(|a, b| a.meeting.cmp(&b.meeting).then_with(|| a.direction.compare(b.direction)));
-        let mut fresh = Vec::with_capacity(rays.len() / 2);
+        let mut fresh: Few<usize> = Few::new();
         for rays in rays.chunk_by_mut(|a, b| a.meeting == b.meeting) {
             pair(rays)?;
             for (number, ray) in rays.iter().enumerate().filter(|(_, ray)| ray.leaves) {
@@ -137,7 +141,7 @@ impl Wavefront {
 
     /// Joins the spots whose places are one.
     fn join_near(&mut self) {
-        let mut order: Vec<usize> = (0..self.spots.len()).collect();
+        let mut order: Few<usize> = (0..self.spots.len()).collect();
         order.sort_by(|&a, &b| self.spots[a].place.x.total_cmp(&self.spots[b].place.x));
         for (rank, &a) in order.iter().enumerate() {
             for &b in &order[rank + 1..] {
@@ -167,11 +171,11 @@ impl Wavefront {
     }
 
     /// The pieces of edges that the spots touch, cut there.
-    fn cut(&self) -> Vec<Piece> {
+    fn cut(&self) -> Few<Piece> {
         // Where pieces begin, and the meetings on them by their distance along.
-        let mut begins: Vec<usize> = Vec::with_capacity(2 * self.spots.len());
-        let mut whole: Vec<(usize, usize)> = Vec::with_capacity(self.spots.len());
-        let mut cuts: Vec<(usize, f64, usize)> = Vec::new();
+        let mut begins: Few<usize> = Few::new();
+        let mut whole: Few<(usize, usize)> = Few::new();
+        let mut cuts: Few<(usize, f64, usize)> = Few::new();
         for spot in &self.spots {
             begins.push(spot.corner);
             if spot.cut {
@@ -190,7 +194,7 @@ impl Wavefront {
             Ok(found) => End::Meeting(whole[found].1),
             Err(_) => End::Corner(corner),
         };
-        let mut pieces = Vec::with_capacity(begins.len() + cuts.len());
+        let mut pieces = Few::new();
         for &from in &begins {
             let corner = &self.corners[from];
             let mut last = end(from);

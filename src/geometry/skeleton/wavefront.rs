@@ -1,9 +1,12 @@
 //! The wavefront: the polygon's edges moving inwards until nothing is left of it.
 
+use std::cell::Cell;
 use std::cmp::{Ordering, Reverse};
 use std::collections::BinaryHeap;
+use std::ops::Range;
 
 use glam::DVec2;
+use smallvec::SmallVec;
 
 use super::edge::{Direction, Edge};
 use super::events::{Event, Next, What};
@@ -51,8 +54,9 @@ pub(super) struct Corner {
     pub alive: bool,
     /// The number of its spot, if it has one.
     pub spot: usize,
-    /// The lines that it may reach after the one that it is expected to reach next, the last one first.
-    pub foreseen: Vec<(f64, usize)>,
+    /// Where the lines that it may reach after the one that it is expected to reach next are among those that have been
+    /// foreseen, the last one first.
+    pub foreseen: Range<usize>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -69,40 +73,56 @@ impl Corner {
     }
 }
 
+#[derive(Default)]
 pub(super) struct Wavefront {
     pub traced: Traced,
     pub directions: Vec<Direction>,
     pub corners: Vec<Corner>,
     /// For each edge the corners where pieces of it begin; some may be dead.
-    pub pieces: Vec<Vec<usize>>,
+    pub pieces: Vec<SmallVec<[usize; 6]>>,
+    /// Lines that corners may reach, each with the time.
+    pub foreseen: Vec<(f64, usize)>,
     pub events: BinaryHeap<Reverse<Event>>,
     pub spots: Vec<Spot>,
     /// When an edge last began to move.
     pub started: f64,
 }
 
+thread_local! {
+    /// The last wavefront of the thread, whose memory the next one uses again: a city has tens of thousands.
+    static SPARE: Cell<Option<Box<Wavefront>>> = const { Cell::new(None) };
+}
+
 /// Moves all edges inwards until the polygon is used up. The rings lie on the lattice.
 pub(super) fn propagate(rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<Traced> {
-    let mut front = Wavefront::new(rings, paces)?;
-    let most = 16 * paces.len() + 64;
-    for _ in 0..most {
-        match front.gather() {
-            Next::Meet(time) => front.resolve(time)?,
-            Next::Start(edge, time) => front.start(edge, time)?,
-            Next::End if front.corners.iter().any(|corner| corner.alive) => {
-                return Err(Error::new("the wavefront is left with corners that meet nothing"));
-            }
-            Next::End => return Ok(front.traced),
-        }
-    }
-    Err(Error::new("the wavefront does not end"))
+    let mut front = SPARE.take().unwrap_or_default();
+    let done = front.run(rings, paces);
+    let traced = std::mem::take(&mut front.traced);
+    SPARE.set(Some(front));
+    done.map(|()| traced)
 }
 
 impl Wavefront {
-    fn new(rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<Self> {
+    fn run(&mut self, rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<()> {
+        self.begin(rings, paces)?;
+        for _ in 0..16 * paces.len() + 64 {
+            match self.gather() {
+                Next::Meet(time) => self.resolve(time)?,
+                Next::Start(edge, time) => self.start(edge, time)?,
+                Next::End if self.corners.iter().any(|corner| corner.alive) => {
+                    return Err(Error::new("the wavefront is left with corners that meet nothing"));
+                }
+                Next::End => return Ok(()),
+            }
+        }
+        Err(Error::new("the wavefront does not end"))
+    }
+
+    /// Puts the wavefront on the polygon, whatever it was before.
+    fn begin(&mut self, rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<()> {
         let count = paces.len();
         let mut edges = Vec::with_capacity(count);
-        let mut directions = Vec::with_capacity(count);
+        self.directions.clear();
         for ring in rings {
             for (index, &from) in ring.iter().enumerate() {
                 let to = ring[(index + 1) % ring.len()];
@@ -110,43 +130,39 @@ impl Wavefront {
                 let pace = paces.get(edges.len()).copied().unwrap_or_default();
                 let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
                 edges.push(Edge { along, level: along.perp().dot(from), speed, pace });
-                directions.push(Direction::new(from, to));
+                self.directions.push(Direction::new(from, to));
             }
         }
-        let mut front = Self {
-            traced: Traced {
-                edges,
-                peaks: Vec::with_capacity(3 * count),
-                arcs: Vec::with_capacity(3 * count),
-            },
-            directions,
-            corners: Vec::with_capacity(3 * count),
-            pieces: vec![Vec::new(); count],
-            events: BinaryHeap::with_capacity(3 * count),
-            spots: Vec::new(),
-            started: 0.0,
-        };
+        self.traced =
+            Traced { edges, peaks: Vec::with_capacity(3 * count), arcs: Vec::with_capacity(3 * count) };
+        self.corners.clear();
+        self.pieces.clear();
+        self.pieces.resize(count, SmallVec::new());
+        self.foreseen.clear();
+        self.events.clear();
+        self.spots.clear();
+        self.started = 0.0;
         let mut first = 0;
         for ring in rings {
             let size = ring.len();
             for (index, &at) in ring.iter().enumerate() {
                 let (before, after) = ((index + size - 1) % size, (index + 1) % size);
-                front.traced.peaks.push(Peak { at, time: 0.0 });
-                let corner = front.corner([first + before, first + index], first + index, at, 0.0)?;
-                front.corners[corner].before = first + before;
-                front.corners[corner].after = first + after;
+                self.traced.peaks.push(Peak { at, time: 0.0 });
+                let corner = self.corner([first + before, first + index], first + index, at, 0.0)?;
+                self.corners[corner].before = first + before;
+                self.corners[corner].after = first + after;
             }
             first += size;
         }
         for corner in 0..count {
-            front.expect_collapse(corner, front.corners[corner].after, 0.0);
-            front.expect_split(corner, (f64::NEG_INFINITY, 0));
-            let Pace { speed, rest } = front.traced.edges[corner].pace;
+            self.expect_collapse(corner, self.corners[corner].after, 0.0);
+            self.expect_split(corner, (f64::NEG_INFINITY, 0));
+            let Pace { speed, rest } = self.traced.edges[corner].pace;
             if speed > 0.0 && rest > 0.0 && rest.is_finite() {
-                front.expect(rest, What::Start(corner));
+                self.expect(rest, What::Start(corner));
             }
         }
-        Ok(front)
+        Ok(())
     }
 
     /// Adds a corner between two edges; its neighbours are still to be set.
@@ -179,7 +195,7 @@ impl Wavefront {
             kind,
             alive: true,
             spot: usize::MAX,
-            foreseen: Vec::new(),
+            foreseen: 0..0,
         });
         self.pieces[edges[1]].push(index);
         Ok(index)

@@ -1,5 +1,6 @@
 //! What a footprint knows of each of its edges: words, neighbours, and which one is on the street.
 
+use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use glam::DVec2;
@@ -51,7 +52,7 @@ impl Parameter for EdgeKeywords {
 /// What is known of the edges of a plan, over all of its rings.
 #[derive(Debug, Default)]
 pub(super) struct Edges {
-    keywords: Vec<Vec<String>>,
+    keywords: Vec<Vec<Cow<'static, str>>>,
     touch: Touch,
     street: Option<usize>,
     /// By edge that was given: the edge of the plan that stands for it, if there is one.
@@ -67,7 +68,7 @@ impl Edges {
             for number in given {
                 stands_for[number] = Some(edge);
                 for word in footprint.options.edge_keywords.0.get(&(number + 1)).into_iter().flatten() {
-                    add(&mut keywords[edge], word);
+                    add(&mut keywords[edge], word.clone());
                 }
             }
         }
@@ -91,9 +92,10 @@ impl Edges {
     }
 }
 
-fn add(words: &mut Vec<String>, word: &str) {
-    if !words.iter().any(|known| known == word) {
-        words.push(word.to_owned());
+fn add(words: &mut Vec<Cow<'static, str>>, word: impl Into<Cow<'static, str>>) {
+    let word = word.into();
+    if !words.contains(&word) {
+        words.push(word);
     }
 }
 
@@ -132,7 +134,7 @@ impl Footprint {
 
     /// The words about an edge of the plan, by its number over all rings: those that were given, and "blind",
     /// "street" and "entry door". The footprint's own keywords are not among them.
-    pub(super) fn edge_keywords(&self, edge: usize) -> &[String] {
+    pub(super) fn edge_keywords(&self, edge: usize) -> &[Cow<'static, str>] {
         self.known_edges().keywords.get(edge).map_or(&[], Vec::as_slice)
     }
 
@@ -188,7 +190,7 @@ impl Footprint {
         }))
     }
 
-    pub(super) fn words_of(&self, number: u32) -> Result<&[String]> {
+    pub(super) fn words_of(&self, number: u32) -> Result<&[Cow<'static, str>]> {
         Ok(self.standing("edge_has", number)?.map_or(&[], |edge| self.edge_keywords(edge)))
     }
 

@@ -194,7 +194,7 @@ methods! {
         /// Whether an edge has this keyword: one it was given, or "blind" (a neighbour covers it by half or more),
         /// "street" or "entry door".
         pub fn edge_has(&self, edge: u32, keyword: String) -> Result<bool> {
-            self.words_of(edge).map(|words| words.contains(&keyword))
+            self.words_of(edge).map(|words| words.iter().any(|word| *word == keyword))
         }
 
         /// The part of an edge, 0 to 1, that neighbours touch.

@@ -267,7 +267,8 @@ impl Footprint {
 
     /// The words that say what kind of frontage an edge has.
     fn keywords_of(&self, edge: usize) -> Vec<&str> {
-        self.options.keywords.iter().chain(self.edge_keywords(edge)).map(String::as_str).collect()
+        let own = self.options.keywords.iter().map(String::as_str);
+        own.chain(self.edge_keywords(edge).iter().map(|word| &**word)).collect()
     }
 }
 

@@ -18,7 +18,7 @@ use super::{DeclaredAxiom, System};
 
 impl System {
     /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes, unless it
-    /// can be seen to change nothing.
+    /// can be seen to change nothing but the random numbers that follow, which [`System::catch_up`] sets right.
     pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
         let is_quiet = |function: &Function| {
             let info = function.info();
@@ -29,6 +29,15 @@ impl System {
             Some(DeclaredAxiom::Source(_, function)) if is_quiet(function) => Ok(()),
             Some(DeclaredAxiom::Source(..)) => self.axiom(machine, Key::default(), false).map(|_| ()),
             _ => Ok(()),
+        }
+    }
+
+    /// In a machine that only helps, once a derivation is over: random numbers go on where the leader's do.
+    pub(crate) fn catch_up(&self, machine: &Machine) {
+        if let Some(DeclaredAxiom::Source(..)) = self.axiom
+            && let Some(stream) = machine.session.drawn.after(machine.crew.done.borrow().len())
+        {
+            machine.current.top.replace(stream);
         }
     }
 
@@ -50,7 +59,10 @@ impl System {
                 axiom.features.push(None);
             }
             Some(DeclaredAxiom::Source(source, function)) => {
-                self.features(machine, source, function, key, random, &mut axiom)?
+                let made = self.features(machine, source, function, key, random, &mut axiom);
+                // The script may go on where it fails.
+                machine.session.drawn.note(machine.crew.done.borrow().len(), &machine.current.top.borrow());
+                made?;
             }
         }
         if let Some(gather) = axiom.objects.first().and_then(|object| object.gathers()) {

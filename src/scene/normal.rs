@@ -1,0 +1,112 @@
+//! Unit vectors in 32 bits.
+
+use bytemuck::{Pod, Zeroable};
+use glam::{DVec3, Vec3, Vec3A};
+
+/// The greatest value of an octahedral coordinate.
+const MOST: f32 = i16::MAX as f32;
+
+/// 1.5 x 2^23: what is added to it is rounded to an integer, whose bits are then the lowest of the sum's. Rounding by
+/// itself is a call of a function on processors as old as the oldest that are supported.
+const ROUNDING: f32 = 12_582_912.0;
+
+/// A unit vector, within 0.005 degrees: a third of the memory of one in three f32.
+///
+/// The directions are laid on an octahedron, whose lower half is folded outwards into a square around the upper one,
+/// as in Cigolle et al., "A Survey of Efficient Representations for Independent Unit Vectors", 2014. Directions along
+/// the axes are exact.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Pod, Zeroable)]
+#[repr(C)]
+pub struct Normal([i16; 2]);
+
+impl Normal {
+    /// Upwards.
+    pub const Z: Self = Self([0, 0]);
+
+    /// How far at most (radians) it is from the vector that it was made of.
+    pub const PRECISION: f32 = 8.7e-5;
+
+    /// The vector, of length 1 but for rounding.
+    #[inline]
+    pub fn vector(self) -> Vec3 {
+        let [x, y] = self.0.map(|coordinate| f32::from(coordinate) / MOST);
+        let z = 1.0 - x.abs() - y.abs();
+        let fold = (-z).max(0.0);
+        let [x, y] = [x, y].map(|it| it - fold.copysign(it));
+        Vec3::new(x, y, z).normalize()
+    }
+
+    /// The direction of a vector (x, y, z) of any length; upwards if it has none.
+    #[inline]
+    fn along([x, y, z]: [f32; 3]) -> Self {
+        let sum = x.abs() + y.abs() + z.abs();
+        // Neither if it is not a number.
+        if !(1e-30..=1e30).contains(&sum) {
+            return Self::Z;
+        }
+        let part = 1.0 / sum;
+        let (x, y) = (x * part, y * part);
+        let folded =
+            if z < 0.0 { [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)] } else { [x, y] };
+        #[allow(clippy::cast_possible_truncation, reason = "the lowest 16 bits are the integer")]
+        Self(folded.map(|it| (it * MOST + ROUNDING).to_bits() as i16))
+    }
+}
+
+impl std::ops::Neg for Normal {
+    type Output = Self;
+
+    fn neg(self) -> Self {
+        Self::from(-self.vector())
+    }
+}
+
+impl From<Vec3> for Normal {
+    #[inline]
+    fn from(vector: Vec3) -> Self {
+        Self::along(vector.to_array())
+    }
+}
+
+impl From<Vec3A> for Normal {
+    #[inline]
+    fn from(vector: Vec3A) -> Self {
+        Self::along(vector.to_array())
+    }
+}
+
+impl From<DVec3> for Normal {
+    #[inline]
+    fn from(vector: DVec3) -> Self {
+        Self::along(vector.as_vec3().to_array())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    #[test]
+    fn the_axes_are_exact_and_what_has_no_direction_looks_up() {
+        for axis in [Vec3::X, Vec3::Y, Vec3::Z, Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z] {
+            assert_eq!(Normal::from(axis * 3.0).vector(), axis);
+            assert_eq!((-Normal::from(axis)).vector(), -axis);
+        }
+        for nowhere in [Vec3::ZERO, Vec3::NAN, Vec3::new(f32::INFINITY, 0.0, 0.0), Vec3::splat(1e-35)] {
+            assert_eq!(Normal::from(nowhere), Normal::Z);
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_direction_is_kept(x in -1.0f64..1.0, y in -1.0f64..1.0, z in -1.0f64..1.0, size in 1e-20f64..1e20) {
+            let vector = DVec3::new(x, y, z);
+            prop_assume!(vector.length() > 1e-3);
+            let kept = Normal::from(vector * size).vector();
+            prop_assert!((kept.length() - 1.0).abs() < 1e-6);
+            prop_assert!(kept.as_dvec3().angle_between(vector) < f64::from(Normal::PRECISION));
+        }
+    }
+}
