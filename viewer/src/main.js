@@ -91,20 +91,15 @@ function clearMark() {
 
 async function show(message) {
   state.model = message;
-  profile.script = message.files?.[0] ?? state.hello.script;
   working.stop();
   trouble.clear();
-  params.show(message.params);
-  variations.params(message.params);
-  seed.show(message.seed);
-  steps.show(message);
-  readouts.model(message);
-  profile.show(message);
   let own = { load: 0, draw: 0, total: 0 };
-  if (loading) {
+  if (!loading) tell(message);
+  else {
     try {
-      own = await loading.show(message);
+      own = await loading.show(message, () => tell(message));
     } catch (error) {
+      if (state.model === message) tell(message);
       if (error.name === 'AbortError' || state.model !== message) return;
       // The server keeps only its last few models; on a new connection it tells the present one.
       if (error.status === 404 && state.gone !== message.url) {
@@ -131,6 +126,17 @@ async function show(message) {
   document.documentElement.dataset.run = message.run;
   dispatchEvent(new CustomEvent('burgeon:drawn', { detail: { run: message.run, ms, load: own.load, draw: own.draw } }));
   steps.drawn();
+}
+
+/** Tells what is known of a model besides its picture. */
+function tell(message) {
+  profile.script = message.files?.[0] ?? state.hello.script;
+  params.show(message.params);
+  variations.params(message.params);
+  seed.show(message.seed);
+  steps.show(message);
+  readouts.model(message);
+  profile.show(message);
 }
 
 // Messages
