@@ -18,6 +18,9 @@ export class Loading {
     this.progress = progress;
   }
 
+  /** Whether the model that is shown has all its texture coordinates, which take a third of a file. */
+  measured = false;
+
   /** Shows the model of `message`; `meanwhile` is called while it is drawn. Returns the times (ms), or null if a newer
    *  one has come. */
   async show(message, meanwhile) {
@@ -26,8 +29,10 @@ export class Loading {
     this.#abort = new AbortController();
     const start = performance.now();
     let [model, keep] = [new Model(), null];
+    const measured = this.stage.mode === 'uv';
     if (message.url) {
-      const file = await this.#fetch(message.url, this.#abort.signal);
+      const url = measured ? message.url.replace(/\.glb$/, '.uv.glb') : message.url;
+      const file = await this.#fetch(url, this.#abort.signal);
       if (mine !== this.#newest) return null;
       const glb = new Glb(file);
       const materials = await this.#materials.of(glb);
@@ -37,6 +42,7 @@ export class Loading {
     }
     const load = performance.now() - start;
     const draw = this.stage.swap(model, meanwhile);
+    this.measured = measured;
     keep?.();
     return { load, draw, total: load + draw };
   }

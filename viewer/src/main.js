@@ -66,7 +66,10 @@ const working = new Working(socket);
 const profile = new Profile({ places, highlight });
 const variations = new Variations({ socket, changes, seed });
 const card = new Card({ stage, socket, places, picking: clearMark, closed: clearMark });
-const view = tools(stage);
+const view = tools(stage, (mode) => {
+  // Texture coordinates come only when they are shown.
+  if (mode === 'uv' && state.model?.url && !loading.measured) show(state.model);
+});
 const loading = stage && new Loading(stage, (part) => working.download(part));
 
 function highlight(file, line, again = false) {

@@ -116,6 +116,10 @@ export class Stage {
     return this.#cost;
   }
 
+  get mode() {
+    return this.shading.mode;
+  }
+
   set mode(mode) {
     this.shading.mode = mode;
     this.shading.apply(this.model);

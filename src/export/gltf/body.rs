@@ -24,6 +24,10 @@ const BATCH: usize = 4096;
 pub(super) enum Shared {
     Positions,
     Normals,
+    /// Normals as four i8, of which the last is nothing.
+    ByteNormals,
+    /// Normals as four i16, of which the last is nothing.
+    ShortNormals,
     TexCoords,
     /// Indices as u16.
     Short,
@@ -35,6 +39,8 @@ pub(super) enum Shared {
 pub(super) enum Block<'a> {
     Positions(&'a Part),
     Normals(&'a Part),
+    ByteNormals(&'a Part),
+    ShortNormals(&'a Part),
     /// The texture coordinates of a part whose texture has this width and height (m).
     TexCoords(&'a Part, [f64; 2]),
     /// The indices of a part whose vertices begin with this number, as u16.
@@ -146,8 +152,8 @@ impl<'a> Body<'a> {
 impl Section<'_> {
     fn target(&self) -> Option<Target> {
         Some(match self.shared? {
-            Shared::Positions | Shared::Normals | Shared::TexCoords => Target::ArrayBuffer,
             Shared::Short | Shared::Long => Target::ElementArrayBuffer,
+            _ => Target::ArrayBuffer,
         })
     }
 
@@ -155,7 +161,8 @@ impl Section<'_> {
     fn stride(&self) -> Option<usize> {
         match self.shared? {
             Shared::Positions | Shared::Normals => Some(12),
-            Shared::TexCoords => Some(8),
+            Shared::TexCoords | Shared::ShortNormals => Some(8),
+            Shared::ByteNormals => Some(4),
             Shared::Short | Shared::Long => None,
         }
     }
@@ -165,7 +172,8 @@ impl Block<'_> {
     fn length(&self) -> u64 {
         let bytes = match self {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
-            Self::TexCoords(part, _) => part.positions.len() * 8,
+            Self::TexCoords(part, _) | Self::ShortNormals(part) => part.positions.len() * 8,
+            Self::ByteNormals(part) => part.positions.len() * 4,
             Self::Short(part, _) => triangles(part).count() * 6,
             Self::Long(part) => triangles(part).count() * 12,
             Self::Floats(floats) => floats.len() * 4,
@@ -178,6 +186,8 @@ impl Block<'_> {
         match self {
             Self::Positions(part) => stream(out, part.positions.iter().map(|at| y_up(*at).to_array())),
             Self::Normals(part) => stream(out, part.normals.iter().map(|it| y_up(unit(*it)).to_array())),
+            Self::ByteNormals(part) => stream(out, part.normals.iter().map(|it| byte_normal(*it))),
+            Self::ShortNormals(part) => stream(out, part.normals.iter().map(|it| short_normal(*it))),
             Self::TexCoords(part, size) => stream(out, part.uvs.iter().map(|uv| tex_coord(*uv, *size))),
             Self::Short(part, first) => {
                 stream(out, triangles(part).map(|corners| corners.map(|corner| corner as u16 + first)))
@@ -218,6 +228,20 @@ pub(super) fn unit(normal: Vec3) -> Vec3 {
         Some(unit) => unit.as_vec3(),
         None => Vec3::Z,
     }
+}
+
+/// A unit vector as parts of 127, and a zero.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+fn byte_normal(normal: Vec3) -> [i8; 4] {
+    let [x, y, z] = (y_up(unit(normal)) * 127.0).round().to_array();
+    [x as i8, y as i8, z as i8, 0]
+}
+
+/// A unit vector as parts of 32767, and a zero.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+fn short_normal(normal: Vec3) -> [i16; 4] {
+    let [x, y, z] = (y_up(unit(normal)) * 32767.0).round().to_array();
+    [x as i16, y as i16, z as i16, 0]
 }
 
 /// Texture coordinates in metres, v upwards, as parts of the image, v downwards.

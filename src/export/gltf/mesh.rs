@@ -15,10 +15,10 @@ use std::fmt::Write;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
 ///
-/// Texture coordinates are left out where no texture needs them, unless `measured`: then they are metres.
+/// Texture coordinates are left out where no texture needs them, unless `arrays` says that they are metres there.
 pub(super) fn write<'a>(
     checked: &Checked<'a>,
-    measured: bool,
+    arrays: Arrays,
     materials: &[Option<json::Index<json::Material>>],
     root: &mut json::Root,
     body: &mut Body<'a>,
@@ -33,11 +33,11 @@ pub(super) fn write<'a>(
                 let texture = scene.materials[part.material].texture.as_ref();
                 Shown {
                     part,
-                    texture: texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0])),
+                    texture: texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0])),
                 }
             });
             let parts: Vec<Shown<'a>> = parts.collect();
-            let vertices = Vertices::of(&parts, root, body);
+            let vertices = Vertices::of(&parts, arrays, root, body);
             let primitives = parts.iter().zip(&vertices);
             let primitives = primitives
                 .map(|(shown, vertices)| {
@@ -54,6 +54,15 @@ pub(super) fn write<'a>(
         }));
     }
     written
+}
+
+/// Which arrays are written, and how.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Arrays {
+    /// Whether surfaces without a texture have texture coordinates too, in metres.
+    pub(super) measured: bool,
+    /// Whether normals are integers, which `KHR_mesh_quantization` allows: a viewer waits for each byte.
+    pub(super) small: bool,
 }
 
 /// A part, and the width and height (m) of its texture if it has texture coordinates.
@@ -80,7 +89,7 @@ const SHORT: usize = u16::MAX as usize;
 impl Vertices {
     /// Adds the vertices of the parts of a mesh. Small parts of a kind share their arrays: what describes an array
     /// takes as much as four vertices, and cities have many small parts.
-    fn of<'a>(parts: &[Shown<'a>], root: &mut json::Root, body: &mut Body<'a>) -> Vec<Self> {
+    fn of<'a>(parts: &[Shown<'a>], arrays: Arrays, root: &mut json::Root, body: &mut Body<'a>) -> Vec<Self> {
         let mut found: Vec<Option<Self>> = vec![None; parts.len()];
         for textured in [false, true] {
             let alike: Vec<usize> =
@@ -90,7 +99,7 @@ impl Vertices {
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
                 let members: Vec<&Shown<'a>> = group.iter().map(|index| &parts[*index]).collect();
-                let mut vertices = Self::together(&members, root, body);
+                let mut vertices = Self::together(&members, arrays, root, body);
                 for index in group {
                     found[*index] = Some(vertices);
                     vertices.first += parts[*index].part.positions.len();
@@ -101,22 +110,41 @@ impl Vertices {
     }
 
     /// Adds the vertices of `parts`, one after another.
-    fn together<'a>(parts: &[&Shown<'a>], root: &mut json::Root, body: &mut Body<'a>) -> Self {
+    fn together<'a>(
+        parts: &[&Shown<'a>],
+        arrays: Arrays,
+        root: &mut json::Root,
+        body: &mut Body<'a>,
+    ) -> Self {
         let count = parts.iter().map(|shown| shown.part.positions.len()).sum();
         let (low, high) = bounds(parts.iter().flat_map(|shown| &shown.part.positions));
-        let mut add = |shared: Shared, kind: Type, block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
+        let mut add = |shared: Shared,
+                       (component, kind): (ComponentType, Type),
+                       block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
             let mut place = None;
             for shown in parts {
                 let added = body.share(shared, block(shown));
                 place.get_or_insert(added);
             }
-            place.map(|place| at(place, accessor(ComponentType::F32, kind, count)))
+            place.map(|place| at(place, accessor(component, kind, count)))
         };
-        let positions = add(Shared::Positions, Type::Vec3, &|shown| Block::Positions(shown.part));
-        let normals = add(Shared::Normals, Type::Vec3, &|shown| Block::Normals(shown.part));
+        let vec3 = (ComponentType::F32, Type::Vec3);
+        let positions = add(Shared::Positions, vec3, &|shown| Block::Positions(shown.part));
+        let normals = match arrays.small {
+            false => add(Shared::Normals, vec3, &|shown| Block::Normals(shown.part)),
+            true if parts.iter().all(|shown| is_faceted(shown.part)) => {
+                let kind = (ComponentType::I8, Type::Vec3);
+                add(Shared::ByteNormals, kind, &|shown| Block::ByteNormals(shown.part))
+            }
+            true => {
+                let kind = (ComponentType::I16, Type::Vec3);
+                add(Shared::ShortNormals, kind, &|shown| Block::ShortNormals(shown.part))
+            }
+        };
+        let normals = normals.map(|it| json::Accessor { normalized: arrays.small, ..it });
         let textured = parts.first().is_some_and(|shown| shown.texture.is_some());
         let tex_coords = textured.then(|| {
-            add(Shared::TexCoords, Type::Vec2, &|shown| {
+            add(Shared::TexCoords, (ComponentType::F32, Type::Vec2), &|shown| {
                 Block::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
             })
         });
@@ -192,6 +220,13 @@ fn at((view, offset): (json::Index<json::buffer::View>, u64), accessor: json::Ac
         byte_offset: (offset > 0).then_some(USize64(offset)),
         ..accessor
     }
+}
+
+/// Whether all triangles of `part` are flat. Rounding a normal turns the light on a face by less than can be seen, but
+/// highlights wander over smooth surfaces.
+fn is_faceted(part: &Part) -> bool {
+    let normal = |corner: u32| part.normals[corner as usize];
+    part.triangles.iter().all(|[a, b, c]| normal(*a) == normal(*b) && normal(*b) == normal(*c))
 }
 
 /// The box around `positions` in glTF's coordinates.
