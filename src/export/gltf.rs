@@ -27,7 +27,11 @@ use body::Body;
 use description::Description;
 use gltf_json as json;
 use json::extras::RawValue;
+use mesh::Arrays;
 use std::io::Write;
+
+/// Allows attributes that are integers.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
 
 /// Where the images of a document are.
 enum Textures {
@@ -57,19 +61,24 @@ pub struct Layout {
 ///
 /// Fails if the scene is not sound, if a texture cannot be read, and beyond 4 GiB.
 pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
-    bytes(scene, false).map(|(bytes, _)| bytes)
+    bytes(scene, Arrays::default()).map(|(bytes, _)| bytes)
 }
 
-/// As [`glb`], for a viewer: all surfaces have texture coordinates, in metres where they have no texture, and it is told
-/// where everything is.
+/// As [`glb`], for a viewer: it is as small as it can be without looking worse, and it is told where everything is.
 pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
-    bytes(scene, true)
+    bytes(scene, Arrays { small: true, measured: false })
 }
 
-fn bytes(scene: &Scene, measured: bool) -> Result<(Vec<u8>, Layout)> {
+/// As [`glb_for_viewer`], with everything in the same places, but all surfaces have texture coordinates: in metres
+/// where they have no texture.
+pub fn glb_with_texture_coordinates(scene: &Scene) -> Result<Vec<u8>> {
+    bytes(scene, Arrays { small: true, measured: true }).map(|(bytes, _)| bytes)
+}
+
+fn bytes(scene: &Scene, arrays: Arrays) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded, measured)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded, arrays)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
     let length: usize = head.iter().map(Vec::len).sum();
@@ -82,7 +91,7 @@ fn bytes(scene: &Scene, measured: bool) -> Result<(Vec<u8>, Layout)> {
 pub(super) fn write_glb(scene: &Scene, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded, false)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded, Arrays::default())?;
     let head = document.head()?;
     let path = files.main().to_owned();
     files.write(&path, |out| document.body.write(head, out))
@@ -96,7 +105,7 @@ pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
     for (name, file) in names.iter().zip(&images.files) {
         files.write(&files.sibling(name), |out| out.write_all(&file.bytes))?;
     }
-    let mut document = Document::new(&checked, &images, &Textures::Beside(names), false)?;
+    let mut document = Document::new(&checked, &images, &Textures::Beside(names), Arrays::default())?;
     if let Some(buffer) = document.description.root.buffers.first_mut() {
         let name = format!("{}.bin", files.stem());
         buffer.uri = Some(uri(&name));
@@ -107,7 +116,7 @@ pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
 }
 
 impl<'a> Document<'a> {
-    fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures, measured: bool) -> Result<Self> {
+    fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures, arrays: Arrays) -> Result<Self> {
         let mut description = Description::default();
         description.root.asset = json::Asset {
             generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
@@ -116,8 +125,12 @@ impl<'a> Document<'a> {
         };
         let mut body = Body::default();
         let materials = material::write(checked, images, textures, &mut description.root, &mut body);
-        let meshes = mesh::write(checked, measured, &materials, &mut description, &mut body);
+        let meshes = mesh::write(checked, arrays, &materials, &mut description, &mut body);
         let placed = place::write(checked, &meshes, &mut description, &mut body);
+        if arrays.small {
+            material::use_extension(&mut description.root, QUANTIZATION);
+            description.root.extensions_required.push(QUANTIZATION.into());
+        }
         let extras = (!placed.features.is_empty())
             .then(|| {
                 RawValue::from_string(serde_json::json!({ "features": placed.features }).to_string()).ok()

@@ -18,6 +18,7 @@ use super::export::{self, Download};
 use super::socket;
 use super::state::State;
 use crate::error::Result;
+use crate::export::gltf;
 
 const INDEX: &[u8] = include_bytes!("../../viewer/dist/index.html");
 const SCRIPT: &[u8] = include_bytes!("../../viewer/dist/viewer.js");
@@ -26,6 +27,9 @@ const STYLE: &[u8] = include_bytes!("../../viewer/dist/viewer.css");
 /// Only what comes from this server; textures inside of models are read from the browser's own memory.
 const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
                       connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// How the name of a model ends that has all its texture coordinates.
+const MEASURED: &str = ".uv.glb";
 
 const FOR_EVER: &str = "private, max-age=31536000, immutable";
 const NEVER: &str = "no-store";
@@ -96,6 +100,7 @@ async fn route(site: &Arc<Site>, request: Request) -> Response {
         Some("viewer.css") => file(STYLE, "text/css; charset=utf-8"),
         Some("socket") => open_socket(site, request).await,
         Some(inner) => match inner.split_once('/') {
+            Some(("model", name)) if name.ends_with(MEASURED) => measured(site, name).await,
             Some(("model", name)) => kept(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash)),
             Some(("picture", name)) => kept(name, ".png", "image/png", |hash| site.state.picture(hash)),
             Some(("export", name)) if !name.contains('/') => {
@@ -135,6 +140,25 @@ fn kept(name: &str, ending: &str, kind: &'static str, find: impl Fn(&str) -> Opt
             ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
         }
         None => missing(),
+    }
+}
+
+/// The present model as [`gltf::glb_with_texture_coordinates`] has it, which few ever want to see.
+async fn measured(site: &Arc<Site>, name: &str) -> Response {
+    let shown = site.state.lock().shown.clone();
+    let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
+    let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
+    let Ok(_turn) = site.exports.acquire().await else { return missing() };
+    let make = move || gltf::glb_with_texture_coordinates(&shown.run.scene);
+    match tokio::task::spawn_blocking(make).await {
+        Ok(Ok(bytes)) => {
+            let kind = "model/gltf-binary";
+            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
+        }
+        Ok(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+        Err(_) => {
+            plain(StatusCode::INTERNAL_SERVER_ERROR, "the model ended early: this is a mistake in Burgeon")
+        }
     }
 }
 

@@ -317,6 +317,27 @@ test("shading modes and themes are other pictures; the camera stays across saves
     assert.ok(different(light, await pixels(page)) > 10_000);
   }));
 
+test("texture coordinates come only when they are shown, and triangles stay where they are", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const whole = [];
+    page.on("response", (response) => {
+      if (/model\//.test(response.url())) whole.push(response.url().endsWith(".uv.glb") && response.ok());
+    });
+    let last = await drawn(page);
+    await seen(page, "mode-uv").check({ force: true });
+    await page.waitForTimeout(500);
+    save(script, BLOCKS.replace("default = 3", "default = 4"));
+    last = await drawn(page, last);
+    const [x, y] = await page.evaluate(() => window.burgeon.project([0, -2.04, 3]));
+    await page.mouse.click(x, y);
+    await seen(page, "picked").waitFor({ state: "visible" });
+    assert.match(await seen(page, "picked").textContent(), /Slab\(3\)/);
+    await seen(page, "mode-lit").check({ force: true });
+    save(script, BLOCKS);
+    await drawn(page, last);
+    assert.deepEqual(whole.slice(-3), [true, true, false]);
+  }));
+
 test("a page of another site, a wrong token and a path that leads away are refused", () =>
   open(BLOCKS, async ({ page, server, context }) => {
     await drawn(page);

@@ -23,15 +23,22 @@ export class Glb {
     this.body = 28 + length;
   }
 
-  /** The typed array of accessor `index`. */
+  /** The typed array of accessor `index`; where items lie further apart than they are wide, with what is between. */
   array(index) {
     const accessor = this.json.accessors[index];
     const Kind = ARRAYS[accessor.componentType];
-    const size = accessor.count * WIDTHS[accessor.type];
+    const size = accessor.count * this.stride(index);
     if (accessor.bufferView === undefined) return new Kind(size);
     const view = this.json.bufferViews[accessor.bufferView];
     const start = this.body + (view.byteOffset ?? 0) + (accessor.byteOffset ?? 0);
     return new Kind(this.file, start, size);
+  }
+
+  /** How many numbers there are from one item of accessor `index` to the next. */
+  stride(index) {
+    const { bufferView, componentType, type } = this.json.accessors[index];
+    const bytes = this.json.bufferViews[bufferView]?.byteStride;
+    return bytes ? bytes / ARRAYS[componentType].BYTES_PER_ELEMENT : WIDTHS[type];
   }
 
   /** The bytes of an embedded image. */

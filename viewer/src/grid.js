@@ -1,6 +1,15 @@
 // The ground: a grid in metres that suits the zoom, and the model's shadow.
 
-import { DoubleSide, Mesh, PlaneGeometry, ShaderMaterial, ShadowMaterial, Color, Vector2 } from 'three';
+import {
+  Color,
+  DoubleSide,
+  LinearSRGBColorSpace,
+  Mesh,
+  PlaneGeometry,
+  ShaderMaterial,
+  ShadowMaterial,
+  Vector2,
+} from 'three';
 
 const VERTEX = /* glsl */ `
 varying vec2 at;
@@ -9,6 +18,7 @@ void main() {
   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
 }`;
 
+// Colours are those of the screen already, and nothing is found twice: without a graphics card each term costs time.
 const FRAGMENT = /* glsl */ `
 varying vec2 at;
 uniform vec2 origin;
@@ -16,29 +26,28 @@ uniform float cell, blend, radius, opacity;
 uniform vec2 axes;
 uniform vec3 color, east, north;
 
-float lines(vec2 p, float size, float width) {
-  vec2 q = p / size;
-  vec2 w = fwidth(q) * width;
+float lines(vec2 q, vec2 w) {
   vec2 d = abs(fract(q - 0.5) - 0.5);
-  vec2 line = 1.0 - smoothstep(w * 0.5, w * 1.5, d);
+  vec2 line = clamp(1.5 - d / w, 0.0, 1.0);
   // Where cells are smaller than pixels only their mean is left.
-  line *= 1.0 - smoothstep(0.12, 0.45, w);
+  line *= clamp((0.45 - w) / 0.33, 0.0, 1.0);
   return max(line.x, line.y);
 }
 
 void main() {
   vec2 p = at * radius + origin;
   float fade = 1.0 - smoothstep(0.08, 0.85, length(at));
-  float fine = lines(p, cell, 0.8) * 0.28 * (1.0 - blend);
-  float coarse = lines(p, cell * 10.0, 1.0) * mix(0.62, 0.28, blend);
-  float coarsest = lines(p, cell * 100.0, 1.0) * 0.62 * blend;
+  vec2 q = p / cell;
+  vec2 w = fwidth(p);
+  vec2 v = w / cell;
+  float fine = lines(q, v * 0.8) * 0.28 * (1.0 - blend);
+  float coarse = lines(q * 0.1, v * 0.1) * mix(0.62, 0.28, blend);
+  float coarsest = lines(q * 0.01, v * 0.01) * 0.62 * blend;
   float a = max(max(fine, coarse), coarsest);
-  vec2 w = fwidth(p) * 1.2;
-  vec2 axis = (1.0 - smoothstep(w * 0.5, w * 1.6, abs(p))) * axes;
+  vec2 axis = clamp((1.92 * w - abs(p)) / (1.32 * w), 0.0, 1.0) * axes;
   vec3 c = mix(mix(color, east, axis.y), north, axis.x);
   a = max(a, max(axis.x, axis.y) * 1.3);
   gl_FragColor = vec4(c, a * fade * opacity);
-  #include <colorspace_fragment>
 }`;
 
 /** How many pixels the finest cells measure at least. */
@@ -47,13 +56,14 @@ const FINEST = 9;
 export class Ground {
   cell = 1;
   height = 0;
+  #opacity = 0.4;
   #uniforms = {
     origin: { value: new Vector2() },
     cell: { value: 1 },
     blend: { value: 0 },
     radius: { value: 1 },
     axes: { value: new Vector2(1, 1) },
-    opacity: { value: 0.4 },
+    opacity: { value: 1 },
     color: { value: new Color() },
     east: { value: new Color() },
     north: { value: new Color() },
@@ -70,6 +80,7 @@ export class Ground {
       transparent: true,
       depthWrite: false,
       side: DoubleSide,
+      toneMapped: false,
     });
     this.grid = new Mesh(flat, material);
     this.grid.rotation.x = -Math.PI / 2;
@@ -82,10 +93,11 @@ export class Ground {
   }
 
   theme(dark) {
-    this.#uniforms.color.value.set(dark ? 0xaab6bf : 0x4c5a66);
-    this.#uniforms.east.value.set(dark ? 0xe0655f : 0xc0392f);
-    this.#uniforms.north.value.set(dark ? 0x6fbf73 : 0x2f8a3b);
-    this.#uniforms.opacity.value = dark ? 0.34 : 0.36;
+    const put = (name, color) => this.#uniforms[name].value.setHex(color, LinearSRGBColorSpace);
+    put('color', dark ? 0xaab6bf : 0x4c5a66);
+    put('east', dark ? 0xe0655f : 0xc0392f);
+    put('north', dark ? 0x6fbf73 : 0x2f8a3b);
+    this.#opacity = dark ? 0.34 : 0.36;
     this.shade.material.opacity = dark ? 0.5 : 0.3;
   }
 
@@ -106,8 +118,8 @@ export class Ground {
     this.grid.position.y = this.height - size * 3e-4;
   }
 
-  /** Follows the camera. Returns how far (m) the grid reaches. */
-  follow(camera, pixels) {
+  /** Follows the camera; `ratio` is of the picture's pixels to the page's. Returns how far (m) the grid reaches. */
+  follow(camera, pixels, ratio) {
     const pixel = (2 * camera.reach) / pixels;
     const exact = Math.log10(pixel * FINEST);
     const level = Math.ceil(exact);
@@ -118,6 +130,8 @@ export class Ground {
     uniforms.cell.value = cell;
     uniforms.blend.value = blend ** 2;
     uniforms.radius.value = radius;
+    // Lines are as wide as a pixel, and large ones must not be darker.
+    uniforms.opacity.value = this.#opacity * Math.min(ratio, 1);
     const [x, z] = [camera.target.x, camera.target.z];
     this.grid.position.x = x;
     this.grid.position.z = z;

@@ -16,7 +16,7 @@ import {
 } from 'three';
 
 /** Towards the sun: from the south-west, as in the pictures of `run`. */
-const SUN = new Vector3(-0.62, 0.72, 0.42).normalize();
+export const SUN = new Vector3(-0.62, 0.72, 0.42).normalize();
 
 export class Light {
   constructor(scene, { slow }) {

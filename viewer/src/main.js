@@ -66,7 +66,10 @@ const working = new Working(socket);
 const profile = new Profile({ places, highlight });
 const variations = new Variations({ socket, changes, seed });
 const card = new Card({ stage, socket, places, picking: clearMark, closed: clearMark });
-const view = tools(stage);
+const view = tools(stage, (mode) => {
+  // Texture coordinates come only when they are shown.
+  if (mode === 'uv' && state.model?.url && !loading.measured) show(state.model);
+});
 const loading = stage && new Loading(stage, (part) => working.download(part));
 
 function highlight(file, line, again = false) {
@@ -91,20 +94,15 @@ function clearMark() {
 
 async function show(message) {
   state.model = message;
-  profile.script = message.files?.[0] ?? state.hello.script;
   working.stop();
   trouble.clear();
-  params.show(message.params);
-  variations.params(message.params);
-  seed.show(message.seed);
-  steps.show(message);
-  readouts.model(message);
-  profile.show(message);
   let own = { load: 0, draw: 0, total: 0 };
-  if (loading) {
+  if (!loading) tell(message);
+  else {
     try {
-      own = await loading.show(message);
+      own = await loading.show(message, () => tell(message));
     } catch (error) {
+      if (state.model === message) tell(message);
       if (error.name === 'AbortError' || state.model !== message) return;
       // The server keeps only its last few models; on a new connection it tells the present one.
       if (error.status === 404 && state.gone !== message.url) {
@@ -131,6 +129,17 @@ async function show(message) {
   document.documentElement.dataset.run = message.run;
   dispatchEvent(new CustomEvent('burgeon:drawn', { detail: { run: message.run, ms, load: own.load, draw: own.draw } }));
   steps.drawn();
+}
+
+/** Tells what is known of a model besides its picture. */
+function tell(message) {
+  profile.script = message.files?.[0] ?? state.hello.script;
+  params.show(message.params);
+  variations.params(message.params);
+  seed.show(message.seed);
+  steps.show(message);
+  readouts.model(message);
+  profile.show(message);
 }
 
 // Messages

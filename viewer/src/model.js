@@ -22,8 +22,12 @@ export function build(glb, made, plain) {
   const { scenes, scene = 0, nodes = [] } = glb.json;
   // Primitives of a mesh may share arrays, which the graphics card then holds once.
   const shared = new Map();
-  const attribute = (index, width) => {
-    if (!shared.has(index)) shared.set(index, new BufferAttribute(glb.array(index), width));
+  const attribute = (index) => {
+    if (!shared.has(index)) {
+      const { normalized = false } = glb.json.accessors[index];
+      // What fills the space between items is read too: graphics cards have no attributes of three bytes.
+      shared.set(index, new BufferAttribute(glb.array(index), glb.stride(index), normalized));
+    }
     return shared.get(index);
   };
   const geometries = (glb.json.meshes ?? []).map((mesh) =>
@@ -111,9 +115,9 @@ export class Model {
 function geometry(glb, { attributes, indices }, attribute) {
   const made = new BufferGeometry();
   const { min, max } = glb.json.accessors[attributes.POSITION];
-  made.setAttribute('position', attribute(attributes.POSITION, 3));
-  if (attributes.NORMAL !== undefined) made.setAttribute('normal', attribute(attributes.NORMAL, 3));
-  if (attributes.TEXCOORD_0 !== undefined) made.setAttribute('uv', attribute(attributes.TEXCOORD_0, 2));
+  made.setAttribute('position', attribute(attributes.POSITION));
+  if (attributes.NORMAL !== undefined) made.setAttribute('normal', attribute(attributes.NORMAL));
+  if (attributes.TEXCOORD_0 !== undefined) made.setAttribute('uv', attribute(attributes.TEXCOORD_0));
   made.setIndex(new BufferAttribute(indices === undefined ? counting(made) : glb.array(indices), 1));
   made.boundingBox = new Box3(new Vector3(...min), new Vector3(...max));
   made.boundingSphere = made.boundingBox.getBoundingSphere(new Sphere());

@@ -46,6 +46,15 @@ export class Shading {
     }
   }
 
+  /** Shows lit surfaces by `plain`'s materials, or by their own if that is null. */
+  plainly(model, plain) {
+    if (this.mode !== 'lit') return;
+    for (const part of model.parts) {
+      const { material } = part.userData;
+      part.material = plain ? plain.of(material) : material;
+    }
+  }
+
   clear() {
     for (const wire of this.#wires) wire.removeFromParent();
     this.#wires = [];

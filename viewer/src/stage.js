@@ -25,13 +25,14 @@ import { Ground } from './grid.js';
 import { Light } from './light.js';
 import { Mark } from './mark.js';
 import { Model } from './model.js';
+import { Plain } from './plain.js';
 import { Shading } from './shading.js';
 import { nearest } from './ray.js';
 import { toneMapping } from './tone.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
 const SLOW = 40; // ms for a frame above which moving frames are plainer
-const FINE = 450; // ms that the finer frame may take, about
+const SMOOTH = 22; // ms for a plain frame below which the finer one may have more pixels than the page
 
 export class Stage {
   model = new Model();
@@ -41,6 +42,9 @@ export class Stage {
   #frame = 0;
   #rest = 0;
   #cost = 0;
+  /** The same of frames with shadows alone: on slow machines the others tell nothing of them. */
+  #fineCost = 0;
+  #coarse = false;
   #shadowDue = false;
   #drawn = [];
 
@@ -63,6 +67,7 @@ export class Stage {
     this.renderer.shadowMap.type = PCFShadowMap;
     this.renderer.setClearColor(0, 0);
     this.light = new Light(this.scene, this);
+    this.plain = new Plain(this.light);
     if (!this.slow) this.light.reflect(this.renderer, this.scene);
     this.ground = new Ground(this.scene);
     this.ground.under(this.model.box, this.model.origin);
@@ -83,8 +88,9 @@ export class Stage {
     this.invalidate();
   }
 
-  /** Puts `model` in the place of the one before and draws it at once. Returns the milliseconds. */
-  swap(model) {
+  /** Puts `model` in the place of the one before and draws it at once; `meanwhile` is called while the graphics card
+   *  works. Returns the milliseconds. */
+  swap(model, meanwhile) {
     const start = performance.now();
     const old = this.model;
     this.mark.clear();
@@ -100,11 +106,18 @@ export class Stage {
     this.light.fit(model.box, this.ground.height);
     this.#shadowDue = true;
     old.dispose();
-    this.#draw(!this.slow || model.triangles < 60_000);
+    const fine = !this.slow || model.triangles < 60_000;
+    this.#draw(fine);
+    meanwhile();
     this.#finish();
     this.#cost = performance.now() - start;
+    this.#fineCost = fine ? this.#cost : Infinity;
     this.#later();
     return this.#cost;
+  }
+
+  get mode() {
+    return this.shading.mode;
   }
 
   set mode(mode) {
@@ -117,14 +130,21 @@ export class Stage {
     this.#frame ||= requestAnimationFrame(() => {
       this.#frame = 0;
       const start = performance.now();
-      const fine = this.#cost < SLOW && !this.#shadowDue;
+      const fine = this.#mayBeFine;
       this.#draw(fine);
       if (!fine || this.slow) {
         this.#finish();
-        this.#cost = this.#cost * 0.5 + (performance.now() - start) * 0.5;
+        const cost = performance.now() - start;
+        this.#cost = this.#cost * 0.5 + cost * 0.5;
+        if (fine) this.#fineCost = this.#fineCost * 0.5 + cost * 0.5;
       }
       this.#later();
     });
+  }
+
+  /** Whether moving frames have shadows. */
+  get #mayBeFine() {
+    return (this.slow ? this.#fineCost : this.#cost) < SLOW && !this.#shadowDue;
   }
 
   /** Draws the finer frame when nothing has changed for a while. */
@@ -145,13 +165,16 @@ export class Stage {
       light.sun.shadow.needsUpdate = true;
       this.#shadowDue = false;
     }
-    // Only a uniform of the same shaders, so that nothing has to be compiled.
+    // Only a uniform of the same shaders, or those of plain materials, so that nothing has to be compiled.
     for (const part of model.parts) part.receiveShadow = shadows;
+    if (this.slow) this.shading.plainly(model, shadows ? null : this.plain);
     this.ground.shade.visible = shadows && !model.box.isEmpty();
     this.#scale(ratio ?? this.#ratio(still));
-    const grid = this.ground.follow(camera, height);
+    const grid = this.ground.follow(camera, height, renderer.getPixelRatio());
     const [center, radius] = this.#extent(grid);
     renderer.render(this.scene, camera.place(center, radius));
+    // What follows takes its time while the graphics card works.
+    renderer.getContext().flush();
     for (const listener of this.#drawn) listener();
   }
 
@@ -175,8 +198,9 @@ export class Stage {
   /** Pixels of the drawing for each of the page's; without a graphics card edges are smoothed only at rest. */
   #ratio(still) {
     if (!this.slow) return Math.min(devicePixelRatio, 2);
-    if (still) return this.#cost < FINE / 5 ? 2 : 1;
-    return this.#cost > 2 * SLOW ? 0.6 : 1;
+    if (still) return this.#cost < SMOOTH ? 2 : 1;
+    this.#coarse = this.#cost > (this.#coarse ? SLOW / 2 : SLOW);
+    return this.#coarse ? 0.6 : 1;
   }
 
   #scale(ratio) {
@@ -192,7 +216,7 @@ export class Stage {
     this.camera.height = clientHeight;
     cancelAnimationFrame(this.#frame);
     this.#frame = 0;
-    this.#draw(this.#cost < SLOW && !this.#shadowDue);
+    this.#draw(this.#mayBeFine);
     this.#later();
   }
 
@@ -209,7 +233,8 @@ export class Stage {
     const warm = new Group();
     for (const side of [FrontSide, DoubleSide]) {
       const material = new MeshStandardMaterial({ side });
-      const meshes = [new Mesh(geometry, material), new InstancedMesh(geometry, material, 1)];
+      const both = this.slow ? [material, this.plain.of(material)] : [material];
+      const meshes = both.flatMap((it) => [new Mesh(geometry, it), new InstancedMesh(geometry, it, 1)]);
       for (const mesh of meshes)
         warm.add(Object.assign(mesh, { castShadow: true, receiveShadow: true, frustumCulled: false }));
     }

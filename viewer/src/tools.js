@@ -5,7 +5,6 @@ import { find, make } from './dom.js';
 import { changeIcon, icon } from './icons.js';
 import { menu } from './menu.js';
 import { MODES } from './shading.js';
-import { toast } from './trouble.js';
 
 const MODE_NAMES = {
   lit: 'Lit',
@@ -14,8 +13,8 @@ const MODE_NAMES = {
   uv: 'Texture coordinates',
 };
 
-/** Fills the toolbar and returns what its buttons do, for the keys. */
-export function tools(stage) {
+/** Fills the toolbar and returns what its buttons do, for the keys; `changed` is called with each new shading mode. */
+export function tools(stage, changed) {
   for (const [i, mode] of MODES.entries()) {
     const input = make('input', {
       type: 'radio',
@@ -33,8 +32,7 @@ export function tools(stage) {
     find(`[data-testid=mode-${mode}]`).checked = true;
     if (!stage) return;
     stage.mode = mode;
-    const bare = mode === 'uv' && !stage.model.parts.some((part) => part.geometry.attributes.uv);
-    if (bare) toast('Nothing here has texture coordinates: give a material a texture');
+    changed(mode);
   }
 
   function fit() {

@@ -2,7 +2,7 @@
 
 use super::super::check::{shown, triangles};
 use crate::error::{Error, Result};
-use crate::scene::Part;
+use crate::scene::{Normal, Part};
 use glam::Vec3;
 use gltf_json as json;
 use json::buffer::{Stride, Target, View};
@@ -26,6 +26,10 @@ const AHEAD: usize = 8;
 pub(super) enum Shared {
     Positions,
     Normals,
+    /// Normals as four i8, of which the last is nothing.
+    ByteNormals,
+    /// Normals as four i16, of which the last is nothing.
+    ShortNormals,
     TexCoords,
     /// Indices as u16.
     Short,
@@ -37,6 +41,8 @@ pub(super) enum Shared {
 pub(super) enum Block<'a> {
     Positions(&'a Part),
     Normals(&'a Part),
+    ByteNormals(&'a Part),
+    ShortNormals(&'a Part),
     /// The texture coordinates of a part whose texture has this width and height (m).
     TexCoords(&'a Part, [f64; 2]),
     /// The indices of a part whose vertices begin with this number, as u16.
@@ -188,8 +194,8 @@ impl Stretch<'_> {
 impl Section<'_> {
     fn target(&self) -> Option<Target> {
         Some(match self.shared? {
-            Shared::Positions | Shared::Normals | Shared::TexCoords => Target::ArrayBuffer,
             Shared::Short | Shared::Long => Target::ElementArrayBuffer,
+            _ => Target::ArrayBuffer,
         })
     }
 
@@ -197,7 +203,8 @@ impl Section<'_> {
     fn stride(&self) -> Option<usize> {
         match self.shared? {
             Shared::Positions | Shared::Normals => Some(12),
-            Shared::TexCoords => Some(8),
+            Shared::TexCoords | Shared::ShortNormals => Some(8),
+            Shared::ByteNormals => Some(4),
             Shared::Short | Shared::Long => None,
         }
     }
@@ -207,7 +214,8 @@ impl Block<'_> {
     fn length(&self) -> u64 {
         let bytes = match self {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
-            Self::TexCoords(part, _) => part.positions.len() * 8,
+            Self::TexCoords(part, _) | Self::ShortNormals(part) => part.positions.len() * 8,
+            Self::ByteNormals(part) => part.positions.len() * 4,
             Self::Short(part, _) => triangles(part).count() * 6,
             Self::Long(part) => triangles(part).count() * 12,
             Self::Floats(floats) => floats.len() * 4,
@@ -219,7 +227,11 @@ impl Block<'_> {
     /// What it has before any of it is left out.
     fn items(&self) -> usize {
         match self {
-            Self::Positions(part) | Self::Normals(part) | Self::TexCoords(part, _) => part.positions.len(),
+            Self::Positions(part)
+            | Self::Normals(part)
+            | Self::ByteNormals(part)
+            | Self::ShortNormals(part)
+            | Self::TexCoords(part, _) => part.positions.len(),
             Self::Short(part, _) | Self::Long(part) => part.triangles.len(),
             Self::Floats(floats) => floats.len(),
             Self::Bytes(bytes) => bytes.len(),
@@ -232,8 +244,10 @@ impl Block<'_> {
         match self {
             Self::Positions(part) => put(out, part.positions[range].iter().map(|at| y_up(*at).to_array())),
             Self::Normals(part) => {
-                put(out, part.normals[range].iter().map(|it| y_up(unit(it.vector())).to_array()))
+                put(out, part.normals[range].iter().map(|it| y_up(it.vector()).to_array()))
             }
+            Self::ByteNormals(part) => put(out, part.normals[range].iter().map(|it| byte_normal(*it))),
+            Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
             Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
             Self::Short(part, first) => {
                 let shown = shown(&part.triangles[range]);
@@ -259,17 +273,18 @@ pub(super) fn y_up(vector: Vec3) -> Vec3 {
     Vec3::new(vector.x, vector.z, -vector.y) + 0.0
 }
 
-/// `normal` at length 1 after rounding; upwards if it has no direction.
-pub(super) fn unit(normal: Vec3) -> Vec3 {
-    // As near as f32 comes to it already.
-    if (normal.length_squared() - 1.0).abs() < 2e-7 {
-        return normal;
-    }
-    let exact = normal.as_dvec3();
-    match exact.try_normalize() {
-        Some(unit) => unit.as_vec3(),
-        None => Vec3::Z,
-    }
+/// A unit vector as parts of 127, and a zero.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+fn byte_normal(normal: Normal) -> [i8; 4] {
+    let [x, y, z] = (y_up(normal.vector()) * 127.0).round().to_array();
+    [x as i8, y as i8, z as i8, 0]
+}
+
+/// A unit vector as parts of 32767, and a zero.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+fn short_normal(normal: Normal) -> [i16; 4] {
+    let [x, y, z] = (y_up(normal.vector()) * 32767.0).round().to_array();
+    [x as i16, y as i16, z as i16, 0]
 }
 
 /// Texture coordinates in metres, v upwards, as parts of the image, v downwards.

@@ -33,6 +33,9 @@ pub(super) struct Accessor {
     pub(super) byte_offset: u64,
     pub(super) count: usize,
     pub(super) component_type: ComponentType,
+    /// Whether integers stand for numbers from -1 to 1.
+    #[serde(skip_serializing_if = "is_false")]
+    pub(super) normalized: bool,
     #[serde(rename = "type")]
     pub(super) kind: Type,
     /// The corners of the box around points.
@@ -226,6 +229,11 @@ fn fields(object: &impl Serialize) -> serde_json::Result<Vec<u8>> {
 }
 
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes fields by reference")]
+fn is_false(value: &bool) -> bool {
+    !value
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde passes fields by reference")]
 fn is_zero(number: &u64) -> bool {
     *number == 0
 }
@@ -243,6 +251,7 @@ mod tests {
                 byte_offset: count as u64 * 12,
                 count,
                 component_type: ComponentType::F32,
+                normalized: false,
                 kind: Type::Vec3,
                 min: Some([0.1; 3]),
                 max: None,

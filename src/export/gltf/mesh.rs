@@ -11,10 +11,10 @@ use rayon::prelude::*;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
 ///
-/// Texture coordinates are left out where no texture needs them, unless `measured`: then they are metres.
+/// Texture coordinates are left out where no texture needs them, unless `arrays` says that they are metres there.
 pub(super) fn write<'a>(
     checked: &Checked<'a>,
-    measured: bool,
+    arrays: Arrays,
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
     body: &mut Body<'a>,
@@ -22,7 +22,7 @@ pub(super) fn write<'a>(
     let scene = checked.scene;
     let measure = |part: &'a Part| {
         let texture = scene.materials[part.material].texture.as_ref();
-        Shown::measure(part, texture.map(|texture| texture.size).or(measured.then_some([1.0, 1.0])))
+        Shown::measure(part, texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0])))
     };
     let shown = scene
         .meshes
@@ -36,7 +36,7 @@ pub(super) fn write<'a>(
     let mut written = Vec::with_capacity(scene.meshes.len());
     for (mesh, parts) in scene.meshes.iter().zip(&shown) {
         written.push((!parts.is_empty()).then(|| {
-            let vertices = Vertices::of(parts, description, body);
+            let vertices = Vertices::of(parts, arrays, description, body);
             let primitives = parts.iter().zip(&vertices);
             let primitives = primitives
                 .map(|(shown, vertices)| {
@@ -48,6 +48,15 @@ pub(super) fn write<'a>(
         }));
     }
     written
+}
+
+/// Which arrays are written, and how.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Arrays {
+    /// Whether surfaces without a texture have texture coordinates too, in metres.
+    pub(super) measured: bool,
+    /// Whether normals are integers, which `KHR_mesh_quantization` allows: a viewer waits for each byte.
+    pub(super) small: bool,
 }
 
 /// A part, and the width and height (m) of its texture if it has texture coordinates.
@@ -77,7 +86,12 @@ const SHORT: usize = u16::MAX as usize;
 impl Vertices {
     /// Adds the vertices of the parts of a mesh. Small parts of a kind share their arrays: what describes an array
     /// takes as much as four vertices, and cities have many small parts.
-    fn of<'a>(parts: &[Shown<'a>], description: &mut Description<'a>, body: &mut Body<'a>) -> Vec<Self> {
+    fn of<'a>(
+        parts: &[Shown<'a>],
+        arrays: Arrays,
+        description: &mut Description<'a>,
+        body: &mut Body<'a>,
+    ) -> Vec<Self> {
         let mut found: Vec<Option<Self>> = vec![None; parts.len()];
         for textured in [false, true] {
             let alike: Vec<usize> =
@@ -87,7 +101,7 @@ impl Vertices {
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
                 let members: Vec<&Shown<'a>> = group.iter().map(|index| &parts[*index]).collect();
-                let mut vertices = Self::together(&members, description, body);
+                let mut vertices = Self::together(&members, arrays, description, body);
                 for index in group {
                     found[*index] = Some(vertices);
                     vertices.first += parts[*index].part.positions.len();
@@ -98,23 +112,42 @@ impl Vertices {
     }
 
     /// Adds the vertices of `parts`, one after another.
-    fn together<'a>(parts: &[&Shown<'a>], description: &mut Description<'a>, body: &mut Body<'a>) -> Self {
+    fn together<'a>(
+        parts: &[&Shown<'a>],
+        arrays: Arrays,
+        description: &mut Description<'a>,
+        body: &mut Body<'a>,
+    ) -> Self {
         let count = parts.iter().map(|shown| shown.part.positions.len()).sum();
         let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.low));
         let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.high));
-        let mut add = |shared: Shared, kind: Type, block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
+        let mut add = |shared: Shared,
+                       (component, kind): (ComponentType, Type),
+                       block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
             let mut place = None;
             for shown in parts {
                 let added = body.share(shared, block(shown));
                 place.get_or_insert(added);
             }
-            accessor(place.unwrap_or_default(), ComponentType::F32, kind, count)
+            accessor(place.unwrap_or_default(), component, kind, count)
         };
-        let positions = add(Shared::Positions, Type::Vec3, &|shown| Block::Positions(shown.part));
-        let normals = add(Shared::Normals, Type::Vec3, &|shown| Block::Normals(shown.part));
+        let vec3 = (ComponentType::F32, Type::Vec3);
+        let positions = add(Shared::Positions, vec3, &|shown| Block::Positions(shown.part));
+        let normals = match arrays.small {
+            false => add(Shared::Normals, vec3, &|shown| Block::Normals(shown.part)),
+            true if parts.iter().all(|shown| is_faceted(shown.part)) => {
+                let kind = (ComponentType::I8, Type::Vec3);
+                add(Shared::ByteNormals, kind, &|shown| Block::ByteNormals(shown.part))
+            }
+            true => {
+                let kind = (ComponentType::I16, Type::Vec3);
+                add(Shared::ShortNormals, kind, &|shown| Block::ShortNormals(shown.part))
+            }
+        };
+        let normals = Accessor { normalized: arrays.small, ..normals };
         let textured = parts.first().is_some_and(|shown| shown.texture.is_some());
         let tex_coords = textured.then(|| {
-            add(Shared::TexCoords, Type::Vec2, &|shown| {
+            add(Shared::TexCoords, (ComponentType::F32, Type::Vec2), &|shown| {
                 Block::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
             })
         });
@@ -160,5 +193,21 @@ pub(super) fn accessor(
     kind: Type,
     count: usize,
 ) -> Accessor {
-    Accessor { buffer_view, byte_offset, count, component_type, kind, min: None, max: None }
+    Accessor {
+        buffer_view,
+        byte_offset,
+        count,
+        component_type,
+        kind,
+        normalized: false,
+        min: None,
+        max: None,
+    }
+}
+
+/// Whether all triangles of `part` are flat. Rounding a normal turns the light on a face by less than can be seen, but
+/// highlights wander over smooth surfaces.
+fn is_faceted(part: &Part) -> bool {
+    let normal = |corner: u32| part.normals[corner as usize];
+    part.triangles.iter().all(|[a, b, c]| normal(*a) == normal(*b) && normal(*b) == normal(*c))
 }

@@ -275,6 +275,43 @@ fn normals_have_length_one_whatever_came_in() {
 }
 
 #[test]
+fn a_viewer_is_sent_the_same_triangles_in_fewer_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, scene) in samples::all(folder.path()).into_iter().filter(|(_, scene)| scene.triangles() > 0) {
+        let (file, (viewer, _)) = (glb(&scene).unwrap(), glb_for_viewer(&scene).unwrap());
+        assert_eq!(drawn(&viewer), drawn(&file), "{name}");
+        assert_eq!(drawn(&glb_with_texture_coordinates(&scene).unwrap()), drawn(&file), "{name}");
+    }
+    let hill = samples::hill(100);
+    let (file, viewer) = (glb(&hill).unwrap().len(), glb_for_viewer(&hill).unwrap().0.len());
+    assert!(viewer < file * 9 / 10, "{viewer} of {file} bytes");
+}
+
+#[test]
+fn small_normals_are_near_the_true_ones_and_nearer_where_surfaces_are_smooth() {
+    for (scene, width, most) in [(samples::boxes(3), 1, 0.01), (samples::hill(20), 2, 4e-5)] {
+        let bytes = glb_for_viewer(&scene).unwrap().0;
+        let file = Gltf::from_slice_without_validation(&bytes).unwrap();
+        let primitive = file.meshes().next().unwrap().primitives().next().unwrap();
+        let accessor = primitive.get(&gltf::Semantic::Normals).unwrap();
+        assert!(accessor.normalized() && accessor.data_type().size() == width);
+        let view = accessor.view().unwrap();
+        assert_eq!(view.stride(), Some(4 * width));
+        let blob = &file.blob.as_ref().unwrap()[view.offset() + accessor.offset()..];
+        let one = |at: &[u8]| match width {
+            1 => f32::from(at[0].cast_signed()) / 127.0,
+            _ => f32::from(i16::from_le_bytes([at[0], at[1]])) / 32767.0,
+        };
+        let normals = &scene.meshes[0].parts[0].normals;
+        assert_eq!(accessor.count(), normals.len());
+        for (normal, at) in normals.iter().map(|it| it.vector()).zip(blob.chunks(4 * width)) {
+            let written = glam::Vec3::new(one(at), one(&at[width..]), one(&at[2 * width..]));
+            assert!(written.distance(body::y_up(normal)) < most, "{normal} is {written}");
+        }
+    }
+}
+
+#[test]
 fn the_same_scene_gives_the_same_bytes() {
     let scene = samples::many(100);
     assert_eq!(glb(&scene).unwrap(), glb(&scene.clone()).unwrap());
