@@ -15,11 +15,11 @@ use std::ops::Range;
 #[cfg(target_endian = "big")]
 compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
 
-/// Items (vertices, triangles, numbers) that are put together at a time: about a megabyte.
-const STRETCH: usize = 1 << 16;
+/// Items (vertices, triangles, numbers) that are put together at a time: what stays in a processor's own memory.
+const STRETCH: usize = 1 << 14;
 
 /// Stretches that are put together while those before them are written.
-const AHEAD: usize = 8;
+const AHEAD: usize = 16;
 
 /// Arrays that share a buffer view, since thousands of small views make a file slow to open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -141,11 +141,15 @@ impl<'a> Body<'a> {
     /// together.
     pub(super) fn write(&self, head: Vec<Vec<u8>>, out: &mut (impl Write + Send)) -> io::Result<()> {
         let mut ready = head;
+        let mut spare: Vec<Vec<u8>> = Vec::new();
         for next in self.stretches().chunks(AHEAD) {
+            spare.resize_with(next.len(), Vec::new);
             let write = || ready.iter().try_for_each(|bytes| out.write_all(bytes));
-            let (written, next) = rayon::join(write, || next.par_iter().map(Stretch::bytes).collect());
+            let put = || next.par_iter().zip(&mut spare).for_each(|(stretch, bytes)| stretch.put(bytes));
+            let (written, ()) = rayon::join(write, put);
             written?;
-            ready = next;
+            // Memory that has been written is used again, since fresh pages cost more than what is put into them.
+            std::mem::swap(&mut ready, &mut spare);
         }
         ready.iter().try_for_each(|bytes| out.write_all(bytes))
     }
@@ -181,13 +185,13 @@ impl<'a> Body<'a> {
 }
 
 impl Stretch<'_> {
-    fn bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(12 * STRETCH);
+    /// Puts it into `bytes`, in the place of what is there.
+    fn put(&self, bytes: &mut Vec<u8>) {
+        bytes.clear();
         for block in self.blocks {
-            block.write(self.items.clone(), &mut bytes);
+            block.write(self.items.clone(), bytes);
         }
         bytes.resize(bytes.len() + self.padding, 0);
-        bytes
     }
 }
 
