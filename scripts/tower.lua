@@ -4,7 +4,7 @@
 local floors = param("floors", { default = 24, min = 1, max = 120, step = 1, text = "Storeys of the tower" })
 local twist = param("twist", { default = 4, min = -15, max = 15, unit = "deg", text = "Turn of each storey" })
 local sides = param("sides", { default = 8, min = 3, max = 12, step = 1, text = "Sides of the plan" })
-local detail = param("detail", { default = 2, min = 0, max = 3, step = 1, text = "How often pillars divide" })
+local detail = param("detail", { default = 1, min = 0, max = 3, step = 1, text = "How often pillars divide" })
 local stone = param("stone", { default = "#d9c3a0", text = "Colour of the walls" })
 
 local HEIGHT = 3.6 -- of a storey (m)

@@ -31,6 +31,7 @@ import { nearest } from './ray.js';
 import { toneMapping } from './tone.js';
 
 const REST = 160; // ms without a change after which the finer frame is drawn
+const FEW = 10_000; // triangles below which a new model's first frame is a finer one without a graphics card, too
 const SLOW = 40; // ms for a frame above which moving frames are plainer
 const SMOOTH = 22; // ms for a plain frame below which the finer one may have more pixels than the page
 
@@ -106,7 +107,7 @@ export class Stage {
     this.light.fit(model.box, this.ground.height);
     this.#shadowDue = true;
     old.dispose();
-    const fine = !this.slow || model.triangles < 60_000;
+    const fine = !this.slow || model.triangles < FEW;
     this.#draw(fine);
     meanwhile();
     this.#finish();

@@ -277,17 +277,23 @@ pub(super) fn y_up(vector: Vec3) -> Vec3 {
     Vec3::new(vector.x, vector.z, -vector.y) + 0.0
 }
 
+/// The nearest integer. `round` is a function of the system's library for processors of every age.
+#[allow(clippy::cast_possible_truncation, reason = "that is what it is for")]
+fn nearest(number: f32) -> i32 {
+    (number + 0.5f32.copysign(number)) as i32
+}
+
 /// A unit vector as parts of 127, and a zero.
 #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
 fn byte_normal(normal: Normal) -> [i8; 4] {
-    let [x, y, z] = (y_up(normal.vector()) * 127.0).round().to_array();
+    let [x, y, z] = y_up(normal.vector()).to_array().map(|it| nearest(it * 127.0));
     [x as i8, y as i8, z as i8, 0]
 }
 
 /// A unit vector as parts of 32767, and a zero.
 #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
 fn short_normal(normal: Normal) -> [i16; 4] {
-    let [x, y, z] = (y_up(normal.vector()) * 32767.0).round().to_array();
+    let [x, y, z] = y_up(normal.vector()).to_array().map(|it| nearest(it * 32767.0));
     [x as i16, y as i16, z as i16, 0]
 }
 
