@@ -52,16 +52,18 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
     for _ in 0..ROUNDS {
         let whole = greatest(area, &mut notes)?;
         let rings = rings_of(&whole, manner);
-        let sharp: Vec<Vec<SectionPoint>> =
-            rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
-        let (outer, holes) = sharp.split_first()?;
-        if let Ok(clean) = numbered_rings(outer, holes, manner) {
-            let clean: Vec<Vec<DVec2>> =
-                clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect();
-            if notes.is_empty() {
-                notes.push("edges that cross or touch untangled");
+        if let Some(clean) = cleaned(&rings, manner) {
+            let done = finish(&clean, &local, given, middle);
+            // What touches itself but for rounding may do so again where it was given.
+            let flat: Vec<Vec<DVec2>> =
+                done.0.iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect();
+            if cleaned(&flat, manner).is_some() {
+                if notes.is_empty() {
+                    notes.push("edges that cross or touch untangled");
+                }
+                let (rings, given) = done;
+                return Some(Repaired { rings, given, notes });
             }
-            return Some(finish(&clean, &local, given, middle, notes));
         }
         let notches = notches(&rings);
         if notches.is_empty() {
@@ -71,6 +73,15 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
         note(&mut notes, "a notch cut where it touches itself");
     }
     None
+}
+
+/// The points of sound rings that are needed; `None` if the rings meet.
+fn cleaned(rings: &[Vec<DVec2>], manner: &Manner) -> Option<Vec<Vec<DVec2>>> {
+    let sharp: Vec<Vec<SectionPoint>> =
+        rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
+    let (outer, holes) = sharp.split_first()?;
+    let clean = numbered_rings(outer, holes, manner).ok()?;
+    Some(clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect())
 }
 
 fn note(notes: &mut Vec<&'static str>, what: &'static str) {
@@ -195,14 +206,13 @@ fn notches(rings: &[Vec<DVec2>]) -> Vec<Polygon> {
     Vec::new()
 }
 
-/// The plan with the heights of the ground and the edges that were given.
+/// The rings with the heights of the ground, and for each edge those that were given.
 fn finish(
     clean: &[Vec<DVec2>],
     local: &[Vec<DVec2>],
     rings: &[Vec<DVec3>],
     middle: DVec2,
-    notes: Vec<&'static str>,
-) -> Repaired {
+) -> (Vec<Vec<DVec3>>, Vec<Vec<usize>>) {
     let tree = edges(local);
     let ends: Vec<[DVec3; 2]> = rings
         .iter()
@@ -248,7 +258,7 @@ fn finish(
         }
     }
     let rings = clean.iter().map(|ring| ring.iter().map(|at| on_ground(*at) + middle.extend(0.0)).collect());
-    Repaired { rings: rings.collect(), given, notes }
+    (rings.collect(), given)
 }
 
 #[cfg(test)]
@@ -339,6 +349,14 @@ mod tests {
         assert!(refused(&[&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.0]]]).message().contains("no area"));
         let all = [[-1.0, -1.0], [11.0, -1.0], [11.0, 11.0], [-1.0, 11.0]];
         assert!(refused(&[&SQUARE, &all]).message().contains("hole 1"));
+    }
+
+    #[test]
+    fn a_plan_that_touches_itself_but_for_rounding_gets_a_notch() {
+        let plan =
+            made(&[&[[-0.14, 0.29], [0.28, 0.26], [0.0, 0.0]], &[[0.14, 0.27], [0.1, 0.0], [-0.11, -0.23]]]);
+        assert_valid(&plan);
+        assert!(plan.repairs().0.contains(&"a notch cut where it touches itself"), "{:?}", plan.repairs());
     }
 
     proptest! {
