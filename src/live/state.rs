@@ -17,6 +17,7 @@ use super::{Settings, Told};
 use crate::error::Error;
 use crate::export::Format;
 use crate::export::gltf::Layout;
+use crate::presets::Presets;
 use crate::run::Run;
 use crate::script::{Options, Param, Session, Stop};
 use crate::watch::Change;
@@ -77,6 +78,8 @@ pub(super) struct Inner {
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
     pub aside: Arc<Stop>,
+    /// The names of presets that pages know.
+    pub presets: Vec<String>,
     pub over: bool,
 }
 
@@ -134,6 +137,7 @@ impl State {
             left_out: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
+            presets: super::tools::presets(&settings.script),
             over: false,
         };
         Self {
@@ -258,8 +262,16 @@ impl State {
 
     /// Takes notice of changed files.
     pub(super) fn changed(&self, change: &Change) {
+        let presets = Presets::path_of(&self.script);
+        if change.files.contains(&presets) {
+            super::tools::presets_changed(self);
+        }
+        let files: Vec<String> =
+            change.files.iter().filter(|path| **path != presets).map(|path| self.name(path)).collect();
+        if files.is_empty() {
+            return;
+        }
         self.stop_variations("the script has changed");
-        let files = change.files.iter().map(|path| self.name(path)).collect();
         let mut inner = self.lock();
         std::mem::take(&mut inner.aside).stop(Error::new("the script has changed"));
         inner.generation += 1;

@@ -49,11 +49,28 @@ pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
         };
     match done {
         Ok(presets) => {
-            let _order = state.lock();
-            state.say(&Say::Presets { names: presets.as_ref().map(names).unwrap_or_default() });
+            let mut inner = state.lock();
+            inner.presets = presets.as_ref().map(names).unwrap_or_default();
+            state.say(&Say::Presets { names: inner.presets.clone() });
             None
         }
         Err(error) => Some(Say::Refused { id: None, text: error.to_string() }),
+    }
+}
+
+/// Tells pages of presets that someone has changed in their file.
+pub(super) fn presets_changed(state: &State) {
+    let read = Presets::read(&state.script);
+    let mut inner = state.lock();
+    match read {
+        Ok(presets) => {
+            let names = names(&presets);
+            if inner.presets != names {
+                inner.presets.clone_from(&names);
+                state.say(&Say::Presets { names });
+            }
+        }
+        Err(error) => state.say(&Say::Refused { id: None, text: error.to_string() }),
     }
 }
 

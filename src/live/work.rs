@@ -14,6 +14,7 @@ use super::wish::Inputs;
 use super::{Told, trace};
 use crate::error::{Error, Result};
 use crate::export::gltf::{self, Layout};
+use crate::presets::Presets;
 use crate::run::{Run, run_session};
 use crate::script::{Limits, Options, Session};
 use crate::watch::Watch;
@@ -72,6 +73,9 @@ pub(super) fn work(state: &State, watch: &Watch) {
         let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
         // These are watched from the beginning.
         files.extend(always(state).into_iter().map(|path| (path, true)));
+        let presets = Presets::path_of(&state.script);
+        let there = presets.is_file();
+        files.push((presets, there));
         if matches!(outcome, Outcome::Cancelled) {
             // It has not come to all of its files.
             followed.extend(files);

@@ -171,6 +171,8 @@ fn a_preset_is_saved_loaded_and_deleted_for_all_pages() {
     }
     page.say(&json!({ "type": "preset", "action": "delete", "name": "long" }));
     assert_eq!(page.next("presets")["names"], json!([]));
+    server.write("s.presets.json", "{ \"by hand\": { \"seed\": 3 } }");
+    assert_eq!(page.next("presets")["names"], json!(["by hand"]));
     server.write("s.presets.json", "{ nonsense");
     page.say(&json!({ "type": "preset", "action": "load", "name": "long" }));
     assert!(page.any()["text"].as_str().unwrap().contains("s.presets.json:1"));
