@@ -32,6 +32,8 @@ const OUT_OF_MEMORY: &str = "out of memory";
 
 /// A virtual machine that runs a script and the rules it declares.
 pub struct Machine {
+    // Declared before the state, so that nobody reaches for the state while it closes.
+    _guard: watchdog::Registration,
     lua: Lua,
     /// The run that it belongs to.
     pub session: Arc<Session>,
@@ -42,8 +44,6 @@ pub struct Machine {
     pub(crate) crew: Crew,
     prelude: Prelude,
     epoch: Cell<usize>,
-    // Declared last, so that it lets go of the state only when nothing runs any more.
-    _guard: watchdog::Registration,
 }
 
 impl Machine {
@@ -70,6 +70,7 @@ impl Machine {
             let prelude = Prelude::load(&lua, host)?;
             let session = Arc::clone(session);
             Ok(Rc::new(Self {
+                _guard: guard,
                 lua,
                 session,
                 current,
@@ -77,7 +78,6 @@ impl Machine {
                 crew,
                 prelude,
                 epoch: Cell::new(0),
-                _guard: guard,
             }))
         };
         let machine =

@@ -42,7 +42,7 @@ struct State(*mut ffi::lua_State);
 // SAFETY: the pointer is only used to set the interrupt callback, while the machine is registered and so alive.
 unsafe impl Send for State {}
 
-/// Keeps a machine on the watchdog's list; must not outlive the machine.
+/// Keeps a machine on the watchdog's list; must go before the machine's state does.
 pub(crate) struct Registration {
     shared: Arc<Shared>,
     state: State,
