@@ -50,6 +50,7 @@ export class Server {
   }
 
   async stop() {
+    if (this.child.signalCode !== null) throw new Error(`the server ended by ${this.child.signalCode}: ${this.said}`);
     if (this.child.exitCode !== null) return;
     const gone = once(this.child, "exit");
     this.child.kill("SIGINT");
