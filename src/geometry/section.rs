@@ -46,6 +46,7 @@ pub struct Section {
     skins: [OnceLock<Skin>; 2],
 }
 
+// Everything else follows from these.
 impl PartialEq for Section {
     fn eq(&self, other: &Self) -> bool {
         self.open == other.open && self.rings == other.rings

@@ -48,6 +48,8 @@ pub(super) struct State {
     pages: broadcast::Sender<Utf8Bytes>,
     /// Ends the variations that are being made.
     pub variations: Mutex<Option<Arc<Stop>>>,
+    /// The names of presets that pages know; held while their file is written or read, so that a change is told once.
+    pub presets: Mutex<Vec<String>>,
     /// Held while a chain is traced, since each may take all cores.
     pub tracing: Mutex<()>,
 }
@@ -78,8 +80,6 @@ pub(super) struct Inner {
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
     pub aside: Arc<Stop>,
-    /// The names of presets that pages know.
-    pub presets: Vec<String>,
     pub over: bool,
 }
 
@@ -120,6 +120,7 @@ impl State {
         // Its values are a part of the wish from now on.
         settings.options.preset = None;
         settings.options.cache = Some(std::sync::Arc::default());
+        let presets = super::tools::presets(&settings.script);
         let inner = Inner {
             wish,
             due: None,
@@ -137,7 +138,6 @@ impl State {
             left_out: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
-            presets: super::tools::presets(&settings.script),
             over: false,
         };
         Self {
@@ -149,6 +149,7 @@ impl State {
             wake: Condvar::new(),
             pages: broadcast::channel(QUEUE).0,
             variations: Mutex::default(),
+            presets: Mutex::new(presets),
             tracing: Mutex::default(),
         }
     }

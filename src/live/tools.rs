@@ -31,6 +31,7 @@ fn names(presets: &Presets) -> Vec<String> {
 
 /// Saves, loads or deletes a preset. Returns what the page that asked is answered.
 pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
+    let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let done =
         match action {
             "save" => save(state, name).map(Some),
@@ -49,9 +50,9 @@ pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
         };
     match done {
         Ok(presets) => {
-            let mut inner = state.lock();
-            inner.presets = presets.as_ref().map(names).unwrap_or_default();
-            state.say(&Say::Presets { names: inner.presets.clone() });
+            *known = presets.as_ref().map(names).unwrap_or_default();
+            let _order = state.lock();
+            state.say(&Say::Presets { names: known.clone() });
             None
         }
         Err(error) => Some(Say::Refused { id: None, text: error.to_string() }),
@@ -60,18 +61,17 @@ pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
 
 /// Tells pages of presets that someone has changed in their file.
 pub(super) fn presets_changed(state: &State) {
-    let read = Presets::read(&state.script);
-    let mut inner = state.lock();
-    match read {
-        Ok(presets) => {
-            let names = names(&presets);
-            if inner.presets != names {
-                inner.presets.clone_from(&names);
-                state.say(&Say::Presets { names });
-            }
+    let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let say = match Presets::read(&state.script).map(|presets| names(&presets)) {
+        Ok(names) if *known == names => return,
+        Ok(names) => {
+            known.clone_from(&names);
+            Say::Presets { names }
         }
-        Err(error) => state.say(&Say::Refused { id: None, text: error.to_string() }),
-    }
+        Err(error) => Say::Refused { id: None, text: error.to_string() },
+    };
+    let _order = state.lock();
+    state.say(&say);
 }
 
 /// Saves the values that are set and used, and the seed.

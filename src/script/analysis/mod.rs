@@ -131,7 +131,7 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
         Err(errors) => return refuse(errors.first().map_or(1, |error| error.range().0.line())),
     };
     // Nobody waits for the analysis if none come.
-    let globals = &globals.recv().unwrap_or_default();
+    let Ok(globals) = &globals.recv() else { return unread(text, Vec::new()) };
     // The first walk learns which variables are assigned and which functions make no modules; the second uses it.
     let mut first = Walk::new(file, globals, Facts::default());
     first.run(&ast);
