@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::LazyLock;
 
-use glam::{DVec2, DVec3, Vec2, Vec3, Vec3A};
+use glam::{DVec2, DVec3, Vec2, Vec3, Vec3A, Vec4};
 
 use super::ring::MOST;
 use crate::error::{Error, Result};
@@ -12,14 +12,36 @@ use crate::scene::{Normal, Part};
 /// The greatest number of sides of a strand.
 pub const MOST_SIDES: usize = 64;
 
-/// Points on a circle of radius 1 m for each number of sides, the first one repeated at the end.
-static CIRCLES: LazyLock<Vec<Vec<Vec2>>> = LazyLock::new(|| {
-    let circle = |sides: usize| {
-        let point = |i: usize| DVec2::from_angle(TAU * (i % sides.max(1)) as f64 / sides.max(1) as f64);
-        (0..=sides).map(|i| point(i).as_vec2()).collect()
-    };
-    (0..=MOST_SIDES).map(circle).collect()
-});
+/// A circle of radius 1 m for each number of sides.
+static CIRCLES: LazyLock<Vec<Circle>> = LazyLock::new(|| (0..=MOST_SIDES).map(Circle::new).collect());
+
+/// Points around a circle of radius 1 m.
+#[derive(Debug)]
+struct Circle {
+    /// One for each side.
+    points: Vec<Vec2>,
+    /// Their x and y, four at a time; the last ones are filled up.
+    fours: Vec<[Vec4; 2]>,
+    /// The length (m) around it, with its flat sides.
+    perimeter: f32,
+}
+
+impl Circle {
+    fn new(sides: usize) -> Self {
+        let point = |i: usize| DVec2::from_angle(TAU * i as f64 / sides as f64).as_vec2();
+        let points: Vec<Vec2> = (0..sides).map(point).collect();
+        let four = |points: &[Vec2]| {
+            let place = |axis: usize| std::array::from_fn(|i| points.get(i).map_or(0.0, |point| point[axis]));
+            [0, 1].map(|axis| Vec4::from_array(place(axis)))
+        };
+        let edge = points.get(..2).map_or(0.0, |two| two[0].distance(two[1]));
+        Self { fours: points.chunks(4).map(four).collect(), perimeter: edge * sides as f32, points }
+    }
+
+    fn sides(&self) -> usize {
+        self.points.len()
+    }
+}
 
 /// The direction in which a ring is stretched, and by how much more than 1.
 type Mitre = (Vec3A, f32);
@@ -36,7 +58,7 @@ const STRAIGHT: Mitre = (Vec3A::ZERO, 0.0);
 /// same part. It must be ended once, and a copy of it must not go on.
 #[derive(Debug, Clone)]
 pub struct Strand {
-    circle: &'static [Vec2],
+    circle: &'static Circle,
     /// Across the last direction: where the ring begins.
     side: Vec3A,
     /// The direction that `side` is across.
@@ -105,12 +127,12 @@ impl Strand {
             self.radius = radius;
             return Ok(());
         }
-        if part.positions.len() > u32::MAX as usize - 4 * self.circle.len() {
+        if part.positions.len() > u32::MAX as usize - 4 * self.vertices() {
             return Err(Error::new(format!("a mesh holds no more than {} vertices", u32::MAX))
                 .help("draw fewer branches or fewer sides, or begin another mesh"));
         }
         // For the most that one place and the end can add: two rings and two caps.
-        part.make_room(4 * self.circle.len(), 6 * self.circle.len());
+        part.make_room(4 * self.vertices(), 6 * self.vertices());
         let direction = way / length;
         let slope = (self.radius - radius) / length;
         let (ring, tip) = match self.last {
@@ -198,14 +220,22 @@ impl Strand {
         let [wide_x, wide_y] = [x, y].map(|axis| (axis + mitre.0 * (mitre.1 * mitre.0.dot(axis))) * radius);
         let shrink = 1.0 / (1.0 + slope * slope).sqrt();
         let [flat_x, flat_y, lift] = [x, y, normal * slope].map(|axis| axis * shrink);
-        let around = self.perimeter(radius);
-        let (left, step) = (-around / 2.0, around / (self.circle.len() - 1) as f32);
+        let Circle { points, fours, perimeter } = self.circle;
+        let around = perimeter * radius;
+        let (left, step) = (-around / 2.0, around / points.len() as f32);
         let (position, v) = (self.position.as_vec3a(), self.v as f32);
         let place = |point: &Vec2| Vec3::from(position + (wide_x * point.x + wide_y * point.y));
-        let normal = |point: &Vec2| Normal::from(lift + (flat_x * point.x + flat_y * point.y));
-        part.positions.extend(self.circle.iter().map(place));
-        part.normals.extend(self.circle.iter().map(normal));
-        part.uvs.extend((0..self.circle.len()).map(|i| Vec2::new(left + step * i as f32, v)));
+        part.positions.extend(points.iter().map(place));
+        for ([x, y], points) in fours.iter().zip(points.chunks(4)) {
+            let along = |axis: usize| lift[axis] + (flat_x[axis] * *x + flat_y[axis] * *y);
+            let normals = Normal::four([0, 1, 2].map(along));
+            part.normals.extend_from_slice(&normals[..points.len()]);
+        }
+        // The last is the first again, with another place in the texture.
+        let at = first as usize;
+        part.positions.extend_from_within(at..=at);
+        part.normals.extend_from_within(at..=at);
+        part.uvs.extend((0..self.vertices()).map(|i| Vec2::new(left + step * i as f32, v)));
         first
     }
 
@@ -213,10 +243,10 @@ impl Strand {
     fn tip(&self, part: &mut Part, direction: Vec3A, slope: f32, outwards: f32) -> u32 {
         let first = part.positions.len() as u32;
         let y = direction.cross(self.side);
-        let count = self.circle.len();
+        let (count, points) = (self.vertices(), &self.circle.points);
         part.positions.extend(std::iter::repeat_n(self.position.as_vec3(), count));
         let normal = |pair: usize| {
-            let middle = self.circle[pair % (count - 1)] + self.circle[(pair + 1) % (count - 1)];
+            let middle = points[pair % (count - 1)] + points[(pair + 1) % (count - 1)];
             let radial = (self.side * middle.x + y * middle.y).normalize();
             Normal::from((radial + direction * slope).normalize_or(direction * outwards))
         };
@@ -228,7 +258,7 @@ impl Strand {
     /// Adds the faces from one ring to the next, either of which may be a tip.
     #[inline]
     fn faces(&self, part: &mut Part, from: u32, to: u32, from_tip: bool, to_tip: bool) {
-        let sides = self.circle.len() as u32 - 1;
+        let sides = self.circle.sides() as u32;
         match (from_tip, to_tip) {
             (false, false) => {
                 part.triangles.extend((0..sides).map(|i| [from + i, from + i + 1, to + i + 1]));
@@ -242,27 +272,26 @@ impl Strand {
     /// Closes a ring with a flat fan that looks against `direction` at the `start`, along it at the end.
     fn cap(&self, part: &mut Part, direction: Vec3A, ring: u32, start: bool) {
         let first = part.positions.len() as u32;
-        let sides = self.circle.len() - 1;
+        let sides = self.circle.sides();
         let (normal, mirrored) = if start { (-direction, -1.0) } else { (direction, 1.0) };
         let radius = self.radius.max(self.least_radius());
         part.positions.extend_from_within(ring as usize..ring as usize + sides);
         part.normals.extend(std::iter::repeat_n(Normal::from(normal), sides));
-        part.uvs.extend(self.circle[..sides].iter().map(|point| *point * Vec2::new(mirrored, 1.0) * radius));
+        part.uvs.extend(self.circle.points.iter().map(|point| *point * Vec2::new(mirrored, 1.0) * radius));
         let fan = (1..sides as u32 - 1).map(|i| [first, first + i, first + i + 1]);
         part.triangles.extend(fan.map(|[a, b, c]| if start { [a, c, b] } else { [a, b, c] }));
     }
 
-    /// The length (m) around a ring with its flat sides.
-    fn perimeter(&self, radius: f32) -> f32 {
-        let sides = (self.circle.len() - 1) as f32;
-        // The edge of a polygon of radius 1 is the distance between its first two points.
-        radius * sides * self.circle[0].distance(self.circle[1])
+    /// The vertices of a ring: one for each side, and the first again where the texture ends.
+    #[inline]
+    fn vertices(&self) -> usize {
+        self.circle.sides() + 1
     }
 
     /// The radius (m) under which a ring's points could not be told apart at export precision.
     #[inline]
     fn least_radius(&self) -> f32 {
-        rounding(self.position) * self.circle.len() as f32
+        rounding(self.position) * self.vertices() as f32
     }
 }
 

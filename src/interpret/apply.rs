@@ -41,6 +41,18 @@ pub(crate) struct Applier {
     applied: usize,
     /// The entry and the number of the call that failed.
     failed: Option<(usize, usize)>,
+    /// The next of the calls that have been read, and the first of its arguments.
+    call_at: usize,
+    number_at: usize,
+}
+
+/// Where applying has stopped.
+#[derive(PartialEq)]
+enum Reached {
+    /// Behind the end of a chain.
+    End,
+    /// Where it was to stop.
+    Last,
 }
 
 impl Applier {
@@ -70,6 +82,8 @@ impl Applier {
             times: Vec::new(),
             applied: 0,
             failed: None,
+            call_at: 0,
+            number_at: 0,
         })
     }
 
@@ -94,69 +108,145 @@ impl Applier {
         std::mem::take(&mut self.times)
     }
 
-    /// Applies the rest of a batch and all symbols before `until`.
+    /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
     pub(crate) fn finish_entries(&mut self, called: usize, until: usize) -> Result<()> {
-        if self.entries.is_empty() {
-            return self.walk(until);
-        }
-        self.flush(self.entries.len(), called)?;
-        self.walk(until)?;
+        let last = self.entries.len();
+        self.read(last, called)?;
+        self.apply(last, until)?;
         self.count()
     }
 
-    /// Applies everything before the symbol `until` that no rule interprets: brackets, ends and the modules of
-    /// the standard library.
-    fn walk(&mut self, until: usize) -> Result<()> {
-        let pass = Arc::clone(&self.pass);
+    /// Reads the calls recorded since the last time: those of the entries before `entry`, and `called` in all.
+    fn read(&mut self, entry: usize, called: usize) -> Result<()> {
+        let [calls, numbers, counts] = self.buffers.clone();
+        read_column(calls, called, &mut self.calls)?;
+        read_column(numbers, self.arguments_of(0..called), &mut self.numbers)?;
+        read_column(counts, entry.min(self.entries.len()), &mut self.ends)?;
+        (self.call_at, self.number_at) = (0, 0);
+        Ok(())
+    }
+
+    /// Applies the calls of the entries up to `last`, and every symbol before `until` that no rule interprets:
+    /// brackets, ends and the modules of the standard library.
+    fn apply(&mut self, last: usize, until: usize) -> Result<()> {
         let objects = Arc::clone(&self.objects);
+        while self.position < until || self.next < self.entries.len().min(last + 1) {
+            let failed = objects.has_failed(self.chain);
+            // One lock for all that is done to an object.
+            match objects.write(self.chain, |object| self.apply_to(object, failed, last, until)) {
+                Ok(Reached::Last) => break,
+                Ok(Reached::End) => {
+                    self.count()?;
+                    self.chain += 1;
+                    self.begun = false;
+                    self.counted = 0;
+                }
+                Err(error) => {
+                    objects.forgive(self.chain, self.blame(error, self.position, self.param))?;
+                    self.failed = None;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// As [`Applier::apply`], to the end of the chain at most; nothing is done to an object that has `failed`.
+    fn apply_to(
+        &mut self,
+        object: &mut dyn Object,
+        failed: bool,
+        last: usize,
+        until: usize,
+    ) -> Result<Reached> {
+        let pass = Arc::clone(&self.pass);
+        if !self.begun {
+            object.begin();
+            self.begun = true;
+        }
+        while self.next <= last
+            && let Some((module, _)) = self.entries.get(self.next).copied()
+        {
+            if self.symbols(&pass, object, failed, module)? == Reached::End {
+                return Ok(Reached::End);
+            }
+            let begin = pass.plan.profiled.then(Instant::now);
+            let applied = self.calls(&pass, object, failed);
+            if let Some(begin) = begin {
+                self.times.resize(self.next + 1, Duration::ZERO);
+                self.times[self.next] += begin.elapsed();
+            }
+            applied?;
+            if self.next == last {
+                return Ok(Reached::Last);
+            }
+            self.next += 1;
+            self.applied = 0;
+        }
+        self.symbols(&pass, object, failed, until)
+    }
+
+    /// Applies the symbols before `until`, to the end of the chain at most.
+    #[inline]
+    fn symbols(
+        &mut self,
+        pass: &Interpreting,
+        object: &mut dyn Object,
+        failed: bool,
+        until: usize,
+    ) -> Result<Reached> {
         let arities = pass.plan.grammar.arities();
         let methods = &pass.plan.interpretations.methods;
         while self.position < until {
-            let mut ended = false;
-            let failed = objects.has_failed(self.chain);
-            // One lock for all symbols of a chain.
-            let walked = objects.write(self.chain, |object| {
-                if !self.begun {
-                    object.begin();
-                    self.begun = true;
-                }
-                while self.position < until && !ended {
-                    let symbol = pass.chain.symbols[self.position];
-                    let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
-                    if pass.plan.traced {
-                        follow(object, self.position);
-                    }
-                    match symbol {
-                        END if failed => ended = true,
-                        _ if failed => {}
-                        OPEN => object.push(),
-                        CLOSE => object.pop()?,
-                        END => {
-                            object.end()?;
-                            ended = true;
-                        }
-                        symbol => {
-                            let method = methods[usize::from(symbol)];
-                            if method != u16::MAX {
-                                self.call(object, method, &pass.chain.params[params.clone()])?;
-                            }
-                        }
-                    }
-                    self.position += 1;
-                    self.param = params.end;
-                }
-                Ok(())
-            });
-            if let Err(error) = walked {
-                objects.forgive(self.chain, self.blame_at(error, self.position, self.param))?;
-                continue;
+            let symbol = pass.chain.symbols[self.position];
+            let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
+            if pass.plan.traced {
+                follow(object, self.position);
             }
-            if ended {
-                self.count()?;
-                self.chain += 1;
-                self.begun = false;
-                self.counted = 0;
+            match symbol {
+                _ if failed => {}
+                OPEN => object.push(),
+                CLOSE => object.pop()?,
+                END => object.end()?,
+                symbol => {
+                    let method = methods[usize::from(symbol)];
+                    if method != u16::MAX {
+                        self.call(object, method, &pass.chain.params[params.clone()])?;
+                    }
+                }
             }
+            self.position += 1;
+            self.param = params.end;
+            if symbol == END {
+                return Ok(Reached::End);
+            }
+        }
+        Ok(Reached::Last)
+    }
+
+    /// Applies the calls of the entry `next` that have been read.
+    #[inline]
+    fn calls(&mut self, pass: &Interpreting, object: &mut dyn Object, failed: bool) -> Result<()> {
+        let end = self.ends.get(self.next).map_or(self.calls.len(), |end| *end as usize);
+        if failed {
+            self.number_at += self.arguments_of(self.call_at..end);
+            self.applied += end - self.call_at;
+            self.call_at = end;
+            return Ok(());
+        }
+        if pass.plan.traced {
+            follow(object, self.position);
+        }
+        while self.call_at < end {
+            let method = self.calls[self.call_at];
+            let count = self.methods[usize::from(method)].arguments.len();
+            let numbers = self.number_at..self.number_at + count;
+            if let Err(error) = self.call(object, method, &self.numbers[numbers]) {
+                self.failed = Some((self.next, self.applied));
+                return Err(error);
+            }
+            self.call_at += 1;
+            self.number_at += count;
+            self.applied += 1;
         }
         Ok(())
     }
@@ -192,15 +282,8 @@ impl Applier {
         }
     }
 
-    fn blame(&self, error: Error, entry: usize) -> Error {
-        match self.entries.get(entry) {
-            Some((module, param)) => self.blame_at(error, *module, *param),
-            None => error,
-        }
-    }
-
     /// An error with the module where it happened, and how that is interpreted.
-    fn blame_at(&self, error: Error, module: usize, param: usize) -> Error {
+    fn blame(&self, error: Error, module: usize, param: usize) -> Error {
         let plan = &self.pass.plan;
         let symbol = self.pass.chain.symbols[module];
         if symbol <= END {
@@ -227,62 +310,8 @@ fn follow(object: &mut dyn Object, position: usize) {
 
 impl Flusher for Applier {
     fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
-        let [calls, numbers, counts] = self.buffers.clone();
-        read_column(calls, called, &mut self.calls)?;
-        let arguments: usize =
-            self.calls.iter().map(|call| self.methods[usize::from(*call)].arguments.len()).sum();
-        read_column(numbers, arguments, &mut self.numbers)?;
-        read_column(counts, entry.min(self.entries.len()), &mut self.ends)?;
-        let (mut call_at, mut number_at) = (0, 0);
-        let traced = self.pass.plan.traced;
-        for index in self.next..=entry {
-            let Some((module, _)) = self.entries.get(index).copied() else { break };
-            self.walk(module)?;
-            let begin = self.pass.plan.profiled.then(Instant::now);
-            let end = if index < entry { self.ends[index] as usize } else { called };
-            let earlier = if index == self.next { self.applied } else { 0 };
-            let first = call_at;
-            // A method that runs at once follows, so the pass must have begun even without calls.
-            let objects = Arc::clone(&self.objects);
-            if objects.has_failed(self.chain) {
-                number_at += self.arguments_of(call_at..end);
-                call_at = call_at.max(end);
-            } else if call_at < end || index == entry {
-                let applied = objects.write(self.chain, |object| {
-                    if !self.begun {
-                        object.begin();
-                        self.begun = true;
-                    }
-                    if traced {
-                        follow(object, module);
-                    }
-                    while call_at < end {
-                        let method = self.calls[call_at];
-                        let count = self.methods[usize::from(method)].arguments.len();
-                        self.call(object, method, &self.numbers[number_at..number_at + count])?;
-                        call_at += 1;
-                        number_at += count;
-                    }
-                    Ok(())
-                });
-                if let Err(error) = applied {
-                    let error = self.blame(error, index);
-                    if let Err(error) = objects.forgive(self.chain, error) {
-                        self.failed = Some((index, earlier + call_at - first));
-                        return Err(error);
-                    }
-                    number_at += self.arguments_of(call_at..end);
-                    call_at = end;
-                }
-            }
-            self.applied = earlier + call_at - first;
-            if let Some(begin) = begin {
-                self.times.resize(index + 1, Duration::ZERO);
-                self.times[index] += begin.elapsed();
-            }
-        }
-        self.next = entry;
-        Ok(())
+        self.read(entry, called)?;
+        self.apply(entry, self.position)
     }
 
     fn chain(&self) -> usize {

@@ -417,8 +417,10 @@ impl Object for Turtle {
 
     fn pop(&mut self) -> Result<()> {
         self.lift();
-        if let Some(state) = self.stack.pop() {
-            self.state = state;
+        // Taken by its fields: moving it out of the stack would copy it twice.
+        if let Some(state) = self.stack.last() {
+            self.state.clone_from(state);
+            self.stack.truncate(self.stack.len() - 1);
         }
         Ok(())
     }

@@ -1,7 +1,7 @@
 //! Unit vectors in 32 bits.
 
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, Vec3, Vec3A};
+use glam::{DVec3, Vec3, Vec3A, Vec4};
 
 /// The greatest value of an octahedral coordinate.
 const MOST: f32 = i16::MAX as f32;
@@ -36,6 +36,21 @@ impl Normal {
         Vec3::new(x, y, z).normalize()
     }
 
+    /// The directions of four vectors of any length, by their x, y and z; upwards where one has none.
+    #[inline]
+    pub fn four([x, y, z]: [Vec4; 3]) -> [Self; 4] {
+        let sum = x.abs() + y.abs() + z.abs();
+        // Neither if it is not a number.
+        let good = sum.cmpge(Vec4::splat(1e-30)) & sum.cmple(Vec4::splat(1e30));
+        let part = sum.recip();
+        let [x, y] = [x, y].map(|it| Vec4::select(good, it * part, Vec4::ZERO));
+        let below = good & z.cmplt(Vec4::ZERO);
+        let fold = |it: Vec4, other: Vec4| Vec4::select(below, (1.0 - other.abs()).copysign(it), it);
+        let whole = |it: Vec4| (it * MOST + ROUNDING).to_array();
+        let (x, y) = (whole(fold(x, y)), whole(fold(y, x)));
+        std::array::from_fn(|i| Self::from_sums([x[i], y[i]]))
+    }
+
     /// The direction of a vector (x, y, z) of any length; upwards if it has none.
     #[inline]
     fn along([x, y, z]: [f32; 3]) -> Self {
@@ -48,8 +63,14 @@ impl Normal {
         let (x, y) = (x * part, y * part);
         let folded =
             if z < 0.0 { [(1.0 - y.abs()).copysign(x), (1.0 - x.abs()).copysign(y)] } else { [x, y] };
-        #[allow(clippy::cast_possible_truncation, reason = "the lowest 16 bits are the integer")]
-        Self(folded.map(|it| (it * MOST + ROUNDING).to_bits() as i16))
+        Self::from_sums(folded.map(|it| it * MOST + ROUNDING))
+    }
+
+    /// Coordinates to which [`ROUNDING`] has been added.
+    #[inline]
+    #[allow(clippy::cast_possible_truncation, reason = "the lowest 16 bits are the integer")]
+    fn from_sums(sums: [f32; 2]) -> Self {
+        Self(sums.map(|sum| sum.to_bits() as i16))
     }
 }
 
@@ -100,6 +121,14 @@ mod tests {
     }
 
     proptest! {
+        #[test]
+        fn four_at_once_are_as_each_by_itself(vectors in prop::array::uniform4(prop::array::uniform3(
+            prop_oneof![8 => -1.0f32..1.0, 1 => Just(0.0), 1 => Just(-0.0), 1 => Just(f32::NAN), 1 => Just(1e31)],
+        ))) {
+            let axes = [0, 1, 2].map(|axis| Vec4::from_array(vectors.map(|vector| vector[axis])));
+            prop_assert_eq!(Normal::four(axes), vectors.map(|vector| Normal::from(Vec3::from_array(vector))));
+        }
+
         #[test]
         fn every_direction_is_kept(x in -1.0f64..1.0, y in -1.0f64..1.0, z in -1.0f64..1.0, size in 1e-20f64..1e20) {
             let vector = DVec3::new(x, y, z);
