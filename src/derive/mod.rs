@@ -5,10 +5,13 @@
 
 mod batch;
 mod cells;
+mod choose;
 mod crew;
 mod derived;
+mod group;
 mod output;
 mod remark;
+mod splice;
 mod step;
 mod trace;
 
