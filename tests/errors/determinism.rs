@@ -91,3 +91,37 @@ fn addresses_are_not_seen_by_scripts() {
         assert_eq!(chain(&script, &[]), once);
     }
 }
+
+#[test]
+fn keys_whose_order_depends_on_addresses_are_refused_in_loops() {
+    let loops = [
+        "for make in counts do local _ = make end",
+        "for make, count in pairs(counts) do local _ = make end",
+        "for make in next, counts do local _ = make end",
+        "local iterate = pairs for make in iterate(counts) do local _ = make end",
+        "local _ = next(counts)",
+        "local function all() return counts end for make in all() do local _ = make end",
+    ];
+    for keys in ["[A] = 1, [B] = 2", "[{}] = 1, name = 2", "[turtle()] = 1, 2"] {
+        for inner in loops {
+            let script = format!(
+                "{HEAD}local counts: any = {{ {keys} }}\ns:rule(\"A(x)\", function(this, x)\n{inner}\nend)\ns:derive(1)\n"
+            );
+            let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).failed();
+            assert!(
+                said.starts_with("error: s.lua:5: rule A(x): the order of a table with "),
+                "{inner}: {said}"
+            );
+            assert!(
+                said.contains(" for a key is not certain\n") && said.contains("go through a list"),
+                "{said}"
+            );
+        }
+    }
+    let said =
+        Folder::new().with("s.lua", "for key in pairs(nil) do end\n").burgeon(&["run", "s.lua"]).failed();
+    insta::assert_snapshot!(said, @r##"
+error: s.lua:1: pairs takes a table, not nothing
+  | for key in pairs(nil) do end
+"##);
+}

@@ -205,3 +205,32 @@ t:derive(1)
     assert!(one.contains("B(300,300)") && one.contains("B(600,300)"), "{one}");
     assert_eq!(chains(3), one);
 }
+
+#[test]
+fn loops_go_through_names_numbers_and_single_keys_in_one_order() {
+    let script = r#"
+        local A, L = module("A"), module("L", "n")
+        local s = lsystem {}
+        s:axiom(table.unpack(table.create(100, A())))
+        local mixed: any = { a = 1, b = 2, c = 3, 4, 5, [true] = 6, [0.5] = 7 }
+        local single: any = { [L] = 8 }
+        s:rule("A", function()
+          local out = {}
+          for _, n in mixed do table.insert(out, L(n)) end
+          for _, n in pairs(mixed) do table.insert(out, L(n)) end
+          for _, n in next, mixed do table.insert(out, L(n)) end
+          for make, n in single do table.insert(out, make(n)) end
+          for make, n in pairs(single) do table.insert(out, make(n)) end
+          return table.unpack(out)
+        end)
+        s:derive(1)
+    "#;
+    let first = lines(&run_with(script, divided(1, 4096)));
+    let words = words(&first[0]);
+    let mut each = words[..7].to_vec();
+    each.sort_unstable();
+    assert_eq!(each, ["L(1)", "L(2)", "L(3)", "L(4)", "L(5)", "L(6)", "L(7)"]);
+    assert!(words[7..14] == words[..7] && words[14..21] == words[..7] && words[21..23] == ["L(8)", "L(8)"]);
+    assert!(words.len() == 2300 && words.chunks(23).all(|chunk| chunk == &words[..23]));
+    assert_eq!(first, lines(&run_with(script, divided(7, 3))));
+}

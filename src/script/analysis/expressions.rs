@@ -5,9 +5,10 @@ use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{
     Call, Expression, Field, FunctionArgs, FunctionCall, Index, Prefix, Suffix, TableConstructor, Var,
 };
+use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
-use super::syntax::{instead_of, text_of};
+use super::syntax::{end_of, instead_of, text_of};
 use super::walk::{Role, Walk};
 use crate::error::Error;
 use crate::rules::Signature;
@@ -53,6 +54,28 @@ impl Walk<'_> {
                 _ => {}
             },
             _ => {}
+        }
+    }
+
+    /// Has what a loop goes through looked at first: the order of some keys is not certain. `pairs` sees to that itself.
+    pub(super) fn check_keys(&mut self, expressions: &Punctuated<Expression>) {
+        let (Some(first), Some(last)) = (expressions.first(), expressions.last()) else { return };
+        let certain = match first.value() {
+            Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
+                (Prefix::Name(name), 1) => {
+                    matches!(text_of(name).as_str(), "pairs" | "ipairs")
+                        && self.find(&text_of(name)).is_none()
+                }
+                _ => false,
+            },
+            Expression::TableConstructor(table) => {
+                table.fields().iter().all(|field| !matches!(field, Field::ExpressionKey { .. }))
+            }
+            _ => false,
+        };
+        if let (false, Some(begin), Some(end)) = (certain, first.start_position(), end_of(last.value())) {
+            self.edit(begin.bytes(), begin.bytes(), "__each(".to_owned());
+            self.edit(end.bytes(), end.bytes(), ")".to_owned());
         }
     }
 

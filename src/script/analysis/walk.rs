@@ -152,6 +152,7 @@ impl<'a> Walk<'a> {
             Stmt::GenericFor(generic) => {
                 self.expressions(generic.expressions());
                 self.iterated(generic.expressions());
+                self.check_keys(generic.expressions());
                 let outside = self.variables.len();
                 for name in generic.names() {
                     self.declare(name, first_position(generic.block(), generic.end_token()));
