@@ -104,9 +104,7 @@ impl Crew {
         many: usize,
         job: impl Fn() -> Job,
     ) -> Result<()> {
-        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        let threads = machine.session.options.threads.unwrap_or_else(cores);
-        let useful = threads.min(pieces).saturating_sub(1);
+        let useful = machine.session.options.worker_threads().min(pieces).saturating_sub(1);
         let mut role = self.role.borrow_mut();
         let Role::Lead { helpers, watchdog, since } = &mut *role else { return Ok(()) };
         if useful == 0 {

@@ -186,7 +186,7 @@ impl Variations {
         options.seed = plan.seed;
         options.stop = Some(Arc::clone(&self.stop));
         options.set.extend(plan.set.clone());
-        options.threads = Some((self.threads() / self.workers()).max(1));
+        options.threads = Some((self.options.worker_threads() / self.workers()).max(1));
         let session = Session::new(&self.script, options)?;
         let run = run_session(&session);
         self.ran.fetch_add(1, Ordering::Relaxed);
@@ -214,13 +214,8 @@ impl Variations {
         Ok(Made { picture, params: ran.params, modules: ran.modules, triangles: ran.triangles })
     }
 
-    fn threads(&self) -> usize {
-        let cores = || std::thread::available_parallelism().map_or(1, std::num::NonZero::get);
-        self.options.threads.unwrap_or_else(cores).max(1)
-    }
-
     fn workers(&self) -> usize {
-        self.threads().min(self.plans.len())
+        self.options.worker_threads().min(self.plans.len())
     }
 
     /// Does `work` for every cell, in several threads, and gives the results to `take` in order.
