@@ -125,3 +125,15 @@ error: s.lua:1: pairs takes a table, not nothing
   | for key in pairs(nil) do end
 "##);
 }
+
+#[test]
+fn weak_tables_are_refused() {
+    for weak in ["{ __mode = \"k\" }", "{ [\"__mode\"] = \"v\" }"] {
+        let script = format!("local kept = setmetatable({{}}, {weak})\nkept[1] = {{}}\n");
+        let said = Folder::new().with("s.lua", script).burgeon(&["run", "s.lua"]).failed();
+        assert!(said.starts_with("error: s.lua:1: what a weak table holds is not certain\n"), "{said}");
+    }
+    let script = "local meta: any = {}\nmeta.__mode = \"k\"\n";
+    let said = Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]).failed();
+    assert!(said.starts_with("error: s.lua:2: what a weak table holds is not certain\n"), "{said}");
+}

@@ -8,7 +8,7 @@ use full_moon::ast::{
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
-use super::syntax::{end_of, instead_of, text_of};
+use super::syntax::{end_of, instead_of, string_of, text_of};
 use super::walk::{Role, Walk};
 use crate::error::Error;
 use crate::rules::Signature;
@@ -37,6 +37,11 @@ impl Walk<'_> {
             Expression::InterpolatedString(string) => {
                 for inner in string.expressions() {
                     self.expression(inner);
+                }
+            }
+            Expression::String(token) => {
+                if let Some(text) = string_of(token) {
+                    self.refuse_weak(token, &text);
                 }
             }
             Expression::TableConstructor(table) => self.table(table),
@@ -97,7 +102,10 @@ impl Walk<'_> {
                     self.expression(key);
                     self.expression(value);
                 }
-                Field::NameKey { value, .. } => self.expression(value),
+                Field::NameKey { key, value, .. } => {
+                    self.refuse_weak(key, &text_of(key));
+                    self.expression(value);
+                }
                 Field::NoKey(value) => self.expression(value),
                 _ => {}
             }
@@ -119,6 +127,7 @@ impl Walk<'_> {
             Suffix::Call(Call::AnonymousCall(arguments)) => self.arguments(arguments),
             Suffix::Call(Call::MethodCall(method)) => self.arguments(method.args()),
             Suffix::Index(Index::Brackets { expression, .. }) => self.expression(expression),
+            Suffix::Index(Index::Dot { name, .. }) => self.refuse_weak(name, &text_of(name)),
             _ => {}
         }
     }
@@ -128,6 +137,14 @@ impl Walk<'_> {
             FunctionArgs::Parentheses { arguments, .. } => self.expressions(arguments),
             FunctionArgs::TableConstructor(table) => self.table(table),
             _ => {}
+        }
+    }
+
+    /// Refuses weak tables: what they still hold depends on when memory was cleaned up.
+    fn refuse_weak(&mut self, token: &TokenReference, name: &str) {
+        if name == "__mode" {
+            let error = Error::new("what a weak table holds is not certain");
+            self.problem(token, error.help("leave __mode out: memory is given back when the run ends"));
         }
     }
 
