@@ -12,6 +12,7 @@ mod description;
 mod material;
 mod mesh;
 mod place;
+mod weld;
 
 pub use place::Place;
 
@@ -65,6 +66,8 @@ pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
 }
 
 /// As [`glb`], for a viewer: it is as small as it can be without looking worse, and it is told where everything is.
+///
+/// Primitives whose extras say `flat` are for viewers that know of it: each triangle has the normal of its last corner.
 pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
     bytes(scene, Arrays { small: true, measured: false })
 }

@@ -1,25 +1,30 @@
 //! Faces between two rings, split into triangles.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 use super::ring::Ring;
 use super::solid::is_flat;
 
 /// A face between two rings: two corners on the first from left to right, then two on the second from right.
-pub(super) struct Quad<'a> {
-    points: [(&'a Ring, usize); 4],
+pub(super) struct Quad {
+    exact: [DVec3; 4],
+    points: [Vec3; 4],
 }
 
-impl<'a> Quad<'a> {
-    pub(super) fn new(points: [(&'a Ring, usize); 4]) -> Self {
-        Self { points }
+impl Quad {
+    pub(super) fn new(corners: [(&Ring, usize); 4]) -> Self {
+        Self {
+            exact: corners.map(|(ring, point)| ring.exact[point]),
+            points: corners.map(|(ring, point)| ring.points[point]),
+        }
     }
 
     /// The triangles along the shorter diagonal, without those that have shrunk to a line between two points.
     ///
     /// `None` if a triangle has three corners on one line whichever diagonal is taken.
+    #[inline]
     pub(super) fn split(&self) -> Option<[Option<[usize; 3]>; 2]> {
-        let [a, b, c, d] = [0, 1, 2, 3].map(|corner| self.exact(corner));
+        let [a, b, c, d] = self.exact;
         // The margin keeps rounding from turning the diagonals of equal faces in different ways. At a tip, the
         // corner on the right is the one that stands for the face.
         let second = if self.is_one_point(2, 3) {
@@ -27,33 +32,41 @@ impl<'a> Quad<'a> {
         } else {
             self.is_one_point(0, 1) || b.distance_squared(d) < a.distance_squared(c) * (1.0 - 1e-9)
         };
-        let splits = [[[0, 1, 2], [0, 2, 3]], [[0, 1, 3], [1, 2, 3]]];
-        let order = if second { [1, 0] } else { [0, 1] };
-        order.into_iter().map(|index| splits[index]).find_map(|split| {
-            let kept = split.map(|corners| (!self.has_vanished(corners)).then_some(corners));
-            let flat = kept.iter().flatten().any(|corners| is_flat(corners.map(|corner| self.exact(corner))));
-            (!flat).then_some(kept)
-        })
+        let along_ac = [[0, 1, 2], [0, 2, 3]];
+        let along_bd = [[0, 1, 3], [1, 2, 3]];
+        let [first, other] = if second { [along_bd, along_ac] } else { [along_ac, along_bd] };
+        self.kept(first).or_else(|| self.kept(other))
     }
 
-    fn exact(&self, corner: usize) -> DVec3 {
-        let (ring, point) = self.points[corner];
-        ring.exact[point]
+    /// Those of two triangles that have not shrunk to a line between two points; `None` if another is flat.
+    #[inline]
+    fn kept(&self, split: [[usize; 3]; 2]) -> Option<[Option<[usize; 3]>; 2]> {
+        let mut kept = [None; 2];
+        for (corners, kept) in split.into_iter().zip(&mut kept) {
+            if self.has_vanished(corners) {
+                continue;
+            }
+            if is_flat(corners.map(|corner| self.exact[corner])) {
+                return None;
+            }
+            *kept = Some(corners);
+        }
+        Some(kept)
     }
 
-    fn has_vanished(&self, corners: [usize; 3]) -> bool {
-        let [a, b, c] = corners;
+    #[inline]
+    fn has_vanished(&self, [a, b, c]: [usize; 3]) -> bool {
         self.is_one_point(a, b) || self.is_one_point(b, c) || self.is_one_point(c, a)
     }
 
+    #[inline]
     fn is_one_point(&self, a: usize, b: usize) -> bool {
-        let [a, b] = [a, b].map(|corner| self.points[corner]).map(|(ring, point)| ring.points[point]);
-        a == b
+        self.points[a] == self.points[b]
     }
 
     /// The normal of a triangle, as long as twice its area (m²).
     pub(super) fn area(&self, corners: [usize; 3]) -> DVec3 {
-        let [a, b, c] = corners.map(|corner| self.exact(corner));
+        let [a, b, c] = corners.map(|corner| self.exact[corner]);
         (b - a).cross(c - a)
     }
 }

@@ -167,7 +167,17 @@ fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, norma
 fn snapped(point: DVec3) -> Vec3 {
     const GRID: f64 = (1 << 24) as f64;
     // Adding 0 turns -0 into 0.
-    ((point * GRID).round() / GRID + DVec3::ZERO).as_vec3()
+    (rounded(point * GRID) / GRID + DVec3::ZERO).as_vec3()
+}
+
+/// As `round`, which is a function of the system's library for processors of every age; for numbers that fit into i64.
+fn rounded(vector: DVec3) -> DVec3 {
+    #[allow(clippy::cast_possible_truncation, reason = "the fraction is put back")]
+    let round = |number: f64| {
+        let whole = number as i64 as f64;
+        if (number - whole).abs() < 0.5 { whole } else { whole + 1f64.copysign(number) }
+    };
+    DVec3::new(round(vector.x), round(vector.y), round(vector.z))
 }
 
 fn refuse_infinite(number: usize, station: &Station) -> Result<()> {
@@ -194,4 +204,19 @@ fn refuse_infinite(number: usize, station: &Station) -> Result<()> {
 /// Whether all of a vector is a number that is not too great.
 fn is_usable(value: DVec3) -> bool {
     value.is_finite() && value.abs().max_element() <= MOST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded_as_the_standard_library_rounds_them() {
+        let halves = (-40..40).map(|count| f64::from(count) * 0.25);
+        let near = [0.5f64.next_down(), 0.5, 0.5f64.next_up(), 2f64.powi(52) + 1.0, 2f64.powi(53), 1.6e16];
+        for number in halves.chain(near).flat_map(|number| [number, -number]) {
+            let found = rounded(DVec3::splat(number)).x + 0.0;
+            assert_eq!(found.to_bits(), (number.round() + 0.0).to_bits(), "{number}");
+        }
+    }
 }

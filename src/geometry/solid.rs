@@ -84,6 +84,7 @@ struct Edge {
 }
 
 /// Whether a triangle is no thicker than a thousand-millionth of its longest edge.
+#[inline]
 pub(super) fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
     let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
     (b - a).cross(c - a).length() <= longest * 1e-9

@@ -62,7 +62,9 @@ impl Span {
             Shading { around: false, along: false } => flat(skin, a, b),
             Shading { along, .. } => smooth(section, skin, [a, b], along),
         };
-        normals.iter_mut().flatten().for_each(|normal| *normal *= sign);
+        if sign < 0.0 {
+            normals.iter_mut().flatten().for_each(|normal| *normal = -*normal);
+        }
         Ok(Some(Self { sign, step, normals }))
     }
 }
@@ -78,7 +80,7 @@ fn flat(skin: &Skin, a: &Ring, b: &Ring) -> [Normals; 2] {
             (normals[column], normals[column + 1]) = (normal, normal);
         }
     }
-    [normals.clone(), normals]
+    [Normals::from_slice(&normals), normals]
 }
 
 /// The normals of the surface that the faces stand for: across the outline and the way of each point.

@@ -317,6 +317,34 @@ test("shading modes and themes are other pictures; the camera stays across saves
     assert.ok(different(light, await pixels(page)) > 10_000);
   }));
 
+test("a face has one shade though its corners belong to other faces too", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    const canvas = await page.locator("canvas#view").boundingBox();
+    const places = [-1.5, 0, 1.5].flatMap((along) => [0.4, 1.6].map((height) => [along, height]));
+    const faces = [([along, height]) => [along, -2.06, height], ([along, height]) => [2.06, along, height]];
+    for (const [mode, most] of [["normals", 2], ["lit", 16]]) {
+      await seen(page, `mode-${mode}`).check({ force: true });
+      await page.waitForTimeout(700);
+      const picture = await pixels(page);
+      const shades = [];
+      for (const face of faces) {
+        const colors = [];
+        for (const place of places) {
+          const [x, y] = await page.evaluate((point) => window.burgeon.project(point), face(place));
+          const at = (Math.floor(y - canvas.y) * Math.round(canvas.width) + Math.floor(x - canvas.x)) * 4;
+          colors.push(picture.slice(at, at + 3));
+        }
+        for (const channel of [0, 1, 2]) {
+          const values = colors.map((color) => color[channel]);
+          assert.ok(Math.max(...values) - Math.min(...values) <= most, `${mode}: ${JSON.stringify(colors)}`);
+        }
+        shades.push(colors[0]);
+      }
+      assert.ok(shades[0].some((value, channel) => Math.abs(value - shades[1][channel]) > 24), `${mode}: ${shades}`);
+    }
+  }));
+
 test("texture coordinates come only when they are shown, and triangles stay where they are", () =>
   open(BLOCKS, async ({ page, script }) => {
     const whole = [];

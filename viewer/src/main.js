@@ -131,6 +131,15 @@ async function show(message) {
   steps.drawn();
 }
 
+/** Shows a model, unless it is the one that is shown, of which something more is known now. */
+function hear(message) {
+  if (message.run !== state.run || message.url !== state.model.url) return show(message);
+  state.model = message;
+  working.stop();
+  trouble.clear();
+  tell(message);
+}
+
 /** Tells what is known of a model besides its picture. */
 function tell(message) {
   profile.script = message.files?.[0] ?? state.hello.script;
@@ -160,7 +169,7 @@ socket.on('hello', (hello) => {
   find('.wordmark').title = `burgeon ${hello.version}`;
   presets.show(hello.presets ?? []);
 });
-socket.on('model', show);
+socket.on('model', hear);
 socket.on('working', (message) => working.start(message));
 socket.on('progress', (message) => working.progress(message));
 socket.on('error', (message) => {

@@ -13,6 +13,7 @@ import {
   Sphere,
   Vector3,
 } from 'three';
+import { faceted } from './faceted.js';
 
 const ONE = new Vector3(1, 1, 1);
 
@@ -43,10 +44,12 @@ export function build(glb, made, plain) {
       const instances = placed && transforms(glb, placed);
       glb.json.meshes[node.mesh].primitives.forEach((given, primitive) => {
         const material = made[given.material] ?? plain;
-        model.add(geometries[node.mesh][primitive], material, matrix, instances, {
+        const flat = given.extras?.flat ?? false;
+        model.add(geometries[node.mesh][primitive], flat ? faceted(material) : material, matrix, instances, {
           node: index,
           mesh: node.mesh,
           primitive,
+          flat,
         });
       });
     }
@@ -66,7 +69,7 @@ export function build(glb, made, plain) {
 
 export class Model {
   group = new Group();
-  /** The meshes, each with `userData` of `{node, mesh, primitive, material}`. */
+  /** The meshes, each with `userData` of `{node, mesh, primitive, flat, material}`. */
   parts = [];
   geometries = [];
   box = new Box3();

@@ -4,14 +4,22 @@
 import { Color, ShaderMaterial } from 'three';
 import { SUN } from './light.js';
 
+const VARYINGS = /* glsl */ `
+#ifdef FACETED
+#define EACH flat varying
+#else
+#define EACH varying
+#endif
+EACH vec3 front;
+#ifdef DOUBLE_SIDED
+EACH vec3 back;
+#endif`;
+
 const VERTEX = /* glsl */ `
 #include <common>
 #include <tonemapping_pars_fragment>
 uniform vec3 diffuse, emissive, sun, sunColor, skyColor, groundColor;
-varying vec3 front;
-#ifdef DOUBLE_SIDED
-varying vec3 back;
-#endif
+${VARYINGS}
 #ifdef PICTURE
 varying vec2 at;
 #endif
@@ -52,10 +60,7 @@ void main() {
 const FRAGMENT = /* glsl */ `
 #include <common>
 uniform float opacity;
-varying vec3 front;
-#ifdef DOUBLE_SIDED
-varying vec3 back;
-#endif
+${VARYINGS}
 #ifdef PICTURE
 uniform sampler2D map;
 uniform vec3 emissive;
@@ -107,11 +112,11 @@ export class Plain {
 
 function plain(material, light) {
   const { map, color, metalness, emissive, emissiveIntensity, opacity, alphaTest } = material;
-  const { side, transparent, depthWrite } = material;
+  const { side, transparent, depthWrite, defines } = material;
   return new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
-    defines: map ? { PICTURE: '' } : {},
+    defines: { ...defines, ...(map && { PICTURE: '' }) },
     uniforms: {
       ...light,
       map: { value: map },

@@ -12,6 +12,7 @@ import {
   RepeatWrapping,
   SRGBColorSpace,
 } from 'three';
+import { faceted } from './faceted.js';
 
 export const MODES = ['lit', 'wire', 'normals', 'uv'];
 
@@ -61,11 +62,16 @@ export class Shading {
   }
 
   #of(part) {
-    const { material } = part.userData;
+    const { material, flat } = part.userData;
+    if (this.mode === 'lit') return material;
+    const shown = this.#instead(part, material);
+    return flat ? faceted(shown) : shown;
+  }
+
+  #instead(part, material) {
     if (this.mode === 'wire') return this.#under;
     if (this.mode === 'normals') return material.side === DoubleSide ? this.#normalsBoth : this.#normals;
-    if (this.mode === 'uv') return part.geometry.attributes.uv ? this.#checker : this.#bare;
-    return material;
+    return part.geometry.attributes.uv ? this.#checker : this.#bare;
   }
 
   #addWire(model, part) {

@@ -21,6 +21,7 @@ import {
   WebGLRenderer,
 } from 'three';
 import { Camera } from './camera.js';
+import { faceted } from './faceted.js';
 import { Ground } from './grid.js';
 import { Light } from './light.js';
 import { Mark } from './mark.js';
@@ -234,8 +235,10 @@ export class Stage {
     const warm = new Group();
     for (const side of [FrontSide, DoubleSide]) {
       const material = new MeshStandardMaterial({ side });
-      const both = this.slow ? [material, this.plain.of(material)] : [material];
-      const meshes = both.flatMap((it) => [new Mesh(geometry, it), new InstancedMesh(geometry, it, 1)]);
+      const pair = (it) => (this.slow ? [it, this.plain.of(it)] : [it]);
+      const meshes = pair(material).flatMap((it) => [new Mesh(geometry, it), new InstancedMesh(geometry, it, 1)]);
+      // Without a graphics card each shader takes its time, and of flat surfaces these are the usual ones.
+      if (side === FrontSide) meshes.push(...pair(faceted(material)).map((it) => new Mesh(geometry, it)));
       for (const mesh of meshes)
         warm.add(Object.assign(mesh, { castShadow: true, receiveShadow: true, frustumCulled: false }));
     }

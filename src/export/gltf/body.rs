@@ -1,6 +1,7 @@
 //! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
 
 use super::super::check::{shown, triangles};
+use super::weld::Welded;
 use crate::error::{Error, Result};
 use crate::scene::{Normal, Part};
 use glam::Vec3;
@@ -11,6 +12,7 @@ use json::validation::USize64;
 use rayon::prelude::*;
 use std::io::{self, Write};
 use std::ops::Range;
+use std::sync::Arc;
 
 #[cfg(target_endian = "big")]
 compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
@@ -48,6 +50,13 @@ pub(super) enum Block<'a> {
     /// The indices of a part whose vertices begin with this number, as u16.
     Short(&'a Part, u16),
     Long(&'a Part),
+    /// The positions of a welded part.
+    Places(Arc<Welded>),
+    /// The normals of a welded part as four i8.
+    FaceNormals(Arc<Welded>),
+    /// The indices of a welded part whose vertices begin with this number, as u16.
+    ShortCorners(Arc<Welded>, u16),
+    LongCorners(Arc<Welded>),
     Floats(Vec<f32>),
     Bytes(&'a [u8]),
 }
@@ -222,6 +231,10 @@ impl Block<'_> {
             Self::ByteNormals(part) => part.positions.len() * 4,
             Self::Short(part, _) => triangles(part).count() * 6,
             Self::Long(part) => triangles(part).count() * 12,
+            Self::Places(welded) => welded.positions.len() * 12,
+            Self::FaceNormals(welded) => welded.normals.len() * 4,
+            Self::ShortCorners(welded, _) => welded.triangles.len() * 6,
+            Self::LongCorners(welded) => welded.triangles.len() * 12,
             Self::Floats(floats) => floats.len() * 4,
             Self::Bytes(bytes) => bytes.len(),
         };
@@ -237,6 +250,8 @@ impl Block<'_> {
             | Self::ShortNormals(part)
             | Self::TexCoords(part, _) => part.positions.len(),
             Self::Short(part, _) | Self::Long(part) => part.triangles.len(),
+            Self::Places(welded) | Self::FaceNormals(welded) => welded.positions.len(),
+            Self::ShortCorners(welded, _) | Self::LongCorners(welded) => welded.triangles.len(),
             Self::Floats(floats) => floats.len(),
             Self::Bytes(bytes) => bytes.len(),
         }
@@ -258,6 +273,15 @@ impl Block<'_> {
                 put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));
             }
             Self::Long(part) => put(out, shown(&part.triangles[range])),
+            Self::Places(welded) => out.extend_from_slice(bytemuck::cast_slice(&welded.positions[range])),
+            Self::FaceNormals(welded) => put(out, welded.normals[range].iter().map(|it| byte_normal(*it))),
+            Self::ShortCorners(welded, first) => {
+                let triangles = welded.triangles[range].iter();
+                put(out, triangles.map(|corners| corners.map(|corner| corner as u16 + first)));
+            }
+            Self::LongCorners(welded) => {
+                out.extend_from_slice(bytemuck::cast_slice(&welded.triangles[range]))
+            }
             Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
             Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),
         }

@@ -56,9 +56,18 @@ pub(super) struct Mesh<'a> {
 #[derive(Clone, Copy, Serialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
+    #[serde(rename = "extras", skip_serializing_if = "Option::is_none")]
+    pub(super) shading: Option<Shading>,
     pub(super) indices: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) material: Option<json::Index<json::Material>>,
+}
+
+/// What a viewer of Burgeon's own is told of a primitive.
+#[derive(Clone, Copy, Serialize)]
+pub(super) struct Shading {
+    /// Whether each triangle has the normal of its last corner.
+    pub(super) flat: bool,
 }
 
 /// The accessors of vertices.

@@ -2,12 +2,14 @@
 
 use super::super::check::{Checked, shown_parts, triangles};
 use super::body::{Block, Body, Shared, y_up};
-use super::description::{Accessor, Attributes, Description, Mesh, Primitive};
+use super::description::{Accessor, Attributes, Description, Mesh, Primitive, Shading};
+use super::weld::Welded;
 use crate::scene::Part;
 use glam::Vec3;
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
 use rayon::prelude::*;
+use std::sync::Arc;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
 ///
@@ -22,13 +24,13 @@ pub(super) fn write<'a>(
     let scene = checked.scene;
     let measure = |part: &'a Part| {
         let texture = scene.materials[part.material].texture.as_ref();
-        Shown::measure(part, texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0])))
+        let texture = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
+        Shown::measure(part, texture, arrays)
     };
-    let shown = scene
-        .meshes
-        .par_iter()
-        .zip(&checked.meshes)
-        .map(|(mesh, shown)| if *shown { shown_parts(mesh).map(measure).collect() } else { Vec::new() });
+    let shown = scene.meshes.par_iter().zip(&checked.meshes).map(|(mesh, shown)| {
+        let parts: Vec<&Part> = if *shown { shown_parts(mesh).collect() } else { Vec::new() };
+        parts.into_par_iter().map(measure).collect()
+    });
     let shown: Vec<Vec<Shown<'a>>> = shown.collect();
     let parts: usize = shown.iter().map(Vec::len).sum();
     description.accessors.reserve(2 * scene.meshes.len() + parts);
@@ -55,7 +57,8 @@ pub(super) fn write<'a>(
 pub(super) struct Arrays {
     /// Whether surfaces without a texture have texture coordinates too, in metres.
     pub(super) measured: bool,
-    /// Whether normals are integers, which `KHR_mesh_quantization` allows: a viewer waits for each byte.
+    /// Whether normals are integers, which `KHR_mesh_quantization` allows, and parts of flat triangles are [`Welded`]
+    /// unless they have texture coordinates: a viewer waits for each byte.
     pub(super) small: bool,
 }
 
@@ -68,6 +71,8 @@ struct Shown<'a> {
     /// The box around its points in glTF's coordinates.
     low: Vec3,
     high: Vec3,
+    /// What is written in the part's place.
+    welded: Option<Arc<Welded>>,
 }
 
 /// Where the vertices of a part are.
@@ -93,10 +98,10 @@ impl Vertices {
         body: &mut Body<'a>,
     ) -> Vec<Self> {
         let mut found: Vec<Option<Self>> = vec![None; parts.len()];
-        for textured in [false, true] {
-            let alike: Vec<usize> =
-                (0..parts.len()).filter(|index| parts[*index].texture.is_some() == textured).collect();
-            let sum: usize = alike.iter().map(|index| parts[*index].part.positions.len()).sum();
+        for kind in [(false, false), (false, true), (true, false)] {
+            let is_alike = |shown: &Shown<'_>| (shown.texture.is_some(), shown.welded.is_some()) == kind;
+            let alike: Vec<usize> = (0..parts.len()).filter(|index| is_alike(&parts[*index])).collect();
+            let sum: usize = alike.iter().map(|index| parts[*index].vertices()).sum();
             let groups: Vec<&[usize]> =
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
@@ -104,7 +109,7 @@ impl Vertices {
                 let mut vertices = Self::together(&members, arrays, description, body);
                 for index in group {
                     found[*index] = Some(vertices);
-                    vertices.first += parts[*index].part.positions.len();
+                    vertices.first += parts[*index].vertices();
                 }
             }
         }
@@ -118,7 +123,7 @@ impl Vertices {
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Self {
-        let count = parts.iter().map(|shown| shown.part.positions.len()).sum();
+        let count = parts.iter().map(|shown| shown.vertices()).sum();
         let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.low));
         let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.high));
         let mut add = |shared: Shared,
@@ -132,12 +137,18 @@ impl Vertices {
             accessor(place.unwrap_or_default(), component, kind, count)
         };
         let vec3 = (ComponentType::F32, Type::Vec3);
-        let positions = add(Shared::Positions, vec3, &|shown| Block::Positions(shown.part));
+        let positions = add(Shared::Positions, vec3, &|shown| match &shown.welded {
+            Some(welded) => Block::Places(Arc::clone(welded)),
+            None => Block::Positions(shown.part),
+        });
         let normals = match arrays.small {
             false => add(Shared::Normals, vec3, &|shown| Block::Normals(shown.part)),
-            true if parts.iter().all(|shown| is_faceted(shown.part)) => {
+            true if parts.iter().all(|shown| shown.welded.is_some() || is_faceted(shown.part)) => {
                 let kind = (ComponentType::I8, Type::Vec3);
-                add(Shared::ByteNormals, kind, &|shown| Block::ByteNormals(shown.part))
+                add(Shared::ByteNormals, kind, &|shown| match &shown.welded {
+                    Some(welded) => Block::FaceNormals(Arc::clone(welded)),
+                    None => Block::ByteNormals(shown.part),
+                })
             }
             true => {
                 let kind = (ComponentType::I16, Type::Vec3);
@@ -162,11 +173,17 @@ impl Vertices {
 }
 
 impl<'a> Shown<'a> {
-    fn measure(part: &'a Part, texture: Option<[f64; 2]>) -> Self {
+    fn measure(part: &'a Part, texture: Option<[f64; 2]>, arrays: Arrays) -> Self {
         let mut points = part.positions.iter().map(|at| y_up(*at));
         let first = points.next().unwrap_or_default();
         let (low, high) = points.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
-        Self { part, texture, triangles: triangles(part).count(), low, high }
+        let welded = (arrays.small && texture.is_none()).then(|| Welded::of(part)).flatten().map(Arc::new);
+        Self { part, texture, triangles: triangles(part).count(), low, high, welded }
+    }
+
+    /// How many vertices are written.
+    fn vertices(&self) -> usize {
+        self.welded.as_ref().map_or(self.part.positions.len(), |welded| welded.positions.len())
     }
 
     fn primitive(
@@ -176,13 +193,24 @@ impl<'a> Shown<'a> {
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Primitive {
-        let (kind, place) = if vertices.count <= SHORT {
-            (ComponentType::U16, body.share(Shared::Short, Block::Short(self.part, vertices.first as u16)))
-        } else {
-            (ComponentType::U32, body.share(Shared::Long, Block::Long(self.part)))
+        let first = vertices.first as u16;
+        let short = vertices.count <= SHORT;
+        let (shared, kind) =
+            if short { (Shared::Short, ComponentType::U16) } else { (Shared::Long, ComponentType::U32) };
+        let block = match &self.welded {
+            Some(welded) if short => Block::ShortCorners(Arc::clone(welded), first),
+            Some(welded) => Block::LongCorners(Arc::clone(welded)),
+            None if short => Block::Short(self.part, first),
+            None => Block::Long(self.part),
         };
-        let indices = accessor(place, kind, Type::Scalar, self.triangles * 3);
-        Primitive { attributes: vertices.accessors, indices: description.accessor(indices), material }
+        let indices = accessor(body.share(shared, block), kind, Type::Scalar, self.triangles * 3);
+        let shading = self.welded.is_some().then_some(Shading { flat: true });
+        Primitive {
+            attributes: vertices.accessors,
+            shading,
+            indices: description.accessor(indices),
+            material,
+        }
     }
 }
 
