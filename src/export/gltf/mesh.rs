@@ -1,13 +1,12 @@
 //! Meshes and the accessors of their arrays.
 
-use super::super::check::{Checked, shown_parts, triangles};
+use super::super::check::{Checked, Measured};
 use super::body::{Block, Body, Shared, y_up};
 use super::description::{Accessor, Attributes, Description, Mesh, Primitive};
 use crate::scene::Part;
 use glam::Vec3;
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
-use rayon::prelude::*;
 
 /// Adds the meshes that are shown. Returns where each mesh of the scene is.
 ///
@@ -20,23 +19,20 @@ pub(super) fn write<'a>(
     body: &mut Body<'a>,
 ) -> Vec<Option<usize>> {
     let scene = checked.scene;
-    let measure = |part: &'a Part| {
+    let measure = |(part, measured): (&'a Part, &Measured)| {
         let texture = scene.materials[part.material].texture.as_ref();
-        Shown::measure(part, texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0])))
+        let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
+        Shown { part, texture: size, measured: *measured }
     };
-    let shown = scene
-        .meshes
-        .par_iter()
-        .zip(&checked.meshes)
-        .map(|(mesh, shown)| if *shown { shown_parts(mesh).map(measure).collect() } else { Vec::new() });
-    let shown: Vec<Vec<Shown<'a>>> = shown.collect();
-    let parts: usize = shown.iter().map(Vec::len).sum();
+    let parts: usize = checked.parts.iter().map(Vec::len).sum();
     description.accessors.reserve(2 * scene.meshes.len() + parts);
     description.meshes.reserve(scene.meshes.len());
     let mut written = Vec::with_capacity(scene.meshes.len());
-    for (mesh, parts) in scene.meshes.iter().zip(&shown) {
+    for (mesh, parts) in scene.meshes.iter().zip(&checked.parts) {
+        let parts = mesh.parts.iter().zip(parts).filter(|(_, measured)| measured.triangles > 0);
+        let parts: Vec<Shown<'a>> = parts.map(measure).collect();
         written.push((!parts.is_empty()).then(|| {
-            let vertices = Vertices::of(parts, arrays, description, body);
+            let vertices = Vertices::of(&parts, arrays, description, body);
             let primitives = parts.iter().zip(&vertices);
             let primitives = primitives
                 .map(|(shown, vertices)| {
@@ -63,11 +59,7 @@ pub(super) struct Arrays {
 struct Shown<'a> {
     part: &'a Part,
     texture: Option<[f64; 2]>,
-    /// How many triangles are written.
-    triangles: usize,
-    /// The box around its points in glTF's coordinates.
-    low: Vec3,
-    high: Vec3,
+    measured: Measured,
 }
 
 /// Where the vertices of a part are.
@@ -119,8 +111,11 @@ impl Vertices {
         body: &mut Body<'a>,
     ) -> Self {
         let count = parts.iter().map(|shown| shown.part.positions.len()).sum();
-        let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.low));
-        let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.high));
+        let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.measured.low));
+        let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.measured.high));
+        // What points up in the scene points towards the viewer in glTF, so two corners change places there.
+        let (a, b) = (y_up(low), y_up(high));
+        let (low, high) = (a.min(b), a.max(b));
         let mut add = |shared: Shared,
                        (component, kind): (ComponentType, Type),
                        block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
@@ -162,13 +157,6 @@ impl Vertices {
 }
 
 impl<'a> Shown<'a> {
-    fn measure(part: &'a Part, texture: Option<[f64; 2]>) -> Self {
-        let mut points = part.positions.iter().map(|at| y_up(*at));
-        let first = points.next().unwrap_or_default();
-        let (low, high) = points.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
-        Self { part, texture, triangles: triangles(part).count(), low, high }
-    }
-
     fn primitive(
         &self,
         vertices: &Vertices,
@@ -176,12 +164,14 @@ impl<'a> Shown<'a> {
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Primitive {
+        let triangles = self.measured.triangles;
         let (kind, place) = if vertices.count <= SHORT {
-            (ComponentType::U16, body.share(Shared::Short, Block::Short(self.part, vertices.first as u16)))
+            let block = Block::Short(self.part, triangles, vertices.first as u16);
+            (ComponentType::U16, body.share(Shared::Short, block))
         } else {
-            (ComponentType::U32, body.share(Shared::Long, Block::Long(self.part)))
+            (ComponentType::U32, body.share(Shared::Long, Block::Long(self.part, triangles)))
         };
-        let indices = accessor(place, kind, Type::Scalar, self.triangles * 3);
+        let indices = accessor(place, kind, Type::Scalar, triangles * 3);
         Primitive { attributes: vertices.accessors, indices: description.accessor(indices), material }
     }
 }

@@ -248,7 +248,7 @@ impl Maker {
 
     fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
         if let Some(unread) = &names.unread {
-            return unread.feature(lua, index);
+            return unread.feature(index);
         }
         let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
         for (index, value) in feature.attributes.iter() {
