@@ -15,6 +15,7 @@ use super::derived::Derived;
 use super::step::Rewriting;
 use crate::error::{Error, Result};
 use crate::interpret::Interpreting;
+use crate::objects::Ahead;
 use crate::script::{Declared, Machine, Session, Watchdog};
 
 /// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
@@ -22,6 +23,7 @@ use crate::script::{Declared, Machine, Session, Watchdog};
 pub(crate) enum Job {
     Rewrite(Weak<Rewriting>),
     Interpret(Weak<Interpreting>),
+    Foresee(Weak<Ahead>),
 }
 
 enum Message {
@@ -199,6 +201,11 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 machine.refresh();
                 while rewriting.work(machine, declared, &mut scratch) {}
                 machine.current.objects.replace(None);
+            }
+            Job::Foresee(ahead) => {
+                if let Some(ahead) = ahead.upgrade() {
+                    ahead.work();
+                }
             }
             Job::Interpret(interpreting) => {
                 let Some(interpreting) = interpreting.upgrade() else { continue };

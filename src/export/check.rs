@@ -2,7 +2,7 @@
 
 use crate::error::{Error, Result};
 use crate::scene::{Mesh, Part, Scene};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 /// The largest coordinate (m) and the largest number of a transform; their products still are numbers in f32.
@@ -15,10 +15,22 @@ pub(super) struct Checked<'a> {
     pub(super) scene: &'a Scene,
     /// For each mesh, whether an instance names it and it has a triangle.
     pub(super) meshes: Vec<bool>,
+    /// For each mesh, what its parts are like; nothing if no instance names it.
+    pub(super) parts: Vec<Vec<Measured>>,
     /// For each material, whether a triangle of a shown mesh has it.
     pub(super) materials: Vec<bool>,
     /// The point (m) that the file's coordinates are counted from.
     pub(super) origin: DVec3,
+}
+
+/// What is known of a part once it has been checked, so that nobody has to look at all of it again for that.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured {
+    /// How many of its [`triangles`] there are.
+    pub(super) triangles: usize,
+    /// The box (m) around its points; the origin without any.
+    pub(super) low: Vec3,
+    pub(super) high: Vec3,
 }
 
 /// Refuses a scene that names what it does not have or has a number that is none, in what it shows.
@@ -35,22 +47,32 @@ pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
             return Err(error.help("look for a division by zero in a length, a scale or an angle"));
         }
     }
-    let sound = scene.meshes.par_iter().zip(&meshes).map(|(mesh, shown)| {
-        let mut parts = mesh.parts.iter().filter(|_| *shown);
-        parts.try_for_each(|part| check_part(scene, part))
+    let measured = scene.meshes.par_iter().zip(&meshes).map(|(mesh, shown)| {
+        let parts = mesh.parts.iter().filter(|_| *shown);
+        parts.map(|part| check_part(scene, part)).collect()
     });
-    let sound: Vec<Result<(), String>> = sound.collect();
+    let measured: Vec<Result<Vec<Measured>, String>> = measured.collect();
     let mut materials = vec![false; scene.materials.len()];
-    for (i, (mesh, sound)) in scene.meshes.iter().zip(sound).enumerate() {
-        sound.map_err(|what| unsound(mesh, i, &what))?;
-        meshes[i] &= shown_parts(mesh).next().is_some();
-        if meshes[i] {
-            for part in shown_parts(mesh) {
-                materials[part.material] = true;
-            }
+    let mut parts = Vec::with_capacity(meshes.len());
+    for (i, (mesh, measured)) in scene.meshes.iter().zip(measured).enumerate() {
+        let measured = measured.map_err(|what| unsound(mesh, i, &what))?;
+        let shown = || mesh.parts.iter().zip(&measured).filter(|(_, measured)| measured.triangles > 0);
+        meshes[i] = shown().next().is_some();
+        for (part, _) in shown() {
+            materials[part.material] = true;
         }
+        parts.push(measured);
     }
-    Ok(Checked { scene, meshes, materials, origin: origin(scene.bounds()) })
+    let boxes = scene.meshes.iter().zip(&parts).map(|(mesh, parts)| bounds(mesh, parts));
+    let bounds = scene.bounds_of(&boxes.collect::<Vec<_>>());
+    Ok(Checked { scene, meshes, parts, materials, origin: origin(bounds) })
+}
+
+/// The least box (m) around the `measured` parts of `mesh`.
+fn bounds(mesh: &Mesh, measured: &[Measured]) -> Option<(DVec3, DVec3)> {
+    let parts = mesh.parts.iter().zip(measured).filter(|(part, _)| !part.positions.is_empty());
+    let boxes = parts.map(|(_, Measured { low, high, .. })| (low.as_dvec3(), high.as_dvec3()));
+    boxes.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
 /// The triangles of `part` with three different corners; the others cover nothing and are not written.
@@ -93,8 +115,8 @@ fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
     error.help("look for a division by zero or an empty shape in what built it")
 }
 
-/// What is wrong with `part`, as the end of a sentence about its mesh.
-fn check_part(scene: &Scene, part: &Part) -> Result<(), String> {
+/// Measures `part`, or tells what is wrong with it, as the end of a sentence about its mesh.
+fn check_part(scene: &Scene, part: &Part) -> Result<Measured, String> {
     let Some(material) = scene.materials.get(part.material) else {
         return Err(format!("uses material {}, which is not there", part.material));
     };
@@ -118,7 +140,10 @@ fn check_part(scene: &Scene, part: &Part) -> Result<(), String> {
             return Err("has texture coordinates that are not usable numbers".into());
         }
     }
-    Ok(())
+    let first = part.positions.first().copied().unwrap_or_default();
+    let (low, high) =
+        part.positions.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
+    Ok(Measured { triangles: triangles(part).count(), low, high })
 }
 
 #[cfg(test)]

@@ -130,8 +130,7 @@ fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
         let convex = twice_area(pa, pd, pc) > 0.0 && twice_area(pd, pb, pc) > 0.0;
         // Two angles of at most a quarter turn need not be measured.
         let small = (pa - pc).dot(pb - pc) >= 0.0 && (pb - pd).dot(pa - pd) >= 0.0;
-        let wide = || angle(pc, pa, pb) + angle(pd, pb, pa) > std::f64::consts::PI + 1e-9;
-        if !convex || small || !wide() || left == 0 {
+        if !convex || small || !is_wide([pa - pc, pb - pc], [pb - pd, pa - pd]) || left == 0 {
             continue;
         }
         left -= 1;
@@ -150,12 +149,15 @@ fn opposite(triangle: [usize; 3], a: usize, b: usize) -> usize {
     triangle.into_iter().find(|&corner| corner != a && corner != b).unwrap_or(a)
 }
 
-/// The angle (radians) at `tip` from `from` to `to`, counter-clockwise.
-fn angle(tip: DVec2, from: DVec2, to: DVec2) -> f64 {
-    let (u, v) = (from - tip, to - tip);
-    let angle = u.perp_dot(v).atan2(u.dot(v));
-    // Half a turn that rounding has turned over.
-    if angle < -std::f64::consts::FRAC_PI_2 { angle + std::f64::consts::TAU } else { angle }
+/// Whether the angles between two pairs of directions, each counter-clockwise and less than half a turn, add up to more
+/// than half a turn, by more than rounding would.
+fn is_wide([u, v]: [DVec2; 2], [w, z]: [DVec2; 2]) -> bool {
+    let (crosses, dots) = ([u.perp_dot(v), w.perp_dot(z)], [u.dot(v), w.dot(z)]);
+    // The sine and the cosine of the sum, times all lengths.
+    let sine = crosses[0] * dots[1] + dots[0] * crosses[1];
+    let cosine = dots[0] * dots[1] - crosses[0] * crosses[1];
+    let lengths = [u, v, w, z].map(DVec2::length_squared).iter().product::<f64>().sqrt();
+    sine < if cosine < 0.0 { -1e-9 * lengths } else { 0.0 }
 }
 
 fn twice_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {

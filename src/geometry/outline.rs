@@ -219,15 +219,25 @@ fn refuse_crossings(rings: &[Ring], closed: bool, manner: &Manner) -> Result<()>
 
 /// Where two edges meet though they should not.
 fn meeting(a: &Edge, b: &Edge, count: usize, closed: bool) -> Option<DVec2> {
-    let found = line_intersection(a.line, b.line)?;
     let follows =
         |a: &Edge, b: &Edge| b.index == a.index + 1 || (closed && b.index == 0 && a.index + 1 == count);
     let neighbours = a.ring == b.ring && (follows(a, b) || follows(b, a));
-    match found {
+    // Most pairs of edges follow each other around a corner, where they have nothing else in common.
+    if neighbours && turns(a.line, b.line) {
+        return None;
+    }
+    match line_intersection(a.line, b.line)? {
         LineIntersection::SinglePoint { .. } if neighbours => None,
         LineIntersection::SinglePoint { intersection, .. } => Some(vector(intersection)),
         LineIntersection::Collinear { intersection } => Some(vector(intersection.start)),
     }
+}
+
+/// Whether two lines certainly run different ways: by more than rounding could feign.
+fn turns(a: Line, b: Line) -> bool {
+    let [u, v] = [a, b].map(|line| vector(line.end) - vector(line.start));
+    let cross = u.perp_dot(v);
+    cross * cross > 1e-18 * u.length_squared() * v.length_squared()
 }
 
 fn edge_name(edge: &Edge, rings: &[Ring]) -> String {

@@ -43,7 +43,9 @@ impl Drawing {
 
     /// The number of the part with this material.
     pub fn material(&mut self, material: &Material) -> usize {
-        if let Some(index) = self.materials.iter().position(|known| known == material) {
+        // Colours tell most of them apart at once.
+        let same = |known: &Material| known.base_color == material.base_color && known == material;
+        if let Some(index) = self.materials.iter().position(same) {
             return index;
         }
         self.materials.push(material.clone());
@@ -168,11 +170,10 @@ impl Drawing {
 
     /// Adds the drawing to `scene` at `origin` (m): one mesh, unless it is empty, and what was placed.
     pub fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
-        let mut mesh = Mesh { name: name.to_owned(), ..Mesh::default() };
-        for part in self.parts.into_iter().filter(|part| !part.triangles.is_empty()) {
-            let material = scene.material(&self.materials[part.material]);
-            mesh.parts.push(Part { material, ..part });
-        }
+        let parts = self.parts.into_iter().filter(|part| !part.triangles.is_empty());
+        let parts =
+            parts.map(|part| Part { material: scene.material(&self.materials[part.material]), ..part });
+        let mesh = Mesh { name: name.to_owned(), parts: parts.collect(), ..Mesh::default() };
         let origin = DAffine3::from_translation(origin);
         if !mesh.parts.is_empty() {
             scene.meshes.push(mesh);

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::{Key, Kind, Object, Parameter, Table, Value};
+use super::{Ahead, Key, Kind, Object, Parameter, Table, Value};
 use crate::error::Error;
 use crate::sources::{Geometry, Layer};
 
@@ -36,6 +36,7 @@ impl Object for Features {
 pub struct Shape {
     layer: Arc<Layer>,
     index: usize,
+    ahead: Option<Arc<Ahead>>,
 }
 
 impl Shape {
@@ -48,9 +49,15 @@ impl Shape {
         construct: |_: &Table| Err(Error::new("a geometry is what a feature has")),
     };
 
-    /// That of the feature with this number, from 0; `None` if there is none.
-    pub(crate) fn new(layer: &Arc<Layer>, index: usize) -> Option<Self> {
-        (index < layer.features.len()).then(|| Self { layer: Arc::clone(layer), index })
+    /// That of the feature with this number, from 0; `None` if there is none. Its plan may be made `ahead`.
+    pub(crate) fn new(layer: &Arc<Layer>, index: usize, ahead: Option<&Arc<Ahead>>) -> Option<Self> {
+        let there = index < layer.features.len();
+        there.then(|| Self { layer: Arc::clone(layer), index, ahead: ahead.cloned() })
+    }
+
+    /// Where its plan may have been made already, and its feature's number there.
+    pub(super) fn ahead(&self) -> Option<(&Ahead, usize)> {
+        self.ahead.as_deref().map(|ahead| (ahead, self.index))
     }
 
     /// The geometry itself.

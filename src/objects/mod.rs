@@ -37,6 +37,7 @@ pub use elevation::{Elevation, ElevationOptions};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
 pub use features::{Features, Shape};
+pub(crate) use footprint::Ahead;
 pub use footprint::{Detail, EdgeKeywords, Footprint, Rings, Roof, Walls};
 pub(crate) use makers::Makers;
 pub use model::Model;

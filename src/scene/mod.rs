@@ -97,7 +97,11 @@ impl Scene {
 
     /// The least box (m) around all that is seen, as its lowest and highest corner; `None` if nothing is.
     pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
-        let boxes: Vec<_> = self.meshes.par_iter().map(Mesh::bounds).collect();
+        self.bounds_of(&self.meshes.par_iter().map(Mesh::bounds).collect::<Vec<_>>())
+    }
+
+    /// The same where the boxes (m) around the meshes are known.
+    pub(crate) fn bounds_of(&self, boxes: &[Option<(DVec3, DVec3)>]) -> Option<(DVec3, DVec3)> {
         let mut bounds: Option<(DVec3, DVec3)> = None;
         for instance in &self.instances {
             let Some((low, high)) = boxes[instance.mesh] else { continue };

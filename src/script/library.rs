@@ -14,7 +14,7 @@ use super::handles::{ObjectHandle, methods_key};
 use super::machine::{Machine, compile, native};
 use super::param::Param;
 use super::require::require;
-use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
+use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy, is_unread_geometry};
 use crate::error::{Error, Result};
 use crate::objects::{Call, Elevation, ElevationOptions, KINDS, Kind, Model, Table as ValueTable, Value};
 use crate::rules::{Signature, Symbol, Symbols};
@@ -434,7 +434,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     let Some(first) = kind.first else { return named_fields(kind.name, one) };
     let alone = match (&one, &two) {
         (LuaValue::Nil, LuaValue::Nil) => true,
-        (LuaValue::Table(table), LuaValue::Nil) => {
+        (LuaValue::Table(table), LuaValue::Nil) if !is_unread_geometry(table) => {
             table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
                 kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == field.name))
             })

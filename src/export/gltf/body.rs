@@ -1,6 +1,6 @@
 //! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
 
-use super::super::check::{shown, triangles};
+use super::super::check::shown;
 use super::weld::Welded;
 use crate::error::{Error, Result};
 use crate::scene::{Normal, Part};
@@ -47,9 +47,9 @@ pub(super) enum Block<'a> {
     ShortNormals(&'a Part),
     /// The texture coordinates of a part whose texture has this width and height (m).
     TexCoords(&'a Part, [f64; 2]),
-    /// The indices of a part whose vertices begin with this number, as u16.
-    Short(&'a Part, u16),
-    Long(&'a Part),
+    /// The indices of a part with this many triangles to be written, whose vertices begin with this number, as u16.
+    Short(&'a Part, usize, u16),
+    Long(&'a Part, usize),
     /// The positions of a welded part.
     Places(Arc<Welded>),
     /// The normals of a welded part as four i8.
@@ -229,8 +229,8 @@ impl Block<'_> {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
             Self::TexCoords(part, _) | Self::ShortNormals(part) => part.positions.len() * 8,
             Self::ByteNormals(part) => part.positions.len() * 4,
-            Self::Short(part, _) => triangles(part).count() * 6,
-            Self::Long(part) => triangles(part).count() * 12,
+            Self::Short(_, triangles, _) => triangles * 6,
+            Self::Long(_, triangles) => triangles * 12,
             Self::Places(welded) => welded.positions.len() * 12,
             Self::FaceNormals(welded) => welded.normals.len() * 4,
             Self::ShortCorners(welded, _) => welded.triangles.len() * 6,
@@ -249,7 +249,7 @@ impl Block<'_> {
             | Self::ByteNormals(part)
             | Self::ShortNormals(part)
             | Self::TexCoords(part, _) => part.positions.len(),
-            Self::Short(part, _) | Self::Long(part) => part.triangles.len(),
+            Self::Short(part, ..) | Self::Long(part, _) => part.triangles.len(),
             Self::Places(welded) | Self::FaceNormals(welded) => welded.positions.len(),
             Self::ShortCorners(welded, _) | Self::LongCorners(welded) => welded.triangles.len(),
             Self::Floats(floats) => floats.len(),
@@ -268,11 +268,11 @@ impl Block<'_> {
             Self::ByteNormals(part) => put(out, part.normals[range].iter().map(|it| byte_normal(*it))),
             Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
             Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
-            Self::Short(part, first) => {
+            Self::Short(part, _, first) => {
                 let shown = shown(&part.triangles[range]);
                 put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));
             }
-            Self::Long(part) => put(out, shown(&part.triangles[range])),
+            Self::Long(part, _) => put(out, shown(&part.triangles[range])),
             Self::Places(welded) => out.extend_from_slice(bytemuck::cast_slice(&welded.positions[range])),
             Self::FaceNormals(welded) => put(out, welded.normals[range].iter().map(|it| byte_normal(*it))),
             Self::ShortCorners(welded, first) => {
@@ -288,12 +288,16 @@ impl Block<'_> {
     }
 }
 
-/// Adds items as they lie in memory.
+/// Adds items as they lie in memory; how many there are at most has to be known.
 fn put<T: bytemuck::NoUninit>(out: &mut Vec<u8>, items: impl Iterator<Item = T>) {
-    out.reserve(items.size_hint().1.unwrap_or(0) * size_of::<T>());
-    for item in items {
-        out.extend_from_slice(bytemuck::bytes_of(&item));
+    let begin = out.len();
+    out.resize(begin + items.size_hint().1.unwrap_or(0) * size_of::<T>(), 0);
+    let mut end = begin;
+    for (place, item) in out[begin..].chunks_exact_mut(size_of::<T>()).zip(items) {
+        place.copy_from_slice(bytemuck::bytes_of(&item));
+        end += size_of::<T>();
     }
+    out.truncate(end);
 }
 
 /// A vector of the scene, z up, in glTF's coordinates, y up. Adding zero turns -0 into 0.

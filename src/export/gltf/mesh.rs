@@ -1,6 +1,6 @@
 //! Meshes and the accessors of their arrays.
 
-use super::super::check::{Checked, shown_parts, triangles};
+use super::super::check::{Checked, Measured};
 use super::body::{Block, Body, Shared, y_up};
 use super::description::{Accessor, Attributes, Description, Mesh, Primitive, Shading};
 use super::weld::Welded;
@@ -22,14 +22,18 @@ pub(super) fn write<'a>(
     body: &mut Body<'a>,
 ) -> Vec<Option<usize>> {
     let scene = checked.scene;
-    let measure = |part: &'a Part| {
+    let measure = |(part, measured): (&'a Part, &Measured)| {
         let texture = scene.materials[part.material].texture.as_ref();
-        let texture = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
-        Shown::measure(part, texture, arrays)
+        let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
+        let welded = (arrays.small && size.is_none()).then(|| Welded::of(part)).flatten().map(Arc::new);
+        Shown { part, texture: size, measured: *measured, welded }
     };
-    let shown = scene.meshes.par_iter().zip(&checked.meshes).map(|(mesh, shown)| {
-        let parts: Vec<&Part> = if *shown { shown_parts(mesh).collect() } else { Vec::new() };
-        parts.into_par_iter().map(measure).collect()
+    let shown = scene.meshes.par_iter().zip(&checked.parts).map(|(mesh, parts)| {
+        let is_shown = |(_, measured): &(&Part, &Measured)| measured.triangles > 0;
+        match arrays.small {
+            true => mesh.parts.par_iter().zip(parts).filter(is_shown).map(measure).collect(),
+            false => mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect(),
+        }
     });
     let shown: Vec<Vec<Shown<'a>>> = shown.collect();
     let parts: usize = shown.iter().map(Vec::len).sum();
@@ -66,11 +70,7 @@ pub(super) struct Arrays {
 struct Shown<'a> {
     part: &'a Part,
     texture: Option<[f64; 2]>,
-    /// How many triangles are written.
-    triangles: usize,
-    /// The box around its points in glTF's coordinates.
-    low: Vec3,
-    high: Vec3,
+    measured: Measured,
     /// What is written in the part's place.
     welded: Option<Arc<Welded>>,
 }
@@ -124,8 +124,11 @@ impl Vertices {
         body: &mut Body<'a>,
     ) -> Self {
         let count = parts.iter().map(|shown| shown.vertices()).sum();
-        let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.low));
-        let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.high));
+        let low = parts.iter().fold(Vec3::INFINITY, |low, shown| low.min(shown.measured.low));
+        let high = parts.iter().fold(Vec3::NEG_INFINITY, |high, shown| high.max(shown.measured.high));
+        // What points up in the scene points towards the viewer in glTF, so two corners change places there.
+        let (a, b) = (y_up(low), y_up(high));
+        let (low, high) = (a.min(b), a.max(b));
         let mut add = |shared: Shared,
                        (component, kind): (ComponentType, Type),
                        block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
@@ -173,14 +176,6 @@ impl Vertices {
 }
 
 impl<'a> Shown<'a> {
-    fn measure(part: &'a Part, texture: Option<[f64; 2]>, arrays: Arrays) -> Self {
-        let mut points = part.positions.iter().map(|at| y_up(*at));
-        let first = points.next().unwrap_or_default();
-        let (low, high) = points.fold((first, first), |(low, high), at| (low.min(at), high.max(at)));
-        let welded = (arrays.small && texture.is_none()).then(|| Welded::of(part)).flatten().map(Arc::new);
-        Self { part, texture, triangles: triangles(part).count(), low, high, welded }
-    }
-
     /// How many vertices are written.
     fn vertices(&self) -> usize {
         self.welded.as_ref().map_or(self.part.positions.len(), |welded| welded.positions.len())
@@ -193,17 +188,17 @@ impl<'a> Shown<'a> {
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Primitive {
-        let first = vertices.first as u16;
+        let (first, triangles) = (vertices.first as u16, self.measured.triangles);
         let short = vertices.count <= SHORT;
         let (shared, kind) =
             if short { (Shared::Short, ComponentType::U16) } else { (Shared::Long, ComponentType::U32) };
         let block = match &self.welded {
             Some(welded) if short => Block::ShortCorners(Arc::clone(welded), first),
             Some(welded) => Block::LongCorners(Arc::clone(welded)),
-            None if short => Block::Short(self.part, first),
-            None => Block::Long(self.part),
+            None if short => Block::Short(self.part, triangles, first),
+            None => Block::Long(self.part, triangles),
         };
-        let indices = accessor(body.share(shared, block), kind, Type::Scalar, self.triangles * 3);
+        let indices = accessor(body.share(shared, block), kind, Type::Scalar, triangles * 3);
         let shading = self.welded.is_some().then_some(Shading { flat: true });
         Primitive {
             attributes: vertices.accessors,

@@ -1,5 +1,6 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 
+mod ahead;
 mod edges;
 mod neighbors;
 mod roof;
@@ -21,6 +22,8 @@ use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
 use crate::sources::Geometry;
+pub(crate) use ahead::Ahead;
+use ahead::Grounded;
 pub use edges::EdgeKeywords;
 use edges::Edges;
 use neighbors::Neighborhood;
@@ -32,6 +35,15 @@ pub use walls::Walls;
 /// The rings of a geometry: the outer one, then the holes.
 #[derive(Debug, Clone, Default)]
 pub struct Rings(pub Vec<Vec<DVec3>>);
+
+impl Rings {
+    /// Those of a geometry of a source, if it is a polygon.
+    fn of(geometry: &Geometry) -> Option<Self> {
+        let Geometry::Polygon(rings) = geometry else { return None };
+        let ring = |ring: &Vec<[f64; 3]>| ring.iter().copied().map(DVec3::from).collect();
+        Some(Self(rings.iter().map(ring).collect()))
+    }
+}
 
 impl Parameter for Rings {
     fn luau() -> String {
@@ -49,14 +61,8 @@ impl Parameter for Rings {
             Value::Table(table) => table,
             Value::Object(object) => {
                 let any: &dyn std::any::Any = &**object;
-                return match any.downcast_ref::<Shape>().map(Shape::geometry) {
-                    Some(Geometry::Polygon(rings)) => {
-                        let ring = |ring: &Vec<[f64; 3]>| ring.iter().copied().map(DVec3::from).collect();
-                        Ok(Self(rings.iter().map(ring).collect()))
-                    }
-                    Some(other) => Err(not_this(other.kind().name())),
-                    None => Err(what()),
-                };
+                let geometry = any.downcast_ref::<Shape>().map(Shape::geometry).ok_or_else(what)?;
+                return Self::of(geometry).ok_or_else(|| not_this(geometry.kind().name()));
             }
             _ => return Err(what()),
         };
@@ -258,34 +264,36 @@ impl Footprint {
         fields: Options::FIELDS,
         first: Some("geometry"),
         methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
+        construct: |table: &Table| {
+            let options = Options::from_table(table)?;
+            // Under other heights it is another plan.
+            let ready = if options.ground.is_none() { made_ahead(table) } else { None };
+            Ok(Box::new(Self::with(options, ready)?))
+        },
     };
 
     /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
-    pub fn new(mut options: Options) -> Result<Self> {
+    pub fn new(options: Options) -> Result<Self> {
+        Self::with(options, None)
+    }
+
+    /// The same, where its plan may be ready.
+    fn with(mut options: Options, ready: Option<Result<Grounded>>) -> Result<Self> {
         if let Some(ground) = &options.ground {
             for point in options.geometry.0.iter_mut().flatten() {
                 point.z = ground.height(Vector(*point)).map_err(Error::of_data)?;
             }
         }
-        let (plan, origin) = match options.geometry.0.first() {
-            None => (Plan::default(), DVec3::ZERO),
-            Some(_) => {
-                let plan = Plan::new(&options.geometry.0).map_err(Error::of_data)?;
-                let low = plan.rings().iter().flatten().fold(DVec3::INFINITY, |low, point| low.min(*point));
-                let high =
-                    plan.rings().iter().flatten().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
-                let origin = low.midpoint(high).truncate().extend(low.z).floor();
-                (plan.moved(-origin), origin)
-            }
+        let Grounded { plan, origin } = match ready {
+            Some(ready) => ready?,
+            None => Grounded::new(&options.geometry)?,
         };
         if let Some(Height(height)) = options.height {
             check_height("footprint: height", height)?;
         }
         let shell = Shell::new(&plan);
-        let (options, plan) = (Arc::new(options), Arc::new(plan));
         let footprint = Self {
-            options,
+            options: Arc::new(options),
             plan,
             origin,
             edges: Arc::default(),
@@ -323,6 +331,14 @@ impl Footprint {
         }
         Ok(())
     }
+}
+
+/// The plan of the geometry in a table of options, if another thread has made it.
+fn made_ahead(options: &Table) -> Option<Result<Grounded>> {
+    let Some(Value::Object(object)) = options.get("geometry") else { return None };
+    let any: &dyn std::any::Any = &**object;
+    let (ahead, number) = any.downcast_ref::<Shape>()?.ahead()?;
+    ahead.take(number)
 }
 
 /// Fails if a height (m) is not above 0 or is absurd.

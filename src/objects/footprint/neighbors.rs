@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock};
 use glam::DVec2;
 use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
+use smallvec::SmallVec;
 
 use super::{Footprint, edges};
 use crate::geometry::Plan;
@@ -27,9 +28,38 @@ pub(super) struct Neighborhood {
 
 /// Where the footprints are.
 struct Map {
-    /// The walls of each.
-    walls: Vec<Vec<Wall>>,
+    /// The walls of all.
+    walls: Vec<Wall>,
+    /// Where the walls of each begin among them; one more for the end.
+    begins: Vec<usize>,
     boxes: RTree<Boxed>,
+}
+
+impl Map {
+    fn new(plans: &[(Arc<Plan>, DVec2)]) -> Self {
+        let mut walls = Vec::with_capacity(plans.iter().map(|(plan, _)| plan.edges()).sum());
+        let mut begins = vec![0];
+        for (plan, origin) in plans {
+            let all = plan.rings().iter().flat_map(|ring| edges(ring));
+            walls.extend(all.map(|edge| edge.map(|point| point.truncate() + *origin)));
+            begins.push(walls.len());
+        }
+        let mut map = Self { walls, begins, boxes: RTree::default() };
+        let boxes = (0u32..).zip(0..plans.len()).filter_map(|(index, own)| {
+            let [low, high] = bounds(map.walls_of(own))?;
+            let (low, high) = (low - APART, high + APART);
+            Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
+        });
+        map.boxes = RTree::bulk_load(boxes.collect());
+        map
+    }
+
+    fn walls_of(&self, index: usize) -> &[Wall] {
+        match self.begins.get(index..index + 2) {
+            Some(&[begin, end]) => &self.walls[begin..end],
+            _ => &[],
+        }
+    }
 }
 
 /// The two ends (m) of an edge.
@@ -68,40 +98,33 @@ fn bounds(walls: &[Wall]) -> Option<[DVec2; 2]> {
 
 impl Neighborhood {
     fn map(&self) -> &Map {
-        self.map.get_or_init(|| {
-            let placed = |(plan, origin): &(Arc<Plan>, DVec2)| {
-                let flat = plan.flat();
-                let walls = flat.iter().flat_map(|ring| edges(ring));
-                walls.map(|edge| edge.map(|point| point + *origin)).collect()
-            };
-            let walls: Vec<Vec<Wall>> = self.plans.iter().map(placed).collect();
-            let boxes = (0u32..).zip(&walls).filter_map(|(index, walls)| {
-                let [low, high] = bounds(walls)?;
-                let (low, high) = (low - APART, high + APART);
-                Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
-            });
-            Map { boxes: RTree::bulk_load(boxes.collect()), walls }
-        })
+        self.map.get_or_init(|| Map::new(&self.plans))
     }
 
     /// What the others touch of footprint `own`: walls that run the other way, at most 8 degrees askew and 0.3 m away.
     pub(super) fn touch(&self, own: usize) -> Touch {
         let map = self.map();
-        let Some(walls) = map.walls.get(own) else { return Touch::default() };
+        let walls = map.walls_of(own);
         let Some([low, high]) = bounds(walls) else { return Touch::default() };
         let mut covered: Vec<Vec<[f64; 2]>> = vec![Vec::new(); walls.len()];
         let mut neighbors = 0;
         let around = AABB::from_corners(low.to_array(), high.to_array());
-        let found = map.boxes.locate_in_envelope_intersecting(&around).map(|found| found.data as usize);
-        let mut others: Vec<usize> = found.filter(|&other| other != own).collect();
-        others.sort_unstable();
+        let found = map.boxes.locate_in_envelope_intersecting(&around);
+        let mut others: SmallVec<[&Boxed; 16]> = found.filter(|found| found.data as usize != own).collect();
+        others.sort_unstable_by_key(|other| other.data);
         for other in others {
             let near =
                 |[a, b]: &&Wall| a.max(*b).cmpge(low - APART).all() && a.min(*b).cmple(high + APART).all();
-            let theirs: Vec<&Wall> = map.walls[other].iter().filter(near).collect();
+            let theirs = map.walls_of(other.data as usize).iter().filter(near);
+            let theirs: SmallVec<[Wall; 16]> = theirs.copied().collect();
+            let [least, most] = [other.geom().lower(), other.geom().upper()].map(DVec2::from);
             let mut longest = 0f64;
-            for (wall, covered) in walls.iter().zip(&mut covered) {
-                for part in theirs.iter().filter_map(|their| overlap(*wall, **their)) {
+            for (&[a, b], covered) in walls.iter().zip(&mut covered) {
+                // Its box is as much larger as walls that touch may be apart.
+                if a.max(b).cmplt(least).any() || a.min(b).cmpgt(most).any() {
+                    continue;
+                }
+                for part in theirs.iter().filter_map(|their| overlap([a, b], *their)) {
                     longest = longest.max(part[1] - part[0]);
                     covered.push(part);
                 }

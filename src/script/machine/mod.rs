@@ -83,7 +83,7 @@ impl Machine {
         let machine =
             build().map_err(|error| Error::new(format!("the virtual machine did not start: {error}")))?;
         machine.library.set_machine(&machine);
-        machine.prelude.keep_geometry(&machine.lua).map_err(|error| machine.translate(error))?;
+        machine.prelude.keep_features(&machine.lua).map_err(|error| machine.translate(error))?;
         machine.library.install(&machine)?;
         machine.lua.sandbox(true).map_err(|error| machine.translate(error))?;
         machine.lua.globals().set_readonly(true);

@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Table};
 
-use crate::script::system::GEOMETRY;
+use crate::script::system::{GEOMETRY, UNREAD};
 
 const TEMPLATE: &str = include_str!("prelude.luau");
 
@@ -47,6 +47,7 @@ pub(crate) struct Prelude {
     /// `(value)`: whether it is a module made outside of rules.
     pub is_module: Function,
     geometry: Function,
+    unread: Function,
     input: Function,
     counts: Function,
     randoms: Function,
@@ -80,6 +81,7 @@ impl Prelude {
             phase: table.get("phase")?,
             is_module: table.get("is_module")?,
             geometry: table.get("geometry")?,
+            unread: table.get("unread")?,
             input: table.get("input")?,
             counts: table.get("counts")?,
             randoms: table.get("randoms")?,
@@ -89,8 +91,9 @@ impl Prelude {
         })
     }
 
-    /// Keeps what makes features' geometries where sources find it.
-    pub(super) fn keep_geometry(&self, lua: &Lua) -> mlua::Result<()> {
+    /// Keeps what makes features and their geometries where sources find it.
+    pub(super) fn keep_features(&self, lua: &Lua) -> mlua::Result<()> {
+        lua.set_named_registry_value(UNREAD, &self.unread)?;
         lua.set_named_registry_value(GEOMETRY, &self.geometry)
     }
 

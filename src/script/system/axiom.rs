@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use mlua::{Function, MultiValue, Table, Value as LuaValue};
+use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
-use crate::derive::{Axiom, Remark};
+use crate::derive::{Axiom, Job, Remark};
 use crate::error::{Error, Result};
-use crate::objects::Object;
+use crate::objects::{Ahead, Footprint, Object};
 use crate::rules::{CLOSE, Chain, END, Key, OPEN, Symbol};
 use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
 
 use super::lazy::is_feature;
-use super::source::{each_feature, refused_of, shown};
+use super::source::{each_feature, layer_of, refused_of, shown};
 use super::{DeclaredAxiom, System};
 
 impl System {
@@ -81,6 +81,7 @@ impl System {
         axiom: &mut Axiom,
     ) -> Result<()> {
         let LuaValue::UserData(source) = source else { return Ok(()) };
+        let ahead = self.ahead(machine, source)?;
         let mut refused: Option<Error> = None;
         axiom.source = shown(source);
         for (id, error) in refused_of(source) {
@@ -139,12 +140,41 @@ impl System {
             builder.push(END, &[], key);
             Ok(())
         };
-        each_feature(machine.lua(), source, each, |error| machine.translate(error))?;
+        let ahead = ahead.as_ref().map(|ahead| &ahead.0);
+        each_feature(machine.lua(), source, ahead, each, |error| machine.translate(error))?;
         // Where nothing is left, the error tells more.
         match refused {
             Some(error) if axiom.features.is_empty() => Err(error),
             _ => Ok(()),
         }
+    }
+}
+
+impl System {
+    /// Has the plans of many footprints made by a thread that helps, if there is one.
+    fn ahead(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<Foreseen>> {
+        let draws_footprints = self.object.as_ref().is_some_and(|object| {
+            let any: &dyn std::any::Any = &**object;
+            any.is::<Footprint>()
+        });
+        let pays = draws_footprints && !machine.session.options.check;
+        let layer = layer_of(source).filter(|layer| pays && layer.features.len() >= MANY);
+        let Some(layer) = layer else { return Ok(None) };
+        let foreseen = Foreseen(Arc::new(Ahead::new(&layer)));
+        machine.crew.hand_out(machine, 2, 2, || Job::Foresee(Arc::downgrade(&foreseen.0)))?;
+        Ok(Some(foreseen))
+    }
+}
+
+/// From this many features on, helpers will be needed anyway to interpret the chains, so they may as well start now.
+const MANY: usize = 256;
+
+/// What is made ahead for as long as features are gone through.
+struct Foreseen(Arc<Ahead>);
+
+impl Drop for Foreseen {
+    fn drop(&mut self) {
+        self.0.end();
     }
 }
 

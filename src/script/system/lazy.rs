@@ -14,16 +14,20 @@ use mlua::{Function, LightUserData, Lua, MetaMethod, Table, UserData, UserDataRe
 use rustc_hash::FxHashMap;
 
 use super::source::{Maker, nested};
-use crate::objects::{Key, Shape, Table as ValueTable, Value};
+use crate::objects::{Ahead, Key, Shape, Table as ValueTable, Value};
 use crate::script::library::Library;
+use crate::script::machine::native;
 use crate::sources::{Attribute, Kind, Layer};
 
-/// Its address is the key of the feature's number.
-static NUMBER: u8 = 0;
-/// The field of the metatable that holds the layer.
-const LAYER: &str = "__layer";
-/// The field that only the metatable of features has, not that of geometries.
-const IS_FEATURE: &str = "__feature";
+/// What tables of features and their metatables know of themselves, under keys that no script has: addresses, which
+/// take no text to be made of at each question.
+static KEYS: [u8; 3] = [0; 3];
+/// The feature's number.
+const NUMBER: usize = 0;
+/// In the metatable: the layer.
+const LAYER: usize = 1;
+/// In the metatable of features, not in that of geometries.
+const IS_FEATURE: usize = 2;
 
 /// The functions with which a script sees a table as it is.
 const PEEKING: [&str; 6] = ["pairs", "next", "rawget", "getmetatable", "clone", "foreach"];
@@ -41,6 +45,8 @@ pub(crate) fn peeks(text: &str) -> bool {
 /// A layer as Lua holds it, with its attributes by name.
 struct Held {
     layer: Arc<Layer>,
+    /// What makes plans of its polygons before they are asked for, if something does.
+    ahead: Option<Arc<Ahead>>,
     names: FxHashMap<String, usize>,
 }
 
@@ -52,18 +58,25 @@ struct Kept(Rc<Maker>);
 /// Marks a machine whose script could see the difference.
 pub(crate) struct Eager(pub Arc<crate::script::Session>);
 
-fn key() -> LuaValue {
-    LuaValue::LightUserData(LightUserData((&raw const NUMBER).cast_mut().cast::<c_void>()))
+fn key(what: usize) -> LuaValue {
+    LuaValue::LightUserData(LightUserData((&raw const KEYS[what]).cast_mut().cast::<c_void>()))
 }
+
+/// The registry's name for what the prelude knows of such features.
+pub(crate) const UNREAD: &str = "burgeon unread";
 
 /// What the features of a layer have in common.
 pub(super) struct Unread {
-    feature: Table,
-    geometry: Table,
+    /// Makes the feature with a number.
+    make: Function,
 }
 
 /// What the features of `layer` have in common; `None` where they have to be tables from the beginning.
-pub(super) fn unread(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Option<Unread>> {
+pub(super) fn unread(
+    lua: &Lua,
+    layer: &Arc<Layer>,
+    ahead: Option<&Arc<Ahead>>,
+) -> mlua::Result<Option<Unread>> {
     if lua.app_data_ref::<Eager>().is_none_or(|eager| eager.0.peeks()) {
         return Ok(None);
     }
@@ -71,11 +84,11 @@ pub(super) fn unread(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Option<Unrea
         lua.set_app_data(Kept(Rc::new(Maker::new(lua)?)));
     }
     let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
-    let held = lua.create_userdata(Held { layer: Arc::clone(layer), names })?;
+    let held = lua.create_userdata(Held { layer: Arc::clone(layer), ahead: ahead.cloned(), names })?;
     let functions: Table = lua.named_registry_value(LAZY)?;
     let make = |kind: &str| -> mlua::Result<Table> {
         let metatable = lua.create_table()?;
-        metatable.raw_set(LAYER, &held)?;
+        metatable.raw_set(key(LAYER), &held)?;
         for event in [MetaMethod::Index, MetaMethod::Iter] {
             let function: Function = functions.raw_get(format!("{kind}{}", event.name()))?;
             metatable.raw_set(event.name(), function)?;
@@ -84,9 +97,11 @@ pub(super) fn unread(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Option<Unrea
     };
     let (feature, geometry) = (make("feature")?, make("geometry")?);
     geometry.set_readonly(true);
-    feature.raw_set(IS_FEATURE, true)?;
+    feature.raw_set(key(IS_FEATURE), true)?;
     feature.set_readonly(true);
-    Ok(Some(Unread { feature, geometry }))
+    let unread: Function = lua.named_registry_value(UNREAD)?;
+    native(lua, &unread)?;
+    Ok(Some(Unread { make: unread.call((key(NUMBER), feature, geometry))? }))
 }
 
 /// The registry's name for the functions of such metatables.
@@ -147,42 +162,40 @@ fn walk(
 
 impl Unread {
     /// The feature with this number, from 0, whose table knows nothing but its geometry.
-    pub(super) fn feature(&self, lua: &Lua, index: usize) -> mlua::Result<Table> {
-        let geometry = lua.create_table_with_capacity(0, 1)?;
-        geometry.raw_set(key(), index)?;
-        geometry.set_metatable(Some(self.geometry.clone()))?;
-        geometry.set_readonly(true);
-        let feature = lua.create_table_with_capacity(0, 2)?;
-        feature.raw_set(key(), index)?;
-        feature.raw_set("geometry", geometry)?;
-        feature.set_metatable(Some(self.feature.clone()))?;
-        feature.set_readonly(true);
-        Ok(feature)
+    pub(super) fn feature(&self, index: usize) -> mlua::Result<Table> {
+        self.make.call(index)
     }
 }
 
 fn held(table: &Table) -> Option<UserDataRef<Held>> {
-    table.metatable()?.raw_get(LAYER).ok()
+    table.metatable()?.raw_get(key(LAYER)).ok()
 }
 
 /// Whether this is what the features of a layer have in common.
 pub(super) fn is_feature(metatable: &Table) -> bool {
-    matches!(metatable.raw_get(IS_FEATURE), Ok(true))
+    matches!(metatable.raw_get(key(IS_FEATURE)), Ok(true))
+}
+
+/// Whether this stands for a geometry, which has no fields before someone asks for them.
+pub(crate) fn is_unread_geometry(table: &Table) -> bool {
+    table.metatable().is_some_and(|metatable| {
+        matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_))) && !is_feature(&metatable)
+    })
 }
 
 /// The geometry that a table with this metatable stands for.
 pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<Shape> {
-    let held: UserDataRef<Held> = metatable.raw_get(LAYER).ok()?;
+    let held: UserDataRef<Held> = metatable.raw_get(key(LAYER)).ok()?;
     if is_feature(metatable) {
         return None;
     }
-    Shape::new(&held.layer, table.raw_get(key()).ok()?)
+    Shape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.ahead.as_ref())
 }
 
 /// What a table with this metatable knows of its feature, if it stands for one: its geometry and its other fields.
 pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Shape, Vec<(Key, Value)>)> {
-    let held: UserDataRef<Held> = metatable.raw_get(LAYER).ok()?;
-    let index: usize = table.raw_get(key()).ok()?;
+    let held: UserDataRef<Held> = metatable.raw_get(key(LAYER)).ok()?;
+    let index: usize = table.raw_get(key(NUMBER)).ok()?;
     let feature = held.layer.features.get(index)?;
     let name = |name: &str| Key::Name(name.into());
     let own = feature.attributes.iter().map(|(index, value)| (&held.layer.names[*index], value));
@@ -200,7 +213,7 @@ pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Shape, Vec
         .collect();
     fields.push((name("id"), Value::Text(feature.id.as_str().into())));
     fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((Shape::new(&held.layer, index)?, fields))
+    Some((Shape::new(&held.layer, index, held.ahead.as_ref())?, fields))
 }
 
 /// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.
@@ -240,7 +253,7 @@ fn kept(table: &Table, name: &str, make: impl FnOnce() -> mlua::Result<LuaValue>
 /// A field of a feature.
 fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     let Some(held) = held(table) else { return Ok(LuaValue::Nil) };
-    let index: usize = table.raw_get(key())?;
+    let index: usize = table.raw_get(key(NUMBER))?;
     let Some(feature) = held.layer.features.get(index) else { return Ok(LuaValue::Nil) };
     let text = |text: &str| lua.create_string(text).map(LuaValue::String);
     match name {

@@ -7,7 +7,9 @@ mod lazy;
 mod source;
 
 pub(crate) use handle::SystemHandle;
-pub(crate) use lazy::{Eager, feature_of, install as install_lazy, peeks, shape_of};
+pub(crate) use lazy::{
+    Eager, UNREAD, feature_of, install as install_lazy, is_unread_geometry, peeks, shape_of,
+};
 pub(crate) use source::{GEOMETRY, SourceHandle};
 
 use std::sync::Arc;

@@ -7,7 +7,7 @@ use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMeth
 
 use super::lazy;
 use crate::error::{Error, Result, nearest};
-use crate::objects::{Features, Table as ValueTable, Value};
+use crate::objects::{Ahead, Features, Table as ValueTable, Value};
 use crate::script::machine::{Machine, native, write_column};
 use crate::sources::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
 
@@ -69,7 +69,7 @@ impl SourceHandle {
             (Self::List(_), name) if FIELDS.contains(&name) => Ok(LuaValue::Nil),
             (Self::Layer(layer), "features") => {
                 let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
-                let names = Names::new(lua, layer)?;
+                let names = Names::new(lua, layer, None)?;
                 // All of it stays, so looking for what does not would be in vain.
                 let collects = lua.gc_is_running();
                 lua.gc_stop();
@@ -162,6 +162,14 @@ pub(super) fn shown(source: &AnyUserData) -> String {
     }
 }
 
+/// The layer that a source is; none for a list that the script made.
+pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<Layer>> {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => Some(Arc::clone(layer)),
+        _ => None,
+    }
+}
+
 /// The features that a source left out, and why.
 pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
     match source.borrow::<SourceHandle>().as_deref() {
@@ -173,9 +181,11 @@ pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
 /// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
 ///
 /// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
+/// What they need may be made `ahead`.
 pub(super) fn each_feature(
     lua: &Lua,
     source: &AnyUserData,
+    ahead: Option<&Arc<Ahead>>,
     mut each: impl FnMut(usize, LuaValue, Option<&str>) -> Result<()>,
     failed: impl Fn(mlua::Error) -> Error,
 ) -> Result<()> {
@@ -192,7 +202,8 @@ pub(super) fn each_feature(
         }
         SourceHandle::Layer(layer) => Arc::clone(layer),
     };
-    let (maker, names) = (Maker::new(lua).map_err(&failed)?, Names::new(lua, &layer).map_err(&failed)?);
+    let (maker, names) =
+        (Maker::new(lua).map_err(&failed)?, Names::new(lua, &layer, ahead).map_err(&failed)?);
     for (index, feature) in layer.features.iter().enumerate() {
         let made = match &kept {
             LuaValue::Table(kept) => kept.raw_get(index + 1),
@@ -213,13 +224,13 @@ struct Names {
 }
 
 impl Names {
-    fn new(lua: &Lua, layer: &Arc<Layer>) -> mlua::Result<Self> {
+    fn new(lua: &Lua, layer: &Arc<Layer>, ahead: Option<&Arc<Ahead>>) -> mlua::Result<Self> {
         let text = |text: &str| lua.create_string(text);
         Ok(Self {
             attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
             layer: text(&layer.name)?,
             fixed: [text("id")?, text("geometry")?, text("layer")?],
-            unread: lazy::unread(lua, layer)?,
+            unread: lazy::unread(lua, layer, ahead)?,
         })
     }
 }
@@ -248,7 +259,7 @@ impl Maker {
 
     fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
         if let Some(unread) = &names.unread {
-            return unread.feature(lua, index);
+            return unread.feature(index);
         }
         let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
         for (index, value) in feature.attributes.iter() {
