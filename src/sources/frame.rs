@@ -4,6 +4,7 @@ use std::borrow::Cow;
 
 use proj4rs::Proj;
 use proj4rs::transform::transform;
+use rayon::prelude::*;
 
 use super::table::{Feature, Table};
 use crate::error::{Error, Result};
@@ -160,7 +161,8 @@ impl Frame {
         let crs = table.crs.clone()?;
         check_degrees(&crs, table)?;
         let passage = self.passage(&crs)?;
-        for feature in &mut table.features {
+        let shown = &table.shown;
+        let place = |feature: &mut Feature| -> Option<Error> {
             for point in feature.geometry.points_mut() {
                 let was = *point;
                 [point[0], point[1]] = passage.enter([was[0], was[1]]);
@@ -168,9 +170,9 @@ impl Frame {
                 if point.iter().all(|value| value.abs() <= FARTHEST) {
                     continue;
                 }
-                let where_ = format!("feature {} of {}", feature.id, table.shown);
+                let where_ = format!("feature {} of {shown}", feature.id);
                 let at = format!("{}, {}", was[0], was[1]);
-                return Err(if point.iter().all(|value| value.is_finite()) {
+                return Some(if point.iter().all(|value| value.is_finite()) {
                     Error::new(format!("{where_} lies more than 2,000 km from the middle, at {at}")).help(
                         "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
                     )
@@ -183,8 +185,9 @@ impl Frame {
                     .help(REMEDY)
                 });
             }
-        }
-        Ok(())
+            None
+        };
+        table.features.par_iter_mut().find_map_first(place).map_or(Ok(()), Err)
     }
 }
 
@@ -233,25 +236,26 @@ fn normal(definition: &str) -> Vec<&str> {
 
 /// Refuses coordinates that are no numbers, and degrees that there are not.
 fn check_degrees(crs: &Crs, table: &Table) -> Result<()> {
-    let wrong = |feature: &Feature, why: &str| {
-        Err(Error::new(format!("feature {} of {} {why}", feature.id, table.shown)))
-    };
+    let wrong =
+        |feature: &Feature, why: &str| Error::new(format!("feature {} of {} {why}", feature.id, table.shown));
     let geographic = crs.is_geographic();
-    for feature in &table.features {
+    let look = |feature: &Feature| -> Option<Error> {
         for point in feature.geometry.points() {
             if point.iter().any(|value| !value.is_finite()) {
-                return wrong(feature, "has a coordinate that is not a finite number")
-                    .map_err(|error| error.help("repair the file, or leave the feature out"));
+                let error = wrong(feature, "has a coordinate that is not a finite number");
+                return Some(error.help("repair the file, or leave the feature out"));
             }
             if geographic && (point[0].abs() > 360.0 || point[1].abs() > 90.0) {
                 let what = format!("lies at {}, {}, which is no longitude and latitude", point[0], point[1]);
-                return wrong(feature, &what).map_err(|error| {
-                    error.help("name the coordinate system of the file: source(file, { crs = 3067 })")
-                });
+                let error = wrong(feature, &what);
+                return Some(
+                    error.help("name the coordinate system of the file: source(file, { crs = 3067 })"),
+                );
             }
         }
-    }
-    Ok(())
+        None
+    };
+    table.features.par_iter().find_map_first(look).map_or(Ok(()), Err)
 }
 
 /// The middle of the features' bounds. Longitudes are counted on from the first one, across the date line.

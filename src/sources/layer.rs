@@ -1,5 +1,7 @@
 //! A layer in metres, as scripts get it.
 
+use rayon::prelude::*;
+
 use super::frame::Frame;
 use super::table::{Feature, Table};
 use crate::error::{Error, Result};
@@ -39,8 +41,8 @@ impl Layer {
             None => frame.insert(Frame::new(&table)?),
         };
         frame.bring(&mut table)?;
-        let mut bounds = [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
-        for feature in &mut table.features {
+        let nothing = || [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let turned = table.features.par_iter_mut().map(|feature| {
             if let super::Geometry::Polygon(rings) = &mut feature.geometry {
                 for (index, ring) in rings.iter_mut().enumerate() {
                     if (doubled_area(ring) > 0.0) != (index == 0) {
@@ -48,13 +50,9 @@ impl Layer {
                     }
                 }
             }
-            for point in feature.geometry.points() {
-                for axis in 0..3 {
-                    bounds[0][axis] = bounds[0][axis].min(point[axis]);
-                    bounds[1][axis] = bounds[1][axis].max(point[axis]);
-                }
-            }
-        }
+            feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [*point; 2]))
+        });
+        let bounds = turned.reduce(nothing, around);
         Ok(Self {
             name: table.layer,
             shown: table.shown,
@@ -67,6 +65,14 @@ impl Layer {
             refused: table.refused,
         })
     }
+}
+
+/// The bounds around two; which of the two zeros a coordinate is does not depend on their order.
+fn around([a, b]: [[f64; 3]; 2], [c, d]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    let each = |choose: fn(f64, f64) -> f64, a: [f64; 3], b: [f64; 3]| {
+        std::array::from_fn(|axis| choose(a[axis], b[axis]) + 0.0)
+    };
+    [each(f64::min, a, c), each(f64::max, b, d)]
 }
 
 /// Twice the area within a ring (m²), negative if it is clockwise.
