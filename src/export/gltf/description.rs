@@ -196,11 +196,11 @@ impl<'a> Description<'a> {
         let Whole { accessors, before, meshes, nodes, after } = self.whole();
         let written = || -> serde_json::Result<Vec<Vec<u8>>> {
             let mut text = vec![b"{".to_vec()];
-            text.extend(list("accessors", accessors, Accessor::put)?);
+            text.extend(list("accessors", accessors)?);
             text.push(fields(&before)?);
             text.push(b",".to_vec());
-            text.extend(list("meshes", meshes, Mesh::put)?);
-            text.extend(list("nodes", nodes, |node, out| serde_json::to_writer(out, node))?);
+            text.extend(list("meshes", meshes)?);
+            text.extend(list("nodes", nodes)?);
             text.push(fields(&after)?);
             text.push(b"}".to_vec());
             Ok(text)
@@ -209,81 +209,18 @@ impl<'a> Description<'a> {
     }
 }
 
-impl Accessor {
-    /// Adds it as text: what serde would write, in a third of the time, since its names need no look at each letter.
-    fn put(&self, out: &mut Vec<u8>) -> serde_json::Result<()> {
-        field(out, b"{\"bufferView\":", &self.buffer_view)?;
-        if self.byte_offset > 0 {
-            field(out, b",\"byteOffset\":", &self.byte_offset)?;
-        }
-        field(out, b",\"count\":", &self.count)?;
-        field(out, b",\"componentType\":", &self.component_type)?;
-        if self.normalized {
-            out.extend(b",\"normalized\":true");
-        }
-        field(out, b",\"type\":", &self.kind)?;
-        if let Some(min) = &self.min {
-            field(out, b",\"min\":", min)?;
-        }
-        if let Some(max) = &self.max {
-            field(out, b",\"max\":", max)?;
-        }
-        out.push(b'}');
-        Ok(())
-    }
-}
-
-impl Mesh<'_> {
-    /// Adds it as text, as [`Accessor::put`] does.
-    fn put(&self, out: &mut Vec<u8>) -> serde_json::Result<()> {
-        out.push(b'{');
-        if !self.name.is_empty() {
-            field(out, b"\"name\":", &self.name)?;
-            out.push(b',');
-        }
-        out.extend(b"\"primitives\":[");
-        for (index, primitive) in self.primitives.iter().enumerate() {
-            if index > 0 {
-                out.push(b',');
-            }
-            let Attributes { positions, normals, tex_coords } = &primitive.attributes;
-            field(out, b"{\"attributes\":{\"POSITION\":", positions)?;
-            field(out, b",\"NORMAL\":", normals)?;
-            if let Some(tex_coords) = tex_coords {
-                field(out, b",\"TEXCOORD_0\":", tex_coords)?;
-            }
-            field(out, b"},\"indices\":", &primitive.indices)?;
-            if let Some(material) = &primitive.material {
-                field(out, b",\"material\":", material)?;
-            }
-            out.push(b'}');
-        }
-        out.extend(b"]}");
-        Ok(())
-    }
-}
-
-/// Adds the name of a field, with all that stands before its value, and the value.
-fn field(out: &mut Vec<u8>, name: &[u8], value: &(impl Serialize + ?Sized)) -> serde_json::Result<()> {
-    out.extend(name);
-    serde_json::to_writer(out, value)
-}
-
 /// A list with its name and a comma behind it, unless it is empty. All threads write it.
-fn list<T: Sync>(
-    name: &str,
-    items: &[T],
-    put: impl Fn(&T, &mut Vec<u8>) -> serde_json::Result<()> + Sync,
-) -> serde_json::Result<Vec<Vec<u8>>> {
+fn list<T: Serialize + Sync>(name: &str, items: &[T]) -> serde_json::Result<Vec<Vec<u8>>> {
     if items.is_empty() {
         return Ok(Vec::new());
     }
     let mut text = vec![format!("\"{name}\":").into_bytes()];
     let chunks = items.par_chunks(CHUNK).enumerate().map(|(number, chunk)| {
-        let mut text = Vec::with_capacity(chunk.len() * 128);
-        for (index, item) in chunk.iter().enumerate() {
-            text.push(if number + index == 0 { b'[' } else { b',' });
-            put(item, &mut text)?;
+        let mut text = serde_json::to_vec(chunk)?;
+        // Between two chunks there is a comma in place of the end of one list and the beginning of another.
+        text.pop();
+        if number > 0 {
+            text[0] = b',';
         }
         Ok(text)
     });
@@ -329,29 +266,12 @@ mod tests {
                 max: None,
             });
         }
-        description.accessor(Accessor {
-            buffer_view: 3,
-            byte_offset: 7,
-            count: 2,
-            component_type: ComponentType::I8,
-            normalized: true,
-            kind: Type::Vec2,
-            min: None,
-            max: Some([-1.5, 0.0, 1e-9]),
-        });
-        for (name, material, tex_coords) in [("", None, None), ("\"b\\", Some(json::Index::new(4)), Some(9))]
-        {
-            let attributes = Attributes { positions: 0, normals: 1, tex_coords };
-            let primitive = Primitive { attributes, indices: 5, material };
-            description.meshes.push(Mesh { name, primitives: vec![primitive; 2] });
-        }
         description.node(Node { name: "a", feature: Some(Feature { feature: "way/1" }), ..Node::default() });
         let mut pretty = Vec::new();
         description.write_pretty(&mut pretty).unwrap();
         let said: serde_json::Value = serde_json::from_slice(&pretty).unwrap();
         assert_eq!(description.text().unwrap().concat(), said.to_string().into_bytes());
-        assert_eq!(said["accessors"].as_array().unwrap().len(), 2 * CHUNK + 2);
-        assert_eq!(said["meshes"][1]["name"], "\"b\\");
+        assert_eq!(said["accessors"].as_array().unwrap().len(), 2 * CHUNK + 1);
         assert_eq!(said["accessors"][1]["type"], "VEC3");
         assert_eq!(said["nodes"][0]["extras"]["feature"], "way/1");
     }
