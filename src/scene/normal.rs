@@ -48,7 +48,7 @@ impl Normal {
         let fold = |it: Vec4, other: Vec4| Vec4::select(below, (1.0 - other.abs()).copysign(it), it);
         let whole = |it: Vec4| (it * MOST + ROUNDING).to_array();
         let (x, y) = (whole(fold(x, y)), whole(fold(y, x)));
-        std::array::from_fn(|i| Self::from_sums([x[i], y[i]]))
+        [0, 1, 2, 3].map(|i| Self::from_sums([x[i], y[i]]))
     }
 
     /// The direction of a vector (x, y, z) of any length; upwards if it has none.

@@ -54,7 +54,7 @@ tell("metatable of a system", getmetatable(lsystem()) or nil)
 tell("metatable of print", getmetatable(print :: any))
 tell("metatable of a number", getmetatable(1 :: any))
 tell("rawget", rawget(m, "random"))
-local t = setmetatable({}, { __gc = function() error("collected") end, __mode = "k" })
+local t = setmetatable({}, { __gc = function() error("collected") end })
 t = nil :: any
 for i = 1, 100000 do local garbage = { i } end
 "#,
