@@ -77,12 +77,14 @@ fn bounds(mesh: &Mesh, measured: &[Measured]) -> Option<(DVec3, DVec3)> {
 
 /// The triangles of `part` with three different corners; the others cover nothing and are not written.
 pub(super) fn triangles(part: &Part) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
-    shown(&part.triangles)
+    shown(part.triangles.iter())
 }
 
 /// Those of `triangles` with three different corners.
-pub(super) fn shown(triangles: &[[u32; 3]]) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
-    triangles.iter().copied().filter(|[a, b, c]| a != b && b != c && c != a)
+pub(super) fn shown<T: Iterator<Item = [u32; 3]> + Clone>(
+    triangles: T,
+) -> impl Iterator<Item = [u32; 3]> + Clone + use<T> {
+    triangles.filter(|[a, b, c]| a != b && b != c && c != a)
 }
 
 /// The parts of `mesh` that have a triangle.
@@ -124,7 +126,7 @@ fn check_part(scene: &Scene, part: &Part) -> Result<Measured, String> {
     if part.normals.len() != count || part.uvs.len() != count {
         return Err("has not one normal and one texture coordinate for each point".into());
     }
-    if part.triangles.iter().flatten().any(|corner| *corner as usize >= count) {
+    if part.triangles.iter().flatten().any(|corner| corner as usize >= count) {
         return Err("has a triangle at a point that is not there".into());
     }
     let usable = |number: f32| f64::from(number.abs()) <= LARGEST;
@@ -169,7 +171,7 @@ mod tests {
             refused(|it| it.meshes[0].parts[0].material = 9), @r#"mesh 0 ("box") uses material 9, which is not there"#
         );
         insta::assert_snapshot!(
-            refused(|it| it.meshes[0].parts[0].triangles[0][1] = 99),
+            refused(|it| it.meshes[0].parts[0].triangles.push([0, 99, 1])),
             @r#"mesh 0 ("box") has a triangle at a point that is not there"#
         );
         insta::assert_snapshot!(

@@ -144,13 +144,14 @@ fn odd() -> Scene {
     let mesh = &mut scene.meshes[0];
     let mut roof = mesh.parts[0].clone();
     roof.material = 1;
-    roof.triangles = mesh.parts[0].triangles.split_off(6);
+    roof.triangles = mesh.parts[0].triangles.iter().skip(6).collect();
+    mesh.parts[0].triangles.truncate(6);
     roof.normals[0] = Vec3::ZERO.into();
     roof.normals[1] = Vec3::NAN.into();
     roof.normals[2] = Vec3::splat(1e-30).into();
     roof.triangles.push([3, 3, 4]);
     mesh.parts.push(roof.clone());
-    mesh.parts.push(Part { material: 2, triangles: vec![[1, 1, 1]], ..roof.clone() });
+    mesh.parts.push(Part { material: 2, triangles: vec![[1, 1, 1]].into(), ..roof.clone() });
     mesh.parts.push(Part { material: 2, ..Part::default() });
     scene.meshes.push(Mesh { name: "never shown".into(), parts: vec![roof], ..Mesh::default() });
     scene.meshes.push(Mesh::default());

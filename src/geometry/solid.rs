@@ -120,7 +120,7 @@ mod tests {
     /// The tetrahedron between the origin and the three unit points, facing outwards.
     fn tetrahedron() -> Part {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
-        let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]];
+        let triangles = vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]].into();
         Part { positions, triangles, ..Part::default() }
     }
 
@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn a_missing_triangle_leaves_its_three_edges_open() {
         let mut solid = tetrahedron();
-        solid.triangles.pop();
+        solid.triangles.truncate(3);
         let found = check([&solid]);
         assert_eq!(found.open.len(), 3);
         assert!(found.inconsistent.is_empty() && !found.is_closed());
@@ -144,7 +144,8 @@ mod tests {
     #[test]
     fn a_turned_triangle_is_inconsistent_with_its_three_neighbours() {
         let mut solid = tetrahedron();
-        solid.triangles[3].reverse();
+        solid.triangles.truncate(3);
+        solid.triangles.push([3, 2, 1]);
         let found = check([&solid]);
         assert_eq!((found.open.len(), found.inconsistent.len()), (0, 3));
     }
@@ -154,7 +155,8 @@ mod tests {
         let mut a = tetrahedron();
         let mut b = tetrahedron();
         b.positions[0] = Vec3::new(-0.0, 0.0, -0.0);
-        b.triangles = a.triangles.split_off(2);
+        b.triangles = a.triangles.iter().skip(2).collect();
+        a.triangles.truncate(2);
         assert!(!check([&a]).is_closed());
         assert!(check([&a, &b]).is_solid());
     }

@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3, Vec2, Vec3, Vec3A, Vec4};
 
 use super::ring::MOST;
 use crate::error::{Error, Result};
-use crate::scene::{Normal, Part};
+use crate::scene::{Normal, Part, Triangles};
 
 /// The greatest number of sides of a strand.
 pub const MOST_SIDES: usize = 64;
@@ -127,12 +127,13 @@ impl Strand {
             self.radius = radius;
             return Ok(());
         }
-        if part.positions.len() > u32::MAX as usize - 4 * self.vertices() {
-            return Err(Error::new(format!("a mesh holds no more than {} vertices", u32::MAX))
+        let most = part.positions.len().max(part.triangles.len());
+        if most > Triangles::MOST_BEFORE - 8 * self.vertices() {
+            return Err(Error::new(format!("a mesh holds no more than {} vertices or triangles", u32::MAX))
                 .help("draw fewer branches or fewer sides, or begin another mesh"));
         }
-        // For the most that one place and the end can add: two rings and two caps.
-        part.make_room(4 * self.vertices(), 6 * self.vertices());
+        // For the most that one place and the end can add: two rings and two caps, or the faces of two tips.
+        part.make_room(4 * self.vertices(), 2 * self.vertices());
         let direction = way / length;
         let slope = (self.radius - radius) / length;
         let (ring, tip) = match self.last {
@@ -260,10 +261,7 @@ impl Strand {
     fn faces(&self, part: &mut Part, from: u32, to: u32, from_tip: bool, to_tip: bool) {
         let sides = self.circle.sides() as u32;
         match (from_tip, to_tip) {
-            (false, false) => {
-                part.triangles.extend((0..sides).map(|i| [from + i, from + i + 1, to + i + 1]));
-                part.triangles.extend((0..sides).map(|i| [from + i, to + i + 1, to + i]));
-            }
+            (false, false) => part.triangles.band(from, to, sides as u16),
             (true, _) => part.triangles.extend((0..sides).map(|i| [from + i, to + i + 1, to + i])),
             (false, true) => part.triangles.extend((0..sides).map(|i| [from + i, from + i + 1, to + i])),
         }
@@ -278,8 +276,7 @@ impl Strand {
         part.positions.extend_from_within(ring as usize..ring as usize + sides);
         part.normals.extend(std::iter::repeat_n(Normal::from(normal), sides));
         part.uvs.extend(self.circle.points.iter().map(|point| *point * Vec2::new(mirrored, 1.0) * radius));
-        let fan = (1..sides as u32 - 1).map(|i| [first, first + i, first + i + 1]);
-        part.triangles.extend(fan.map(|[a, b, c]| if start { [a, c, b] } else { [a, b, c] }));
+        part.triangles.fan(first, sides as u16, start);
     }
 
     /// The vertices of a ring: one for each side, and the first again where the texture ends.

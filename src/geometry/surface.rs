@@ -295,7 +295,7 @@ impl<'a> Surface<'a> {
         let behind = vertices + offset as usize;
         part.normals[behind..].iter_mut().for_each(|normal| *normal = -*normal);
         part.uvs[behind..].iter_mut().for_each(|uv| uv.x = -uv.x);
-        let turned = part.triangles[triangles..].to_vec();
+        let turned: Vec<_> = part.triangles.range(triangles..part.triangles.len()).collect();
         let added = turned.len();
         part.triangles.extend(turned.into_iter().map(|[a, b, c]| [a + offset, c + offset, b + offset]));
         let behind: Vec<_> = self.reached.iter().map(|(station, count)| (*station, count + added)).collect();

@@ -136,7 +136,7 @@ mod tests {
 
     /// Two instances of a mesh whose first part has nothing to show and whose second has a triangle without area.
     fn scene() -> (Scene, Layout) {
-        let part = |triangles: Vec<[u32; 3]>| Part { triangles, ..Part::default() };
+        let part = |triangles: Vec<[u32; 3]>| Part { triangles: triangles.into(), ..Part::default() };
         let mesh = Mesh {
             parts: vec![part(vec![[1, 1, 2]]), part(vec![[0, 1, 2], [3, 3, 4], [0, 2, 3], [1, 2, 3]])],
             ..Mesh::default()

@@ -32,7 +32,7 @@ impl PointDistance for Triangle {
 impl Nearest {
     /// The triangles of `parts`.
     pub(super) fn new(parts: &[Part]) -> Self {
-        let corners = |part: &Part, triangle: &[u32; 3]| {
+        let corners = |part: &Part, triangle: [u32; 3]| {
             Triangle(triangle.map(|corner| part.positions[corner as usize].as_dvec3()))
         };
         let triangles = parts.iter().flat_map(|part| part.triangles.iter().map(|it| corners(part, it)));

@@ -148,11 +148,11 @@ impl<'a> Stage<'a> {
             }
             let from = (numbers.start.max(draw.first) - draw.first) as usize;
             let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
-            let triangles = &draw.part.triangles[from..to];
+            let triangles = draw.part.triangles.range(from..to);
             let matrix = to_double(view) * draw.exact;
             let turn = |point: &glam::Vec3| project(matrix.transform_point3(point.as_dvec3()).as_vec3a());
             let (least, most) =
-                triangles.iter().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(*i), b.max(*i)));
+                triangles.clone().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
             let (least, most) = (least as usize, most as usize);
             let positions = &draw.part.positions;
             // Neighbours share corners, so moving the whole range is cheaper unless the range is sparse.
@@ -213,8 +213,7 @@ fn check(scene: &Scene) -> Result<()> {
                 return Err(broken(message));
             }
             let corners = part.positions.len();
-            if let Some(corner) = part.triangles.iter().flatten().find(|corner| **corner as usize >= corners)
-            {
+            if let Some(corner) = part.triangles.iter().flatten().find(|corner| *corner as usize >= corners) {
                 return Err(broken(format!("mesh {number} names corner {corner} of {corners}")));
             }
         }

@@ -65,7 +65,7 @@ impl Surface {
     ) -> Self {
         let (draw, index) = stage.find(number);
         let part = draw.part;
-        let triangle = part.triangles[index].map(|i| i as usize);
+        let triangle = part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
         let [a, b, c] = triangle.map(|i| draw.place.transform_point3a(Vec3A::from(part.positions[i])));
         let corners = Corners { a, ab: b - a, ac: c - a, cross: (b - a).cross(c - a) };
         let exact = corners.weights(camera.eye, camera.ray(place[0], place[1]));

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::{Normal, Origin};
+use super::{Normal, Origin, Triangles};
 use crate::memory::make_room;
 
 /// A shape: parts that share one coordinate system, one part for each material.
@@ -33,7 +33,7 @@ pub struct Part {
     /// Texture coordinates in metres, u to the right and v upwards; an exporter divides by the texture's size.
     pub uvs: Vec<Vec2>,
     /// Indices of corners.
-    pub triangles: Vec<[u32; 3]>,
+    pub triangles: Triangles,
 }
 
 impl Part {
@@ -51,7 +51,7 @@ impl Part {
         make_room(&mut self.positions, vertices);
         make_room(&mut self.normals, vertices);
         make_room(&mut self.uvs, vertices);
-        make_room(&mut self.triangles, triangles);
+        self.triangles.make_room(triangles);
     }
 }
 

@@ -7,11 +7,13 @@ mod material;
 mod mesh;
 mod normal;
 mod shared;
+mod triangles;
 
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
 pub use normal::Normal;
 pub use shared::Shared;
+pub use triangles::{Iter, Triangles};
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;

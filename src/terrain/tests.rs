@@ -161,7 +161,7 @@ fn the_reference_view_has_the_heights_of_the_paper() {
 fn open_edges(part: &Part) -> Vec<[DVec3; 2]> {
     let mut edges: BTreeMap<[[u32; 3]; 2], i32> = BTreeMap::new();
     let bits = |at: u32| part.positions[at as usize].to_array().map(f32::to_bits);
-    for [a, b, c] in part.triangles.iter().copied() {
+    for [a, b, c] in &part.triangles {
         for [from, to] in [[a, b], [b, c], [c, a]].map(|edge| edge.map(bits)) {
             *edges.entry([from, to]).or_default() += 1;
             *edges.entry([to, from]).or_default() -= 1;

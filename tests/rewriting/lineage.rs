@@ -26,7 +26,8 @@ tower:derive()
 
 fn corners(scene: &Scene, mesh: usize, part: usize, triangle: usize) -> [glam::DVec3; 3] {
     let part = &scene.meshes[mesh].parts[part];
-    part.triangles[triangle].map(|corner| part.positions[corner as usize].as_dvec3())
+    let triangle = part.triangles.get(triangle).expect("it is there");
+    triangle.map(|corner| part.positions[corner as usize].as_dvec3())
 }
 
 #[test]

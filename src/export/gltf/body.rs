@@ -269,10 +269,10 @@ impl Block<'_> {
             Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
             Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
             Self::Short(part, _, first) => {
-                let shown = shown(&part.triangles[range]);
+                let shown = shown(part.triangles.range(range));
                 put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));
             }
-            Self::Long(part, _) => put(out, shown(&part.triangles[range])),
+            Self::Long(part, _) => put(out, shown(part.triangles.range(range))),
             Self::Places(welded) => out.extend_from_slice(bytemuck::cast_slice(&welded.positions[range])),
             Self::FaceNormals(welded) => put(out, welded.normals[range].iter().map(|it| byte_normal(*it))),
             Self::ShortCorners(welded, first) => {

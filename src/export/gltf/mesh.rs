@@ -232,5 +232,5 @@ pub(super) fn accessor(
 /// highlights wander over smooth surfaces.
 fn is_faceted(part: &Part) -> bool {
     let normal = |corner: u32| part.normals[corner as usize];
-    part.triangles.iter().all(|[a, b, c]| normal(*a) == normal(*b) && normal(*b) == normal(*c))
+    part.triangles.iter().all(|[a, b, c]| normal(a) == normal(b) && normal(b) == normal(c))
 }

@@ -29,7 +29,7 @@ impl Welded {
     /// `part` with as few vertices as are easily found; `None` if one of its triangles is not flat.
     pub(super) fn of(part: &Part) -> Option<Self> {
         let normal = |corner: u32| part.normals[corner as usize];
-        let is_flat = |[a, b, c]: &[u32; 3]| normal(*a) == normal(*b) && normal(*b) == normal(*c);
+        let is_flat = |[a, b, c]: [u32; 3]| normal(a) == normal(b) && normal(b) == normal(c);
         part.triangles.iter().all(is_flat).then(|| {
             let mut welding = Welding::new(part);
             let mut rest = triangles(part).peekable();

@@ -115,7 +115,7 @@ mod tests {
         for (square, view) in [(0, View::East), (3, View::South), (1, View::West), (4, View::Plan)] {
             let mut one = scene.clone();
             one.meshes[0].parts[0].triangles =
-                scene.meshes[0].parts[0].triangles[square * 2..square * 2 + 2].to_vec();
+                scene.meshes[0].parts[0].triangles.range(square * 2..square * 2 + 2).collect();
             assert_eq!(View::of(&check(&one).unwrap()), view, "{square}");
         }
         scene.instances[0].transform.matrix3.z_axis.z = 30.0;

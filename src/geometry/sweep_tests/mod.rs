@@ -51,7 +51,7 @@ fn least_cosine(part: &Part) -> f64 {
         let [a, b, c] = triangle.map(|corner| part.positions[corner as usize].as_dvec3());
         let face = (b - a).cross(c - a).normalize();
         for corner in triangle {
-            let normal = part.normals[*corner as usize].vector().as_dvec3();
+            let normal = part.normals[corner as usize].vector().as_dvec3();
             assert!((normal.length() - 1.0).abs() < 1e-5, "{normal}");
             least = least.min(face.dot(normal));
         }
@@ -62,7 +62,7 @@ fn least_cosine(part: &Part) -> f64 {
 /// The area (m²) of the triangles on the texture; negative parts are mirrored.
 fn texture_area(part: &Part) -> f64 {
     let corner = |corner: u32| part.uvs[corner as usize].as_dvec2();
-    let area = |[a, b, c]: &[u32; 3]| (corner(*b) - corner(*a)).perp_dot(corner(*c) - corner(*a)) / 2.0;
+    let area = |[a, b, c]: [u32; 3]| (corner(b) - corner(a)).perp_dot(corner(c) - corner(a)) / 2.0;
     part.triangles.iter().map(area).sum()
 }
 

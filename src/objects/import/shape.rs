@@ -41,7 +41,7 @@ pub(super) fn part(
         let (a, b, c) = (corners[at], corners[at + 1], corners[at + 2]);
         if at.is_multiple_of(2) { [a, b, c] } else { [b, a, c] }
     };
-    let triangles: Vec<[u32; 3]> = match primitive.mode {
+    let mut triangles: Vec<[u32; 3]> = match primitive.mode {
         Checked::Valid(Mode::Triangles) => {
             corners.chunks_exact(3).map(|corners| [corners[0], corners[1], corners[2]]).collect()
         }
@@ -51,12 +51,12 @@ pub(super) fn part(
             .collect(),
         _ => return Ok(None),
     };
-    let mut part = Part { positions, triangles, ..Part::default() };
     // What has no area shows nothing, and has no normal.
-    part.triangles.retain(|triangle| area_vector(&part.positions, triangle).length_squared() > 0.0);
-    if part.triangles.is_empty() {
+    triangles.retain(|triangle| area_vector(&positions, *triangle).length_squared() > 0.0);
+    if triangles.is_empty() {
         return Ok(None);
     }
+    let mut part = Part { positions, triangles: triangles.into(), ..Part::default() };
     let uvs = match attribute(Semantic::TexCoords(set)) {
         Some(uvs) => Some(bytes.column::<2>(root, uvs)?),
         None => None,
@@ -94,7 +94,7 @@ pub(super) fn part(
 fn keep_used(part: &mut Part) {
     let mut places = vec![u32::MAX; part.positions.len()];
     for corner in part.triangles.iter().flatten() {
-        places[*corner as usize] = 0;
+        places[corner as usize] = 0;
     }
     let used: Vec<usize> = (0..places.len()).filter(|point| places[*point] == 0).collect();
     if used.len() == places.len() {
@@ -106,9 +106,7 @@ fn keep_used(part: &mut Part) {
     part.positions = used.iter().map(|point| part.positions[*point]).collect();
     part.normals = used.iter().map(|point| part.normals[*point]).collect();
     part.uvs = used.iter().map(|point| part.uvs[*point]).collect();
-    for corner in part.triangles.iter_mut().flatten() {
-        *corner = places[*corner as usize];
-    }
+    part.triangles = part.triangles.iter().map(|triangle| triangle.map(|it| places[it as usize])).collect();
 }
 
 fn z_up(vector: Vec3) -> Vec3 {
@@ -116,7 +114,7 @@ fn z_up(vector: Vec3) -> Vec3 {
 }
 
 /// A vector out of a triangle, as long as twice its area.
-fn area_vector(positions: &[Vec3], triangle: &[u32; 3]) -> Vec3 {
+fn area_vector(positions: &[Vec3], triangle: [u32; 3]) -> Vec3 {
     let [a, b, c] = triangle.map(|corner| positions[corner as usize]);
     (b - a).cross(c - a)
 }
@@ -127,7 +125,7 @@ fn take_normals(part: &mut Part, normals: &[[f32; 3]]) {
     for triangle in &part.triangles {
         let vector = area_vector(&part.positions, triangle);
         for corner in triangle {
-            around[*corner as usize] += vector;
+            around[corner as usize] += vector;
         }
     }
     let unit = |(normal, around): (&[f32; 3], Vec3)| {

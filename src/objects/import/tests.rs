@@ -88,7 +88,7 @@ fn what_was_written_is_read_again() {
         // Repetitions of the image, which was 0.5 m by 0.25 m.
         assert_eq!(part.uvs[2], Vec2::new(4.0, 8.0));
         for [a, b, c] in &part.triangles {
-            let [a, b, c] = [a, b, c].map(|corner| part.positions[*corner as usize]);
+            let [a, b, c] = [a, b, c].map(|corner| part.positions[corner as usize]);
             assert!((b - a).cross(c - a).dot(part.normals[0].vector()) >= 0.0);
         }
         // And what was read can be written.

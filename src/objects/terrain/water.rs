@@ -89,7 +89,7 @@ impl Water {
             positions: positions.to_vec(),
             normals: vec![Normal::Z; 4],
             uvs: uvs.map(|uv| Vec2::new(uv.x, uv.y)).to_vec(),
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
         };
         Some((part, bytes, across))
     }

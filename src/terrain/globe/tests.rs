@@ -63,7 +63,7 @@ fn check_closed(globe: &Globe, error: f64) -> usize {
         for part in [&pieces.land, &pieces.water] {
             let point = |at: u32| pieces.origin + part.positions[at as usize].as_dvec3();
             let bits = |at: u32| point(at).to_array().map(|number| (number + 0.0).to_bits());
-            for [a, b, c] in part.triangles.iter().copied() {
+            for [a, b, c] in &part.triangles {
                 count += 1;
                 volume += point(a).cross(point(b)).dot(point(c)) / 6.0;
                 assert!((point(b) - point(a)).cross(point(c) - point(a)).dot(point(a)) > 0.0);

@@ -30,7 +30,7 @@ fn hip() -> Shape {
 /// A model as large as a box from 0 to `size` (m).
 fn model(size: DVec3) -> Arc<Model> {
     let positions = [DVec3::ZERO, size.with_y(0.0).with_z(0.0), size].map(|at| at.as_vec3()).to_vec();
-    let part = Part { positions, triangles: vec![[0, 1, 2]], ..Part::default() };
+    let part = Part { positions, triangles: vec![[0, 1, 2]].into(), ..Part::default() };
     let mesh = Mesh { parts: vec![part], ..Mesh::default() };
     let instance = Instance {
         mesh: 0,
