@@ -218,24 +218,25 @@ impl Strand {
         let first = part.positions.len() as u32;
         let (x, y) = (self.side, normal.cross(self.side));
         let radius = self.radius.max(self.least_radius());
-        let [wide_x, wide_y] = [x, y].map(|axis| (axis + mitre.0 * (mitre.1 * mitre.0.dot(axis))) * radius);
+        let wide = |axis: Vec3A| (axis + mitre.0 * (mitre.1 * mitre.0.dot(axis))) * radius;
+        let (wide_x, wide_y) = (wide(x), wide(y));
         let shrink = 1.0 / (1.0 + slope * slope).sqrt();
-        let [flat_x, flat_y, lift] = [x, y, normal * slope].map(|axis| axis * shrink);
+        let (flat_x, flat_y, lift) = (x * shrink, y * shrink, normal * slope * shrink);
         let Circle { points, fours, perimeter } = self.circle;
         let around = perimeter * radius;
         let (left, step) = (-around / 2.0, around / points.len() as f32);
         let (position, v) = (self.position.as_vec3a(), self.v as f32);
         let place = |point: &Vec2| Vec3::from(position + (wide_x * point.x + wide_y * point.y));
         part.positions.extend(points.iter().map(place));
-        for ([x, y], points) in fours.iter().zip(points.chunks(4)) {
+        for [x, y] in fours {
             let along = |axis: usize| lift[axis] + (flat_x[axis] * *x + flat_y[axis] * *y);
-            let normals = Normal::four([0, 1, 2].map(along));
-            part.normals.extend_from_slice(&normals[..points.len()]);
+            part.normals.extend_from_slice(&Normal::four([along(0), along(1), along(2)]));
         }
-        // The last is the first again, with another place in the texture.
+        // The last is the first again, with another place in the texture; the last four may have been too many.
         let at = first as usize;
-        part.positions.extend_from_within(at..=at);
-        part.normals.extend_from_within(at..=at);
+        part.normals.truncate(at + points.len());
+        part.positions.push(part.positions[at]);
+        part.normals.push(part.normals[at]);
         part.uvs.extend((0..self.vertices()).map(|i| Vec2::new(left + step * i as f32, v)));
         first
     }
