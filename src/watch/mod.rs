@@ -58,11 +58,14 @@ enum Signal {
     Over,
 }
 
+/// What is told why only polling is left.
+type Complain = dyn FnOnce(&str) + Send;
+
 struct Watcher {
     files: Files,
     folders: Folders,
     /// Is told once that only polling is left.
-    complain: Option<Box<dyn FnOnce(&str) + Send>>,
+    complain: Option<Box<Complain>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
 }

@@ -132,29 +132,29 @@ fn a_file_that_is_not_there_yet_is_told_when_it_comes() {
     trial.tells_nothing();
 }
 
+#[track_caller]
+fn polls(make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>, why: &str) {
+    let (complainer, complaints) = channel();
+    let trial = Trial::by(make, move |why| complainer.send(why.to_owned()).unwrap());
+    for text in ["two", "six", "ten"] {
+        trial.write("sub/a.lua", text);
+        assert!(trial.tells("sub/a.lua") < Duration::from_millis(900));
+    }
+    fs::rename(trial.at("sub"), trial.at("away")).unwrap();
+    trial.tells("sub/a.lua");
+    fs::rename(trial.at("away"), trial.at("sub")).unwrap();
+    trial.tells("sub/a.lua");
+    trial.write("sub/b.lua", "another file");
+    trial.tells_nothing();
+    let told: Vec<String> = complaints.try_iter().collect();
+    assert_eq!(told.len(), 1);
+    assert!(told[0].contains("ten times a second") && told[0].contains(why), "{told:?}");
+}
+
 #[test]
 fn files_are_polled_where_folders_cannot_be_watched_and_that_is_told_once() {
-    let none = |_: Handler| Err(notify::Error::generic("no watcher"));
-    let full = |_: Handler| Ok(Box::new(Full) as AnyWatcher);
-    let makes: [(fn(Handler) -> notify::Result<AnyWatcher>, &str); 2] =
-        [(none, "no watcher"), (full, "OS file watch limit reached")];
-    for (make, why) in makes {
-        let (complainer, complaints) = channel();
-        let trial = Trial::by(make, move |why| complainer.send(why.to_owned()).unwrap());
-        for text in ["two", "six", "ten"] {
-            trial.write("sub/a.lua", text);
-            assert!(trial.tells("sub/a.lua") < Duration::from_millis(900));
-        }
-        fs::rename(trial.at("sub"), trial.at("away")).unwrap();
-        trial.tells("sub/a.lua");
-        fs::rename(trial.at("away"), trial.at("sub")).unwrap();
-        trial.tells("sub/a.lua");
-        trial.write("sub/b.lua", "another file");
-        trial.tells_nothing();
-        let told: Vec<String> = complaints.try_iter().collect();
-        assert_eq!(told.len(), 1);
-        assert!(told[0].contains("ten times a second") && told[0].contains(why), "{told:?}");
-    }
+    polls(|_| Err(notify::Error::generic("no watcher")), "no watcher");
+    polls(|_| Ok(Box::new(Full)), "OS file watch limit reached");
 }
 
 #[test]
