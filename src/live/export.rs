@@ -22,6 +22,15 @@ pub(super) struct Download {
     pub bytes: Vec<u8>,
 }
 
+/// What `make` gives, made by threads of its own: a run that is under way shares the others, and is not to wait until a
+/// large picture is done.
+pub(super) fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().thread_name(|_| "burgeon export".to_owned()).build() {
+        Ok(pool) => pool.install(make),
+        Err(_) => make(),
+    }
+}
+
 /// `scene` as a file called `name`, whose extension picks the format. What comes as several files is one archive.
 pub(super) fn download(scene: &Scene, name: &str, picture: &Picture) -> Result<Download> {
     let format = Format::of(name.as_ref())?;
@@ -100,6 +109,31 @@ fn media_type(format: Format) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_run_does_not_wait_for_an_export() {
+        use std::sync::Mutex;
+        use std::sync::mpsc::channel;
+        use std::time::Duration;
+
+        let (begun, begins) = channel();
+        let (ended, ends) = channel();
+        let (begun, ends) = (Mutex::new(begun), Mutex::new(ends));
+        let export = std::thread::spawn(move || {
+            apart(|| {
+                rayon::broadcast(|_| {
+                    begun.lock().unwrap().send(()).unwrap();
+                    // All of its threads are busy until the run has ended.
+                    ends.lock().unwrap().recv_timeout(Duration::from_secs(5)).is_ok()
+                })
+            })
+        });
+        begins.recv().unwrap();
+        let busy = rayon::current_num_threads();
+        rayon::join(|| (), || ());
+        (0..busy).for_each(|_| ended.send(()).unwrap());
+        assert!(export.join().unwrap().into_iter().all(|ended| ended));
+    }
 
     #[test]
     fn a_query_wishes_a_picture_of_at_most_the_largest_size() {

@@ -16,7 +16,7 @@ use crate::error::{Error, Result};
 use crate::export::gltf::{self, Layout};
 use crate::presets::Presets;
 use crate::run::{Run, run_session};
-use crate::script::{Limits, Options, Session};
+use crate::script::{Limits, Options, Session, make_ready};
 use crate::watch::Watch;
 
 /// How often pages are told how far a run has come.
@@ -88,6 +88,9 @@ pub(super) fn work(state: &State, watch: &Watch) {
         if let Some(inputs) = wants_last_step(state) {
             let found = catch_unwind(AssertUnwindSafe(|| last_step(state, &inputs)));
             note_last_step(state, inputs, found.ok().flatten());
+        }
+        if state.lock().due.is_none() {
+            make_ready();
         }
     }
 }

@@ -48,6 +48,13 @@ struct Stamp {
     file: u64,
 }
 
+impl Stamp {
+    /// Whether the file may have been written again since, in the same moment as far as times of files tell.
+    fn is_new(&self) -> bool {
+        self.modified.is_some_and(|modified| modified + GRAIN > SystemTime::now())
+    }
+}
+
 /// A file that holds something else than before.
 pub(super) struct Found {
     path: PathBuf,
@@ -119,11 +126,13 @@ impl Files {
         late
     }
 
-    /// The files that hold something else than before; `by_stamp` trusts times and sizes where they are the same.
+    /// The files that hold something else than before; `by_stamp` trusts times and sizes where they are the same, unless
+    /// they are so new that the next save may have the same ones.
     pub(super) fn changed(&self, by_stamp: bool) -> Vec<Found> {
         let mut found = Vec::new();
         for (path, seen) in &self.known {
-            if by_stamp && seen.content != Content::Unknown && stamp_of(path) == seen.stamp {
+            let settled = seen.content != Content::Unknown && !seen.stamp.is_some_and(|stamp| stamp.is_new());
+            if by_stamp && settled && stamp_of(path) == seen.stamp {
                 continue;
             }
             let now = look(path);

@@ -5,22 +5,36 @@ use std::fs::{self, Metadata};
 use std::path::{Path, PathBuf};
 
 use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
-use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher};
+use notify::{Event, EventKind, RecursiveMode, Watcher};
 
 use super::files::Files;
 
+/// Takes what a watcher tells.
+pub(super) type Handler = Box<dyn FnMut(notify::Result<Event>) + Send>;
+
+/// A watcher of some kind.
+pub(super) type AnyWatcher = Box<dyn Watcher + Send>;
+
+/// The watcher that suits the system best.
+pub(super) fn recommended(handler: Handler) -> notify::Result<AnyWatcher> {
+    Ok(Box::new(notify::recommended_watcher(handler)?))
+}
+
 /// Watches the folders of files, and the folders above, where a deleted folder appears again.
 pub(super) struct Folders {
-    watcher: Result<RecommendedWatcher, String>,
+    watcher: Result<AnyWatcher, String>,
     /// The watched folders. Another one of the same name is not watched yet.
     watched: BTreeMap<PathBuf, u64>,
     failure: Option<String>,
 }
 
 impl Folders {
-    /// Watches no folder yet. `seen` gets the paths that something has happened to, none if any may be meant, and
-    /// whether it is what comes at the end of a save.
-    pub(super) fn new(seen: impl Fn(Vec<PathBuf>, bool) + Send + 'static) -> Self {
+    /// Watches no folder yet, by what `make` makes. `seen` gets the paths that something has happened to, none if any may
+    /// be meant, and whether it is what comes at the end of a save.
+    pub(super) fn new(
+        make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
+        seen: impl Fn(Vec<PathBuf>, bool) + Send + 'static,
+    ) -> Self {
         let handle = move |event: notify::Result<Event>| match event {
             Ok(event) if event.need_rescan() => seen(Vec::new(), false),
             Ok(event) if matters(event.kind) && !event.paths.is_empty() => {
@@ -31,7 +45,7 @@ impl Folders {
             // Something was lost.
             Err(_) => seen(Vec::new(), false),
         };
-        let watcher = notify::recommended_watcher(handle).map_err(|error| error.to_string());
+        let watcher = make(Box::new(handle)).map_err(|error| error.to_string());
         let failure = watcher.as_ref().err().cloned();
         Self { watcher, watched: BTreeMap::new(), failure }
     }

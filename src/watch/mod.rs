@@ -16,13 +16,11 @@ use std::time::{Duration, Instant, SystemTime};
 
 use crate::error::{Error, Result};
 use files::Files;
-use folders::Folders;
+use folders::{AnyWatcher, Folders, Handler};
 
-/// How long it must be quiet after an event until files are compared: editors save in several steps.
+/// How long it must be quiet after an event until files are compared, unless it is what comes at the end of a save:
+/// editors save in several steps.
 const QUIET: Duration = Duration::from_millis(10);
-
-/// The same after an event that comes at the end of a save.
-const SETTLED: Duration = Duration::from_millis(2);
 
 /// The longest time from an event to a comparison, however busy the folder is.
 const LONGEST: Duration = Duration::from_millis(100);
@@ -60,9 +58,14 @@ enum Signal {
     Over,
 }
 
+/// What is told why only polling is left.
+type Complain = dyn FnOnce(&str) + Send;
+
 struct Watcher {
     files: Files,
     folders: Folders,
+    /// Is told once that only polling is left.
+    complain: Option<Box<Complain>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
 }
@@ -72,24 +75,33 @@ impl Watch {
     pub fn new(
         files: Vec<PathBuf>,
         changed: impl Fn(Change) + Send + 'static,
-        complain: impl Fn(&str) + Send + 'static,
+        complain: impl FnOnce(&str) + Send + 'static,
+    ) -> Result<Self> {
+        Self::by(folders::recommended, files, changed, complain)
+    }
+
+    /// As [`Watch::new`], by the watcher that `make` makes.
+    fn by(
+        make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
+        files: Vec<PathBuf>,
+        changed: impl Fn(Change) + Send + 'static,
+        complain: impl FnOnce(&str) + Send + 'static,
     ) -> Result<Self> {
         let (signals, inbox) = channel();
         let events = signals.clone();
+        let seen = move |paths, settled| {
+            // The watcher may be over already.
+            let _ = events.send(Signal::Event(paths, Instant::now(), settled));
+        };
         let mut watcher = Watcher {
             files: Files::default(),
-            folders: Folders::new(move |paths, settled| {
-                // The watcher may be over already.
-                let _ = events.send(Signal::Event(paths, Instant::now(), settled));
-            }),
+            folders: Folders::new(make, seen),
+            complain: Some(Box::new(complain)),
             first: None,
         };
         watcher.files.follow(files.into_iter().map(|path| (path, true)).collect(), None);
         let watch = move || {
-            watcher.folders.cover(&watcher.files);
-            if let Some(why) = watcher.folders.failure() {
-                complain(&format!("cannot watch folders, so files are read ten times a second: {why}"));
-            }
+            watcher.cover();
             watcher.work(&inbox, &changed);
         };
         let thread = std::thread::Builder::new()
@@ -118,6 +130,16 @@ impl Drop for Watch {
 }
 
 impl Watcher {
+    /// Watches the folders that the files need.
+    fn cover(&mut self) {
+        self.folders.cover(&self.files);
+        if let Some(why) = self.folders.failure()
+            && let Some(complain) = self.complain.take()
+        {
+            complain(&format!("cannot watch folders, so files are looked at ten times a second: {why}"));
+        }
+    }
+
     fn work(mut self, inbox: &Receiver<Signal>, changed: &dyn Fn(Change)) {
         let mut due: Option<Instant> = None;
         loop {
@@ -127,7 +149,7 @@ impl Watcher {
                 Ok(Signal::Event(paths, at, settled)) => {
                     if self.files.concerned_by(&paths) {
                         let first = *self.first.get_or_insert(at);
-                        let quiet = if settled { SETTLED } else { QUIET };
+                        let quiet = if settled { Duration::ZERO } else { QUIET };
                         due = Some((Instant::now() + quiet).min(first + LONGEST));
                     }
                 }
@@ -136,11 +158,11 @@ impl Watcher {
                         self.first.get_or_insert_with(Instant::now);
                         due = Some(Instant::now());
                     }
-                    self.folders.cover(&self.files);
+                    self.cover();
                 }
                 Err(RecvTimeoutError::Timeout) => {
                     // Events that come while files are read lead to another look.
-                    self.folders.cover(&self.files);
+                    self.cover();
                     due = self.look(changed);
                 }
                 Ok(Signal::Over) | Err(RecvTimeoutError::Disconnected) => return,
@@ -150,8 +172,7 @@ impl Watcher {
 
     /// Compares the files and tells of a change. Returns when to look again, if what is there looks unfinished.
     fn look(&mut self, changed: &dyn Fn(Change)) -> Option<Instant> {
-        let without_event = self.first.is_none() && self.folders.failure().is_none();
-        let found = self.files.changed(without_event);
+        let found = self.files.changed(self.first.is_none());
         if found.is_empty() {
             self.first = None;
             return None;
@@ -163,7 +184,7 @@ impl Watcher {
         self.first = None;
         let files = self.files.accept(found);
         // What has just been named may lie elsewhere than before, if it is a link.
-        self.folders.cover(&self.files);
+        self.cover();
         changed(Change { files, at: first });
         None
     }

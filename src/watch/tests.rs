@@ -13,15 +13,40 @@ struct Trial {
     watch: Watch,
 }
 
+/// A system that has no more folders to watch.
+struct Full;
+
+impl notify::Watcher for Full {
+    fn new<F: notify::EventHandler>(_: F, _: notify::Config) -> notify::Result<Self> {
+        Ok(Self)
+    }
+    fn watch(&mut self, _: &Path, _: notify::RecursiveMode) -> notify::Result<()> {
+        Err(notify::Error::new(notify::ErrorKind::MaxFilesWatch))
+    }
+    fn unwatch(&mut self, _: &Path) -> notify::Result<()> {
+        Ok(())
+    }
+    fn kind() -> notify::WatcherKind {
+        notify::WatcherKind::NullWatcher
+    }
+}
+
 impl Trial {
     fn new() -> Self {
+        Self::by(folders::recommended, |why| panic!("{why}"))
+    }
+
+    fn by(
+        make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
+        complain: impl FnOnce(&str) + Send + 'static,
+    ) -> Self {
         let folder = tempfile::tempdir().unwrap();
         fs::create_dir(folder.path().join("sub")).unwrap();
         fs::write(folder.path().join("sub/a.lua"), "one").unwrap();
         let (teller, told) = channel();
         let files = vec![folder.path().join("sub/a.lua")];
         let changed = move |change| teller.send(change).unwrap();
-        let watch = Watch::new(files, changed, |why| panic!("{why}")).unwrap();
+        let watch = Watch::by(make, files, changed, complain).unwrap();
         // The first folders are watched when this has been answered.
         watch.follow(vec![(folder.path().join("sub/a.lua"), true)], SystemTime::now());
         std::thread::sleep(Duration::from_millis(20));
@@ -104,5 +129,41 @@ fn a_file_that_is_not_there_yet_is_told_when_it_comes() {
     trial.watch.follow(vec![(path("deep/er/b.lua"), true)], SystemTime::now());
     std::thread::sleep(QUIET);
     trial.write("sub/a.lua", "not watched any more");
+    trial.tells_nothing();
+}
+
+#[track_caller]
+fn polls(make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>, why: &str) {
+    let (complainer, complaints) = channel();
+    let trial = Trial::by(make, move |why| complainer.send(why.to_owned()).unwrap());
+    for text in ["two", "six", "ten"] {
+        trial.write("sub/a.lua", text);
+        assert!(trial.tells("sub/a.lua") < Duration::from_millis(900));
+    }
+    fs::rename(trial.at("sub"), trial.at("away")).unwrap();
+    trial.tells("sub/a.lua");
+    fs::rename(trial.at("away"), trial.at("sub")).unwrap();
+    trial.tells("sub/a.lua");
+    trial.write("sub/b.lua", "another file");
+    trial.tells_nothing();
+    let told: Vec<String> = complaints.try_iter().collect();
+    assert_eq!(told.len(), 1);
+    assert!(told[0].contains("ten times a second") && told[0].contains(why), "{told:?}");
+}
+
+#[test]
+fn files_are_polled_where_folders_cannot_be_watched_and_that_is_told_once() {
+    polls(|_| Err(notify::Error::generic("no watcher")), "no watcher");
+    polls(|_| Ok(Box::new(Full)), "OS file watch limit reached");
+}
+
+#[test]
+fn changes_without_an_event_are_found_in_time() {
+    let silent = |_: Handler| Ok(Box::new(notify::NullWatcher) as AnyWatcher);
+    let trial = Trial::by(silent, |why| panic!("{why}"));
+    for text in ["two", "six"] {
+        trial.write("sub/a.lua", text);
+        assert!(trial.tells("sub/a.lua") < ROUND * 2);
+    }
     trial.tells_nothing();
 }

@@ -317,6 +317,21 @@ test("shading modes and themes are other pictures; the camera stays across saves
     assert.ok(different(light, await pixels(page)) > 10_000);
   }));
 
+test("what the status line tells fits into it at any width", () =>
+  open(BLOCKS, async ({ page }) => {
+    await drawn(page);
+    for (const width of [1200, 1000, 800, 762, 420]) {
+      await page.setViewportSize({ width, height: 700 });
+      await page.waitForTimeout(100);
+      const [end, ends] = await page.evaluate(() => {
+        const status = document.querySelector(".status");
+        const ends = [...status.children].map((child) => child.getBoundingClientRect().right);
+        return [status.getBoundingClientRect().right, ends];
+      });
+      assert.ok(Math.max(...ends) <= end, `${width}: ${ends} in ${end}`);
+    }
+  }));
+
 test("a face has one shade though its corners belong to other faces too", () =>
   open(BLOCKS, async ({ page }) => {
     await drawn(page);

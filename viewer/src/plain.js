@@ -1,7 +1,7 @@
 // Surfaces of frames that must come soon on machines without a graphics card: light is found for each vertex, not for
 // each pixel, and there are no shadows and highlights. Otherwise they look like the materials they stand for.
 
-import { Color, ShaderMaterial } from 'three';
+import { Color, ShaderMaterial, Vector3 } from 'three';
 import { SUN } from './light.js';
 
 const VARYINGS = /* glsl */ `
@@ -18,7 +18,7 @@ EACH vec3 back;
 const VERTEX = /* glsl */ `
 #include <common>
 #include <tonemapping_pars_fragment>
-uniform vec3 diffuse, emissive, sun, sunColor, skyColor, groundColor;
+uniform vec3 sun, up, bright, middle, above;
 ${VARYINGS}
 #ifdef PICTURE
 varying vec2 at;
@@ -31,14 +31,11 @@ vec3 encoded(vec3 color) {
 }
 
 vec3 seen(vec3 normal) {
-  vec3 up = viewMatrix[1].xyz;
-  vec3 light = mix(groundColor, skyColor, 0.5 + 0.5 * dot(normal, up));
-  light += sunColor * max(dot(normal, (viewMatrix * vec4(sun, 0.0)).xyz), 0.0);
-  light *= RECIPROCAL_PI * diffuse;
+  vec3 light = middle + above * dot(normal, up) + bright * max(dot(normal, sun), 0.0);
 #ifdef PICTURE
   return light;
 #else
-  return encoded(CustomToneMapping(light + emissive));
+  return encoded(CustomToneMapping(light));
 #endif
 }
 
@@ -87,22 +84,24 @@ void main() {
 export class Plain {
   #light;
   #made = new WeakMap();
+  /** Towards the sun and up, as the camera sees them. */
+  #seen = { sun: { value: new Vector3() }, up: { value: new Vector3() } };
 
   /** `light` is that of the fine materials. */
-  constructor({ sky, sun }) {
-    const color = ({ intensity }, own) => ({ value: own.clone().multiplyScalar(intensity) });
-    this.#light = {
-      sun: { value: SUN },
-      sunColor: color(sun, sun.color),
-      skyColor: color(sky, sky.color),
-      groundColor: color(sky, sky.groundColor),
-    };
+  constructor(light) {
+    this.#light = light;
+  }
+
+  /** Looks from where `camera` is. */
+  follow(camera) {
+    this.#seen.sun.value.copy(SUN).transformDirection(camera.matrixWorldInverse);
+    this.#seen.up.value.set(0, 1, 0).transformDirection(camera.matrixWorldInverse);
   }
 
   /** What stands for `material`; it goes when that goes. */
   of(material) {
     if (!this.#made.has(material)) {
-      const made = plain(material, this.#light);
+      const made = plain(material, this.#light, this.#seen);
       material.addEventListener('dispose', () => made.dispose());
       this.#made.set(material, made);
     }
@@ -110,18 +109,26 @@ export class Plain {
   }
 }
 
-function plain(material, light) {
-  const { map, color, metalness, emissive, emissiveIntensity, opacity, alphaTest } = material;
+function plain(material, { sky, sun }, seen) {
+  const { map, color, metalness, emissiveIntensity, opacity, alphaTest } = material;
   const { side, transparent, depthWrite, defines } = material;
+  // Whatever is the same for all vertices is multiplied here: each of them has a price.
+  const surface = new Color().copy(color).multiplyScalar((1 - metalness) / Math.PI);
+  const lit = (light, own) => new Color().copy(own).multiplyScalar(light.intensity).multiply(surface);
+  const [high, low] = [lit(sky, sky.color), lit(sky, sky.groundColor)];
+  const middle = high.clone().add(low).multiplyScalar(0.5);
+  const emissive = new Color().copy(material.emissive).multiplyScalar(emissiveIntensity);
   return new ShaderMaterial({
     vertexShader: VERTEX,
     fragmentShader: FRAGMENT,
     defines: { ...defines, ...(map && { PICTURE: '' }) },
     uniforms: {
-      ...light,
+      ...seen,
+      bright: { value: lit(sun, sun.color) },
+      middle: { value: map ? middle : middle.add(emissive) },
+      above: { value: high.sub(low).multiplyScalar(0.5) },
       map: { value: map },
-      diffuse: { value: new Color().copy(color).multiplyScalar(1 - metalness) },
-      emissive: { value: new Color().copy(emissive).multiplyScalar(emissiveIntensity) },
+      emissive: { value: emissive },
       opacity: { value: opacity },
       least: { value: alphaTest },
     },

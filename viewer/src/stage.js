@@ -35,6 +35,8 @@ const REST = 160; // ms without a change after which the finer frame is drawn
 const FEW = 10_000; // triangles below which a new model's first frame is a finer one without a graphics card, too
 const SLOW = 40; // ms for a frame above which moving frames are plainer
 const SMOOTH = 22; // ms for a plain frame below which the finer one may have more pixels than the page
+const STILL = 400; // ms after the finer frame until one with smooth edges follows, if its own are not
+const MANY = 150_000; // triangles from which none follows without a graphics card
 
 export class Stage {
   model = new Model();
@@ -155,6 +157,8 @@ export class Stage {
     this.#rest = setTimeout(() => {
       if (this.camera.moving) return;
       this.#draw(true, true);
+      if (this.slow && this.renderer.getPixelRatio() === 1 && this.model.triangles < MANY)
+        this.#rest = setTimeout(() => this.#draw(true, true, 2), STILL);
     }, REST);
   }
 
@@ -174,7 +178,9 @@ export class Stage {
     this.#scale(ratio ?? this.#ratio(still));
     const grid = this.ground.follow(camera, height, renderer.getPixelRatio());
     const [center, radius] = this.#extent(grid);
-    renderer.render(this.scene, camera.place(center, radius));
+    const from = camera.place(center, radius);
+    this.plain.follow(from);
+    renderer.render(this.scene, from);
     // What follows takes its time while the graphics card works.
     renderer.getContext().flush();
     for (const listener of this.#drawn) listener();
@@ -202,7 +208,7 @@ export class Stage {
     if (!this.slow) return Math.min(devicePixelRatio, 2);
     if (still) return this.#cost < SMOOTH ? 2 : 1;
     this.#coarse = this.#cost > (this.#coarse ? SLOW / 2 : SLOW);
-    return this.#coarse ? 0.6 : 1;
+    return this.#coarse ? 0.5 : 1;
   }
 
   #scale(ratio) {

@@ -88,6 +88,9 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
         {
             report::error(&error, command.json());
         }
+        if !now.is_stale() {
+            burgeon::script::make_ready();
+        }
         if changes.recv().is_err() || now.over.load(Ordering::Acquire) {
             return Ok(());
         }

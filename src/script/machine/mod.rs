@@ -1,10 +1,12 @@
 //! A virtual machine: a sandboxed Luau with the hot path's Lua side, one in each thread.
 
+mod begun;
 mod current;
 mod host;
 mod prelude;
 mod watchdog;
 
+pub use begun::make_ready;
 pub(crate) use current::{Current, Flusher};
 pub(crate) use host::native;
 pub use watchdog::Watchdog;
@@ -15,13 +17,14 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use mlua::chunk::{ChunkMode, Compiler};
-use mlua::{Buffer, Function, Lua, LuaOptions, StdLib};
+use mlua::{Buffer, Function, Lua};
 
 use super::library::{Library, Quiet};
 use super::session::Session;
 use crate::derive::Crew;
 use crate::error::{Error, Place, Result};
 use crate::rules::{Symbol, Symbols};
+use begun::Begun;
 use prelude::Prelude;
 
 /// The name of the machine's own Lua code in tracebacks.
@@ -50,24 +53,12 @@ impl Machine {
     /// A machine with the standard library loaded and everything else locked away.
     pub(crate) fn new(session: &Arc<Session>, watchdog: &Watchdog, crew: Crew) -> Result<Rc<Self>> {
         let build = || -> mlua::Result<Rc<Self>> {
-            let libraries = StdLib::MATH
-                | StdLib::STRING
-                | StdLib::TABLE
-                | StdLib::BIT
-                | StdLib::UTF8
-                | StdLib::BUFFER
-                | StdLib::COROUTINE
-                | StdLib::VECTOR
-                | StdLib::OS
-                | StdLib::DEBUG;
-            let lua = Lua::new_with(libraries, LuaOptions::default())?;
-            lua.set_compiler(compiler());
-            lua.enable_jit(true);
+            let Begun { lua, prelude } = Begun::take()?;
             let guard = watchdog.register(&lua);
             let current = Rc::new(Current::new(Arc::clone(session)));
             let library = Rc::new(Library::default());
             let host = host::functions(&lua, &current, &library)?;
-            let prelude = Prelude::load(&lua, host)?;
+            let prelude = Prelude::new(&prelude.call(host)?)?;
             let session = Arc::clone(session);
             Ok(Rc::new(Self {
                 _guard: guard,

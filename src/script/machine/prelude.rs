@@ -57,12 +57,16 @@ pub(crate) struct Prelude {
 }
 
 impl Prelude {
-    pub(crate) fn load(lua: &Lua, host: Table) -> mlua::Result<Self> {
+    /// `prelude.luau` as bytecode: called with the functions that Rust gives to it, it returns what [`Prelude::new`] takes.
+    pub(super) fn chunk(lua: &Lua) -> mlua::Result<Function> {
         lua.enable_jit(false);
         let chunk = lua.load(COMPILED.as_slice()).set_name("=burgeon").set_mode(ChunkMode::Binary);
         let chunk = chunk.into_function();
         lua.enable_jit(true);
-        let table: Table = chunk?.call(host)?;
+        chunk
+    }
+
+    pub(super) fn new(table: &Table) -> mlua::Result<Self> {
         Ok(Self {
             constructor: table.get("constructor")?,
             driver: table.get("driver")?,
