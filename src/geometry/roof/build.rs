@@ -17,7 +17,7 @@ pub struct Cover {
     pub patches: Vec<Patch>,
     /// How far (m) it juts out.
     pub overhang: f64,
-    /// Whether it was to have gables and could not get them.
+    /// Whether it was to have gables, other than along neighbours, that it could not get.
     pub hipped: bool,
 }
 
@@ -35,6 +35,8 @@ enum Over {
 const FACTORS: [f64; 4] = [1.0, 0.5, 0.25, 0.0];
 /// Corners of gables turn by more than this (radians).
 const SHARP: f64 = 65.0 * std::f64::consts::PI / 180.0;
+/// A gable may go on by this (m) beyond the ends of its wall.
+const BEYOND: f64 = 0.05;
 /// What part of a gable's height a Dutch hip leaves.
 const BELOW_HIP: f64 = 0.5;
 
@@ -52,12 +54,7 @@ impl Shape {
             Surface::Shed => Ok(self.shed(walls, base)),
             Surface::Flat(None) => Ok(self.plate(walls, base)),
             Surface::Flat(_) => self.sloped(walls, base, Ends::Hips, &[]),
-            Surface::Sloped(ends, _) if party.is_empty() => self.sloped(walls, base, ends, &[]),
-            Surface::Sloped(ends, _) => self
-                .sloped(walls, base, ends, party)
-                .ok()
-                .filter(|cover| !cover.hipped)
-                .map_or_else(|| self.sloped(walls, base, ends, &[]), Ok),
+            Surface::Sloped(ends, _) => self.sloped(walls, base, ends, party),
         }
     }
 
@@ -94,21 +91,13 @@ impl Shape {
     }
 
     /// A roof with a slope over each edge, but for gables.
+    ///
+    /// Where a gable would go on beyond its wall, over other parts of the roof, there is a slope as well.
     fn sloped(&self, walls: &[Vec<DVec2>], base: f64, ends: Ends, party: &[usize]) -> Result<Cover> {
-        let count = walls.iter().map(Vec::len).sum();
-        let mut over = vec![Over::Slope; count];
-        for edge in party {
-            over[*edge] = Over::Flush;
-        }
-        let mut hip = None;
-        if ends != Ends::Hips {
-            let hip = hip.insert(Skeleton::new(walls, &vec![Pace::default(); count])?);
-            let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
-            let kind = if raked { Over::Raked } else { Over::Flush };
-            for edge in gables(walls, hip, party) {
-                over[edge] = kind;
-            }
-        }
+        let even = vec![Pace::default(); walls.iter().map(Vec::len).sum()];
+        let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::new(walls, &even)?) };
+        let mut party = party.to_vec();
+        let mut over = self.over(walls, hip.as_ref(), ends, &party);
         let mut hipped = false;
         loop {
             let (outer, overhang) = self.outline(walls, &over);
@@ -118,13 +107,17 @@ impl Shape {
             let known = if hips { hip.take() } else { None };
             let skeleton = match known.map_or_else(|| Skeleton::new(&outer, &paces), Ok) {
                 Ok(skeleton) => skeleton,
-                Err(error) if !party.is_empty() => return Err(error),
+                Err(_) if !party.is_empty() => {
+                    party.clear();
+                    over = self.over(walls, hip.as_ref(), ends, &party);
+                    continue;
+                }
                 Err(error) if over.iter().all(|over| *over == Over::Slope) => {
                     // What juts out may be harder than what stands below.
                     if overhang == 0.0 {
                         return Err(error);
                     }
-                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends, party)?;
+                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends, &party)?;
                     flush.hipped |= hipped;
                     return Ok(flush);
                 }
@@ -134,6 +127,19 @@ impl Shape {
                     continue;
                 }
             };
+            let astray: Vec<usize> =
+                (0..over.len()).filter(|&edge| strays(&skeleton, edge, paces[edge])).collect();
+            if !astray.is_empty() {
+                let rows = party.len();
+                party.retain(|edge| !astray.contains(edge));
+                if party.len() < rows {
+                    over = self.over(walls, hip.as_ref(), ends, &party);
+                } else {
+                    astray.into_iter().for_each(|edge| over[edge] = Over::Slope);
+                    hipped = true;
+                }
+                continue;
+            }
             let profile = Profile::new(self, skeleton.duration(), overhang);
             let rim = Rim { walls, outer: &outer, profile: &profile, base, overhang, slab: self.slab };
             let points = leveled(&skeleton, &paces, &profile);
@@ -159,6 +165,20 @@ impl Shape {
             rim.close(&mut patches, &rakes);
             return Ok(Cover { patches, overhang, hipped });
         }
+    }
+
+    /// What is to stand over each edge: `hip`, the hip roof, shows where gables may.
+    fn over(&self, walls: &[Vec<DVec2>], hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<Over> {
+        let mut over = vec![Over::Slope; walls.iter().map(Vec::len).sum()];
+        for edge in party {
+            over[*edge] = Over::Flush;
+        }
+        let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
+        let kind = if raked { Over::Raked } else { Over::Flush };
+        for edge in hip.into_iter().flat_map(|hip| gables(walls, hip, party)) {
+            over[edge] = kind;
+        }
+        over
     }
 
     /// How the edges move.
@@ -202,6 +222,19 @@ impl Shape {
         let patches = super::shed::patches(walls, &outer, rise, base, self.slab);
         Cover { patches, overhang, hipped: false }
     }
+}
+
+/// Whether the face over an edge that stands still goes on beyond the edge's ends.
+fn strays(skeleton: &Skeleton, edge: usize, pace: Pace) -> bool {
+    if pace.moves() {
+        return false;
+    }
+    let face = &skeleton.faces[edge];
+    let [from, to] = [face[0], face[1]].map(|peak| skeleton.peaks[peak].at);
+    let (along, length) = ((to - from).normalize_or_zero(), from.distance(to));
+    let upright = face.iter().map(|&peak| skeleton.peaks[peak]).filter(|peak| pace.way(peak.time) <= 0.0);
+    let mut places = upright.map(|peak| along.dot(peak.at - from));
+    places.any(|place| !(-BEYOND..=length + BEYOND).contains(&place))
 }
 
 /// The edges for gables, in place of the triangles of a hip roof: the shortest first, and no two neighbours, nor

@@ -242,3 +242,17 @@ fn a_house_in_a_row_has_gables_along_its_neighbours() {
         }
     }
 }
+
+#[test]
+fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
+    let gables = |cover: &Cover| -> std::collections::BTreeSet<usize> {
+        cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable).map(|patch| patch.edge).collect()
+    };
+    // Over the wall at the top left the slopes would meet beyond its end, as the wall beside it is short.
+    let corners = [(1.7, -5.5), (5.9, 0.8), (5.0, 1.4), (-1.6, 6.0), (-6.0, -0.4)];
+    let walls = vec![corners.map(DVec2::from).to_vec()];
+    let roof = shape(Surface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
+    let cover = roof.cover_in_row(&walls, HEIGHT, &[2, 4]).expect("a roof");
+    assert!(solid::check([&building(&walls, &cover)]).is_solid());
+    assert_eq!(gables(&cover).into_iter().collect::<Vec<_>>(), [4]);
+}
