@@ -7,6 +7,7 @@ use super::super::skeleton::{Pace, Skeleton};
 use super::overhang::{Rake, Rim};
 use super::patches::{leveled, patches};
 use super::shape::Profile;
+use super::shed::Fall;
 use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Surface};
 use crate::error::Result;
 
@@ -209,17 +210,23 @@ impl Shape {
 
     /// A roof of one slope, highest over the longest edge and lowest at the place furthest from it.
     fn shed(&self, walls: &[Vec<DVec2>], base: f64) -> Cover {
-        let count = walls.iter().map(Vec::len).sum();
-        let (outer, overhang) = self.outline(walls, &vec![Over::Slope; count]);
-        let rise = |depth: f64| match self.rise {
+        let fall = Fall::new(walls);
+        let over: Vec<Over> = if self.eaves == Eaves::Open {
+            vec![Over::Slope; walls.iter().map(Vec::len).sum()]
+        } else {
+            fall.eaves(walls).into_iter().map(|eaves| if eaves { Over::Slope } else { Over::Flush }).collect()
+        };
+        let (outer, overhang) = self.outline(walls, &over);
+        let high = match self.rise {
             Rise::Height(height) => height,
             // As high as a gable roof of this slope would be.
             Rise::Slope(slope) => {
-                let hip = Skeleton::new(walls, &vec![Pace::default(); count]);
-                slope * hip.map_or(depth / 2.0, |hip| hip.duration()).min(depth / 2.0)
+                let hip = Skeleton::new(walls, &vec![Pace::default(); over.len()]);
+                let half = fall.length() / 2.0;
+                slope * hip.map_or(half, |hip| hip.duration()).min(half)
             }
         };
-        let patches = super::shed::patches(walls, &outer, rise, base, self.slab);
+        let patches = super::shed::patches(self, &fall, walls, &outer, base, overhang, high);
         Cover { patches, overhang, hipped: false }
     }
 }

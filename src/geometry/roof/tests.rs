@@ -117,7 +117,7 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         let Some(walls) = plan(round, &mut random) else { continue };
         let (surface, overhang) = (surfaces[round % 8], [0.0, 0.3, 0.8][round / 8 % 3]);
         let (eaves, slab) = eaves[round / 24 % 3];
-        let thin = matches!(surface, Surface::Flat(_) | Surface::Shed) && overhang > 0.0;
+        let thin = matches!(surface, Surface::Flat(_)) && overhang > 0.0;
         let shape = shape(surface, eaves, overhang, if thin { 0.15 } else { slab });
         let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
         let part = building(&walls, &cover);
@@ -255,4 +255,28 @@ fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
     let cover = roof.cover_in_row(&walls, HEIGHT, &[2, 4]).expect("a roof");
     assert!(solid::check([&building(&walls, &cover)]).is_solid());
     assert_eq!(gables(&cover).into_iter().collect::<Vec<_>>(), [4]);
+}
+
+#[test]
+fn a_roof_of_one_slope_juts_out_over_its_eaves_as_it_is_asked_to() {
+    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    for (eaves, slab, overhang, wedge, lowest) in [
+        // From the outline of the eaves up to 2 m over the longest edge, beside flush gables.
+        (Eaves::Closed, 0.0, 0.5, 10.0 * 6.5 * 2.0 / 2.0, HEIGHT),
+        (Eaves::Slab, 0.2, 0.5, 10.0 * 6.5 * (2.0 / 2.0 + 0.2), HEIGHT),
+        // From the walls up to 2 m, and a plate on it that juts out everywhere.
+        (Eaves::Open, 0.2, 0.5, 10.0 * 6.0 * 2.0 / 2.0 + 11.0 * 7.0 * 0.2, HEIGHT - 0.5 / 3.0),
+        (Eaves::Slab, 0.2, 0.0, 10.0 * 6.0 * (2.0 / 2.0 + 0.2), HEIGHT),
+    ] {
+        let roof = Shape { rise: Rise::Height(2.0), ..shape(Surface::Shed, eaves, overhang, slab) };
+        let cover = roof.cover(&walls, HEIGHT).expect("a roof");
+        let part = building(&walls, &cover);
+        let check = solid::check([&part]);
+        assert!(check.is_solid(), "{eaves:?}: {check:?}");
+        let (volume, expected) = (solid::volume([&part]), 60.0 * HEIGHT + wedge);
+        assert!((volume - expected).abs() < 1e-3, "{eaves:?}: {volume} m³, not {expected} m³");
+        let beyond = cover.patches.iter().flat_map(|patch| &patch.rings).flatten().filter(|at| at.y > 6.01);
+        let least = beyond.map(|at| at.z).fold(f64::INFINITY, f64::min);
+        assert!(overhang == 0.0 || (least - lowest).abs() < 1e-6, "{eaves:?}: the eaves are at {least} m");
+    }
 }
