@@ -280,3 +280,37 @@ fn a_roof_of_one_slope_juts_out_over_its_eaves_as_it_is_asked_to() {
         assert!(overhang == 0.0 || (least - lowest).abs() < 1e-6, "{eaves:?}: the eaves are at {least} m");
     }
 }
+
+#[test]
+fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
+    let mut random = Random(5);
+    let (mut count, mut gables) = (0, 0);
+    for round in 0..2000 {
+        let Some(walls) = plan(round, &mut random) else { continue };
+        let ends: Vec<[DVec2; 2]> = walls.iter().flat_map(|ring| edges(ring)).collect();
+        let party: Vec<usize> = (0..ends.len()).filter(|_| random.next() < 0.25).collect();
+        let kind = [Ends::Hips, Ends::Gables][round / 2 % 2];
+        let roof = shape(Surface::Sloped(kind, &[]), Eaves::Closed, 0.0, 0.0);
+        let cover =
+            roof.cover_in_row(&walls, HEIGHT, &party).unwrap_or_else(|error| panic!("{round}: {error}"));
+        let part = building(&walls, &cover);
+        let check = solid::check([&part]);
+        assert!(check.is_solid(), "{round}: {party:?} {check:?} {walls:?}");
+        let (below, covered) = integral(&cover);
+        let (volume, whole) = (solid::volume([&part]), area(&walls));
+        // A plan is moved by up to 5 mm for its skeleton.
+        let slack = 5e-3 * ends.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
+        assert!((covered - whole).abs() < slack, "{round}: {covered} of {whole} m²");
+        assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
+        for patch in cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable) {
+            let [a, b] = ends[patch.edge];
+            for at in patch.rings.iter().flatten() {
+                let along = patch.along.dot(at.truncate() - a);
+                assert!((-0.06..a.distance(b) + 0.06).contains(&along), "{round}: {party:?} {walls:?}");
+            }
+            gables += 1;
+        }
+        count += 1;
+    }
+    assert!(count > 1600 && gables > 2000, "{count}, {gables} gables");
+}
