@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::plan::outset;
+use super::super::plan::{outset, room};
 use super::super::skeleton::{Pace, Skeleton};
 use super::overhang::{Rake, Rim};
 use super::patches::{leveled, patches};
@@ -32,7 +32,9 @@ enum Over {
     Flush,
 }
 
-/// Parts of the overhang that are tried where there is no room for all of it.
+/// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
+const KEPT: f64 = 0.9;
+/// Parts of the overhang that are tried where the outline would meet itself otherwise.
 const FACTORS: [f64; 4] = [1.0, 0.5, 0.25, 0.0];
 /// Corners of gables turn by more than this (radians).
 const SHARP: f64 = 65.0 * std::f64::consts::PI / 180.0;
@@ -59,14 +61,23 @@ impl Shape {
         }
     }
 
-    /// The outline moved outwards where there is room, and how far; less over flush gables.
+    /// The outline moved outwards where there is room, and how far, in whole centimetres where that is less than all;
+    /// not over flush gables.
     fn outline(&self, walls: &[Vec<DVec2>], over: &[Over]) -> (Vec<Vec<DVec2>>, f64) {
-        for factor in FACTORS {
-            let distance = self.overhang * factor;
-            let far = |over: &Over| if *over == Over::Flush { 0.0 } else { distance };
-            let distances: Vec<f64> = over.iter().map(far).collect();
-            if let Some(rings) = outset(walls, &distances) {
-                return (rings, distance);
+        let distances = |distance: f64| -> Vec<f64> {
+            over.iter().map(|over| if *over == Over::Flush { 0.0 } else { distance }).collect()
+        };
+        if self.overhang > 0.0 {
+            let room = room(walls, &distances(self.overhang));
+            let most = if room < 1.0 { KEPT * room } else { 1.0 };
+            for factor in FACTORS {
+                let mut distance = self.overhang * most * factor;
+                if distance < self.overhang {
+                    distance = (distance * 100.0 + 1e-6).floor() / 100.0;
+                }
+                if let Some(rings) = outset(walls, &distances(distance)) {
+                    return (rings, distance);
+                }
             }
         }
         (walls.to_vec(), 0.0)

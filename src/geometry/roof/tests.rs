@@ -314,3 +314,15 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
     }
     assert!(count > 1600 && gables > 2000, "{count}, {gables} gables");
 }
+
+#[test]
+fn an_overhang_uses_the_room_that_a_narrow_recess_leaves() {
+    let corners = [(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)];
+    let walls = vec![corners.map(DVec2::from).to_vec()];
+    for eaves in [Eaves::Closed, Eaves::Slab, Eaves::Open] {
+        let cover =
+            shape(Surface::Sloped(Ends::Hips, &[]), eaves, 0.5, 0.1).cover(&walls, HEIGHT).expect("a roof");
+        assert!((cover.overhang - 0.18).abs() < 1e-9, "{} m", cover.overhang);
+        assert!(solid::check([&building(&walls, &cover)]).is_solid(), "{eaves:?}");
+    }
+}
