@@ -190,12 +190,7 @@ pub(super) fn outset(rings: &[Vec<DVec2>], distances: &[f64]) -> Option<Vec<Vec<
     if distances.iter().all(|distance| *distance == 0.0) {
         return Some(rings.to_vec());
     }
-    let mut first = 0;
-    let mut moved = Vec::with_capacity(rings.len());
-    for ring in rings {
-        moved.push(outset_ring(ring, distances.get(first..first + ring.len())?));
-        first += ring.len();
-    }
+    let moved = moved(rings, distances)?;
     let runs_on = rings.iter().zip(&moved).all(|(old, new)| {
         (0..old.len()).all(|index| {
             let next = (index + 1) % old.len();
@@ -207,6 +202,32 @@ pub(super) fn outset(rings: &[Vec<DVec2>], distances: &[f64]) -> Option<Vec<Vec<
     let holes: Vec<Vec<SectionPoint>> = moved[1..].iter().map(sharp).collect();
     let apart = Manner { near: 1e-9, straight: 0.0, ..PLAN };
     (runs_on && numbered_rings(&sharp(&moved[0]), &holes, &apart).is_ok()).then_some(moved)
+}
+
+/// The greatest part of `distances` (m), up to 1, by which [`outset`] can move edges before one of them vanishes.
+pub(super) fn room(rings: &[Vec<DVec2>], distances: &[f64]) -> f64 {
+    let Some(moved) = moved(rings, distances) else { return 0.0 };
+    let parts = rings.iter().zip(&moved).flat_map(|(old, new)| {
+        (0..old.len()).map(|index| {
+            let next = (index + 1) % old.len();
+            let way = old[next] - old[index];
+            // Corners move in straight lines, so edges shrink evenly.
+            let (before, after) = (way.length_squared(), way.dot(new[next] - new[index]));
+            if after < before { before / (before - after) } else { 1.0 }
+        })
+    });
+    parts.fold(1.0, f64::min)
+}
+
+/// The rings with each edge moved outwards, whatever they meet; none without a distance for each edge.
+fn moved(rings: &[Vec<DVec2>], distances: &[f64]) -> Option<Vec<Vec<DVec2>>> {
+    let mut rest = distances;
+    let ring = |ring: &Vec<DVec2>| {
+        let (own, others) = rest.split_at_checked(ring.len())?;
+        rest = others;
+        Some(outset_ring(ring, own))
+    };
+    rings.iter().map(ring).collect()
 }
 
 /// The ring with its edges moved to the right, each by its distance (m).

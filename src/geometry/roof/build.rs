@@ -2,11 +2,12 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::plan::outset;
+use super::super::plan::{outset, room};
 use super::super::skeleton::{Pace, Skeleton};
 use super::overhang::{Rake, Rim};
 use super::patches::{leveled, patches};
 use super::shape::Profile;
+use super::shed::Fall;
 use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Surface};
 use crate::error::Result;
 
@@ -17,7 +18,7 @@ pub struct Cover {
     pub patches: Vec<Patch>,
     /// How far (m) it juts out.
     pub overhang: f64,
-    /// Whether it was to have gables and could not get them.
+    /// Whether it was to have gables, other than along neighbours, that it could not get.
     pub hipped: bool,
 }
 
@@ -31,10 +32,14 @@ enum Over {
     Flush,
 }
 
-/// Parts of the overhang that are tried where there is no room for all of it.
+/// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
+const KEPT: f64 = 0.9;
+/// Parts of the overhang that are tried where the outline would meet itself otherwise.
 const FACTORS: [f64; 4] = [1.0, 0.5, 0.25, 0.0];
 /// Corners of gables turn by more than this (radians).
 const SHARP: f64 = 65.0 * std::f64::consts::PI / 180.0;
+/// A gable may go on by this (m) beyond the ends of its wall.
+const BEYOND: f64 = 0.05;
 /// What part of a gable's height a Dutch hip leaves.
 const BELOW_HIP: f64 = 0.5;
 
@@ -52,23 +57,27 @@ impl Shape {
             Surface::Shed => Ok(self.shed(walls, base)),
             Surface::Flat(None) => Ok(self.plate(walls, base)),
             Surface::Flat(_) => self.sloped(walls, base, Ends::Hips, &[]),
-            Surface::Sloped(ends, _) if party.is_empty() => self.sloped(walls, base, ends, &[]),
-            Surface::Sloped(ends, _) => self
-                .sloped(walls, base, ends, party)
-                .ok()
-                .filter(|cover| !cover.hipped)
-                .map_or_else(|| self.sloped(walls, base, ends, &[]), Ok),
+            Surface::Sloped(ends, _) => self.sloped(walls, base, ends, party),
         }
     }
 
-    /// The outline moved outwards where there is room, and how far; less over flush gables.
+    /// The outline moved outwards where there is room, and how far, in whole centimetres where that is less than all;
+    /// not over flush gables.
     fn outline(&self, walls: &[Vec<DVec2>], over: &[Over]) -> (Vec<Vec<DVec2>>, f64) {
-        for factor in FACTORS {
-            let distance = self.overhang * factor;
-            let far = |over: &Over| if *over == Over::Flush { 0.0 } else { distance };
-            let distances: Vec<f64> = over.iter().map(far).collect();
-            if let Some(rings) = outset(walls, &distances) {
-                return (rings, distance);
+        let distances = |distance: f64| -> Vec<f64> {
+            over.iter().map(|over| if *over == Over::Flush { 0.0 } else { distance }).collect()
+        };
+        if self.overhang > 0.0 {
+            let room = room(walls, &distances(self.overhang));
+            let most = if room < 1.0 { KEPT * room } else { 1.0 };
+            for factor in FACTORS {
+                let mut distance = self.overhang * most * factor;
+                if distance < self.overhang {
+                    distance = (distance * 100.0 + 1e-6).floor() / 100.0;
+                }
+                if let Some(rings) = outset(walls, &distances(distance)) {
+                    return (rings, distance);
+                }
             }
         }
         (walls.to_vec(), 0.0)
@@ -94,21 +103,13 @@ impl Shape {
     }
 
     /// A roof with a slope over each edge, but for gables.
+    ///
+    /// Where a gable would go on beyond its wall, over other parts of the roof, there is a slope as well.
     fn sloped(&self, walls: &[Vec<DVec2>], base: f64, ends: Ends, party: &[usize]) -> Result<Cover> {
-        let count = walls.iter().map(Vec::len).sum();
-        let mut over = vec![Over::Slope; count];
-        for edge in party {
-            over[*edge] = Over::Flush;
-        }
-        let mut hip = None;
-        if ends != Ends::Hips {
-            let hip = hip.insert(Skeleton::new(walls, &vec![Pace::default(); count])?);
-            let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
-            let kind = if raked { Over::Raked } else { Over::Flush };
-            for edge in gables(walls, hip, party) {
-                over[edge] = kind;
-            }
-        }
+        let even = vec![Pace::default(); walls.iter().map(Vec::len).sum()];
+        let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::new(walls, &even)?) };
+        let mut party = party.to_vec();
+        let mut over = self.over(walls, hip.as_ref(), ends, &party);
         let mut hipped = false;
         loop {
             let (outer, overhang) = self.outline(walls, &over);
@@ -118,13 +119,17 @@ impl Shape {
             let known = if hips { hip.take() } else { None };
             let skeleton = match known.map_or_else(|| Skeleton::new(&outer, &paces), Ok) {
                 Ok(skeleton) => skeleton,
-                Err(error) if !party.is_empty() => return Err(error),
+                Err(_) if !party.is_empty() => {
+                    party.clear();
+                    over = self.over(walls, hip.as_ref(), ends, &party);
+                    continue;
+                }
                 Err(error) if over.iter().all(|over| *over == Over::Slope) => {
                     // What juts out may be harder than what stands below.
                     if overhang == 0.0 {
                         return Err(error);
                     }
-                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends, party)?;
+                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends, &party)?;
                     flush.hipped |= hipped;
                     return Ok(flush);
                 }
@@ -134,6 +139,19 @@ impl Shape {
                     continue;
                 }
             };
+            let astray: Vec<usize> =
+                (0..over.len()).filter(|&edge| strays(&skeleton, edge, paces[edge])).collect();
+            if !astray.is_empty() {
+                let rows = party.len();
+                party.retain(|edge| !astray.contains(edge));
+                if party.len() < rows {
+                    over = self.over(walls, hip.as_ref(), ends, &party);
+                } else {
+                    astray.into_iter().for_each(|edge| over[edge] = Over::Slope);
+                    hipped = true;
+                }
+                continue;
+            }
             let profile = Profile::new(self, skeleton.duration(), overhang);
             let rim = Rim { walls, outer: &outer, profile: &profile, base, overhang, slab: self.slab };
             let points = leveled(&skeleton, &paces, &profile);
@@ -159,6 +177,20 @@ impl Shape {
             rim.close(&mut patches, &rakes);
             return Ok(Cover { patches, overhang, hipped });
         }
+    }
+
+    /// What is to stand over each edge: `hip`, the hip roof, shows where gables may.
+    fn over(&self, walls: &[Vec<DVec2>], hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<Over> {
+        let mut over = vec![Over::Slope; walls.iter().map(Vec::len).sum()];
+        for edge in party {
+            over[*edge] = Over::Flush;
+        }
+        let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
+        let kind = if raked { Over::Raked } else { Over::Flush };
+        for edge in hip.into_iter().flat_map(|hip| gables(walls, hip, party)) {
+            over[edge] = kind;
+        }
+        over
     }
 
     /// How the edges move.
@@ -189,19 +221,38 @@ impl Shape {
 
     /// A roof of one slope, highest over the longest edge and lowest at the place furthest from it.
     fn shed(&self, walls: &[Vec<DVec2>], base: f64) -> Cover {
-        let count = walls.iter().map(Vec::len).sum();
-        let (outer, overhang) = self.outline(walls, &vec![Over::Slope; count]);
-        let rise = |depth: f64| match self.rise {
+        let fall = Fall::new(walls);
+        let over: Vec<Over> = if self.eaves == Eaves::Open {
+            vec![Over::Slope; walls.iter().map(Vec::len).sum()]
+        } else {
+            fall.eaves(walls).into_iter().map(|eaves| if eaves { Over::Slope } else { Over::Flush }).collect()
+        };
+        let (outer, overhang) = self.outline(walls, &over);
+        let high = match self.rise {
             Rise::Height(height) => height,
             // As high as a gable roof of this slope would be.
             Rise::Slope(slope) => {
-                let hip = Skeleton::new(walls, &vec![Pace::default(); count]);
-                slope * hip.map_or(depth / 2.0, |hip| hip.duration()).min(depth / 2.0)
+                let hip = Skeleton::new(walls, &vec![Pace::default(); over.len()]);
+                let half = fall.length() / 2.0;
+                slope * hip.map_or(half, |hip| hip.duration()).min(half)
             }
         };
-        let patches = super::shed::patches(walls, &outer, rise, base, self.slab);
+        let patches = super::shed::patches(self, &fall, walls, &outer, base, overhang, high);
         Cover { patches, overhang, hipped: false }
     }
+}
+
+/// Whether the face over an edge that stands still goes on beyond the edge's ends.
+fn strays(skeleton: &Skeleton, edge: usize, pace: Pace) -> bool {
+    if pace.moves() {
+        return false;
+    }
+    let face = &skeleton.faces[edge];
+    let [from, to] = [face[0], face[1]].map(|peak| skeleton.peaks[peak].at);
+    let (along, length) = ((to - from).normalize_or_zero(), from.distance(to));
+    let upright = face.iter().map(|&peak| skeleton.peaks[peak]).filter(|peak| pace.way(peak.time) <= 0.0);
+    let mut places = upright.map(|peak| along.dot(peak.at - from));
+    places.any(|place| !(-BEYOND..=length + BEYOND).contains(&place))
 }
 
 /// The edges for gables, in place of the triangles of a hip roof: the shortest first, and no two neighbours, nor

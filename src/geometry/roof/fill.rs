@@ -7,6 +7,13 @@ use super::super::cap;
 use crate::error::{Error, Result};
 use crate::scene::Part;
 
+/// Triangles that are less wide than this (m) are thin.
+const WIDE: f64 = 0.01;
+/// The most corners of a small ring.
+const SMALL: usize = 16;
+
+type Triangles = SmallVec<[[usize; 3]; 16]>;
+
 /// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
 ///
 /// Texture coordinates are metres: u along `right`, v across, from `origin` on. Every edge of a ring is the edge
@@ -17,11 +24,15 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     let up = normal.cross(right);
     let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
     let flats: SmallVec<[DVec2; 16]> = rings.iter().flatten().map(flat).collect();
-    let triangles: SmallVec<[[usize; 3]; 16]> = match rings {
-        [ring] if ring.len() == 3 || (ring.len() <= 8 && is_convex(&flats)) => {
-            (2..ring.len()).map(|corner| [0, corner - 1, corner]).collect()
-        }
-        [_] => cap::triangulate(&[flats.to_vec()]).unwrap_or_else(|_| fan(&flats)).into(),
+    let triangles: Triangles = match rings {
+        [_] => match star(&flats) {
+            Some(apex) => fan(flats.len(), apex).collect(),
+            None => match cap::triangulate(&[flats.to_vec()]) {
+                Ok(triangles) => triangles.into(),
+                // It almost touches itself.
+                Err(_) => fan(flats.len(), widest(&flats)).collect(),
+            },
+        },
         _ => {
             let mut rest = flats.as_slice();
             let nested = rings.iter().map(|ring| {
@@ -43,17 +54,29 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     Ok(())
 }
 
-/// The triangles between a corner and all edges of a ring that almost touches itself; the corner whose thinnest
-/// triangle is the thickest.
-fn fan(ring: &[DVec2]) -> Vec<[usize; 3]> {
+/// The triangles between a corner of a ring and all edges that it is not on.
+fn fan(count: usize, apex: usize) -> impl Iterator<Item = [usize; 3]> {
+    (1..count - 1).map(move |step| [apex, (apex + step) % count, (apex + step + 1) % count])
+}
+
+/// The corner of a small ring that sees all others, so that a fan fills it without thin triangles.
+fn star(ring: &[DVec2]) -> Option<usize> {
     let count = ring.len();
-    let around = |apex: usize| {
-        (1..count - 1).map(move |step| [apex, (apex + step) % count, (apex + step + 1) % count])
+    let is_wide = |triangle: [usize; 3]| {
+        let [a, b, c] = triangle.map(|corner| ring[corner]);
+        let area = (b - a).perp_dot(c - a);
+        let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
+        area > 0.0 && area * area > WIDE * WIDE * longest
     };
+    let mut corners = 0..if count <= SMALL { count } else { 0 };
+    corners.find(|&apex| count == 3 || fan(count, apex).all(is_wide))
+}
+
+/// The corner whose thinnest triangle is the thickest.
+fn widest(ring: &[DVec2]) -> usize {
     let area = |[a, b, c]: [usize; 3]| (ring[b] - ring[a]).perp_dot(ring[c] - ring[a]);
-    let thinnest = |apex: usize| around(apex).map(area).fold(f64::INFINITY, f64::min);
-    let best = (0..count).max_by(|&a, &b| thinnest(a).total_cmp(&thinnest(b))).unwrap_or(0);
-    around(best).collect()
+    let thinnest = |apex: usize| fan(ring.len(), apex).map(area).fold(f64::INFINITY, f64::min);
+    (0..ring.len()).max_by(|&a, &b| thinnest(a).total_cmp(&thinnest(b))).unwrap_or(0)
 }
 
 /// The sum of the normals of a ring's triangles, each as long as twice its area.
@@ -64,10 +87,35 @@ fn newell(ring: &[DVec3]) -> DVec3 {
         .fold(DVec3::ZERO, |sum, normal| sum + normal)
 }
 
-/// Whether every corner turns left by enough to be the corner of a triangle.
-fn is_convex(ring: &[DVec2]) -> bool {
-    (0..ring.len()).all(|index| {
-        let [a, b, c] = [0, 1, 2].map(|offset| ring[(index + offset) % ring.len()]);
-        (b - a).perp_dot(c - b) > 1e-6
-    })
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_are_filled_by_fans_or_otherwise_without_thin_triangles() {
+        // A square, an L, a T, which no corner sees all of, and a square with a point on an edge.
+        let rings: [&[(f64, f64)]; 4] = [
+            &[(0., 0.), (4., 0.), (4., 4.), (0., 4.)],
+            &[(0., 0.), (4., 0.), (4., 1.), (1., 1.), (1., 4.), (0., 4.)],
+            &[(1., 0.), (2., 0.), (2., 3.), (4., 3.), (4., 4.), (-1., 4.), (-1., 3.), (1., 3.)],
+            &[(0., 0.), (2., 0.), (4., 0.), (4., 4.), (0., 4.)],
+        ];
+        for (corners, (sees_all, whole)) in
+            rings.iter().zip([(true, 16.), (true, 7.), (false, 8.), (true, 16.)])
+        {
+            let flat: Vec<DVec2> = corners.iter().copied().map(DVec2::from).collect();
+            assert_eq!(star(&flat).is_some(), sees_all, "{corners:?}");
+            let ring: Vec<DVec3> = flat.iter().map(|at| at.extend(1.0)).collect();
+            let mut part = Part::default();
+            fill(&mut part, &[ring], DVec3::X, DVec3::ZERO).expect("a flat ring");
+            let area = |corners: &[u32; 3]| {
+                let [a, b, c] = corners.map(|corner| flat[corner as usize]);
+                (b - a).perp_dot(c - a) / 2.0
+            };
+            assert_eq!(part.triangles.len(), flat.len() - 2);
+            assert!(part.triangles.iter().all(|triangle| area(triangle) > 0.4), "{corners:?}");
+            let sum: f64 = part.triangles.iter().map(area).sum();
+            assert!((sum - whole).abs() < 1e-9, "{sum} m²");
+        }
+    }
 }

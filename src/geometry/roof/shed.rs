@@ -2,48 +2,98 @@
 
 use glam::{DVec2, DVec3};
 
+use super::shape::{Eaves, Rise, Shape};
 use super::{Patch, PatchKind, edges};
 
 /// Heights (m) below this are none.
 const LOWEST: f64 = 2e-3;
+/// Edges that turn from the way of the fall by less than this (cosine, 60 degrees) are eaves.
+const DOWNWARDS: f64 = 0.5;
+/// Edges that turn by less than this (sine, 30 degrees) from eaves jut out as they do, so that no corner goes far.
+const IN_LINE: f64 = 0.5;
 
-/// A roof of one slope over walls that end at `base` (m): highest over the longest edge, with nothing added at the
-/// place furthest from it. `outer` is the outline of the roof, as many edges as the walls.
-///
-/// `rise` gives the height (m) at that edge for the distance (m) between the two.
+/// The way that rain runs: from the longest edge to the place furthest from it.
+pub(super) struct Fall {
+    from: DVec2,
+    way: DVec2,
+    /// Where the walls are nearest and furthest along it (m).
+    near: f64,
+    far: f64,
+}
+
+impl Fall {
+    pub(super) fn new(walls: &[Vec<DVec2>]) -> Self {
+        let longest =
+            walls.first().into_iter().flat_map(|ring| edges(ring)).fold([DVec2::ZERO; 2], |best, edge| {
+                let [a, b] = [best, edge].map(|[from, to]| from.distance(to));
+                if b > a + 1e-6 { edge } else { best }
+            });
+        let (from, way) = (longest[0], (longest[1] - longest[0]).normalize_or_zero().perp());
+        let mut fall = Self { from, way, near: f64::INFINITY, far: f64::NEG_INFINITY };
+        for &at in walls.iter().flatten() {
+            let depth = fall.depth(at);
+            (fall.near, fall.far) = (fall.near.min(depth), fall.far.max(depth));
+        }
+        fall
+    }
+
+    fn depth(&self, at: DVec2) -> f64 {
+        self.way.dot(at - self.from)
+    }
+
+    /// How far (m) the walls reach along it.
+    pub(super) fn length(&self) -> f64 {
+        (self.far - self.near).max(1e-9)
+    }
+
+    /// Whether each edge is one of the eaves, where level undersides begin; over the others gables are flush.
+    pub(super) fn eaves(&self, walls: &[Vec<DVec2>]) -> Vec<bool> {
+        let mut eaves = Vec::new();
+        for ring in walls {
+            let ways: Vec<DVec2> = edges(ring).map(|[a, b]| (b - a).normalize_or_zero()).collect();
+            let mut down: Vec<bool> =
+                ways.iter().map(|along| -along.perp().dot(self.way) > DOWNWARDS).collect();
+            let count = ring.len();
+            // Around once forwards and once backwards, from wherever there are eaves.
+            let forwards = (0..2 * count).map(|step| (step % count, (step + 1) % count));
+            let backwards = (0..2 * count).rev().map(|step| ((step + 1) % count, step % count));
+            for (known, next) in forwards.chain(backwards) {
+                down[next] |= down[known] && ways[known].perp_dot(ways[next]).abs() < IN_LINE;
+            }
+            eaves.extend(down);
+        }
+        eaves
+    }
+}
+
+/// A roof of one slope over walls that end at `base` (m): highest over the longest edge. `outer` is the outline of the
+/// roof, as many edges as the walls, with `overhang` (m) beyond some of them; `high` (m) is as high as it rises over the
+/// walls, from the place furthest from that edge, or from the outline there where the eaves are not open.
 pub(super) fn patches(
+    shape: &Shape,
+    fall: &Fall,
     walls: &[Vec<DVec2>],
     outer: &[Vec<DVec2>],
-    rise: impl Fn(f64) -> f64,
     base: f64,
-    slab: f64,
+    overhang: f64,
+    high: f64,
 ) -> Vec<Patch> {
-    let longest =
-        walls.first().into_iter().flat_map(|ring| edges(ring)).fold([DVec2::ZERO; 2], |best, edge| {
-            let [a, b] = [best, edge].map(|[from, to]| from.distance(to));
-            if b > a + 1e-6 { edge } else { best }
-        });
-    let inward = (longest[1] - longest[0]).normalize_or_zero().perp();
-    let depth = |at: DVec2| inward.dot(at - longest[0]);
-    let (near, far) = walls.iter().flatten().fold((f64::INFINITY, f64::NEG_INFINITY), |(near, far), &at| {
-        (near.min(depth(at)), far.max(depth(at)))
-    });
-    let slope = rise(far - near) / (far - near).max(1e-9);
-    let height = |at: DVec2| slope * (far - depth(at));
-    let juts_out = walls != outer;
-    // Under a plate the walls end below it, otherwise they go on to its top.
-    let wall_top = |at: DVec2| {
-        let height = height(at) + if juts_out { 0.0 } else { slab };
-        at.extend(base + if height < LOWEST { 0.0 } else { height })
+    // How far the slope goes on beyond where the walls' tops would meet it.
+    let beyond = if shape.eaves == Eaves::Open { 0.0 } else { overhang };
+    let slope = match shape.rise {
+        Rise::Height(height) => height / (fall.length() + beyond),
+        Rise::Slope(_) => high / fall.length(),
     };
-    let under = |at: DVec2| at.extend(base + height(at));
-    let top = |at: DVec2| if juts_out { at.extend(base + height(at) + slab) } else { wall_top(at) };
+    let raised = |at: DVec2, by: f64| {
+        let height = slope * (fall.far - fall.depth(at)) + by;
+        at.extend(base + if height.abs() < LOWEST { 0.0 } else { height })
+    };
+    let wall_top = |at: DVec2| raised(at, 0.0);
+    let under = |at: DVec2| raised(at, slope * beyond);
+    let top = |at: DVec2| raised(at, slope * beyond + shape.slab);
 
     let rings = outer.iter().map(|ring| ring.iter().map(|&at| top(at)).collect()).collect();
-    // Along the eaves, which are opposite.
-    let along = longest[0] - longest[1];
-    let mut patches =
-        vec![Patch { kind: PatchKind::Slope, edge: 0, flap: 0, along: along.normalize_or_zero(), rings }];
+    let mut patches = vec![Patch { kind: PatchKind::Slope, edge: 0, flap: 0, along: fall.way.perp(), rings }];
     let pairs = walls.iter().flat_map(|ring| edges(ring)).zip(outer.iter().flat_map(|ring| edges(ring)));
     for (edge, ([a, b], [c, d])) in pairs.enumerate() {
         let along = (b - a).normalize_or_zero();
@@ -53,11 +103,20 @@ pub(super) fn patches(
                 patches.push(Patch { kind, edge, flap: 0, along, rings: vec![ring] });
             }
         };
-        push(PatchKind::Gable, vec![a.extend(base), b.extend(base), wall_top(b), wall_top(a)]);
-        if juts_out {
+        let mut wall = vec![a.extend(base), b.extend(base)];
+        if along.perp_dot(c - a).abs().max(along.perp_dot(d - a).abs()) < LOWEST {
+            // Beside eaves, a flush gable ends where they do.
+            let moved =
+                |from: DVec2, to: DVec2| if from == to { None } else { Some([wall_top(from), under(to)]) };
+            wall.extend(moved(b, d).into_iter().flatten());
+            wall.extend([top(d), top(c)]);
+            wall.extend(moved(a, c).into_iter().flat_map(|[wall, under]| [under, wall]));
+        } else {
+            wall.extend([wall_top(b), wall_top(a)]);
             push(PatchKind::Underside, vec![under(d), under(c), wall_top(a), wall_top(b)]);
             push(PatchKind::Fascia, vec![under(c), under(d), top(d), top(c)]);
         }
+        push(PatchKind::Gable, wall);
     }
     patches
 }

@@ -117,7 +117,7 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         let Some(walls) = plan(round, &mut random) else { continue };
         let (surface, overhang) = (surfaces[round % 8], [0.0, 0.3, 0.8][round / 8 % 3]);
         let (eaves, slab) = eaves[round / 24 % 3];
-        let thin = matches!(surface, Surface::Flat(_) | Surface::Shed) && overhang > 0.0;
+        let thin = matches!(surface, Surface::Flat(_)) && overhang > 0.0;
         let shape = shape(surface, eaves, overhang, if thin { 0.15 } else { slab });
         let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
         let part = building(&walls, &cover);
@@ -240,5 +240,89 @@ fn a_house_in_a_row_has_gables_along_its_neighbours() {
             assert_eq!(gables.into_iter().collect::<Vec<_>>(), [1, 3], "{width} m x {depth} m");
             assert!(solid::check([&building(&walls, &cover)]).is_solid(), "{width} m x {depth} m");
         }
+    }
+}
+
+#[test]
+fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
+    let gables = |cover: &Cover| -> std::collections::BTreeSet<usize> {
+        cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable).map(|patch| patch.edge).collect()
+    };
+    // Over the wall at the top left the slopes would meet beyond its end, as the wall beside it is short.
+    let corners = [(1.7, -5.5), (5.9, 0.8), (5.0, 1.4), (-1.6, 6.0), (-6.0, -0.4)];
+    let walls = vec![corners.map(DVec2::from).to_vec()];
+    let roof = shape(Surface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
+    let cover = roof.cover_in_row(&walls, HEIGHT, &[2, 4]).expect("a roof");
+    assert!(solid::check([&building(&walls, &cover)]).is_solid());
+    assert_eq!(gables(&cover).into_iter().collect::<Vec<_>>(), [4]);
+}
+
+#[test]
+fn a_roof_of_one_slope_juts_out_over_its_eaves_as_it_is_asked_to() {
+    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    for (eaves, slab, overhang, wedge, lowest) in [
+        // From the outline of the eaves up to 2 m over the longest edge, beside flush gables.
+        (Eaves::Closed, 0.0, 0.5, 10.0 * 6.5 * 2.0 / 2.0, HEIGHT),
+        (Eaves::Slab, 0.2, 0.5, 10.0 * 6.5 * (2.0 / 2.0 + 0.2), HEIGHT),
+        // From the walls up to 2 m, and a plate on it that juts out everywhere.
+        (Eaves::Open, 0.2, 0.5, 10.0 * 6.0 * 2.0 / 2.0 + 11.0 * 7.0 * 0.2, HEIGHT - 0.5 / 3.0),
+        (Eaves::Slab, 0.2, 0.0, 10.0 * 6.0 * (2.0 / 2.0 + 0.2), HEIGHT),
+    ] {
+        let roof = Shape { rise: Rise::Height(2.0), ..shape(Surface::Shed, eaves, overhang, slab) };
+        let cover = roof.cover(&walls, HEIGHT).expect("a roof");
+        let part = building(&walls, &cover);
+        let check = solid::check([&part]);
+        assert!(check.is_solid(), "{eaves:?}: {check:?}");
+        let (volume, expected) = (solid::volume([&part]), 60.0 * HEIGHT + wedge);
+        assert!((volume - expected).abs() < 1e-3, "{eaves:?}: {volume} m³, not {expected} m³");
+        let beyond = cover.patches.iter().flat_map(|patch| &patch.rings).flatten().filter(|at| at.y > 6.01);
+        let least = beyond.map(|at| at.z).fold(f64::INFINITY, f64::min);
+        assert!(overhang == 0.0 || (least - lowest).abs() < 1e-6, "{eaves:?}: the eaves are at {least} m");
+    }
+}
+
+#[test]
+fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
+    let mut random = Random(5);
+    let (mut count, mut gables) = (0, 0);
+    for round in 0..2000 {
+        let Some(walls) = plan(round, &mut random) else { continue };
+        let ends: Vec<[DVec2; 2]> = walls.iter().flat_map(|ring| edges(ring)).collect();
+        let party: Vec<usize> = (0..ends.len()).filter(|_| random.next() < 0.25).collect();
+        let kind = [Ends::Hips, Ends::Gables][round / 2 % 2];
+        let roof = shape(Surface::Sloped(kind, &[]), Eaves::Closed, 0.0, 0.0);
+        let cover =
+            roof.cover_in_row(&walls, HEIGHT, &party).unwrap_or_else(|error| panic!("{round}: {error}"));
+        let part = building(&walls, &cover);
+        let check = solid::check([&part]);
+        assert!(check.is_solid(), "{round}: {party:?} {check:?} {walls:?}");
+        let (below, covered) = integral(&cover);
+        let (volume, whole) = (solid::volume([&part]), area(&walls));
+        // A plan is moved by up to 5 mm for its skeleton.
+        let slack = 5e-3 * ends.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
+        assert!((covered - whole).abs() < slack, "{round}: {covered} of {whole} m²");
+        assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
+        for patch in cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable) {
+            let [a, b] = ends[patch.edge];
+            for at in patch.rings.iter().flatten() {
+                let along = patch.along.dot(at.truncate() - a);
+                assert!((-0.06..a.distance(b) + 0.06).contains(&along), "{round}: {party:?} {walls:?}");
+            }
+            gables += 1;
+        }
+        count += 1;
+    }
+    assert!(count > 1600 && gables > 2000, "{count}, {gables} gables");
+}
+
+#[test]
+fn an_overhang_uses_the_room_that_a_narrow_recess_leaves() {
+    let corners = [(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)];
+    let walls = vec![corners.map(DVec2::from).to_vec()];
+    for eaves in [Eaves::Closed, Eaves::Slab, Eaves::Open] {
+        let cover =
+            shape(Surface::Sloped(Ends::Hips, &[]), eaves, 0.5, 0.1).cover(&walls, HEIGHT).expect("a roof");
+        assert!((cover.overhang - 0.18).abs() < 1e-9, "{} m", cover.overhang);
+        assert!(solid::check([&building(&walls, &cover)]).is_solid(), "{eaves:?}");
     }
 }

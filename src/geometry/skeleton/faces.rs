@@ -117,7 +117,7 @@ fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usi
             return Err(Error::new("a face of the roof is turned over"));
         }
         sum += area;
-        if !monotone(edge, peaks, face) {
+        if !monotone(edge, peaks, face) && crosses_itself(edge, peaks, face) {
             return Err(Error::new("a face of the roof overlaps itself"));
         }
     }
@@ -144,6 +144,24 @@ fn monotone(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
         }
     }
     turns + usize::from(last * first < 0.0) <= 2
+}
+
+/// Whether two borders cross, in the plane of the face. Beside an edge that stands still a face may go around it.
+fn crosses_itself(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
+    let flat = |&peak: &usize| DVec2::new(peaks[peak].at.dot(edge.along), peaks[peak].time);
+    let ring: SmallVec<[DVec2; 32]> = face.iter().map(flat).collect();
+    let border = |index: usize| [ring[index], ring[(index + 1) % ring.len()]];
+    // Whether the ends of one lie on different sides of the other.
+    let parted = |[a, b]: [DVec2; 2], ends: [DVec2; 2]| {
+        let way = (b - a).normalize_or_zero();
+        let [from, to] = ends.map(|end| way.perp_dot(end - a));
+        from.min(to) < -MERGED && from.max(to) > MERGED
+    };
+    let mut pairs = (0..ring.len()).flat_map(|a| (a + 2..ring.len()).map(move |b| [a, b]));
+    pairs.any(|pair| {
+        let [a, b] = pair.map(border);
+        parted(a, b) && parted(b, a)
+    })
 }
 
 /// Twice the area of a ring, negative if it is clockwise.

@@ -74,3 +74,12 @@ fn an_edge_that_stands_still_has_a_face_without_area_until_it_begins_to_move() {
     // A triangle 2 m wide and 1 m deep.
     assert!((area(&half, 1) - 1.0).abs() < 1e-6, "{}", area(&half, 1));
 }
+
+#[test]
+fn a_face_may_go_around_the_end_of_an_edge_that_stands_still() {
+    let corners = [(6.9, 0.1), (0.5, 6.7), (-6.5, -0.2), (-1.0, -6.0), (-0.5, -6.8)];
+    let mut paces = [Pace::default(); 5];
+    paces[2] = Pace::STILL;
+    let found = Skeleton::new(&[ring(&corners)], &paces).expect("a skeleton");
+    assert!(!found.moved && found.faces[2].len() > 3);
+}

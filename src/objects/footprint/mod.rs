@@ -71,8 +71,18 @@ impl Parameter for Rings {
             (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
             _ => value.clone(),
         };
-        let rings = Vec::<Vec<Vector>>::from_value(rings.clone())
-            .or_else(|error| Vec::<Vector>::from_value(rings).map(|ring| vec![ring]).map_err(|_| error))?;
+        let first = |value: &Value| match value {
+            Value::Table(table) => table.list().into_iter().next(),
+            _ => None,
+        };
+        let is_ring = |value: &Value| {
+            let number = first(value).and_then(|point| first(&point));
+            matches!(number, Some(Value::Number(_)))
+        };
+        let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).or_else(|error| {
+            let ring = Vec::<Vector>::from_value(rings.clone());
+            ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(&rings) { of_ring } else { error })
+        })?;
         Ok(Self(rings.into_iter().map(|ring| ring.into_iter().map(|point| point.0).collect()).collect()))
     }
 

@@ -235,3 +235,20 @@ fn a_photo_covers_each_frontage_once() {
         assert_eq!(uvs, [[0.0, 0.0], [2.0, 0.0], [2.0, 4.0], [0.0, 4.0]]);
     }
 }
+
+#[test]
+fn a_ring_with_a_bad_point_is_refused_by_the_number_of_the_point() {
+    let point = |x: f64, y: f64| vec![x, y].into_value();
+    let ring = vec![point(0.0, 0.0), point(4.0, 0.0), point(4.0, f64::NAN)];
+    for (value, item) in [
+        (ring.clone().into_value(), "must be a list whose item 3 is a vector"),
+        (
+            vec![ring.into_value()].into_value(),
+            "must be a list whose item 1 is a list whose item 3 is a vector",
+        ),
+    ] {
+        let refused = Rings::from_value(value.clone()).map(|rings| rings.0).expect_err("no number");
+        let error = refused.refuse("footprint", "geometry", &value).to_string();
+        assert!(error.contains(item), "{error}");
+    }
+}

@@ -38,9 +38,10 @@ pub(super) fn text_of(token: &TokenReference) -> String {
     token.token().to_string()
 }
 
-/// Where a piece of the script ends. The parser's own answer is the place before a closing bracket.
+/// Where a piece of the script ends. The parser's own answer is the place before a closing bracket; it goes through long
+/// lists quickly from the end only.
 pub(super) fn end_of(piece: &impl Node) -> Option<Position> {
-    piece.tokens().filter_map(|token| token.end_position()).max_by_key(|position| position.bytes())
+    piece.tokens().rev().filter_map(|token| token.end_position()).max_by_key(|position| position.bytes())
 }
 
 pub(super) fn first_position(block: &Block, end: &TokenReference) -> Option<usize> {

@@ -60,13 +60,12 @@ pub(super) fn shape(options: &Roof) -> Result<Shape> {
     if eaves == Eaves::Closed && options.slab > 0.0 {
         return Err(Error::new("footprint:roof: closed eaves have no slab").help("use eaves = \"slab\""));
     }
-    let sloped = matches!(surface, Surface::Sloped(..));
     let juts_out = options.overhang > 0.0;
     // What would be thin as paper gets a thickness.
     let needed = match eaves {
         Eaves::Slab => true,
         Eaves::Open => juts_out,
-        Eaves::Closed => juts_out && !sloped,
+        Eaves::Closed => juts_out && matches!(surface, Surface::Flat(_)),
     };
     let slab = if needed && options.slab == 0.0 { THICKNESS } else { options.slab };
     let rise = options.height.map_or(Rise::Slope(options.slope.to_radians().tan()), Rise::Height);

@@ -82,7 +82,7 @@ impl Footprint {
             note(what, why);
         }
         if made.cover.hipped {
-            note(format!("hips in place of the gables of a {} roof", options.kind), String::new());
+            note(format!("hips in place of gables of a {} roof", options.kind), String::new());
         }
         let overhang = made.cover.overhang;
         if overhang < options.overhang {
