@@ -108,7 +108,7 @@ mod tests {
             let ring: Vec<DVec3> = flat.iter().map(|at| at.extend(1.0)).collect();
             let mut part = Part::default();
             fill(&mut part, &[ring], DVec3::X, DVec3::ZERO).expect("a flat ring");
-            let area = |corners: &[u32; 3]| {
+            let area = |corners: [u32; 3]| {
                 let [a, b, c] = corners.map(|corner| flat[corner as usize]);
                 (b - a).perp_dot(c - a) / 2.0
             };

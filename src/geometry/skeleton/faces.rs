@@ -102,8 +102,12 @@ fn chain(mut borders: Borders) -> Result<Vec<usize>> {
 }
 
 /// Fails unless `faces` cover the polygon once, each in the plane of its edge.
+///
+/// Where all edges move alike, faces are monotone along their edges; otherwise they need not be (T. Biedl et al., "Weighted
+/// straight skeletons in the plane", 2015), and must not cross themselves.
 fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
     let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().copied())).sum();
+    let even = edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
     let mut sum = 0.0;
     for (edge, face) in edges.iter().zip(faces) {
         if face.len() < 3 {
@@ -117,7 +121,7 @@ fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usi
             return Err(Error::new("a face of the roof is turned over"));
         }
         sum += area;
-        if !monotone(edge, peaks, face) && crosses_itself(edge, peaks, face) {
+        if !monotone(edge, peaks, face) && (even || crosses_itself(edge, peaks, face)) {
             return Err(Error::new("a face of the roof overlaps itself"));
         }
     }
@@ -146,7 +150,7 @@ fn monotone(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
     turns + usize::from(last * first < 0.0) <= 2
 }
 
-/// Whether two borders cross, in the plane of the face. Beside an edge that stands still a face may go around it.
+/// Whether two borders cross, in the plane of the face.
 fn crosses_itself(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
     let flat = |&peak: &usize| DVec2::new(peaks[peak].at.dot(edge.along), peaks[peak].time);
     let ring: SmallVec<[DVec2; 32]> = face.iter().map(flat).collect();

@@ -86,7 +86,8 @@ impl Skeleton {
     /// of directions are exact. What happens at one time and place is resolved at once: the edges that meet there
     /// are sorted around it and paired anew, whatever the kind of the events. Fails if no result passes the
     /// checks: one closed face for each edge, every corner in the plane of its faces, no negative area, areas that
-    /// add up to the polygon's (to 1e-6), faces that do not cross themselves.
+    /// add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do not cross themselves where
+    /// paces differ.
     pub fn new(rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<Self> {
         let (rings_there, middle) = edge::snapped(rings);
         let mut failure = None;
