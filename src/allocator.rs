@@ -4,8 +4,9 @@ use std::alloc::{GlobalAlloc, Layout, System};
 
 use mimalloc::MiMalloc;
 
-/// From this size (bytes) on, memory comes from the system, which moves what grows without copying it.
-const LARGE: usize = 1 << 20;
+/// From this size (bytes) on, memory comes from the system, which takes it back at once and moves what grows without
+/// copying it.
+const LARGE: usize = 1 << 17;
 
 /// Modules, buildings and meshes come and go by the million, in small pieces.
 pub(crate) struct Allocator;
