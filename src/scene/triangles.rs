@@ -117,6 +117,9 @@ impl Triangles {
 
     /// Leaves the first `count` of them.
     pub fn truncate(&mut self, count: usize) {
+        if count >= self.count {
+            return;
+        }
         let kept = self.runs.partition_point(|run| (run.first as usize) < count);
         let Some(last) = kept.checked_sub(1) else { return self.clear() };
         let first = self.runs[last].first as usize;
@@ -200,10 +203,10 @@ pub struct Iter<'a> {
     of: &'a Triangles,
     next: usize,
     end: usize,
-    /// The run after the present one, whose triangles `faces` are.
+    /// The number of the run after the present one.
     run: usize,
+    /// What the present run is made of, the place where it begins, and the one where the next goes on.
     faces: Faces,
-    /// The places where the present run begins, and where to go on to the next.
     first: usize,
     until: usize,
 }

@@ -12,7 +12,8 @@ const WIDE: f64 = 0.01;
 /// The most corners of a small ring.
 const SMALL: usize = 16;
 
-type Triangles = SmallVec<[[usize; 3]; 16]>;
+/// Triangles as places in a ring.
+type Corners = SmallVec<[[usize; 3]; 16]>;
 
 /// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
 ///
@@ -24,7 +25,7 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     let up = normal.cross(right);
     let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
     let flats: SmallVec<[DVec2; 16]> = rings.iter().flatten().map(flat).collect();
-    let triangles: Triangles = match rings {
+    let triangles: Corners = match rings {
         [_] => match star(&flats) {
             Some(apex) => fan(flats.len(), apex).collect(),
             None => match cap::triangulate(&[flats.to_vec()]) {
