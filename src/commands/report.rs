@@ -18,18 +18,12 @@ pub(crate) fn error(error: &Error, json: bool) {
     }
     let mut text = String::new();
     for problem in error.problems() {
-        let line = problem.place().and_then(line);
+        let line = problem.place().and_then(|place| place.excerpt(0, 0).pop());
+        let line = line.as_ref().map(|(_, line)| line.trim());
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "error: {}", problem.with_line(line.as_deref()));
+        let _ = writeln!(text, "error: {}", problem.with_line(line));
     }
     eprint(&text);
-}
-
-/// The text of a line of a script.
-fn line(place: &burgeon::error::Place) -> Option<String> {
-    let text = std::fs::read_to_string(&place.file).ok()?;
-    let line = text.lines().nth(place.line.checked_sub(1)?)?.trim();
-    (!line.is_empty()).then(|| line.chars().take(160).collect())
 }
 
 /// The summary of a run for a person.
