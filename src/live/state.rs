@@ -14,12 +14,13 @@ use super::message::{Cause, Hello, Model, Say};
 use super::open::Editor;
 use super::wish::{Inputs, Wish};
 use super::{Settings, Told};
-use crate::error::Error;
+use crate::error::{Error, Place};
 use crate::export::Format;
 use crate::export::gltf::Layout;
 use crate::presets::Presets;
 use crate::run::Run;
 use crate::script::{Options, Param, Session, Stop};
+use crate::warning::Warning;
 use crate::watch::Change;
 
 /// Messages that wait for a page at most; a page that is slower gets the present state instead.
@@ -83,6 +84,8 @@ pub(super) struct Inner {
     pub last_step: Option<(Inputs, usize)>,
     /// Values that could not be used, as far as that has been told.
     pub left_out: BTreeSet<String>,
+    /// The warnings of the last model, as far as they have been told.
+    pub warnings: BTreeSet<String>,
     /// The script's files, which an editor may open.
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
@@ -145,6 +148,7 @@ impl State {
             pictures: VecDeque::new(),
             last_step: None,
             left_out: BTreeSet::new(),
+            warnings: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
             over: false,
@@ -225,10 +229,18 @@ impl State {
         inner.unwrap_or(path).display().to_string()
     }
 
-    /// An error whose file is named as pages name it.
+    /// An error whose file is named as pages name it, with the lines around its own.
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
-        let mut object = error.to_json();
-        if let Some(place) = error.place() {
+        self.placed(error.to_json(), error.place())
+    }
+
+    /// The same of a warning.
+    pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
+        self.placed(warning.to_json(), warning.place())
+    }
+
+    fn placed(&self, mut object: serde_json::Value, place: Option<&Place>) -> serde_json::Value {
+        if let Some(place) = place {
             object["file"] = self.short(&place.file).into();
             let excerpt = place.excerpt(AROUND, AROUND);
             if !excerpt.is_empty() {
