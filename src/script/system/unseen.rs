@@ -3,6 +3,8 @@
 //!
 //! Each is certain, not likely: a script that means what it says is never warned of.
 
+use rustc_hash::{FxHashMap, FxHashSet};
+
 use crate::derive::Derived;
 use crate::error::Place;
 use crate::rules::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
@@ -33,9 +35,11 @@ impl System {
                 warning.at(first.place.clone()).help("give it one, such as lsystem({ object = turtle() })"),
             );
         }
-        for (index, rule) in grammar.rules().iter().enumerate().filter(|(_, rule)| rule.weight != Some(0.0)) {
+        let mut sure = Sure::default();
+        for rule in grammar.rules().iter().filter(|rule| rule.weight != Some(0.0)) {
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
+            let earlier = sure.forestalls(rule);
             if let Some(item) = rule.contexts().iter().find(|item| grammar.is_skipped(item.symbol)) {
                 let name = &grammar.symbols().signature(item.symbol).name;
                 let (text, help) = match self.considered {
@@ -49,20 +53,17 @@ impl System {
                     ),
                 };
                 warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
-            } else if let Some(earlier) =
-                grammar.rules()[..index].iter().find(|earlier| forestalls(earlier, rule))
-            {
+            } else if let Some(earlier) = earlier {
                 let place = earlier.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
-                let text = format!(
-                    "it is never used, for the rule {}{place} always comes first",
-                    earlier.pattern.text
-                );
+                let name = &earlier.pattern.text;
+                let text = format!("it is never used, for the rule {name}{place} always comes first");
                 let help = match earlier.weight {
                     Some(_) => "give both rules a weight: { weight = 1 }",
                     None => "give the earlier rule a guard, or both a weight, or put this one before it",
                 };
                 warn(Warning::new(WarningKind::UnreachableRule, text).help(help));
             }
+            sure.add(rule);
         }
     }
 
@@ -136,21 +137,53 @@ impl System {
     }
 }
 
-/// Whether `earlier` is chosen wherever `rule` could be.
-fn forestalls(earlier: &Rule, rule: &Rule) -> bool {
-    let around = |pattern: &Pattern| {
-        let left: Vec<Symbol> = pattern.left.iter().map(|item| item.symbol).collect();
-        (left, plain(&pattern.right))
-    };
-    let always = earlier.contexts().is_empty() || around(&earlier.pattern) == around(&rule.pattern);
-    earlier.pattern.predecessor.symbol == rule.pattern.predecessor.symbol
-        && !earlier.guarded
-        && always
-        && match earlier.weight {
-            None => true,
-            // The first candidate has a weight, so only those with weights are drawn from.
-            Some(weight) => weight > 0.0 && rule.weight.is_none(),
+/// A predecessor and its contexts, without the names of parameters.
+type Around = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
+
+/// The rules so far that are candidates wherever their contexts match, by what they match.
+#[derive(Default)]
+struct Sure<'a> {
+    rules: FxHashMap<Around, [Option<&'a Rule>; 3]>,
+    /// The symbols with a rule that has a weight.
+    weighted: FxHashSet<Symbol>,
+}
+
+// The places of a rule among those that match the same: it wins before all that follow; before those without a weight,
+// for it has none, and one that has a weight may have come first; or it has a weight itself, and keeps those from winning.
+const BEFORE_ALL: usize = 0;
+const BEFORE_PLAIN: usize = 1;
+const WEIGHTED: usize = 2;
+
+impl<'a> Sure<'a> {
+    /// The rule without contexts, or with the same, that keeps `rule` from ever being chosen.
+    fn forestalls(&self, rule: &Rule) -> Option<&'a Rule> {
+        let around = around(rule);
+        let anywhere = (around.0, Vec::new(), Vec::new());
+        let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
+        let of = |around: &Around| self.rules.get(around)?[places.clone()].iter().flatten().next().copied();
+        of(&anywhere).or_else(|| of(&around))
+    }
+
+    fn add(&mut self, rule: &'a Rule) {
+        let symbol = rule.pattern.predecessor.symbol;
+        let place = match rule.weight {
+            Some(_) => WEIGHTED,
+            None if self.weighted.contains(&symbol) => BEFORE_PLAIN,
+            None => BEFORE_ALL,
+        };
+        if rule.weight.is_some() {
+            self.weighted.insert(symbol);
         }
+        if !rule.guarded {
+            self.rules.entry(around(rule)).or_default()[place].get_or_insert(rule);
+        }
+    }
+}
+
+fn around(rule: &Rule) -> Around {
+    let pattern = &rule.pattern;
+    let left = pattern.left.iter().map(|item| item.symbol).collect();
+    (pattern.predecessor.symbol, left, plain(&pattern.right))
 }
 
 /// A right context without the names of parameters.
