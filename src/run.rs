@@ -109,7 +109,8 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 
 /// The warning for a model of drawing objects that is empty, unless someone has asked to see fewer steps.
 fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
-    let drawing = systems.iter().find(|system| system.draws)?;
+    let mut drawing = systems.iter().filter(|system| system.draws);
+    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
     if scene.triangles() > 0 || session.options.steps.is_some() {
         return None;
     }

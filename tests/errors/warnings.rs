@@ -412,8 +412,47 @@ fn a_model_without_triangles() {
         &with("s:interpret(\"A(x)\", function(this, x) this:advance(x) end)\ns:derive(0)"),
         "local A = module(\"A\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(source({}), function() return F(1) end)\ns:derive()",
         "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nlocal made = s:derive(0)\nlocal t = lsystem({ object = extruder() })\nt:axiom(Place(made))\nt:derive()",
-    ]), @r#""#);
-    insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r#""#);
+    ]), @r#"
+    s:rule("A(x)", function(this, x) return A(x), A(x) end)
+    s:derive(2)
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)
+
+    s:derive()
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules
+
+    s:interpret("A(x)", function(this, x) this:advance(x) end)
+    s:derive(0)
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: its interpretations draw nothing: see that lengths and scales are above 0
+
+    local A = module("A")
+    local s = lsystem({ object = turtle() })
+    s:axiom(source({}), function() return F(1) end)
+    s:derive()
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() })
+      help: its source has no features
+
+    local s = lsystem({ object = turtle() })
+    s:axiom(F(1))
+    local made = s:derive(0)
+    local t = lsystem({ object = extruder() })
+    t:axiom(Place(made))
+    t:derive()
+    warning: s.lua:4: the model is empty, for this system draws nothing
+      | local t = lsystem({ object = extruder() })
+      help: a system that another one is to place is not shown by itself: see that it is placed
+    "#);
+    insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r#"
+    warning: s.lua:2: the model is empty, for no system has an object that draws
+      | local s = lsystem()
+      help: give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE
+    "#);
     // Someone looks at an earlier step.
     let folder =
         Folder::new().with("s.lua", with("s:rule(\"A(x)\", function(this, x) return F(x) end) s:derive(1)"));

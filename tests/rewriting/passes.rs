@@ -97,8 +97,8 @@ proptest! {
         prop_assert_eq!(all_chains(&few), all_chains(&all));
         prop_assert_eq!(few.systems[0].steps, all.systems[0].steps);
         prop_assert_eq!(gltf::glb(&few.scene).unwrap(), gltf::glb(&all.scene).unwrap());
-        let texts = |run: &Run| run.warnings.iter().map(|it| it.message().to_owned()).collect::<Vec<_>>();
-        prop_assert_eq!(texts(&few), texts(&all));
+        let kinds = |run: &Run| run.warnings.iter().map(|it| it.kind()).collect::<Vec<_>>();
+        prop_assert_eq!(kinds(&few), kinds(&all));
         let names = |run: &Run| -> usize {
             let text = all_chains(run);
             text.split(|c: char| !c.is_ascii_alphanumeric()).filter(|word| matches!(*word, "A" | "B" | "C")).count()
@@ -134,11 +134,8 @@ fn a_pass_is_made_after_each_step_only_where_a_rule_may_look() {
         "local function grow(this, n) return A(n + helper(this)) end\ns:rule(\"A(n)\", grow)",
         "s:rule(\"A(n)\", function(this, n) return A(n + 1) end) s:rule(\"A(n)\", { when = helper }, function() return A(1) end)",
         "local f = function(a) return 1 end local g = function\n(this, n) return A(this:position().z) end s:rule(\"A(n)\", g)",
-        "s:rule(\"A(n)\", coroutine.wrap(function(this, n) while true do coroutine.yield(A(n + 1)) end end))",
     ] {
-        if !seen.contains("coroutine") {
-            assert_eq!(made(seen), 5, "{seen}");
-        }
+        assert_eq!(made(seen), 5, "{seen}");
     }
 }
 

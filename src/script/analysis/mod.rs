@@ -188,7 +188,7 @@ mod tests {
             "function(this) for this = 1, 3 do other(this) end end",
             "function(this, n) this = n end",
             "function(this, ...) return select(1, ...) end",
-            "function(this) return { this = 1 }.this end",
+            "function(this) return ({ this = 1 }).this end",
         ] {
             assert!(blind(function), "{function}");
         }
