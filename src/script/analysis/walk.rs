@@ -150,6 +150,11 @@ impl<'a> Walk<'a> {
             }
             Stmt::CompoundAssignment(assignment) => {
                 self.expression(assignment.rhs());
+                if let Var::Name(name) = assignment.lhs()
+                    && self.find(&text_of(name)).is_some()
+                {
+                    self.read(name);
+                }
                 self.assign(assignment.lhs(), statement);
             }
             Stmt::Do(inner) => self.block(inner.block()),
