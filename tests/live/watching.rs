@@ -37,7 +37,10 @@ impl Watching {
 
     #[track_caller]
     fn next(&self) -> Value {
-        serde_json::from_str(&self.lines.recv_timeout(PATIENCE).unwrap()).unwrap()
+        match self.lines.recv_timeout(PATIENCE) {
+            Ok(line) => serde_json::from_str(&line).unwrap(),
+            Err(_) => panic!("nothing is said"),
+        }
     }
 
     fn write(&self, text: &str) {
