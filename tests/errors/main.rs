@@ -24,3 +24,4 @@ mod support;
 mod syntax;
 mod terrain;
 mod variations;
+mod warnings;

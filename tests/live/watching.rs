@@ -85,6 +85,16 @@ fn the_outputs_follow_the_script_and_stay_when_it_fails() {
     assert_eq!(names, ["a.glb", "a.txt", "s.lua"]);
 }
 
+#[test]
+fn each_run_tells_its_own_warnings() {
+    let watching = Watching::new(Some(
+        "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:derive(0)\ns:derive(0)\n",
+    ));
+    assert_eq!(watching.next()["warnings"][0]["kind"], "derived-twice");
+    watching.write(&script(3));
+    assert_eq!(watching.next()["warnings"].as_array().map(Vec::len), Some(0));
+}
+
 #[cfg(unix)]
 #[test]
 fn an_interrupt_ends_it_at_once() {
