@@ -12,7 +12,7 @@
 //!
 //! Each stage is a folder, and uses only those before it:
 //!
-//! - [`error`]: what a person is told when something is wrong.
+//! - [`error`]: what a person is told when something is wrong; [`Stop`] ends work that nobody waits for.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -87,6 +87,7 @@ mod run;
 pub mod scene;
 pub mod script;
 pub mod sources;
+mod stop;
 pub mod terrain;
 pub mod trace;
 pub mod variations;
@@ -94,3 +95,4 @@ pub mod watch;
 
 pub use error::{Error, Result};
 pub use run::{Run, RunTimes, check, run, run_session};
+pub use stop::Stop;

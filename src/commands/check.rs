@@ -26,7 +26,7 @@ impl Check {
                 .iter()
                 .map(|param| json!({ "name": param.name, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.text }))
                 .collect();
-            report::print(&format!("{}\n", json!({ "ok": true, "params": params })));
+            report::print(&format!("{}\n", json!({ "ok": true, "params": params })))?;
         } else {
             report::eprint(&format!("{} is fine\n", self.script.script.display()));
             for param in params {

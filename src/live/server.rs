@@ -149,7 +149,9 @@ async fn measured(site: &Arc<Site>, name: &str) -> Response {
     let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
     let Ok(_turn) = site.exports.acquire().await else { return missing() };
-    let make = move || export::apart(|| gltf::glb_with_texture_coordinates(&shown.run.scene));
+    let make = move || {
+        export::apart(|| gltf::glb_with_texture_coordinates(&shown.run.scene, &crate::Stop::default()))
+    };
     match tokio::task::spawn_blocking(make).await {
         Ok(Ok(bytes)) => {
             let kind = "model/gltf-binary";

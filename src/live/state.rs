@@ -19,7 +19,8 @@ use crate::export::Format;
 use crate::export::gltf::Layout;
 use crate::presets::Presets;
 use crate::run::Run;
-use crate::script::{Options, Param, Session, Stop};
+use crate::script::{Options, Param, Session};
+use crate::stop::Stop;
 use crate::watch::Change;
 
 /// Messages that wait for a page at most; a page that is slower gets the present state instead.

@@ -12,6 +12,7 @@ mod fitting;
 mod footprints;
 mod limits;
 mod neighbors;
+mod outputs;
 mod params;
 mod patterns;
 mod planets;
