@@ -60,12 +60,17 @@ impl Temporary {
         if !target.is_file() {
             return Ok(None);
         }
-        let aside = Self { path: name_beside(target) };
-        names.0.insert(aside.path.clone());
-        if copied || fs::hard_link(target, &aside.path).is_err() {
-            fs::copy(target, &aside.path)?;
+        let mut path = name_beside(target);
+        let copy = |path: &Path| fs::copy(target, path).map(|_| ()).inspect_err(|_| remove(path));
+        if copied && copy(&path).is_err() {
+            // Its folder may take no files.
+            path = name_beside(&std::env::temp_dir().join(target.file_name().unwrap_or_default()));
+            copy(&path)?;
+        } else if !copied && fs::hard_link(target, &path).is_err() {
+            copy(&path)?;
         }
-        Ok(Some(aside))
+        names.0.insert(path.clone());
+        Ok(Some(Self { path }))
     }
 
     /// An empty folder at `path`, which is there for good once it is kept.

@@ -66,7 +66,9 @@ pub(super) enum Block<'a> {
     CornerPlaces(Arc<Corners<'a>>),
     /// The texture coordinates of corners.
     CornerTexCoords(Arc<Corners<'a>>),
-    /// The indices of a part among corners, by its number, with this many triangles to be written, as u16.
+    /// The normals of corners.
+    CornerNormals(Arc<Corners<'a>>),
+    /// The indices of faces among corners, by their number, with this many triangles to be written, as u16.
     ShortFaces(Arc<Corners<'a>>, usize, usize),
     LongFaces(Arc<Corners<'a>>, usize, usize),
     Floats(Vec<f32>),
@@ -294,7 +296,7 @@ impl Block<'_> {
             Self::FaceNormals(welded) => welded.normals.len() * 4,
             Self::ShortCorners(welded, _) => welded.triangles.len() * 6,
             Self::LongCorners(welded) => welded.triangles.len() * 12,
-            Self::CornerPlaces(corners) => corners.range(false).count * 12,
+            Self::CornerPlaces(corners) | Self::CornerNormals(corners) => corners.range(false).count * 12,
             Self::CornerTexCoords(corners) => corners.range(true).count * 8,
             Self::ShortFaces(_, _, triangles) => triangles * 6,
             Self::LongFaces(_, _, triangles) => triangles * 12,
@@ -315,10 +317,10 @@ impl Block<'_> {
             Self::Short(part, ..) | Self::Long(part, _) => part.triangles.len(),
             Self::Places(welded) | Self::FaceNormals(welded) => welded.positions.len(),
             Self::ShortCorners(welded, _) | Self::LongCorners(welded) => welded.triangles.len(),
-            Self::CornerPlaces(corners) => corners.range(false).count,
+            Self::CornerPlaces(corners) | Self::CornerNormals(corners) => corners.range(false).count,
             Self::CornerTexCoords(corners) => corners.range(true).count,
-            Self::ShortFaces(corners, part, _) | Self::LongFaces(corners, part, _) => {
-                corners.part(*part).triangles.len()
+            Self::ShortFaces(corners, faces, _) | Self::LongFaces(corners, faces, _) => {
+                corners.faces(*faces).part.triangles.len()
             }
             Self::Floats(floats) => floats.len(),
             Self::Bytes(bytes) => bytes.len(),
@@ -356,13 +358,16 @@ impl Block<'_> {
             Self::CornerTexCoords(corners) => {
                 out.extend_from_slice(bytemuck::cast_slice(&corners.list().tex_coords[range]))
             }
-            Self::ShortFaces(corners, part, _) => {
-                let (list, shown) = (corners.list(), shown(corners.part(*part).triangles.range(range)));
-                put(out, shown.map(|face| face.map(|vertex| list.of[*part][vertex as usize] as u16)));
+            Self::CornerNormals(corners) => {
+                put(out, corners.list().normals[range].iter().map(|it| y_up(it.vector()).to_array()))
             }
-            Self::LongFaces(corners, part, _) => {
-                let (list, shown) = (corners.list(), shown(corners.part(*part).triangles.range(range)));
-                put(out, shown.map(|face| face.map(|vertex| list.of[*part][vertex as usize])));
+            Self::ShortFaces(corners, faces, _) => {
+                let (list, shown) = (corners.list(), corners.faces(*faces).triangles(range));
+                put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize] as u16)));
+            }
+            Self::LongFaces(corners, faces, _) => {
+                let (list, shown) = (corners.list(), corners.faces(*faces).triangles(range));
+                put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize])));
             }
             Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
             Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),

@@ -2,7 +2,7 @@
 
 use super::super::check::{Checked, Measured};
 use super::body::{Block, Body, Shared, y_up};
-use super::corners::{self, CornerRange, Corners, is_flat};
+use super::corners::{self, CornerRange, Corners, Faces, Which, flat_faces};
 use super::description::{Accessor, Attributes, Description, Mesh, Primitive, Shading};
 use super::weld::Welded;
 use crate::scene::Part;
@@ -29,18 +29,14 @@ pub(super) fn write<'a>(
         let texture = scene.materials[part.material].texture.as_ref();
         let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
         let welded = (arrays.small && size.is_none()).then(|| Welded::of(part)).flatten().map(Arc::new);
-        Shown { part, texture: size, measured: *measured, welded, corners: None }
+        Shown { part, texture: size, measured: *measured, welded, which: None, corners: None }
     };
     let shown = scene.meshes.par_iter().zip(&checked.parts).map(|(mesh, parts)| {
         let is_shown = |(_, measured): &(&Part, &Measured)| measured.triangles > 0;
         match arrays.small {
             _ if stop.is_stopped() => Vec::new(),
             true => mesh.parts.par_iter().zip(parts).filter(is_shown).map(measure).collect(),
-            false => {
-                let mut shown: Vec<_> = mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect();
-                share_corners(&mut shown);
-                shown
-            }
+            false => divide(mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect()),
         }
     });
     let shown: Vec<Vec<Shown<'a>>> = shown.collect();
@@ -82,33 +78,60 @@ struct Shown<'a> {
     measured: Measured,
     /// What is written in the part's place.
     welded: Option<Arc<Welded>>,
-    /// Where its corners are, if its faces are flat, and its number among the parts that share them.
+    /// Which of the part's faces are meant, if they have corners.
+    which: Option<Which>,
+    /// Where their corners are, and their number among the faces that share them.
     corners: Option<(Arc<Corners<'a>>, usize)>,
 }
 
-/// Lets the parts of a mesh that are flat share their corners, or each its own if they are too many for short indices.
-fn share_corners(shown: &mut [Shown<'_>]) {
-    let is_small = |shown: &Shown<'_>| shown.part.positions.len() <= corners::MOST;
-    let mut flat: Vec<_> = shown.iter_mut().filter(|it| is_small(it) && is_flat(it.part)).collect();
-    flat.sort_by_key(|shown| shown.texture.is_none());
-    let vertices: usize = flat.iter().map(|shown| shown.part.positions.len()).sum();
-    let together = (vertices <= corners::MOST).then(|| corners_of(&flat));
+/// The parts of a mesh; one with mostly flat faces is divided into these and the others, if there are any.
+fn divide(parts: Vec<Shown<'_>>) -> Vec<Shown<'_>> {
+    let mut divided = Vec::with_capacity(parts.len());
+    for shown in parts {
+        let (part, all) = (shown.part, shown.measured.triangles);
+        let flat = if part.positions.len() <= corners::MOST { flat_faces(part) } else { 0 };
+        if 2 * flat < all {
+            divided.push(shown);
+            continue;
+        }
+        let some = |which: Which, triangles: usize| {
+            let measured = Measured { triangles, ..shown.measured };
+            Shown { part, texture: shown.texture, measured, welded: None, which: Some(which), corners: None }
+        };
+        divided.push(some(if flat == all { Which::All } else { Which::Flat }, flat));
+        if flat < all {
+            divided.push(some(Which::Shaded, all - flat));
+        }
+    }
+    for shaded in [false, true] {
+        let alike =
+            |shown: &&mut Shown<'_>| shown.which.is_some_and(|which| (which == Which::Shaded) == shaded);
+        share_corners(divided.iter_mut().filter(alike).collect());
+    }
+    divided
+}
+
+/// Lets parts of a mesh share their corners, or each its own if they are too many for short indices.
+fn share_corners(mut parts: Vec<&mut Shown<'_>>) {
+    if parts.is_empty() {
+        return;
+    }
+    parts.sort_by_key(|shown| shown.texture.is_none());
+    let vertices: usize = parts.iter().map(|shown| shown.part.positions.len()).sum();
+    let faces = parts.iter().filter_map(|shown| shown.faces()).collect();
+    let together = (vertices <= corners::MOST).then(|| Corners::of(faces));
     match together.filter(|together| together.range(false).count <= SHORT).map(Arc::new) {
         Some(together) => {
-            for (number, shown) in flat.into_iter().enumerate() {
+            for (number, shown) in parts.into_iter().enumerate() {
                 shown.corners = Some((Arc::clone(&together), number));
             }
         }
         None => {
-            for shown in flat {
-                shown.corners = Some((Arc::new(Corners::of(vec![(shown.part, shown.texture)])), 0));
+            for shown in parts {
+                shown.corners = shown.faces().map(|faces| (Arc::new(Corners::of(vec![faces])), 0));
             }
         }
     }
-}
-
-fn corners_of<'a>(shown: &[&mut Shown<'a>]) -> Corners<'a> {
-    Corners::of(shown.iter().map(|shown| (shown.part, shown.texture)).collect())
 }
 
 /// Where the vertices of a part are.
@@ -173,6 +196,9 @@ impl Vertices {
     ) -> [Option<Self>; 2] {
         body.show(corners);
         let places = body.share(Shared::Positions, Block::CornerPlaces(Arc::clone(corners)));
+        let normals = corners
+            .are_shaded()
+            .then(|| body.share(Shared::Normals, Block::CornerNormals(Arc::clone(corners))));
         [false, true].map(|textured| {
             let CornerRange { count, low, high } = corners.range(textured);
             corners.has_parts(textured).then(|| {
@@ -180,11 +206,14 @@ impl Vertices {
                 let positions =
                     Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
                 let positions = description.accessor(positions);
+                let normals = normals.map(|place| {
+                    description.accessor(accessor(place, ComponentType::F32, Type::Vec3, count))
+                });
                 let tex_coords = textured.then(|| {
                     let place = body.share(Shared::TexCoords, Block::CornerTexCoords(Arc::clone(corners)));
                     description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
                 });
-                let accessors = Attributes { positions, normals: None, tex_coords };
+                let accessors = Attributes { positions, normals, tex_coords };
                 Self { accessors, first: 0, count }
             })
         })
@@ -253,6 +282,11 @@ impl<'a> Shown<'a> {
     /// How many vertices are written.
     fn vertices(&self) -> usize {
         self.welded.as_ref().map_or(self.part.positions.len(), |welded| welded.positions.len())
+    }
+
+    /// Those of its faces that have corners.
+    fn faces(&self) -> Option<Faces<'a>> {
+        self.which.map(|which| Faces { part: self.part, texture: self.texture, which })
     }
 
     fn primitive(
