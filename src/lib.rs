@@ -12,7 +12,8 @@
 //!
 //! Each stage is a folder, and uses only those before it:
 //!
-//! - [`error`]: what a person is told when something is wrong; [`Stop`] ends work that nobody waits for.
+//! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
+//!   can be meant; [`Stop`] ends work that nobody waits for.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -91,8 +92,10 @@ mod stop;
 pub mod terrain;
 pub mod trace;
 pub mod variations;
+pub mod warning;
 pub mod watch;
 
 pub use error::{Error, Result};
-pub use run::{Run, RunTimes, check, run, run_session};
+pub use run::{Check, Run, RunTimes, check, run, run_session};
 pub use stop::Stop;
+pub use warning::{Warning, WarningKind};

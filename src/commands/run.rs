@@ -4,10 +4,10 @@ use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use burgeon::Result;
 use burgeon::export;
 use burgeon::presets::Presets;
 use burgeon::script::{Param, Preset, Session};
+use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
 
 use super::progress::Progress;
@@ -100,10 +100,11 @@ impl Run {
     ) -> Result<Option<burgeon::Run>> {
         let (run, writing) = {
             let _progress = Progress::show(session, !self.script.json);
-            let run = burgeon::run_session(session)?;
+            let mut run = burgeon::run_session(session)?;
             if stale() {
                 return Ok(None);
             }
+            self.warn_of_nothing(session, &mut run)?;
             let writing = Instant::now();
             self.write(&run, session)?;
             if let Some(name) = &self.save_preset {
@@ -124,6 +125,25 @@ impl Run {
             report::eprint(&report::summary(&run, writing, begin.elapsed(), self.report.as_deref()));
         }
         Ok(Some(run))
+    }
+
+    /// Warns of files without a model in them; such a run fails if it is to be strict.
+    fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
+        let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
+        let place = run.systems.first().map(|system| system.place.clone());
+        let (Some(place), false) = (place, known || self.output.is_empty()) else { return Ok(()) };
+        if run.scene.triangles() > 0 || session.options.steps.is_some() {
+            return Ok(());
+        }
+        let text = "the model is empty, for no system has an object that draws";
+        let warning = Warning::new(WarningKind::EmptyModel, text)
+            .at(place)
+            .help("give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE");
+        if session.options.strict {
+            return Err(warning.into_error());
+        }
+        run.warnings.push(warning);
+        Ok(())
     }
 
     /// Saves what this run was given.

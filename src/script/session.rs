@@ -18,6 +18,7 @@ use crate::derive::Trace;
 use crate::error::{Error, Result};
 use crate::rules::Values;
 use crate::stop::Stop;
+use crate::warning::{Warning, Warnings};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
@@ -101,6 +102,7 @@ pub struct Session {
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
+    warnings: Warnings,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
@@ -134,6 +136,7 @@ impl Session {
             sought: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
+            warnings: Warnings::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             peeking: AtomicBool::new(false),
@@ -202,6 +205,16 @@ impl Session {
         Ok(())
     }
 
+    /// Takes notice of something that people should know; what is said twice is counted.
+    pub fn warn(&self, warning: Warning) {
+        self.warnings.add(warning);
+    }
+
+    /// What people should know of the run so far, in the order of files and lines.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.warnings.list()
+    }
+
     /// The parameters that the script declared, in order.
     pub fn params(&self) -> Vec<Param> {
         self.params.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -226,10 +239,23 @@ impl Session {
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
     pub(crate) fn is_quiet(&self, file: &str, line: usize) -> bool {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut named = sources.values().filter(|source| source.name == file);
         !self.metatables.load(Ordering::Acquire)
-            && named.next().is_some_and(|source| source.analysis.quiet.contains(&line))
+            && self.source_called(file).is_some_and(|source| source.analysis.quiet.contains(&line))
+    }
+
+    /// Whether the functions that begin in a line of a file do not look at their first parameter.
+    pub(crate) fn is_blind(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
+    }
+
+    /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
+    pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
+        self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        sources.values().find(|source| source.name == file).cloned()
     }
 
     /// Takes notice of what a piece of the script may do.

@@ -109,10 +109,22 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
     )?;
     let state = Rc::clone(current);
     host.set(
+        "lost",
+        lua.create_function(move |_, entry: usize| {
+            if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
+                flusher.lost(entry);
+            }
+            Ok(())
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
         "call",
         lua.create_function(move |lua, (method, application, arguments): (usize, usize, MultiValue)| {
             let arguments = values(&arguments)?;
-            let answer = state.call(method, application, &arguments).map_err(mlua::Error::external)?;
+            let answer = state
+                .call(method, application, &arguments, || super::Machine::place(lua))
+                .map_err(mlua::Error::external)?;
             to_lua(lua, &answer, false)
         })?,
     )?;

@@ -17,13 +17,15 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use mlua::chunk::{ChunkMode, Compiler};
-use mlua::{Buffer, Function, Lua};
+use mlua::{Buffer, Function, Lua, Value};
 
 use super::library::{Library, Quiet};
 use super::session::Session;
+use super::system::tell_unseen;
 use crate::derive::Crew;
 use crate::error::{Error, Place, Result};
 use crate::rules::{Symbol, Symbols};
+use crate::warning::Warning;
 use begun::Begun;
 use prelude::Prelude;
 
@@ -85,7 +87,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Runs the script's main file.
+    /// Runs the script's main file, and tells what it has declared in vain.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
         let path = session.script().canonicalize().map_err(|error| Error::new(error.to_string()))?;
@@ -96,7 +98,18 @@ impl Machine {
             self.load(&source.name, &source.analysis.text)?;
             return Err(Error::several(problems));
         }
-        self.load(&source.name, &source.analysis.text)?.call::<()>(()).map_err(|error| self.translate(error))
+        let chunk = self.load(&source.name, &source.analysis.text)?;
+        let value: Value = chunk.call(()).map_err(|error| self.translate(error))?;
+        tell_unseen(self, !value.is_nil());
+        Ok(())
+    }
+
+    /// Takes notice of something that people should know of the line of the script that is being run. A machine that
+    /// only helps says nothing, for the leading one runs the same line.
+    pub(crate) fn warn(&self, warning: Warning) {
+        if self.crew.leads() {
+            self.session.warn(warning.at(Self::place(&self.lua)));
+        }
     }
 
     /// Keeps the script from printing, since another machine runs it too.
