@@ -12,7 +12,8 @@
 //!
 //! Each stage is a folder, and uses only those before it:
 //!
-//! - [`error`]: what a person is told when something is wrong.
+//! - [`error`]: what a person is told when something is wrong, and [`text`], how foreign words are shown.
+//! - [`Budget`]: what reading foreign bytes may take.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -70,9 +71,11 @@
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
+mod budget;
 pub mod derive;
 pub mod error;
 pub mod export;
+mod files;
 pub mod geometry;
 mod interpret;
 #[cfg(feature = "live")]
@@ -88,9 +91,11 @@ pub mod scene;
 pub mod script;
 pub mod sources;
 pub mod terrain;
+pub mod text;
 pub mod trace;
 pub mod variations;
 pub mod watch;
 
+pub use budget::{Budget, Held};
 pub use error::{Error, Result};
 pub use run::{Run, RunTimes, check, run, run_session};

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::paths::{is_absolute, lead};
 use super::session::Session;
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 use crate::objects::import::Wanted as WantedModel;
 use crate::objects::terrain::EditFile;
@@ -29,6 +30,18 @@ struct Known {
     models: BTreeMap<PathBuf, Result<Arc<Model>>>,
     edits: BTreeMap<PathBuf, Result<EditFile>>,
     elevations: BTreeMap<String, Result<Elevation>>,
+    /// What all reading of the run may take.
+    budget: Option<Arc<Budget>>,
+}
+
+impl Known {
+    fn budget(&mut self, session: &Session) -> Arc<Budget> {
+        let make = || {
+            let stop = Arc::clone(&session.stop);
+            Budget::new(session.options.limits.memory, move || stop.check())
+        };
+        Arc::clone(self.budget.get_or_insert_with(make))
+    }
 }
 
 impl Data {
@@ -39,10 +52,12 @@ impl Data {
         if let Some(loaded) = known.loaded.get(&key) {
             return loaded.clone();
         }
-        let stop = Arc::clone(&session.stop);
-        wanted.stopped = Some(Arc::new(move || stop.is_stopped()));
+        wanted.budget = known.budget(session);
+        let before = wanted.budget.taken();
         let loaded = read(session, text, wanted, &mut known);
         session.stop.check()?;
+        let kept = loaded.as_ref().map_or(0, |layer| layer.size());
+        known.budget(session).settle(before, kept);
         known.loaded.insert(key, loaded.clone());
         loaded
     }
@@ -170,7 +185,7 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
             layer
         }
         None => {
-            let table = Source::open(&path, name)?.read(name, &wanted)?;
+            let table = Source::open_within(&path, name, &wanted)?.read(name, &wanted)?;
             let shown = table.shown.clone();
             let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
             let layer = Arc::new(layer);

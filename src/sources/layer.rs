@@ -30,17 +30,30 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// About how much memory (bytes) it takes.
+    pub(crate) fn size(&self) -> usize {
+        let of = |feature: &Feature| {
+            300 + feature.id.len() + feature.geometry.points().count() * 24 + feature.attributes.len() * 40
+        };
+        self.features.iter().map(of).sum()
+    }
+
     /// Brings `table` into `frame`, which is made for it unless there is one already.
     pub fn new(mut table: Table, frame: &mut Option<Frame>) -> Result<Self> {
-        table.refuse_endless();
-        if let (true, Some((_, error))) = (table.features.is_empty(), table.refused.first()) {
-            return Err(error.clone());
-        }
-        let frame = match frame {
-            Some(frame) => frame,
-            None => frame.insert(Frame::new(&table)?),
+        table.refuse_endless()?;
+        let left = |table: &Table| match table.refused.first() {
+            Some((_, error)) if table.features.is_empty() => Err(error.clone()),
+            _ => Ok(()),
         };
-        frame.bring(&mut table)?;
+        left(&table)?;
+        let found = match frame {
+            Some(frame) => frame.clone(),
+            None => Frame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
+        };
+        found.bring(&mut table)?;
+        // What decides on a place must have one.
+        left(&table)?;
+        let frame = frame.insert(found);
         let nothing = || [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         let turned = table.features.par_iter_mut().map(|feature| {
             if let super::Geometry::Polygon(rings) = &mut feature.geometry {
@@ -96,8 +109,8 @@ mod tests {
     fn outer_rings_turn_left_and_holes_turn_right() {
         let square = |size: f64| vec![[0.0, 0.0, 0.0], [0.0, size, 0.0], [size, size, 0.0], [size, 0.0, 0.0]];
         let hole = square(1.0).into_iter().rev().collect();
-        let mut table = Table::new("a", "a", Crs::epsg(3067));
-        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new());
+        let mut table = Table::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
+        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new()).unwrap();
         let layer = Layer::new(table, &mut None).unwrap();
         let Geometry::Polygon(rings) = &layer.features[0].geometry else { panic!("a polygon") };
         assert_eq!((doubled_area(&rings[0]), doubled_area(&rings[1])), (32.0, -2.0));
