@@ -279,6 +279,7 @@ fn words(error: &serde_json::Error) -> String {
     let text = error.to_string();
     let why = text.rsplit_once(" at line ").map_or(text.as_str(), |(why, _)| why);
     let why = why.replace("struct RawFeature", "a feature").replace("a map", "an object");
+    let why = why.replace("struct RawGeometry", "a geometry");
     shown(&why).into_owned()
 }
 
