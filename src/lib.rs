@@ -12,8 +12,9 @@
 //!
 //! Each stage is a folder, and uses only those before it:
 //!
-//! - [`error`]: what a person is told when something is wrong, and [`text`], how foreign words are shown.
-//! - [`Budget`]: what reading foreign bytes may take.
+//! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
+//!   can be meant.
+//! - [`Budget`]: what reading foreign bytes may take, and [`text`]: how foreign words are shown.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -94,8 +95,10 @@ pub mod terrain;
 pub mod text;
 pub mod trace;
 pub mod variations;
+pub mod warning;
 pub mod watch;
 
 pub use budget::{Budget, Held};
 pub use error::{Error, Result};
-pub use run::{Run, RunTimes, check, run, run_session};
+pub use run::{Check, Run, RunTimes, check, run, run_session};
+pub use warning::{Warning, WarningKind};

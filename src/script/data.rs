@@ -195,21 +195,8 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
             layer
         }
     };
-    let shown = &layer.shown;
-    // A layer that is read in parts is told of once.
-    if layer.empty > 0 && known.told.insert(shown.clone()) && !session.options.quiet {
-        let features = if layer.empty == 1 { "feature" } else { "features" };
-        eprintln!("{shown}: left out {} {features} without a geometry", layer.empty);
-    }
-    if let Some((_, error)) = layer.refused.first() {
-        if session.options.strict {
-            return Err(error.clone());
-        }
-        if known.told.insert(format!("refused {shown}")) && !session.options.quiet {
-            let count = layer.refused.len();
-            let features = if count == 1 { "feature" } else { "features" };
-            eprintln!("{shown}: left out {count} {features} that cannot be read: {}", error.message());
-        }
+    if let (true, Some((_, error))) = (session.options.strict, layer.refused.first()) {
+        return Err(error.clone());
     }
     Ok(layer)
 }

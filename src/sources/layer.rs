@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::frame::Frame;
 use super::table::{Feature, Table};
 use crate::error::{Error, Result};
+use crate::warning::{Warning, WarningKind};
 
 /// Features of a data file, in metres around the run's origin.
 #[derive(Debug)]
@@ -30,6 +31,26 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// What people should know of how it was read.
+    pub(crate) fn warnings(&self) -> Vec<Warning> {
+        let features = |count: usize| if count == 1 { "feature" } else { "features" };
+        let shown = &self.shown;
+        let mut warnings = Vec::new();
+        if self.empty > 0 {
+            let what = features(self.empty);
+            let text = format!("{shown}: left out {} {what} without a geometry", self.empty);
+            warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+        }
+        if let Some((_, error)) = self.refused.first() {
+            let (count, such) = (self.refused.len(), if self.refused.len() == 1 { "" } else { "such as: " });
+            let what = features(count);
+            let text = format!("left out {count} {what} that cannot be used: {such}{}", error.message());
+            let warning = Warning::new(WarningKind::Data, text);
+            warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or leave them out")));
+        }
+        warnings
+    }
+
     /// About how much memory (bytes) it takes.
     pub(crate) fn size(&self) -> usize {
         let of = |feature: &Feature| {

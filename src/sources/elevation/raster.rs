@@ -34,6 +34,8 @@ pub struct Raster {
     pub crs: Option<Crs>,
     /// How many heights were missing and were filled from the rims of their holes.
     pub filled: usize,
+    /// How many more heights the file has than its header says; they are left out.
+    pub surplus: usize,
 }
 
 /// Where samples lie, in the units of a coordinate system.
@@ -132,9 +134,11 @@ impl Raster {
             )
         })?;
         check_grid(name, &grid, columns, rows, crs.as_ref())?;
+        let surplus = heights.len().saturating_sub(columns * rows);
+        heights.truncate(columns * rows);
         check_heights(name, columns, &mut heights)?;
         let filled = fill::fill(columns, rows, &mut heights);
-        Ok(Self { name: name.to_owned(), columns, rows, heights, grid, crs, filled })
+        Ok(Self { name: name.to_owned(), columns, rows, heights, grid, crs, filled, surplus })
     }
 
     /// Its outer edges: west, south, east and north. A sample stands for the area half a step around it.
