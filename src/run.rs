@@ -199,6 +199,10 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             return Err(Error::new(format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
+        crate::files::open(&path).map_err(|error| {
+            Error::new(format!("the texture {shown} cannot be read: {error}"))
+                .help("textures are PNG or JPEG files beside the script")
+        })?;
         texture.path = path;
     }
     Ok(())

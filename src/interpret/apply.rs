@@ -167,7 +167,8 @@ impl Applier {
                     self.counted = 0;
                 }
                 Err(error) => {
-                    objects.forgive(self.chain, self.blame(error, self.position, self.param))?;
+                    let error = self.blame(error, self.position, self.param).of_data();
+                    objects.forgive(self.chain, error)?;
                     self.failed = None;
                 }
             }

@@ -72,7 +72,16 @@ impl Data {
         }
         let path = find(session, "model", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        known.models.entry(path.clone()).or_insert_with(|| read_model(session, &path, name)).clone()
+        if let Some(model) = known.models.get(&path) {
+            return model.clone();
+        }
+        let budget = known.budget(session);
+        let before = budget.taken();
+        let read = read_model(session, &path, name, &budget);
+        session.stop.check()?;
+        budget.settle(before, read.as_ref().map_or(0, |model| model.memory()));
+        known.models.insert(path, read.clone());
+        read
     }
 }
 
@@ -110,8 +119,9 @@ impl Data {
         }
         let path = find(session, "file of edits", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let budget = known.budget(session);
         let read = || -> Result<EditFile> {
-            let text = String::from_utf8(read_file(&path, name)?)
+            let text = String::from_utf8(read_file(&path, name, "name a .json file", &budget)?)
                 .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
             Ok(EditFile { name: name.to_owned(), text: text.into() })
         };
@@ -145,28 +155,29 @@ fn read_heights(
 /// The largest file (bytes) of a model.
 const LARGEST: u64 = 1_000_000_000;
 
-fn read_model(session: &Session, path: &Path, name: &str) -> Result<Arc<Model>> {
-    let content = read_file(path, name)?;
+fn read_model(session: &Session, path: &Path, name: &str, budget: &Budget) -> Result<Arc<Model>> {
+    let remedy = "name a .glb or .gltf file";
+    let content = read_file(path, name, remedy, budget)?;
     // Files beside it are named from its own folder.
     let folder = Path::new(name).parent().map(Path::to_path_buf).unwrap_or_default();
     let mut beside = |uri: &str| {
         let name = folder.join(uri).display().to_string();
-        read_file(&find(session, "file of a model", &name)?, &name)
+        read_file(&find(session, "file of a model", &name)?, &name, remedy, budget)
     };
     let triangles = session.options.limits.triangles;
-    crate::objects::import::model(&content, &mut WantedModel { name, triangles, beside: &mut beside })
+    crate::objects::import::model(&content, &mut WantedModel { name, triangles, budget, beside: &mut beside })
 }
 
-fn read_file(path: &Path, name: &str) -> Result<Vec<u8>> {
+/// The content of a file, for which memory is taken.
+fn read_file(path: &Path, name: &str, remedy: &str, budget: &Budget) -> Result<Vec<u8>> {
     let cannot = |why: &dyn std::fmt::Display| Error::new(format!("cannot read {name}: {why}"));
-    let meta = path.metadata().map_err(|error| cannot(&error))?;
-    if !meta.is_file() {
-        return Err(cannot(&"it is not a file").help("name a .glb or .gltf file"));
-    }
+    let (_, meta) = crate::files::open(path).map_err(|error| cannot(&error).help(remedy))?;
     if meta.len() > LARGEST {
         return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));
     }
-    std::fs::read(path).map_err(|error| cannot(&error))
+    budget.check()?;
+    budget.take(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
+    crate::files::read(path, meta.len()).map_err(|error| cannot(&error).help(remedy))
 }
 
 fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {

@@ -67,7 +67,8 @@ fn written(name: &str) -> (tempfile::TempDir, Vec<u8>) {
 fn read_in(folder: &std::path::Path, content: &[u8], triangles: usize) -> Result<Scene> {
     let mut beside =
         |name: &str| std::fs::read(folder.join(name)).map_err(|error| Error::new(format!("{name}: {error}")));
-    read(content, &mut Wanted { name: "box.glb", triangles, beside: &mut beside })
+    let budget = &Budget::default();
+    read(content, &mut Wanted { name: "box.glb", triangles, budget, beside: &mut beside })
 }
 
 #[test]

@@ -7,6 +7,7 @@ use std::path::Path;
 use super::super::Crs;
 use super::{MOST, Wanted, fill, format};
 use crate::error::{Error, Result};
+use crate::warning::{Warning, WarningKind};
 
 /// The largest file (bytes).
 const LARGEST: u64 = 2_000_000_000;
@@ -146,6 +147,17 @@ impl Raster {
         let Grid { first, step } = self.grid;
         let (west, north) = (first[0] - step[0] / 2.0, first[1] + step[1] / 2.0);
         [west, north - step[1] * count(self.rows), west + step[0] * count(self.columns), north]
+    }
+
+    /// What people should know of how it was read.
+    pub(crate) fn warnings(&self) -> Vec<Warning> {
+        let Self { name, columns, rows, surplus, .. } = self;
+        let what = if *surplus == 1 { "number" } else { "numbers" };
+        let text =
+            format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
+        let warning =
+            Warning::new(WarningKind::Data, text).help("they are left out; correct ncols and nrows");
+        if *surplus > 0 { vec![warning] } else { Vec::new() }
     }
 
     /// Its lowest and its highest height (m).
