@@ -87,8 +87,10 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
 ///
 /// Edges are looked at from one side to the other, and not beyond the meetings that are allowed.
 fn meets_too_often(rings: &[Vec<DVec2>]) -> bool {
-    let mut edges: Vec<[DVec2; 2]> =
-        rings.iter().flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]])).collect();
+    let mut edges: Vec<[DVec2; 2]> = rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
+        .collect();
     let length = edges.iter().fold(DVec2::ZERO, |sum, [a, b]| sum + (*b - *a).abs());
     if length.x > length.y {
         // Along the axis on which they cover each other less.
@@ -411,8 +413,12 @@ mod tests {
             let size = count as f64;
             // A star of which each edge crosses nearly all others, random places, a comb that lies on itself, circles
             // that go around again and again, and a flower of many small loops.
-            shapes.push(around(count, &|at| DVec2::from_angle(at * std::f64::consts::PI * (1.0 + 1.0 / size)) * 20.0));
-            shapes.push(around(count, &|at| DVec2::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0)));
+            shapes.push(around(count, &|at| {
+                DVec2::from_angle(at * std::f64::consts::PI * (1.0 + 1.0 / size)) * 20.0
+            }));
+            shapes.push(around(count, &|at| {
+                DVec2::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0)
+            }));
             shapes.push(around(count, &|at| DVec2::new(at % 2.0 * 30.0, (at * 0.25).floor() % 3.0)));
             shapes.push(around(count, &|at| DVec2::from_angle(at * 0.1) * 30.0));
             shapes.push(around(count, &|at| {

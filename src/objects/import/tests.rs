@@ -200,7 +200,15 @@ fn glb(json: &str, body: &[u8], filled: bool) -> Vec<u8> {
     let word = |number: usize| u32::try_from(number).unwrap().to_le_bytes();
     let whole = 12 + 8 + json.len() + 8 + body.len();
     let parts: [&[u8]; 9] = [
-        b"glTF", &word(2), &word(whole), &word(json.len()), b"JSON", &json, &word(body.len()), b"BIN\0", body,
+        b"glTF",
+        &word(2),
+        &word(whole),
+        &word(json.len()),
+        b"JSON",
+        &json,
+        &word(body.len()),
+        b"BIN\0",
+        body,
     ];
     parts.concat()
 }
@@ -268,7 +276,8 @@ fn a_description_that_is_not_filled_up_is_read() {
 #[test]
 fn colours_of_points_become_materials() {
     let points: Vec<f32> = (0..6u8).flat_map(|at| [f32::from(at % 2), f32::from(at / 2), 0.0]).collect();
-    let colors: Vec<f32> = [[1.0, 0.0, 0.0]; 3].iter().chain(&[[0.0, 0.25, 1.0]; 3]).flatten().copied().collect();
+    let colors: Vec<f32> =
+        [[1.0, 0.0, 0.0]; 3].iter().chain(&[[0.0, 0.25, 1.0]; 3]).flatten().copied().collect();
     let json = format!(
         r#"{{"asset":{{"version":"2.0"}},"buffers":[{{"byteLength":144}}],"bufferViews":[{{"buffer":0,"byteLength":144}}],
         "accessors":[{{"bufferView":0,"componentType":5126,"count":6,"type":"VEC3"}},
@@ -313,9 +322,12 @@ fn mutate(value: &mut serde_json::Value, dice: &mut Dice) {
                 items.extend(std::iter::repeat_n(copy, dice.roll(300)));
             }
             Value::Array(items) => mutate(&mut items[at], dice),
-            Value::Object(fields) if dice.roll(10) == 0 => drop(fields.shift_remove_index(at)),
+            Value::Object(fields) if dice.roll(10) == 0 => {
+                let name = fields.keys().nth(at).cloned().unwrap_or_default();
+                fields.shift_remove(&name);
+            }
             Value::Object(fields) => {
-                if let Some((_, inner)) = fields.get_index_mut(at) {
+                if let Some(inner) = fields.values_mut().nth(at) {
                     mutate(inner, dice);
                 }
             }
@@ -370,7 +382,8 @@ fn changed_descriptions_neither_panic_nor_take_more_than_they_may() {
 #[test]
 fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
     let count = 30_000;
-    let points: Vec<f32> = (0..count).flat_map(|at| [at as f32, (at * at % 97) as f32, (at % 13) as f32]).collect();
+    let points: Vec<f32> =
+        (0..count).flat_map(|at| [at as f32, (at * at % 97) as f32, (at % 13) as f32]).collect();
     let model = |primitives: usize, indices: bool| {
         let index = if indices { r#","indices":1"# } else { "" };
         let primitive = format!(r#"{{"attributes":{{"POSITION":0,"NORMAL":0}}{index}}}"#);

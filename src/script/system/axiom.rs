@@ -93,9 +93,12 @@ impl System {
             let id = match (id, &feature) {
                 (Some(id), _) => id.to_owned(),
                 (None, LuaValue::Table(feature)) => match own_id(feature) {
-                    Ok(id @ (LuaValue::String(_) | LuaValue::Number(_) | LuaValue::Integer(_) | LuaValue::Boolean(_))) => {
-                        id.to_string().unwrap_or_default()
-                    }
+                    Ok(
+                        id @ (LuaValue::String(_)
+                        | LuaValue::Number(_)
+                        | LuaValue::Integer(_)
+                        | LuaValue::Boolean(_)),
+                    ) => id.to_string().unwrap_or_default(),
                     // What else it may be has no name that is the same each time.
                     _ => index.to_string(),
                 },
