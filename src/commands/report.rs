@@ -1,13 +1,14 @@
 //! What commands say: errors with the script's line, and the summary of a run.
 
 use std::fmt::Write as _;
-use std::io::{self, BufWriter, ErrorKind, StdoutLock, Write as _};
+use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, StdoutLock, Write as _};
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use burgeon::derive::grouped;
 use burgeon::script::{Param, Setting};
+use burgeon::text::escaped_lines;
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 
@@ -162,16 +163,45 @@ pub(crate) fn is_closed() -> bool {
     CLOSED.load(Ordering::Relaxed)
 }
 
+/// Standard output: a program gets everything as it is, a terminal all at once, with nothing that it would obey.
+pub(crate) enum Standard {
+    Program(StdoutLock<'static>),
+    Terminal(Vec<u8>),
+}
+
+impl io::Write for Standard {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Program(out) => out.write(bytes),
+            Self::Terminal(text) => text.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Program(out) => out.flush(),
+            Self::Terminal(text) => {
+                let text = std::mem::take(text);
+                let mut out = io::stdout().lock();
+                out.write_all(escaped_lines(&String::from_utf8_lossy(&text)).as_bytes())?;
+                out.flush()
+            }
+        }
+    }
+}
+
 /// Writes to standard output. A reader that has gone away, as `head` does, wants no more and is told nothing.
 pub(crate) fn print(text: &str) -> Result<()> {
     print_all(|out| out.write_all(text.as_bytes()))
 }
 
 /// As [`print`], for what need not be in memory all at once.
-pub(crate) fn print_all(
-    content: impl FnOnce(&mut BufWriter<StdoutLock<'_>>) -> io::Result<()>,
-) -> Result<()> {
-    let mut out = BufWriter::new(io::stdout().lock());
+pub(crate) fn print_all(content: impl FnOnce(&mut BufWriter<Standard>) -> io::Result<()>) -> Result<()> {
+    let standard = match io::stdout().is_terminal() {
+        true => Standard::Terminal(Vec::new()),
+        false => Standard::Program(io::stdout().lock()),
+    };
+    let mut out = BufWriter::new(standard);
     match content(&mut out).and_then(|()| out.flush()) {
         Ok(()) => Ok(()),
         Err(error) if error.kind() == ErrorKind::BrokenPipe => {
@@ -185,5 +215,5 @@ pub(crate) fn print_all(
 
 /// Writes to standard error.
 pub(crate) fn eprint(text: &str) {
-    let _ = io::stderr().write_all(text.as_bytes());
+    let _ = io::stderr().write_all(escaped_lines(text).as_bytes());
 }
