@@ -227,7 +227,8 @@ impl Page {
             if message["type"] == kind {
                 return message;
             }
-            assert!(message["type"] == "working" || message["type"] == "progress", "{kind}: {message}");
+            let news = ["working", "progress", "variations"].iter().any(|news| message["type"] == **news);
+            assert!(news, "{kind}: {message}");
         }
     }
 
