@@ -120,7 +120,7 @@ impl Batch<'_> {
         self.fill(rule, asked, scratch)?;
         let prelude = self.machine.prelude();
         let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
-        let failed = match guard.call::<()>(asked.len()) {
+        let failed = match self.machine.call::<()>(guard, asked.len()) {
             Ok(()) => None,
             Err(error) => Some(self.blame(error, rule, asked, scratch)),
         };

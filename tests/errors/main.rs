@@ -14,6 +14,7 @@ mod limits;
 mod neighbors;
 mod params;
 mod patterns;
+mod places;
 mod planets;
 mod presets;
 mod reports;

@@ -88,7 +88,13 @@ impl SystemHandle {
         machine.refuse_in_rules("a declaration").map_err(mlua::Error::external)?;
         let result = declare(&mut self.library.systems.borrow_mut()[self.index]);
         if let Err(error) = result {
-            self.library.problems.borrow_mut().push(error.at(place));
+            let error = error.at(place);
+            let mut problems = self.library.problems.borrow_mut();
+            let same = |known: &Error| known.place() == error.place() && known.message() == error.message();
+            // What a loop declares again and again is wrong once.
+            if !problems.last().is_some_and(same) {
+                problems.push(error);
+            }
         }
         Ok(())
     }
