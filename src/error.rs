@@ -274,12 +274,9 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     let begin = text.char_indices().nth(half).map(|(at, _)| at);
     let end = text.char_indices().nth_back(half.saturating_sub(1)).map(|(at, _)| at);
     match (begin, end) {
-        (Some(begin), Some(end)) if count > most => Cow::Owned(format!(
-            "{}... ({} characters more) ...{}",
-            &text[..begin],
-            count - 2 * half,
-            &text[end..]
-        )),
+        (Some(begin), Some(end)) if count > most => {
+            Cow::Owned(format!("{}... ({count} characters in all) ...{}", &text[..begin], &text[end..]))
+        }
         _ => Cow::Borrowed(text),
     }
 }
