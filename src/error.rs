@@ -281,8 +281,14 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     }
 }
 
+/// Characters that a misspelt name may have: a longer one is no name at all, and comparing it takes long.
+const LONGEST_NEAR: usize = 100;
+
 /// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_NEAR {
+        return None;
+    }
     let lower = name.to_lowercase();
     // Every name of one letter is one letter away from every other.
     let limit = match name.chars().count() {

@@ -34,10 +34,16 @@ impl Machine {
 pub(super) fn function(lua: &Lua) -> mlua::Result<mlua::Function> {
     #[allow(unsafe_code, reason = "mlua keeps its handler of errors to itself")]
     // SAFETY: `call` follows Luau's protocol for functions of C.
-    unsafe {
-        lua.create_c_function(call)
-    }
+    let function = unsafe { lua.create_c_function(call)? };
+    // Room for the handler is made now, by calls within calls: once memory has run out there is none to be had.
+    let mut nested: Vec<mlua::Value> = vec![mlua::Value::Function(function.clone()); DEPTH];
+    nested.push(lua.globals().raw_get("type")?);
+    function.call::<mlua::MultiValue>(mlua::Variadic::from(nested)).ok();
+    Ok(function)
 }
+
+/// Calls within each other that a machine has room for from the beginning.
+const DEPTH: usize = 12;
 
 #[allow(unsafe_code, reason = "called by Luau")]
 unsafe extern "C-unwind" fn call(state: *mut ffi::lua_State) -> c_int {
