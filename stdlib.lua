@@ -1,8 +1,12 @@
 --!strict
 -- Burgeon's standard library: what every script has besides Luau itself. It returns the names it gives.
 
--- Tells of a mistake in the line of the script that made it; and says what a value is.
-local refuse: (message: string) -> never, describe_plain: (value: any) -> string = __refuse, __describe
+local describe_plain: (value: any) -> string, refuse_plain: (message: string) -> never = __describe, __refuse
+
+-- Tells of a mistake in the line of the script that made it; the data may be at fault.
+local function refuse(message: string, remedy: string?)
+  refuse_plain(`{message}\1{remedy or ""}\2`)
+end
 
 local Vec = {}
 local AXES = { "x", "y", "z" }
@@ -52,11 +56,11 @@ local function from_others(...: any)
   if count == 1 and type(first) == "table" then
     local x, y, z = first[1], first[2], first[3]
     if type(x) ~= "number" or type(y) ~= "number" or (z ~= nil and type(z) ~= "number") then
-      refuse("vec takes a list of two or three numbers, but this table is none\1write vec(\{ 1, 2, 3 }) or vec(1, 2, 3)")
+      refuse("vec takes a list of two or three numbers, but this table is none", "write vec({ 1, 2, 3 }) or vec(1, 2, 3)")
     end
     return made(x, y, z or 0)
   elseif count > 3 then
-    refuse(`vec takes three numbers, not {count}\1write vec(x, y, z)`)
+    refuse(`vec takes three numbers, not {count}`, "write vec(x, y, z)")
   end
   local last = count
   while last > 1 and (select(last, ...)) == nil do
@@ -65,7 +69,7 @@ local function from_others(...: any)
   for index = 1, last do
     local value = (select(index, ...))
     if type(value) ~= "number" then
-      refuse(`{AXES[index]} of vec is {describe(value)}\1write vec(x, y, z); what is left out at the end is 0`)
+      refuse(`{AXES[index]} of vec is {describe(value)}`, "write vec(x, y, z); what is left out at the end is 0")
     end
   end
   local x, y, z = ...
@@ -87,8 +91,8 @@ local function vectors(a, b, operator: string)
     if is_vector(value) then
       return value
     elseif not is_list(value) then
-      local remedy = if operator == "+" or operator == "-" then "\1write vec(x, y, z); * and / also take numbers" else ""
-      refuse(`{operator} takes two vectors, but one side is {describe(value)}{remedy}`)
+      local remedy = if operator == "+" or operator == "-" then "write vec(x, y, z); * and / also take numbers" else nil
+      refuse(`{operator} takes two vectors, but one side is {describe(value)}`, remedy)
     end
     return vec(value)
   end

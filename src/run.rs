@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::script::{Machine, Options, Param, Session, Watchdog};
 use crate::sources::Frame;
-use crate::warning::Warning;
+use crate::text::shown;
+use crate::warning::{Warning, WarningKind};
 
 /// What a run of a script gave.
 pub struct Run {
@@ -95,13 +96,45 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         };
         shown.map_err(|error| error.rather_at(place))?;
     }
+    systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
+    if let Some(warning) = emptiness(session, &scene, &systems) {
+        session.warn(warning);
+    }
     let warnings = session.warnings();
     if session.options.strict && !warnings.is_empty() {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
     }
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
+}
+
+/// The warning for a model of drawing objects that is empty, unless someone has asked to see fewer steps.
+fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
+    let mut drawing = systems.iter().filter(|system| system.draws);
+    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
+    if scene.triangles() > 0 || session.options.steps.is_some() {
+        return None;
+    }
+    let tells = |warning: &Warning| {
+        use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
+        matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
+    };
+    let help = if session.warnings().iter().any(tells) {
+        "another warning tells why"
+    } else if systems.iter().any(|system| system.is_placed()) {
+        "a system that another one is to place is not shown by itself: see that it is placed"
+    } else if drawing.objects.is_empty() {
+        "its source has no features"
+    } else if drawing.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0) {
+        "its interpretations draw nothing: see that lengths and scales are above 0"
+    } else if drawing.steps == 0 {
+        "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
+    } else {
+        "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
+    };
+    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
+    Some(warning.at(drawing.place.clone()).help(help))
 }
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
@@ -184,6 +217,21 @@ pub(crate) fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     }
 }
 
+/// Which features of a system were left out, and why; those that its source has told of are not counted.
+fn left_out(system: &Derived) -> Option<Warning> {
+    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
+    let first = skipped.next()?;
+    let (count, why) = (1 + skipped.count(), &first.why);
+    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
+    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
+    let text = match count {
+        1 => format!("left out feature{id}{source}: {why}"),
+        _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
+    };
+    let warning = Warning::new(WarningKind::Data, text).at(system.place.clone());
+    Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
+}
+
 /// Turns the textures' names into files within the script's folder.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
@@ -199,6 +247,10 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             return Err(Error::new(format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
+        crate::files::open(&path).map_err(|error| {
+            Error::new(format!("the texture {shown} cannot be read: {error}"))
+                .help("textures are PNG or JPEG files beside the script")
+        })?;
         texture.path = path;
     }
     Ok(())

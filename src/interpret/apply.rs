@@ -10,7 +10,7 @@ use super::notices::Notice;
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Object, Value};
 use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
-use crate::script::{Flusher, Machine, Objects, read_column};
+use crate::script::{Flusher, Machine, Objects, read_column, returns_modules};
 use crate::warning::Warning;
 
 /// Where a piece of the chain has been applied up to.
@@ -133,6 +133,11 @@ impl Applier {
         self.notices.extend(said.into_iter().map(|warning| Notice { warning, module, call }));
     }
 
+    /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
+    pub(crate) fn forgive(&mut self, error: Error) -> Result<()> {
+        self.objects.forgive(self.chain, error)
+    }
+
     /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
     pub(crate) fn finish_entries(&mut self, called: usize, until: usize) -> Result<()> {
         let last = self.entries.len();
@@ -167,7 +172,8 @@ impl Applier {
                     self.counted = 0;
                 }
                 Err(error) => {
-                    objects.forgive(self.chain, self.blame(error, self.position, self.param))?;
+                    let error = self.blame(error, self.position, self.param).of_data();
+                    objects.forgive(self.chain, error)?;
                     self.failed = None;
                 }
             }
@@ -327,7 +333,7 @@ impl Applier {
         let text = module_brief(plan.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
         match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
-            Some((_, name, place)) => error.at(place.clone()).rule(format!("{name} (interpretation)")),
+            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
             None => error,
         }
         .module(text, self.pass.step)
@@ -353,6 +359,15 @@ impl Flusher for Applier {
 
     fn warn(&mut self, said: Vec<Warning>) {
         self.note(said, None);
+    }
+
+    fn lost(&mut self, entry: usize) {
+        let Some(module) = self.entries.get(entry).copied() else { return };
+        let interpretations = &self.pass.plan.interpretations;
+        let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
+        if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
+            self.notices.push(Notice { warning: returns_modules(), module, call: None });
+        }
     }
 
     fn applier(&mut self) -> Option<&mut Applier> {

@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use crate::derive::{Job, Plan, Use};
 use crate::error::{Error, Place, Result};
 use crate::rules::{Chain, END, Mark, Symbol, module_brief};
-use crate::script::{Machine, write_column};
+use crate::script::{Flusher, Machine, write_column};
 use crate::warning::Warning;
 pub(crate) use apply::Applier;
 use notices::{Notice, Notices};
@@ -83,7 +83,8 @@ impl Interpreting {
         let done = machine.crew.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
-        said.extend(done.notices.into_list());
+        let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
+        said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             Some((_, error)) => Err(error),
             None => Ok(done.chain),
@@ -134,7 +135,7 @@ impl Interpreting {
                 if id != u16::MAX {
                     entries.push((module, param));
                     ids.push(id);
-                    let (bound, ..) = interpretations.list[usize::from(id)];
+                    let bound = interpretations.list[usize::from(id)].bound;
                     arguments.extend_from_slice(&self.chain.params[param..param + bound]);
                 }
                 param += usize::from(arities[symbol]);
@@ -142,15 +143,32 @@ impl Interpreting {
             }
             machine.session.stop.check()?;
             let begin = Instant::now();
-            let applying = self.interpret(machine, &entries, &ids, &arguments, module)?;
+            let (mut applying, mut from, mut argument) = (Vec::new(), 0, 0);
+            // Where a chain is left out, the others go on behind it.
+            while let Some(done) = self.interpret(
+                machine,
+                &entries[from..],
+                &ids[from..],
+                &arguments[argument..],
+                module,
+                &mut applying,
+            )? {
+                let bound = |id: &u16| interpretations.list[usize::from(*id)].bound;
+                argument += ids[from..from + done].iter().map(bound).sum::<usize>();
+                from += done;
+                if self.plan.profiled {
+                    applying.resize(from, Duration::ZERO);
+                }
+            }
             self.count_uses(&ids, begin.elapsed(), applying);
         }
         Ok(())
     }
 
-    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`.
+    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`; adds to `times` the time that
+    /// the calls of each entry took, if that is measured.
     ///
-    /// Gives the time that the calls of each entry took, if that is measured.
+    /// Where the data of a chain is at fault it gives up, and tells how many entries are done up to the end of that chain.
     fn interpret(
         &self,
         machine: &Machine,
@@ -158,7 +176,8 @@ impl Interpreting {
         ids: &[u16],
         arguments: &[f64],
         until: usize,
-    ) -> Result<Vec<Duration>> {
+        times: &mut Vec<Duration>,
+    ) -> Result<Option<usize>> {
         let lua = |error: mlua::Error| machine.translate(error);
         let prelude = machine.prelude();
         write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
@@ -186,32 +205,66 @@ impl Interpreting {
         let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
             Ok((called, _)) => called,
             Err(error) => {
-                let at: usize = prelude.at.call(()).unwrap_or(0);
+                let (at, _, called): (usize, f64, usize) = prelude.at.call(()).unwrap_or((0, 0.0, 0));
                 // A machine that cannot even end the batch is thrown away with the run.
                 let _ = prelude.finish.call::<()>(());
                 let error = self.blame(machine, machine.translate(error), entries.get(at).copied());
-                return Err(self.find_line(machine, error));
+                let Some((module, _)) = entries.get(at).copied().filter(|_| error.is_of_data()) else {
+                    return Err(self.find_line(machine, error));
+                };
+                let mut notices = Vec::new();
+                let forgiven = with_applier(&mut |applier| {
+                    applier.flush(at, called)?;
+                    applier.forgive(error.clone())?;
+                    times.append(&mut applier.take_times());
+                    notices = applier.take_notices();
+                    Ok(())
+                });
+                if let Err(error) = forgiven {
+                    return Err(self.find_line(machine, error));
+                }
+                self.note_all(machine, &notices);
+                let rest = self.chain.symbols[module..].iter().position(|symbol| *symbol == END);
+                let end = module + rest.unwrap_or(0);
+                let done = entries.partition_point(|(module, _)| *module <= end);
+                return Ok(Some(done));
             }
         };
-        let (mut applying, mut notices) = (Vec::new(), Vec::new());
+        let mut notices = Vec::new();
         let applied = with_applier(&mut |applier| {
             applier.finish_entries(called, until)?;
-            applying = applier.take_times();
+            times.append(&mut applier.take_times());
             notices = applier.take_notices();
             Ok(())
         });
         if let Err(error) = applied {
             return Err(self.find_line(machine, error));
         }
-        notices.into_iter().for_each(|notice| self.note(machine, notice));
-        Ok(applying)
+        self.note_all(machine, &notices);
+        Ok(None)
     }
 
-    /// Adds what an object has warned of in the batch that was interpreted last.
-    fn note(&self, machine: &Machine, Notice { warning, module: (module, param), call }: Notice) {
+    /// Adds what objects have warned of in the batch that was interpreted last.
+    fn note_all(&self, machine: &Machine, notices: &[Notice]) {
+        for (index, notice) in notices.iter().enumerate() {
+            let same = |other: &Notice| {
+                other.module == notice.module && other.warning.message() == notice.warning.message()
+            };
+            self.note(
+                machine,
+                notice,
+                !notices[..index].iter().rev().take_while(|it| it.module == notice.module).any(same),
+            );
+        }
+    }
+
+    /// Adds what an object has warned of in the batch that was interpreted last, for the first time of its module or
+    /// once more.
+    fn note(&self, machine: &Machine, notice: &Notice, is_first: bool) {
+        let (module, param) = notice.module;
         let symbol = self.chain.symbols[module];
-        self.notices.add(symbol, module, warning, |warning| {
-            let warning = warning.at(call.and_then(|call| Self::line_of(machine, call)));
+        self.notices.add((symbol, module), is_first, notice.warning.clone(), |warning| {
+            let warning = warning.at(notice.call.and_then(|call| Self::line_of(machine, call)));
             if symbol <= END {
                 return warning;
             }
@@ -285,8 +338,8 @@ impl Interpreting {
     fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<Place>)> {
         let interpretations = &self.plan.interpretations;
         let id = interpretations.by_symbol.get(usize::from(symbol))?;
-        let (_, name, place) = interpretations.list.get(usize::from(*id))?;
-        Some((format!("{name} (interpretation)"), place))
+        let known = interpretations.list.get(usize::from(*id))?;
+        Some((format!("{} (interpretation)", known.name), &known.place))
     }
 
     /// Counts triangles against the limit.

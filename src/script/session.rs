@@ -1,7 +1,6 @@
 //! What all virtual machines of one run share: source files, parameters, the reason to stop.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -277,10 +276,23 @@ impl Session {
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
     pub(crate) fn is_quiet(&self, file: &str, line: usize) -> bool {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut named = sources.values().filter(|source| source.name == file);
         !self.metatables.load(Ordering::Acquire)
-            && named.next().is_some_and(|source| source.analysis.quiet.contains(&line))
+            && self.source_called(file).is_some_and(|source| source.analysis.quiet.contains(&line))
+    }
+
+    /// Whether the functions that begin in a line of a file do not look at their first parameter.
+    pub(crate) fn is_blind(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
+    }
+
+    /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
+    pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
+        self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        sources.values().find(|source| source.name == file).cloned()
     }
 
     /// Takes notice of what a piece of the script may do.
@@ -342,14 +354,7 @@ impl Session {
 
 /// Begins to read the file at `path`; `name` is for messages.
 fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)
-        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(Path::new(name), &error))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
-            .help("divide it; other files of its folder come in with require"));
-    }
+    let bytes = crate::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Error::new(format!("{name} is not a text file")).help("scripts are UTF-8 text; check the file's name")
     })?;
@@ -369,7 +374,7 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
 fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
     let remedy = "--stdlib names a Lua file; without it the built-in one is used";
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = crate::files::read(path, LARGEST).map_err(|error| {
         Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy)
     })?;
     let text = String::from_utf8(bytes)
@@ -386,6 +391,13 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Error {
             .help("check the path, or make one: burgeon new NAME"),
         std::io::ErrorKind::IsADirectory => {
             Error::new(format!("{shown} is a folder")).help("name a script in it")
+        }
+        std::io::ErrorKind::FileTooLarge => {
+            Error::new(format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require")
+        }
+        std::io::ErrorKind::InvalidInput => {
+            Error::new(format!("cannot read {shown}: {error}")).help("scripts are text files")
         }
         _ => Error::new(format!("cannot read {shown}: {error}")),
     }

@@ -22,6 +22,9 @@ pub(crate) trait Flusher {
     /// Takes what the object of the chain has warned of.
     fn warn(&mut self, said: Vec<Warning>);
 
+    /// Notes that the interpretation rule of `entry` has returned modules.
+    fn lost(&mut self, entry: usize);
+
     /// The one type that implements this, for the loop that drives it.
     fn applier(&mut self) -> Option<&mut crate::interpret::Applier>;
 }
@@ -119,7 +122,7 @@ impl Current {
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
         match method.call {
-            Call::Read(read) => objects.read(chain, |object| read(object, arguments)),
+            Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {
                 let mut said = Vec::new();
@@ -134,7 +137,7 @@ impl Current {
                     let place = place();
                     flusher.warn(said.into_iter().map(|warning| warning.at(place.clone())).collect());
                 }
-                done.or_else(|error| objects.forgive(chain, error).map(|()| Value::Nil))
+                done.or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil))
             }
         }
     }

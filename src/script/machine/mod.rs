@@ -18,10 +18,11 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use mlua::chunk::{ChunkMode, Compiler};
-use mlua::{Buffer, Function, Lua};
+use mlua::{Buffer, Function, Lua, Value};
 
 use super::library::{Library, Quiet};
 use super::session::Session;
+use super::system::tell_unseen;
 use crate::derive::Crew;
 use crate::error::{Error, Place, Result};
 use crate::rules::{Symbol, Symbols};
@@ -93,7 +94,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Runs the script's main file.
+    /// Runs the script's main file, and tells what it has declared in vain.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
         let path = session.script().canonicalize().map_err(|error| Error::new(error.to_string()))?;
@@ -105,7 +106,9 @@ impl Machine {
             return Err(Error::several(problems));
         }
         let chunk = self.load(&source.name, &source.analysis.text)?;
-        self.call::<()>(&chunk, ()).map_err(|error| self.translate(error))
+        let value: Value = self.call(&chunk, ()).map_err(|error| self.translate(error))?;
+        tell_unseen(self, !value.is_nil());
+        Ok(())
     }
 
     /// Takes notice of something that people should know of the line of the script that is being run. A machine that
@@ -271,14 +274,18 @@ fn parse(text: &str) -> Error {
     // What a function of Luau's library refuses has no place of its own.
     let error = Error::new(message).at(place).at(place_in_traceback(traceback));
     match help {
-        Some(help) => match help.strip_suffix('\u{2}') {
-            Some(help) => error.help(help).of_data(),
-            None => error.help(help),
-        },
+        Some(help) => {
+            let error = if help.ends_with('\u{2}') { error.of_data() } else { error };
+            match help.trim_end_matches('\u{2}') {
+                "" => error,
+                help => error.help(help),
+            }
+        }
         None if message.contains("modify a readonly table") => error.help(
             "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
         ),
         None if message.contains("stack overflow") => error.help("look for a function that calls itself without end"),
+        None if is_of_values(message) => error.of_data(),
         None => error,
     }
 }
@@ -291,6 +298,22 @@ fn is_no_text(message: &str) -> bool {
     };
     ["nil", "true", "false"].contains(&message)
         || ["table", "function", "userdata", "thread", "buffer", "vector"].into_iter().any(is_address)
+}
+
+/// Whether a message of Luau's is about a value that is of another type than it should be, as what a feature has may be.
+fn is_of_values(message: &str) -> bool {
+    const BEGINNINGS: [&str; 9] = [
+        "attempt to perform arithmetic",
+        "attempt to compare",
+        "attempt to concatenate",
+        "attempt to get length of",
+        "attempt to index",
+        "attempt to iterate over",
+        "invalid argument #",
+        "missing argument #",
+        "invalid 'for'",
+    ];
+    BEGINNINGS.iter().any(|beginning| message.starts_with(beginning))
 }
 
 /// Parts `file:line: message`; no place for the machine's own code.
