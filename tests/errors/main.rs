@@ -13,6 +13,7 @@ mod footprints;
 mod foreign;
 mod limits;
 mod neighbors;
+mod outputs;
 mod params;
 mod patterns;
 mod places;
