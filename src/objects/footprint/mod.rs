@@ -58,9 +58,8 @@ impl Parameter for Rings {
         let what = || {
             Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
         };
-        let not_this = |kind: &str| {
-            Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")).of_data()
-        };
+        let not_this =
+            |kind: &str| Expected::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
@@ -97,7 +96,7 @@ impl Parameter for Rings {
     }
 }
 
-/// A height (m), which comes from data as a rule: what is no number is the data's fault.
+/// A height (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Height(pub f64);
 
@@ -107,7 +106,7 @@ impl Parameter for Height {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        f64::from_value(value).map(Self).map_err(Expected::of_data)
+        f64::from_value(value).map(Self)
     }
 
     fn into_value(self) -> Value {
@@ -363,7 +362,7 @@ fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
-    let error = Error::new(format!("{what} is {height} m"));
+    let error = Error::new(format!("{what} is {} m", Value::Number(height)));
     Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 

@@ -8,6 +8,9 @@ use crate::error::{Error, Result};
 const REMEDY: &str = "a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: \
                       gdal_translate -of AAIGrid IN OUT.asc";
 
+/// More heights than the header says are not counted beyond this.
+const SURPLUS: usize = 1_000_000;
+
 /// What a header says.
 #[derive(Default)]
 struct Header {
@@ -43,7 +46,8 @@ impl Header {
 
 /// Reads a grid called `name`.
 ///
-/// Fails if its header lacks something, if a height is no number, and if there are fewer or more than it says.
+/// Fails if its header lacks something, if a height is no number, and if there are fewer than it says; those that are too
+/// many come last.
 pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::new(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
@@ -84,6 +88,8 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
         _ => None,
     };
     let mut heights = Vec::new();
+    // A few too many are counted; of a file that is another than its header says, not all are read.
+    let most = columns * rows + SURPLUS;
     for (number, line) in lines {
         for word in line.split_whitespace() {
             let value: f64 = word.parse().map_err(|_| {
@@ -93,7 +99,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
             })?;
             heights.push(if Some(value) == header.missing { f32::NAN } else { narrow(value) });
         }
-        if heights.len() > columns * rows {
+        if heights.len() > most {
             break;
         }
     }
@@ -104,10 +110,6 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
             bytes.len()
         ))
         .help("get it again")),
-        found if found > expected => Err(Error::new(format!(
-            "{name} has more heights than the {expected} of its header ({columns} x {rows})"
-        ))
-        .help("correct ncols and nrows")),
         _ => Ok(Found { columns, rows, heights, grid, crs: Ok(None) }),
     }
 }
@@ -141,6 +143,12 @@ mod tests {
         assert_eq!((corner.grid, corner.heights.clone()), (centre.grid, centre.heights));
         assert_eq!((corner.grid.first, corner.bounds()), ([11.0, 23.0], [10.0, 20.0, 16.0, 24.0]));
         assert_eq!(corner.heights, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn surplus_numbers_are_left_out_and_counted() {
+        let read = read("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n5 6 7\n");
+        assert_eq!((read.surplus, read.heights), (3, vec![1.0, 2.0, 3.0, 4.0]));
     }
 
     #[test]
