@@ -1,9 +1,9 @@
 //! The faces of a skeleton: put together from their borders, and verified.
 
-use glam::DVec2;
+use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
 
-use super::edge::Edge;
+use super::edge::{Edge, metres};
 use super::wavefront::Traced;
 use super::{Peak, Skeleton};
 use crate::error::{Error, Result};
@@ -17,7 +17,7 @@ const OFF_PLANE: f64 = 5e-3;
 type Borders = SmallVec<[[usize; 2]; 8]>;
 
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
-pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton> {
+pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleton> {
     let Traced { edges, peaks, arcs } = traced;
     let merged = merge(&peaks, edges.len());
     let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
@@ -36,7 +36,7 @@ pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton>
     }
     let faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
     verify(rings, &edges, &peaks, &faces)?;
-    Ok(Skeleton { peaks, faces, moved: false })
+    Ok(Skeleton { peaks, faces })
 }
 
 /// For each peak the one that stands for it; the first `fixed` stand for themselves.
@@ -105,8 +105,8 @@ fn chain(mut borders: Borders) -> Result<Vec<usize>> {
 ///
 /// Where all edges move alike, faces are monotone along their edges; otherwise they need not be (T. Biedl et al., "Weighted
 /// straight skeletons in the plane", 2015), and must not cross themselves.
-fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
-    let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().copied())).sum();
+fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
+    let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().map(|&at| metres(at)))).sum();
     let even = edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
     let mut sum = 0.0;
     for (edge, face) in edges.iter().zip(faces) {
