@@ -3,12 +3,13 @@
 use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
 
+use super::contract::contract;
 use super::edge::{Edge, metres};
 use super::wavefront::Traced;
 use super::{Peak, Skeleton};
 use crate::error::{Error, Result};
 
-/// Peaks nearer to each other than this (m) are one.
+/// How far (m) borders may be off each other.
 const MERGED: f64 = 1e-3;
 /// How far (m) a corner may be off the plane of its face.
 const OFF_PLANE: f64 = 5e-3;
@@ -19,7 +20,6 @@ type Borders = SmallVec<[[usize; 2]; 8]>;
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
 pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleton> {
     let Traced { edges, peaks, arcs } = traced;
-    let merged = merge(&peaks, edges.len());
     let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
     let mut first = 0;
     for ring in rings {
@@ -28,43 +28,16 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleto
         first += ring.len();
     }
     for arc in &arcs {
-        let [from, to] = arc.ends.map(|peak| merged[peak]);
-        if from != to && arc.edges[0] != arc.edges[1] {
+        let [from, to] = arc.ends;
+        if arc.edges[0] != arc.edges[1] {
             borders[arc.edges[0]].push([from, to]);
             borders[arc.edges[1]].push([to, from]);
         }
     }
-    let faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
+    let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
+    contract(&peaks, &arcs, edges.len(), &mut faces);
     verify(rings, &edges, &peaks, &faces)?;
     Ok(Skeleton { peaks, faces })
-}
-
-/// For each peak the one that stands for it; the first `fixed` stand for themselves.
-fn merge(peaks: &[Peak], fixed: usize) -> SmallVec<[usize; 64]> {
-    let mut merged: SmallVec<[usize; 64]> = (0..peaks.len()).collect();
-    let mut order = merged.clone();
-    order.sort_by(|&a, &b| peaks[a].at.x.total_cmp(&peaks[b].at.x));
-    for (rank, &a) in order.iter().enumerate() {
-        for &b in &order[rank + 1..] {
-            if peaks[b].at.x - peaks[a].at.x > MERGED {
-                break;
-            }
-            let near = peaks[a].at.distance(peaks[b].at) <= MERGED
-                && (peaks[a].time - peaks[b].time).abs() <= MERGED;
-            let [a, b] = [a, b].map(|peak| leader(&merged, peak));
-            if near && a.max(b) >= fixed {
-                merged[a.max(b)] = a.min(b);
-            }
-        }
-    }
-    (0..peaks.len()).map(|peak| leader(&merged, peak)).collect()
-}
-
-fn leader(merged: &[usize], mut peak: usize) -> usize {
-    while merged[peak] != peak {
-        peak = merged[peak];
-    }
-    peak
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.
