@@ -3,7 +3,7 @@
 use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
 
-use super::contract::contract;
+use super::coarse::coarsen;
 use super::edge::{Edge, metres};
 use super::wavefront::Traced;
 use super::{Peak, Skeleton};
@@ -35,7 +35,7 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleto
         }
     }
     let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
-    contract(&peaks, &arcs, edges.len(), &mut faces);
+    coarsen(&peaks, &arcs, edges.len(), &mut faces);
     verify(rings, &edges, &peaks, &faces)?;
     Ok(Skeleton { peaks, faces })
 }

@@ -2,7 +2,7 @@
 //!
 //! Comes in: rings and the pace of each edge. Goes out: one face for each edge. Every result is verified.
 
-mod contract;
+mod coarse;
 mod edge;
 mod events;
 mod exact;

@@ -1,0 +1,180 @@
+//! The map of the faces made coarser where it is finer than a millimetre: short borders shrink, thin spikes close.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::Peak;
+use super::wavefront::Arc;
+
+/// Borders no longer than this (m), on the plan and in time, are short; spikes no wider are thin.
+const FINEST: f64 = 1e-3;
+
+/// Shrinks short borders and closes thin spikes, as long as the faces stay a map of the plane.
+///
+/// Two peaks become one only where the border between them is all that the faces around them share. A spike is
+/// closed where one of its borders runs along the other: what is beyond them meets there. No face loses its edge or
+/// touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
+pub(super) fn coarsen(peaks: &[Peak], arcs: &[Arc], fixed: usize, faces: &mut [Vec<usize>]) {
+    let length = |ends: [usize; 2]| {
+        let way = way(peaks, ends);
+        way.truncate().length().max(way.z.abs())
+    };
+    let mut short: Vec<(f64, [usize; 2])> = arcs
+        .iter()
+        .filter(|arc| arc.edges[0] != arc.edges[1])
+        .map(|arc| (length(arc.ends), arc.ends))
+        .filter(|(length, _)| *length <= FINEST)
+        .collect();
+    let sharp = |face: &Vec<usize>| face.len() > 3 && spikes_of(peaks, face).next().is_some();
+    if short.is_empty() && !faces.iter().any(sharp) {
+        return;
+    }
+    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    let mut map = Map::new(peaks.len(), faces);
+    // What cannot be done at first may be possible once other things have been.
+    loop {
+        let before = short.len();
+        short.retain(|&(_, ends)| {
+            let [a, b] = ends.map(|peak| map.leader(peak));
+            let [kept, gone] = [a.min(b), a.max(b)];
+            // The corners of the polygon stay.
+            let may = kept != gone && gone >= fixed && length([kept, gone]) <= FINEST;
+            !(may && map.shrinks(kept, gone, faces))
+        });
+        let mut closed = false;
+        for face in 0..faces.len() {
+            while faces[face].len() > 3 {
+                let found: SmallVec<[[usize; 3]; 4]> = spikes_of(peaks, &faces[face]).collect();
+                if !found.into_iter().any(|spike| spike[1] >= fixed && map.closes(face, spike, peaks, faces)) {
+                    break;
+                }
+                closed = true;
+            }
+        }
+        if short.len() == before && !closed {
+            return;
+        }
+    }
+}
+
+/// The spikes of a face: three corners after one another of which the first or the last is on the border between the
+/// two others.
+fn spikes_of<'a>(peaks: &'a [Peak], face: &'a [usize]) -> impl Iterator<Item = [usize; 3]> + 'a {
+    let count = face.len();
+    // The first two corners are those of the edge.
+    let corners = (2..count).map(move |index| [face[index - 1], face[index], face[(index + 1) % count]]);
+    corners.filter(|&[a, tip, b]| {
+        let [one, two] = [way(peaks, [tip, a]), way(peaks, [tip, b])];
+        let [short, long] = [one.length().min(two.length()), one.length().max(two.length())];
+        one.dot(two) > 0.5 * short * long && one.cross(two).length() <= FINEST * long
+    })
+}
+
+/// From a peak to another, on the plan and in time.
+fn way(peaks: &[Peak], [from, to]: [usize; 2]) -> DVec3 {
+    (peaks[to].at - peaks[from].at).extend(peaks[to].time - peaks[from].time)
+}
+
+/// The faces around each peak, and which peak stands for it.
+struct Map {
+    leaders: Vec<usize>,
+    around: Vec<SmallVec<[usize; 6]>>,
+}
+
+/// The corners before and after one of a ring; none if it is not there.
+fn beside(ring: &[usize], peak: usize) -> SmallVec<[usize; 2]> {
+    let count = ring.len();
+    let at = ring.iter().position(|&other| other == peak);
+    at.map(|at| SmallVec::from_slice(&[ring[(at + count - 1) % count], ring[(at + 1) % count]]))
+        .unwrap_or_default()
+}
+
+impl Map {
+    fn new(count: usize, faces: &[Vec<usize>]) -> Self {
+        let mut around = vec![SmallVec::new(); count];
+        for (number, face) in faces.iter().enumerate() {
+            face.iter().for_each(|&peak| around[peak].push(number));
+        }
+        Self { leaders: (0..count).collect(), around }
+    }
+
+    fn leader(&self, mut peak: usize) -> usize {
+        while self.leaders[peak] != peak {
+            peak = self.leaders[peak];
+        }
+        peak
+    }
+
+    /// The peaks to which borders go from one.
+    fn neighbours(&self, peak: usize, faces: &[Vec<usize>]) -> SmallVec<[usize; 12]> {
+        self.around[peak].iter().flat_map(|&face| beside(&faces[face], peak)).collect()
+    }
+
+    /// Lets `kept` stand for `gone`, if that is sound; whether it is.
+    fn shrinks(&mut self, kept: usize, gone: usize, faces: &mut [Vec<usize>]) -> bool {
+        let shared: SmallVec<[usize; 4]> =
+            self.around[gone].iter().copied().filter(|face| self.around[kept].contains(face)).collect();
+        let apart =
+            |&face: &usize| faces[face].len() <= 3 || !beside(&faces[face], gone).contains(&kept);
+        if shared.len() != 2 || shared[0] == shared[1] || shared.iter().any(apart) {
+            return false;
+        }
+        let others = self.neighbours(kept, faces);
+        if self.neighbours(gone, faces).iter().any(|peak| others.contains(peak)) {
+            return false;
+        }
+        for face in std::mem::take(&mut self.around[gone]) {
+            if shared.contains(&face) {
+                faces[face].retain(|&peak| peak != gone);
+            } else {
+                faces[face].iter_mut().filter(|peak| **peak == gone).for_each(|peak| *peak = kept);
+                self.around[kept].push(face);
+            }
+        }
+        self.leaders[gone] = kept;
+        true
+    }
+
+    /// The face on the other side of a border of a face; none beside an edge of the polygon.
+    fn across(&self, [from, to]: [usize; 2], faces: &[Vec<usize>]) -> Option<usize> {
+        let runs = |face: &usize| {
+            let ring = &faces[*face];
+            let at = ring.iter().position(|&peak| peak == to);
+            at.is_some_and(|at| ring[(at + 1) % ring.len()] == from)
+        };
+        self.around[to].iter().copied().find(runs)
+    }
+
+    /// Takes a spike from a face, if that is sound; whether it is.
+    fn closes(&mut self, face: usize, [a, tip, b]: [usize; 3], peaks: &[Peak], faces: &mut [Vec<usize>]) -> bool {
+        let [Some(left), Some(right)] = [[a, tip], [tip, b]].map(|border| self.across(border, faces)) else {
+            return false;
+        };
+        if self.neighbours(a, faces).contains(&b) {
+            return false;
+        }
+        let far = |peak: usize| way(peaks, [tip, peak]).length_squared();
+        // The nearer end of the two is on the border to the other, and so on that of the face there.
+        let (beyond, middle, end) = if far(a) < far(b) { (right, a, b) } else { (left, b, a) };
+        if left == right {
+            // Only the two faces are at the tip.
+            if self.around[tip].len() != 2 || faces[left].len() <= 3 {
+                return false;
+            }
+            faces[left].retain(|&peak| peak != tip);
+            self.around[tip].clear();
+        } else if faces[beyond].contains(&middle) {
+            return false;
+        } else {
+            let ring = &mut faces[beyond];
+            let [one, two] = [tip, end].map(|end| ring.iter().position(|&peak| peak == end).unwrap_or(0));
+            // The border between them may be the one from the last corner to the first.
+            let at = if one.abs_diff(two) == 1 { one.max(two) } else { ring.len() };
+            ring.insert(at, middle);
+            self.around[middle].push(beyond);
+            self.around[tip].retain(|around| *around != face);
+        }
+        faces[face].retain(|&peak| peak != tip);
+        true
+    }
+}
