@@ -4,7 +4,6 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::Peak;
-use super::wavefront::Arc;
 
 /// Borders no longer than this (m), on the plan and in time, are short; spikes no wider are thin.
 const FINEST: f64 = 1e-3;
@@ -14,47 +13,51 @@ const FINEST: f64 = 1e-3;
 /// Two peaks become one only where the border between them is all that the faces around them share. A spike is
 /// closed where one of its borders runs along the other: what is beyond them meets there. No face loses its edge or
 /// touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
-pub(super) fn coarsen(peaks: &[Peak], arcs: &[Arc], fixed: usize, faces: &mut [Vec<usize>]) {
-    let length = |ends: [usize; 2]| {
-        let way = way(peaks, ends);
-        way.truncate().length().max(way.z.abs())
-    };
-    let mut short: Vec<(f64, [usize; 2])> = arcs
-        .iter()
-        .filter(|arc| arc.edges[0] != arc.edges[1])
-        .map(|arc| (length(arc.ends), arc.ends))
-        .filter(|(length, _)| *length <= FINEST)
-        .collect();
+pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
     let sharp = |face: &Vec<usize>| face.len() > 3 && spikes_of(peaks, face).next().is_some();
+    let mut short = short_borders(peaks, fixed, faces);
     if short.is_empty() && !faces.iter().any(sharp) {
         return;
     }
-    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
     let mut map = Map::new(peaks.len(), faces);
     // What cannot be done at first may be possible once other things have been.
-    loop {
-        let before = short.len();
-        short.retain(|&(_, ends)| {
-            let [a, b] = ends.map(|peak| map.leader(peak));
-            let [kept, gone] = [a.min(b), a.max(b)];
-            // The corners of the polygon stay.
-            let may = kept != gone && gone >= fixed && length([kept, gone]) <= FINEST;
-            !(may && map.shrinks(kept, gone, faces))
-        });
-        let mut closed = false;
+    let mut done = true;
+    while done {
+        done = false;
+        for (_, [kept, gone]) in short {
+            done |= map.shrinks(kept, gone, faces);
+        }
         for face in 0..faces.len() {
             while faces[face].len() > 3 {
                 let found: SmallVec<[[usize; 3]; 4]> = spikes_of(peaks, &faces[face]).collect();
-                if !found.into_iter().any(|spike| spike[1] >= fixed && map.closes(face, spike, peaks, faces)) {
+                let mut found = found.into_iter().filter(|spike| spike[1] >= fixed);
+                if !found.any(|spike| map.closes(face, spike, peaks, faces)) {
                     break;
                 }
-                closed = true;
+                done = true;
             }
         }
-        if short.len() == before && !closed {
-            return;
+        short = short_borders(peaks, fixed, faces);
+    }
+}
+
+/// The short borders, each with its length, the shortest first; the second of the two peaks may go.
+fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64, [usize; 2])> {
+    let mut short = Vec::new();
+    for face in faces {
+        for (index, &from) in face.iter().enumerate() {
+            let to = face[(index + 1) % face.len()];
+            if from < to && to >= fixed {
+                let way = way(peaks, [from, to]);
+                let length = way.truncate().length().max(way.z.abs());
+                if length <= FINEST {
+                    short.push((length, [from, to]));
+                }
+            }
         }
     }
+    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    short
 }
 
 /// The spikes of a face: three corners after one another of which the first or the last is on the border between the
@@ -75,9 +78,8 @@ fn way(peaks: &[Peak], [from, to]: [usize; 2]) -> DVec3 {
     (peaks[to].at - peaks[from].at).extend(peaks[to].time - peaks[from].time)
 }
 
-/// The faces around each peak, and which peak stands for it.
+/// The faces around each peak.
 struct Map {
-    leaders: Vec<usize>,
     around: Vec<SmallVec<[usize; 6]>>,
 }
 
@@ -95,14 +97,7 @@ impl Map {
         for (number, face) in faces.iter().enumerate() {
             face.iter().for_each(|&peak| around[peak].push(number));
         }
-        Self { leaders: (0..count).collect(), around }
-    }
-
-    fn leader(&self, mut peak: usize) -> usize {
-        while self.leaders[peak] != peak {
-            peak = self.leaders[peak];
-        }
-        peak
+        Self { around }
     }
 
     /// The peaks to which borders go from one.
@@ -110,7 +105,7 @@ impl Map {
         self.around[peak].iter().flat_map(|&face| beside(&faces[face], peak)).collect()
     }
 
-    /// Lets `kept` stand for `gone`, if that is sound; whether it is.
+    /// Lets `kept` stand for `gone`, if that is sound and both are there; whether it is.
     fn shrinks(&mut self, kept: usize, gone: usize, faces: &mut [Vec<usize>]) -> bool {
         let shared: SmallVec<[usize; 4]> =
             self.around[gone].iter().copied().filter(|face| self.around[kept].contains(face)).collect();
@@ -131,7 +126,6 @@ impl Map {
                 self.around[kept].push(face);
             }
         }
-        self.leaders[gone] = kept;
         true
     }
 

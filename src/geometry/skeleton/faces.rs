@@ -35,7 +35,7 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleto
         }
     }
     let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
-    coarsen(&peaks, &arcs, edges.len(), &mut faces);
+    coarsen(&peaks, edges.len(), &mut faces);
     verify(rings, &edges, &peaks, &faces)?;
     Ok(Skeleton { peaks, faces })
 }
