@@ -41,7 +41,7 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
     }
 }
 
-/// The short borders, each with its length, the shortest first; the second of the two peaks may go.
+/// The short borders, each with the square of its length, the shortest first; the second of the two peaks may go.
 fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64, [usize; 2])> {
     let mut short = Vec::new();
     for face in faces {
@@ -49,9 +49,9 @@ fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64
             let to = face[(index + 1) % face.len()];
             if from < to && to >= fixed {
                 let way = way(peaks, [from, to]);
-                let length = way.truncate().length().max(way.z.abs());
-                if length <= FINEST {
-                    short.push((length, [from, to]));
+                let square = way.truncate().length_squared().max(way.z * way.z);
+                if square <= FINEST * FINEST {
+                    short.push((square, [from, to]));
                 }
             }
         }
@@ -68,8 +68,13 @@ fn spikes_of<'a>(peaks: &'a [Peak], face: &'a [usize]) -> impl Iterator<Item = [
     let corners = (2..count).map(move |index| [face[index - 1], face[index], face[(index + 1) % count]]);
     corners.filter(|&[a, tip, b]| {
         let [one, two] = [way(peaks, [tip, a]), way(peaks, [tip, b])];
-        let [short, long] = [one.length().min(two.length()), one.length().max(two.length())];
-        one.dot(two) > 0.5 * short * long && one.cross(two).length() <= FINEST * long
+        let dot = one.dot(two);
+        if dot <= 0.0 {
+            return false;
+        }
+        let squares = [one.length_squared(), two.length_squared()];
+        let long = squares[0].max(squares[1]);
+        4.0 * dot * dot > squares[0] * squares[1] && one.cross(two).length_squared() <= FINEST * FINEST * long
     })
 }
 

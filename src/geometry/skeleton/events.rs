@@ -5,17 +5,25 @@ use std::cmp::{Ordering, Reverse};
 use super::lines::When;
 use super::wavefront::{Kind, Wavefront};
 
+/// Times that may be off by more than this (m) are made exact before they are compared.
+const COARSE: f64 = 1e-6;
 /// How many edges that a reflex corner may reach are foreseen at once.
 const FORESEEN: usize = 8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum What {
     /// The edge between two corners shrinks to a point.
-    Collapse(usize, usize),
+    Collapse(u32, u32),
     /// A reflex corner reaches the line of an edge.
-    Split(usize, usize),
+    Split(u32, u32),
     /// An edge that stood still begins to move.
-    Start(usize),
+    Start(u32),
+}
+
+/// The number of a corner or edge, of which there are fewer than 2^32.
+#[allow(clippy::cast_possible_truncation, reason = "there is no memory for more")]
+pub(super) fn short(number: usize) -> u32 {
+    number as u32
 }
 
 #[derive(Debug, Clone, Copy)]
@@ -29,7 +37,7 @@ pub(super) struct Event {
 }
 
 impl Event {
-    fn rank(&self) -> (u8, usize, usize) {
+    fn rank(&self) -> (u8, u32, u32) {
         match self.what {
             What::Collapse(a, b) => (1, a, b),
             What::Split(corner, edge) => (2, corner, edge),
@@ -77,7 +85,7 @@ impl Wavefront {
         }
         if rate == Ordering::Greater {
             let when = self.lines.when(lines);
-            self.expect(when, What::Collapse(a, b));
+            self.expect(when, What::Collapse(short(a), short(b)));
         }
     }
 
@@ -142,7 +150,8 @@ impl Wavefront {
             let (low, edge) = self.foreseen[last];
             let [a, b] = corner.pair();
             let when = self.lines.when([a, b, self.traced.edges[edge].line]);
-            self.events.push(Reverse(Event { low, when, what: What::Split(index, edge), leads: true }));
+            let what = What::Split(short(index), short(edge));
+            self.events.push(Reverse(Event { low, when, what, leads: true }));
         }
     }
 
@@ -164,13 +173,14 @@ impl Wavefront {
                 }
                 if let (What::Split(corner, edge), true) = (event.what, event.leads) {
                     event.leads = false;
+                    let (corner, edge) = (corner as usize, edge as usize);
                     if self.corners[corner].foreseen.is_empty() {
                         self.expect_split(corner, (event.low, edge));
                     } else {
                         self.expect_next_split(corner);
                     }
                 }
-                if self.lines.settle(&mut event.when) || event.low < event.when.low() {
+                if self.lines.settle(&mut event.when, COARSE) || event.low < event.when.low() {
                     event.low = event.when.low();
                     self.events.push(Reverse(event));
                     continue;
@@ -208,11 +218,12 @@ impl Wavefront {
         match event.what {
             What::Start(_) => true,
             What::Collapse(a, b) => {
-                let from = &self.corners[a];
-                from.alive && self.corners[b].alive && from.after == b
+                let from = &self.corners[a as usize];
+                from.alive && self.corners[b as usize].alive && from.after == b as usize
             }
             What::Split(corner, edge) => {
-                self.corners[corner].alive && event.when.is_by(self.traced.edges[edge].line)
+                let line = self.traced.edges[edge as usize].line;
+                self.corners[corner as usize].alive && event.when.is_by(line)
             }
         }
     }
@@ -220,8 +231,9 @@ impl Wavefront {
     /// Notes what meets where an event takes place.
     fn note(&mut self, what: What, when: &mut When) {
         match what {
-            What::Start(edge) => self.start(edge, when),
+            What::Start(edge) => self.start(edge as usize, when),
             What::Collapse(a, b) => {
+                let [a, b] = [a as usize, b as usize];
                 let (from, to) = (&self.corners[a], &self.corners[b]);
                 let [one, two] = [from.pair(), to.pair()];
                 let third = if two.contains(&one[0]) { one[1] } else { one[0] };
@@ -229,7 +241,7 @@ impl Wavefront {
                 let [a, b] = [a, b].map(|corner| self.spot(corner, place));
                 self.join(a, b);
             }
-            What::Split(index, edge) => self.hit(index, edge, when),
+            What::Split(corner, edge) => self.hit(corner as usize, edge as usize, when),
         }
     }
 
@@ -240,29 +252,30 @@ impl Wavefront {
         if self.lines.compare(&mut corner.born, when) != Ordering::Less {
             return;
         }
-        let [a, b] = corner.pair();
+        let ([a, b], before, after) = (corner.pair(), corner.before, corner.after);
         let line = self.traced.edges[edge].line;
         let place = self.lines.meeting([a, b, line], when);
         for number in 0..self.pieces[edge].len() {
             let from = self.pieces[edge][number];
             let to = self.corners[from].after;
-            if !self.corners[from].alive || from == index || to == index {
+            // At its neighbours' other edges it is only if its own have collapsed.
+            if !self.corners[from].alive || from == after || to == before {
                 continue;
             }
             let low = self.lines.place(self.corners[from].pair(), when);
-            let before = self.lines.compare_along(line, &low, &place, when);
-            if before == Ordering::Greater {
+            let behind_low = self.lines.compare_along(line, &low, &place, when);
+            if behind_low == Ordering::Greater {
                 continue;
             }
             let high = self.lines.place(self.corners[to].pair(), when);
-            let behind = self.lines.compare_along(line, &place, &high, when);
-            if behind == Ordering::Greater {
+            let before_high = self.lines.compare_along(line, &place, &high, when);
+            if before_high == Ordering::Greater {
                 continue;
             }
             let own = self.spot(index, place);
-            let other = if before == Ordering::Equal {
+            let other = if behind_low == Ordering::Equal {
                 self.spot(from, place)
-            } else if behind == Ordering::Equal {
+            } else if before_high == Ordering::Equal {
                 self.spot(to, place)
             } else {
                 self.spot_between(from, place)

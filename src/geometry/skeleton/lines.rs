@@ -11,7 +11,7 @@ use super::exact::{self, ExactLine, ExactPlace, Ratio};
 /// What rounding adds to a number, as a part of it.
 const UNIT: f64 = f64::EPSILON / 2.0;
 /// How far (m) times and places may be off in what goes out.
-const FINE: f64 = 1e-9;
+pub(super) const FINE: f64 = 1e-9;
 
 /// A line: the points whose product with `normal` is `level` + `speed` * time.
 #[derive(Debug, Clone, Copy)]
@@ -38,23 +38,18 @@ pub(super) struct When {
     pub time: f64,
     /// How far (m) `time` may be off.
     pub slack: f64,
-    by: By,
+    /// The three lines that go through one point then, in their order; none if the time is given.
+    by: [u32; 3],
     /// The number of the exact time, if it is known.
-    exact: Option<u32>,
+    exact: u32,
 }
 
-/// What makes a time.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum By {
-    /// It is given.
-    Number,
-    /// Three lines go through one point.
-    Lines([usize; 3]),
-}
+/// No line, or no number of an exact time.
+const NONE: u32 = u32::MAX;
 
 impl When {
     pub(super) fn at(time: f64) -> Self {
-        Self { time, slack: 0.0, by: By::Number, exact: None }
+        Self { time, slack: 0.0, by: [NONE; 3], exact: NONE }
     }
 
     pub(super) fn low(&self) -> f64 {
@@ -65,9 +60,10 @@ impl When {
         self.time + self.slack
     }
 
-    /// Whether it depends on a line.
+    /// Whether a line is one of those that meet then.
+    #[allow(clippy::cast_possible_truncation, reason = "there are fewer lines")]
     pub(super) fn is_by(&self, line: usize) -> bool {
-        matches!(self.by, By::Lines(lines) if lines.contains(&line))
+        self.by.contains(&(line as u32))
     }
 }
 
@@ -223,7 +219,10 @@ impl Lines {
     /// When three lines go through one point. They do so at one time only.
     pub(super) fn when(&self, lines: [usize; 3]) -> When {
         let [levels, speeds] = self.sums(lines);
-        let mut when = When { time: -levels / speeds, slack: f64::INFINITY, by: By::Lines(lines), exact: None };
+        #[allow(clippy::cast_possible_truncation, reason = "there are fewer lines")]
+        let mut by = lines.map(|line| line as u32);
+        by.sort_unstable();
+        let mut when = When { time: -levels / speeds, slack: f64::INFINITY, by, exact: NONE };
         let rest = speeds.abs() - self.noise[1];
         if rest > 0.0 {
             let levels = self.noise[0] + lines.iter().map(|&line| self.lines[line].slack).sum::<f64>();
@@ -235,9 +234,9 @@ impl Lines {
         when
     }
 
-    /// Refines a time that may be far off; whether it was one.
-    pub(super) fn settle(&mut self, when: &mut When) -> bool {
-        let coarse = when.slack > FINE && when.exact.is_none();
+    /// Refines a time that may be off by more than `slack` (m); whether it was one.
+    pub(super) fn settle(&mut self, when: &mut When, slack: f64) -> bool {
+        let coarse = when.slack > slack && when.exact == NONE;
         if coarse {
             self.refine(when);
         }
@@ -253,18 +252,18 @@ impl Lines {
 
     /// The number of the exact time.
     fn ratio(&mut self, when: &mut When) -> usize {
-        if let Some(known) = when.exact {
-            return known as usize;
+        if when.exact != NONE {
+            return when.exact as usize;
         }
-        let ratio = match when.by {
-            By::Number => Ratio::of(when.time),
-            By::Lines(lines) => {
-                self.exactly(&lines);
-                exact::time(self.known(lines)).unwrap_or_else(|| Ratio::of(f64::from(f32::MAX)))
-            }
+        let ratio = if when.by[0] == NONE {
+            Ratio::of(when.time)
+        } else {
+            let lines = when.by.map(|line| line as usize);
+            self.exactly(&lines);
+            exact::time(self.known(lines)).unwrap_or_else(|| Ratio::of(f64::from(f32::MAX)))
         };
         self.times.push(ratio);
-        when.exact = u32::try_from(self.times.len() - 1).ok();
+        when.exact = u32::try_from(self.times.len() - 1).unwrap_or(NONE);
         self.times.len() - 1
     }
 
@@ -273,7 +272,7 @@ impl Lines {
         if let Some(order) = sign(a.time - b.time, a.slack + b.slack) {
             return order;
         }
-        if a.by == b.by && a.by != By::Number {
+        if a.by == b.by && a.by[0] != NONE {
             return Ordering::Equal;
         }
         let [a, b] = [self.ratio(a), self.ratio(b)];
@@ -281,22 +280,26 @@ impl Lines {
     }
 
     /// Where two lines cross at a time. Not for parallel ones.
-    pub(super) fn place(&mut self, pair: [usize; 2], when: &mut When) -> Place {
+    pub(super) fn place(&self, pair: [usize; 2], when: &When) -> Place {
         let [l, m] = pair.map(|line| &self.lines[line]);
         let cross = l.normal.perp_dot(m.normal);
         let [one, two] = [l, m].map(|line| line.level + line.speed * when.time);
         let at = DVec2::new(one * m.normal.y - two * l.normal.y, two * l.normal.x - one * m.normal.x) / cross;
         let off = self.noise[0] + l.slack + m.slack + (l.speed + m.speed) * when.slack;
-        let mut place = Place { pair, at, slack: off / (cross.abs() - 32.0 * UNIT).max(0.0) };
-        if place.slack.is_nan() || place.slack > FINE {
-            place.at = self.exact_place(pair, when).metres();
+        let slack = off / (cross.abs() - 32.0 * UNIT).max(0.0);
+        Place { pair, at, slack: if slack.is_nan() { f64::INFINITY } else { slack } }
+    }
+
+    /// Makes a place as exact as numbers can be, if it may be far off.
+    pub(super) fn settle_place(&mut self, place: &mut Place, when: &mut When) {
+        if place.slack > FINE {
+            place.at = self.exact_place(place.pair, when).metres();
             place.slack = 2.0 * UNIT * place.at.abs().element_sum() + f64::MIN_POSITIVE;
         }
-        place
     }
 
     /// Where three lines meet.
-    pub(super) fn meeting(&mut self, [l, m, n]: [usize; 3], when: &mut When) -> Place {
+    pub(super) fn meeting(&self, [l, m, n]: [usize; 3], when: &When) -> Place {
         let cross = |[a, b]: [usize; 2]| self.lines[a].normal.perp_dot(self.lines[b].normal).abs();
         let pairs = [[l, m], [m, n], [n, l]];
         let widest = pairs.into_iter().max_by(|&a, &b| cross(a).total_cmp(&cross(b)));
@@ -312,11 +315,13 @@ impl Lines {
 
     /// Whether two places at one time are one. Exact.
     pub(super) fn is_one(&mut self, a: &Place, b: &Place, when: &mut When) -> bool {
-        if (a.at - b.at).abs().max_element() > a.slack + b.slack {
+        let apart = (a.at - b.at).abs().max_element();
+        if apart > a.slack + b.slack {
             return false;
         }
-        let same = a.pair == b.pair || (a.pair[0] == b.pair[1] && a.pair[1] == b.pair[0]);
-        same || {
+        // The lines that meet at this time do so in one place.
+        let mut lines = a.pair.iter().chain(&b.pair);
+        lines.all(|&line| when.is_by(line)) || a.pair == b.pair || {
             let [a, b] = [a, b].map(|place| self.exact_place(place.pair, when));
             a.is(&b)
         }
@@ -325,8 +330,8 @@ impl Lines {
     /// The order of two places at one time along a line that both are on. Exact.
     pub(super) fn compare_along(&mut self, line: usize, a: &Place, b: &Place, when: &mut When) -> Ordering {
         let way = -self.lines[line].normal.perp();
-        let near = 2.0 * (a.slack + b.slack);
-        sign(way.dot(a.at) - way.dot(b.at), near + self.noise[0]).unwrap_or_else(|| {
+        let near = 2.0 * (a.slack + b.slack) + self.noise[0];
+        sign(way.dot(a.at) - way.dot(b.at), near).unwrap_or_else(|| {
             if self.is_one(a, b, when) {
                 return Ordering::Equal;
             }

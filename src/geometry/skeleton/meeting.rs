@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use super::Peak;
 use super::edge::Direction;
-use super::lines::{Few, Place, When};
+use super::lines::{FINE, Few, Place, When};
 use super::wavefront::Wavefront;
 use crate::error::{Error, Result};
 
@@ -82,6 +82,7 @@ impl Wavefront {
 
     /// Makes the new wavefront of what the spots' corners and edges meet, until nothing more happens at this time.
     pub(super) fn resolve(&mut self, when: &mut When) -> Result<()> {
+        self.lines.settle(when, FINE);
         self.now = when.low();
         for _ in 0..=self.corners.len() {
             let fresh = self.pair_anew(when)?;
@@ -170,12 +171,13 @@ impl Wavefront {
     }
 
     /// Numbers the meetings, from 0, and adds a peak for each, in their order; their places.
-    fn number_meetings(&mut self, when: &When) -> Few<Place> {
+    fn number_meetings(&mut self, when: &mut When) -> Few<Place> {
         let mut places = Few::new();
         for index in 0..self.spots.len() {
             let leader = self.leader(index);
             if leader == index {
-                let place = self.spots[index].place;
+                let mut place = self.spots[index].place;
+                self.lines.settle_place(&mut place, when);
                 self.spots[index].meeting = places.len();
                 self.traced.peaks.push(Peak { at: place.at, time: when.time });
                 places.push(place);

@@ -9,7 +9,7 @@ use glam::I64Vec2;
 use smallvec::SmallVec;
 
 use super::edge::{Direction, Edge, metres};
-use super::events::{Event, What};
+use super::events::{Event, What, short};
 use super::lines::{Line, Lines, Place, When};
 use super::meeting::Spot;
 use super::{Pace, Peak};
@@ -182,7 +182,7 @@ impl Wavefront {
             self.expect_split(corner, ANY);
             let Pace { speed, rest } = self.traced.edges[corner].pace;
             if speed > 0.0 && rest > 0.0 && rest.is_finite() {
-                self.expect(When::at(rest), What::Start(corner));
+                self.expect(When::at(rest), What::Start(short(corner)));
             }
         }
         Ok(())
@@ -287,7 +287,9 @@ impl Wavefront {
                 let mut peak = self.corners[after].peak;
                 if self.lines.compare(&mut self.corners[after].born, when) == Ordering::Less {
                     peak = self.traced.peaks.len();
-                    let at = self.place(after, when).at;
+                    let mut place = self.place(after, when);
+                    self.lines.settle_place(&mut place, when);
+                    let at = place.at;
                     self.traced.peaks.push(Peak { at, time: when.time });
                 }
                 self.end(after, peak);
