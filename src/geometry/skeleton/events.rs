@@ -78,13 +78,10 @@ impl Wavefront {
             return;
         }
         let lines = [from.pin.unwrap_or(from.lines[0]), from.lines[1], to.pin.unwrap_or(to.lines[1])];
-        let turns = [self.lines.turn(lines[0], lines[1]), self.lines.turn(lines[1], lines[2])];
-        let mut rate = self.lines.rate(lines);
-        if turns[0] != turns[1] {
-            rate = rate.reverse();
-        }
-        if rate == Ordering::Greater {
-            let when = self.lines.when(lines);
+        // A line across a straight corner turns off the edge to the right.
+        let out = from.pin.is_none() && from.kind == Kind::Reflex;
+        let off = to.kind == Kind::Reflex;
+        if let Some(when) = self.lines.nearing(lines, out != off) {
             self.expect(when, What::Collapse(short(a), short(b)));
         }
     }
@@ -121,10 +118,10 @@ impl Wavefront {
                 time - slack
             } else {
                 let lines = [pair[0], pair[1], self.traced.edges[number].line];
-                if corner.edges.contains(&number) || self.lines.rate(lines) != Ordering::Greater {
+                if corner.edges.contains(&number) {
                     continue;
                 }
-                let mut when = self.lines.when(lines);
+                let Some(mut when) = self.lines.nearing(lines, false) else { continue };
                 self.lines.refine(&mut when);
                 if when.high() < self.now {
                     continue;

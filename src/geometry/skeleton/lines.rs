@@ -193,12 +193,6 @@ impl Lines {
         ]
     }
 
-    /// The sign of the rate at which three lines near each other, if the first two turn to the left.
-    pub(super) fn rate(&mut self, lines: [usize; 3]) -> Ordering {
-        let rate = self.sums(lines)[1];
-        sign(rate, self.noise[1]).unwrap_or_else(|| self.exact_rate(lines))
-    }
-
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
     fn exact_rate(&mut self, lines: [usize; 3]) -> Ordering {
         let speeds = lines.map(|line| self.lines[line].speed);
@@ -216,12 +210,28 @@ impl Lines {
         exact::rate(self.known(lines)).cmp(&dashu_int::IBig::ZERO)
     }
 
+    /// When three lines that near each other meet; none if they do not, at least where two of them turn so that they
+    /// near each other backwards.
+    pub(super) fn nearing(&mut self, lines: [usize; 3], backwards: bool) -> Option<When> {
+        let sums = self.sums(lines);
+        let rate = sign(sums[1], self.noise[1]).unwrap_or_else(|| self.exact_rate(lines));
+        let wanted = if backwards { Ordering::Less } else { Ordering::Greater };
+        (rate == wanted).then(|| self.when_of(lines, sums))
+    }
+
     /// When three lines go through one point. They do so at one time only.
     pub(super) fn when(&self, lines: [usize; 3]) -> When {
-        let [levels, speeds] = self.sums(lines);
+        self.when_of(lines, self.sums(lines))
+    }
+
+    fn when_of(&self, lines: [usize; 3], [levels, speeds]: [f64; 2]) -> When {
         #[allow(clippy::cast_possible_truncation, reason = "there are fewer lines")]
         let mut by = lines.map(|line| line as u32);
-        by.sort_unstable();
+        for [a, b] in [[0, 1], [1, 2], [0, 1]] {
+            if by[a] > by[b] {
+                by.swap(a, b);
+            }
+        }
         let mut when = When { time: -levels / speeds, slack: f64::INFINITY, by, exact: NONE };
         let rest = speeds.abs() - self.noise[1];
         if rest > 0.0 {
