@@ -3,10 +3,12 @@
 use std::cmp::{Ordering, Reverse};
 
 use super::lines::When;
-use super::wavefront::{Kind, Wavefront};
+use super::wavefront::{Front, Kind, Wavefront};
 
 /// Times that may be off by more than this (m) are made exact before they are compared.
 const COARSE: f64 = 1e-6;
+/// Lines that near each other at this rate do so far faster than rounding could make them.
+const FAST: f64 = 1e-6;
 /// How many edges that a reflex corner may reach are foreseen at once.
 const FORESEEN: usize = 8;
 
@@ -104,24 +106,30 @@ impl Wavefront {
         let noise = self.lines.noise();
         let slack = noise[0] + l.slack + m.slack;
         let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
-        for (number, edge) in self.current.iter().enumerate() {
+        for &Front { line: edge, edge: number } in &self.current {
             let rate = edge.speed * cross + edge.normal.perp_dot(speeds);
             if rate < -noise[1] {
                 continue;
             }
+            let sum = edge.level * cross + edge.normal.perp_dot(levels);
+            let slack = slack + edge.slack;
+            // Most lines are reached too late to be divided for it.
+            if rate > FAST && -sum * (1.0 - 1e-6) - 3.0 * slack > found[FORESEEN - 1].0 * rate {
+                continue;
+            }
             let low = if rate > 2.0 * noise[1] {
-                let time = -(edge.level * cross + edge.normal.perp_dot(levels)) / rate;
-                let slack = (slack + edge.slack + time.abs() * noise[1]) / (rate - noise[1]) * (1.0 + 1e-9);
+                let time = -sum / rate;
+                let slack = (slack + time.abs() * noise[1]) / (rate - noise[1]) * (1.0 + 1e-9);
                 if time + slack < self.now {
                     continue;
                 }
                 time - slack
             } else {
-                let lines = [pair[0], pair[1], self.traced.edges[number].line];
-                if corner.edges.contains(&number) {
+                let line = self.traced.edges[number].line;
+                if pair.iter().any(|&own| self.lines.are_alike(own, line)) || corner.edges.contains(&number) {
                     continue;
                 }
-                let Some(mut when) = self.lines.nearing(lines, false) else { continue };
+                let Some(mut when) = self.lines.nearing([pair[0], pair[1], line], false) else { continue };
                 self.lines.refine(&mut when);
                 if when.high() < self.now {
                     continue;

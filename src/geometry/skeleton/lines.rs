@@ -193,18 +193,24 @@ impl Lines {
         ]
     }
 
+    /// Whether two lines are parallel and move the same way at the same speed.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
+    pub(super) fn are_alike(&self, line: usize, other: usize) -> bool {
+        let [one, two] = [self.directions[line], self.directions[other]];
+        self.lines[line].speed == self.lines[other].speed
+            && one.agrees(two)
+            && one.turn(two) == Ordering::Equal
+    }
+
     fn exact_rate(&mut self, lines: [usize; 3]) -> Ordering {
         let speeds = lines.map(|line| self.lines[line].speed);
         if speeds == [0.0; 3] {
             return Ordering::Equal;
         }
-        for [a, b] in [[0, 1], [1, 2], [2, 0]] {
-            let [one, two] = [a, b].map(|index| self.directions[lines[index]]);
-            // Two lines that move alike cross the third one alike.
-            if speeds[a] == speeds[b] && one.turn(two) == Ordering::Equal && one.agrees(two) {
-                return Ordering::Equal;
-            }
+        let [l, m, n] = lines;
+        // Two lines that move alike cross the third one alike.
+        if self.are_alike(l, m) || self.are_alike(m, n) || self.are_alike(n, l) {
+            return Ordering::Equal;
         }
         self.exactly(&lines);
         exact::rate(self.known(lines)).cmp(&dashu_int::IBig::ZERO)

@@ -72,12 +72,23 @@ impl Corner {
     }
 }
 
+/// An edge and its line at present.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Front {
+    pub line: Line,
+    pub edge: usize,
+}
+
 #[derive(Default)]
 pub(super) struct Wavefront {
     pub traced: Traced,
     pub lines: Lines,
-    /// The line of each edge at present.
-    pub current: Vec<Line>,
+    /// The edges that are still there, with their lines at present.
+    pub current: Vec<Front>,
+    /// How many pieces there are of each edge.
+    alive: Vec<u32>,
+    /// How many corners there had been when it was last asked which edges are still there.
+    known: usize,
     pub corners: Vec<Corner>,
     /// For each edge the corners where pieces of it begin; some may be dead.
     pub pieces: Vec<SmallVec<[usize; 6]>>,
@@ -138,6 +149,9 @@ impl Wavefront {
         };
         self.through.clear();
         self.current.clear();
+        self.alive.clear();
+        self.alive.resize(count, 0);
+        self.known = count;
         self.corners.clear();
         self.pieces.clear();
         self.pieces.resize(count, SmallVec::new());
@@ -156,7 +170,7 @@ impl Wavefront {
             let line = self.lines.add(Direction(to - from), from, speed, 0.0);
             let normal = self.lines.line(line).normal;
             let level = normal.dot(metres(from));
-            self.current.push(*self.lines.line(line));
+            self.current.push(Front { line: *self.lines.line(line), edge: self.through.len() });
             self.traced.edges.push(Edge { along: -normal.perp(), level, pace, line });
             self.through.push(from);
         }
@@ -234,6 +248,7 @@ impl Wavefront {
             foreseen: 0..0,
         });
         self.pieces[edges[1]].push(index);
+        self.alive[edges[1]] += 1;
         index
     }
 
@@ -251,7 +266,9 @@ impl Wavefront {
         let Pace { speed, rest } = self.traced.edges[edge].pace;
         let direction = self.lines.direction(self.traced.edges[edge].line);
         let line = self.lines.add(direction, self.through[edge], speed, rest);
-        self.current[edge] = *self.lines.line(line);
+        for front in self.current.iter_mut().filter(|front| front.edge == edge) {
+            front.line = *self.lines.line(line);
+        }
         self.traced.edges[edge].line = line;
         self.restarted = true;
     }
@@ -269,6 +286,7 @@ impl Wavefront {
     pub(super) fn end(&mut self, index: usize, peak: usize) {
         let corner = &mut self.corners[index];
         corner.alive = false;
+        self.alive[corner.edges[1]] -= 1;
         if corner.peak != peak {
             self.traced.arcs.push(Arc { edges: corner.edges, ends: [corner.peak, peak] });
         }
@@ -282,7 +300,7 @@ impl Wavefront {
                 continue;
             }
             if after == index {
-                self.corners[index].alive = false;
+                self.end(index, self.corners[index].peak);
             } else if after == before {
                 let mut peak = self.corners[after].peak;
                 if self.lines.compare(&mut self.corners[after].born, when) == Ordering::Less {
@@ -334,6 +352,10 @@ impl Wavefront {
 
     /// Foresees what happens to new corners.
     pub(super) fn go_on(&mut self, fresh: &[usize]) {
+        if self.corners.len() > self.known + self.current.len() / 2 {
+            self.known = self.corners.len();
+            self.current.retain(|front| self.alive[front.edge] > 0);
+        }
         for &index in fresh {
             let Corner { alive, before, after, .. } = self.corners[index];
             if alive {
