@@ -114,8 +114,7 @@ impl Map {
     fn shrinks(&mut self, kept: usize, gone: usize, faces: &mut [Vec<usize>]) -> bool {
         let shared: SmallVec<[usize; 4]> =
             self.around[gone].iter().copied().filter(|face| self.around[kept].contains(face)).collect();
-        let apart =
-            |&face: &usize| faces[face].len() <= 3 || !beside(&faces[face], gone).contains(&kept);
+        let apart = |&face: &usize| faces[face].len() <= 3 || !beside(&faces[face], gone).contains(&kept);
         if shared.len() != 2 || shared[0] == shared[1] || shared.iter().any(apart) {
             return false;
         }
@@ -145,7 +144,13 @@ impl Map {
     }
 
     /// Takes a spike from a face, if that is sound; whether it is.
-    fn closes(&mut self, face: usize, [a, tip, b]: [usize; 3], peaks: &[Peak], faces: &mut [Vec<usize>]) -> bool {
+    fn closes(
+        &mut self,
+        face: usize,
+        [a, tip, b]: [usize; 3],
+        peaks: &[Peak],
+        faces: &mut [Vec<usize>],
+    ) -> bool {
         let [Some(left), Some(right)] = [[a, tip], [tip, b]].map(|border| self.across(border, faces)) else {
             return false;
         };

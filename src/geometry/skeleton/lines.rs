@@ -185,8 +185,7 @@ impl Lines {
     /// The sum of the levels and the sum of the speeds of three lines, each times the cross product of the others.
     fn sums(&self, [l, m, n]: [usize; 3]) -> [f64; 2] {
         let [l, m, n] = [l, m, n].map(|line| &self.lines[line]);
-        let crosses =
-            [m.normal.perp_dot(n.normal), n.normal.perp_dot(l.normal), l.normal.perp_dot(m.normal)];
+        let crosses = [m.normal.perp_dot(n.normal), n.normal.perp_dot(l.normal), l.normal.perp_dot(m.normal)];
         [
             l.level * crosses[0] + m.level * crosses[1] + n.level * crosses[2],
             l.speed * crosses[0] + m.speed * crosses[1] + n.speed * crosses[2],

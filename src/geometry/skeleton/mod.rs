@@ -12,12 +12,12 @@ mod meeting;
 #[cfg(test)]
 pub(crate) mod samples;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 mod wavefront;
 
 use glam::DVec2;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// A place where faces meet: on the plan (m), and when the wavefront reached it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,12 +80,18 @@ impl Skeleton {
     /// of each edge of all rings how it moves.
     ///
     /// Method: wavefront propagation (O. Aichholzer and F. Aurenhammer, "Straight skeletons for general
-    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m, on which turns and the order
-    /// of directions are exact. What happens at one time and place is resolved at once: the edges that meet there
-    /// are sorted around it and paired anew, whatever the kind of the events. Fails if no result passes the
-    /// checks: one closed face for each edge, every corner in the plane of its faces, no negative area, areas that
-    /// add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do not cross themselves where
-    /// paces differ.
+    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m. All decisions are exact: its
+    /// edges lie on lines of whole numbers, of which only the speed is rounded, alike for parallel ones, so that times
+    /// and places are fractions. Rounded numbers with a bound on their error tell most of them apart, the fractions
+    /// the rest. Ties: what happens at exactly one time and place is resolved at once, the edges that meet there are
+    /// sorted around it and paired anew, whatever the kind of the events; at other places of that time it changes
+    /// nothing. Between edges in one line that move alike the border runs straight on from where they met; at
+    /// different speeds the faster one sweeps what the slower one has left.
+    ///
+    /// Afterwards borders and spikes of less than 1 mm are closed where the faces stay a map of the plane. Fails if
+    /// the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no
+    /// negative area, areas that add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do
+    /// not cross themselves where paces differ.
     pub fn new(rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<Self> {
         let (lattice, middle) = edge::snapped(rings)?;
         let traced = wavefront::propagate(&lattice, paces)?;

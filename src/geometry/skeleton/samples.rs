@@ -132,7 +132,10 @@ pub(crate) const FAMILIES: [Family; 17] = [
     Family { name: "courtyards, noise of 20 mm", make: |random| noisy(courtyards(random), 2e-2, random) },
     Family { name: "grids of courtyards, exact", make: grid },
     Family { name: "grids of courtyards, noise of 1 mm", make: |random| noisy(grid(random), 1e-3, random) },
-    Family { name: "grids of courtyards, turned or nearly exact", make: |random| anyhow(grid(random), random) },
+    Family {
+        name: "grids of courtyards, turned or nearly exact",
+        make: |random| anyhow(grid(random), random),
+    },
     Family { name: "lattice plans, exact", make: lattice },
     Family { name: "lattice plans, nearly exact", make: |random| anyhow(lattice(random), random) },
     Family { name: "regular polygons", make: |random| anyhow(regular(random), random) },
@@ -200,7 +203,8 @@ fn double_comb(random: &mut Random) -> Vec<Ring> {
 fn courtyards(random: &mut Random) -> Vec<Ring> {
     let count = random.whole(1, 20) as u32;
     let columns = random.whole(1, count.min(7)) as u32;
-    let (wing, wide, deep) = (random.whole(12, 16) / 2.0, random.whole(6, 24) / 2.0, random.whole(6, 24) / 2.0);
+    let (wing, wide, deep) =
+        (random.whole(12, 16) / 2.0, random.whole(6, 24) / 2.0, random.whole(6, 24) / 2.0);
     yards(count.div_ceil(columns), columns, wing, DVec2::new(wide, deep))
 }
 
@@ -306,7 +310,9 @@ fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Ring> {
 fn regular(random: &mut Random) -> Vec<Ring> {
     let count = random.whole(3, 60) as u32;
     let ring = |radius: f64| -> Ring {
-        (0..count).map(|index| DVec2::from_angle(TAU * f64::from(index) / f64::from(count)) * radius).collect()
+        (0..count)
+            .map(|index| DVec2::from_angle(TAU * f64::from(index) / f64::from(count)) * radius)
+            .collect()
     };
     let mut rings = vec![ring(12.0)];
     if random.next() < 0.3 {
