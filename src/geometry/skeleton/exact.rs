@@ -2,8 +2,8 @@
 
 use std::cmp::Ordering;
 
-use dashu_int::IBig;
-use dashu_int::ops::{BitTest, UnsignedAbs};
+use dashu_int::ops::{BitTest, SquareRoot, UnsignedAbs};
+use dashu_int::{IBig, UBig};
 use glam::{DVec2, I64Vec2};
 
 use super::edge::{CELLS, Direction};
@@ -52,24 +52,41 @@ fn shifted(number: IBig, by: i64) -> IBig {
     number << by as usize
 }
 
+/// The length of a way, as a product of a whole number and a power of two.
+///
+/// Lines that are all but parallel part as slowly as their speeds differ, so these must be far more exact than
+/// directions are.
+fn length(x: i64, y: i64) -> (IBig, i64) {
+    let [x, y] = [x, y].map(|number| u128::from(number.unsigned_abs()));
+    let square = UBig::from(x * x + y * y);
+    let whole = square.sqrt();
+    if &whole * &whole == square {
+        return (whole.into(), 0);
+    }
+    let more = 128usize.saturating_sub(whole.bit_len());
+    #[allow(clippy::cast_possible_wrap, reason = "at most 128")]
+    let power = -(more as i64);
+    ((square << (2 * more)).sqrt().into(), power)
+}
+
 impl ExactLine {
     /// The line in `direction` through a point, which moves to the left from the time `rest` (m) on.
     ///
-    /// Its speed is as exact as a number of 53 bits can be, and the same for all lines that are parallel.
+    /// Its speed is as exact as a number of 128 bits can be, and the same for all lines that are parallel.
     pub(super) fn new(direction: Direction, through: I64Vec2, speed: f64, rest: f64) -> Self {
         let I64Vec2 { x, y } = direction.shortest().0;
-        #[allow(clippy::cast_precision_loss, reason = "the speed is rounded here, and nothing else")]
-        let length = (x as f64 * x as f64 + y as f64 * y as f64).sqrt();
-        let (w, w_power) = parts(length * speed);
-        let (rest, rest_power) = parts(if speed > 0.0 { rest * CELLS } else { 0.0 });
+        let (length, length_power) = length(x, y);
+        let (speed, speed_power) = parts(speed);
+        let (w, w_power) = (length * IBig::from(speed), length_power + speed_power);
+        let (rest, rest_power) = parts(if speed > 0 { rest * CELLS } else { 0.0 });
         let scale = 0.max(-w_power).max(-(w_power + rest_power));
         let c = i128::from(-y) * i128::from(through.x) + i128::from(x) * i128::from(through.y);
-        let gone = IBig::from(w) * IBig::from(rest);
+        let gone = &w * IBig::from(rest);
         Self {
             a: shifted(IBig::from(-y), scale),
             b: shifted(IBig::from(x), scale),
             c: shifted(IBig::from(c), scale) - shifted(gone, scale + w_power + rest_power),
-            w: shifted(IBig::from(w), scale + w_power),
+            w: shifted(w, scale + w_power),
         }
     }
 
