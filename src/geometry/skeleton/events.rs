@@ -207,6 +207,10 @@ impl Wavefront {
             self.events.extend(later.drain(..).map(Reverse));
             let Some(mut when) = first else { break None };
             self.spots.clear();
+            // What was foreseen twice is over.
+            if self.last.as_mut().is_some_and(|last| self.lines.compare(&mut when, last) != Ordering::Greater) {
+                continue;
+            }
             for event in &ties {
                 self.note(event.what, &mut when);
             }

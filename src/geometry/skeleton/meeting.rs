@@ -83,6 +83,7 @@ impl Wavefront {
     /// Makes the new wavefront of what the spots' corners and edges meet, until nothing more happens at this time.
     pub(super) fn resolve(&mut self, when: &mut When) -> Result<()> {
         self.lines.settle(when, FINE);
+        self.last = Some(*when);
         self.now = when.low();
         for _ in 0..=self.corners.len() {
             let fresh = self.pair_anew(when)?;

@@ -97,7 +97,8 @@ pub(super) struct Wavefront {
     pub events: BinaryHeap<Reverse<Event>>,
     pub ties: Vec<Event>,
     pub spots: Vec<Spot>,
-    /// When the last thing happened, or a little before.
+    /// When the last thing happened, and that or a little before.
+    pub last: Option<When>,
     pub now: f64,
     /// Whether an edge has just begun to move.
     pub restarted: bool,
@@ -158,6 +159,7 @@ impl Wavefront {
         self.foreseen.clear();
         self.events.clear();
         self.spots.clear();
+        self.last = None;
         self.now = 0.0;
         self.restarted = false;
         for (ring, index) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |index| (ring, index))) {
