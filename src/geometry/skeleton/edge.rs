@@ -19,7 +19,7 @@ pub(super) fn snapped(rings: &[Vec<DVec2>]) -> Result<(Vec<Vec<I64Vec2>>, DVec2)
     let high = points().fold(DVec2::NEG_INFINITY, |high, point| high.max(*point));
     let middle = low.midpoint(high).round();
     let reach = (high - low).max_element() * CELLS;
-    if reach.is_nan() || reach > MOST {
+    if !points().all(|point| point.is_finite()) || reach > MOST {
         return Err(Error::new("the outline is too large for a roof"));
     }
     let snap = |point: &DVec2| ((*point - middle) * CELLS).round().as_i64vec2();

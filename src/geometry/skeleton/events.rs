@@ -208,7 +208,8 @@ impl Wavefront {
             let Some(mut when) = first else { break None };
             self.spots.clear();
             // What was foreseen twice is over.
-            if self.last.as_mut().is_some_and(|last| self.lines.compare(&mut when, last) != Ordering::Greater) {
+            if self.last.as_mut().is_some_and(|last| self.lines.compare(&mut when, last) != Ordering::Greater)
+            {
                 continue;
             }
             for event in &ties {

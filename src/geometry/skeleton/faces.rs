@@ -92,7 +92,8 @@ fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<u
         let area = twice_area(face.iter().map(|&peak| peaks[peak].at));
         // What stands upright may be off its plane by as much as borders are short.
         let along = face.iter().map(|&peak| peaks[peak].at.dot(edge.along));
-        let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let (low, high) =
+            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
         if area < -MERGED * (high - low) || (edge.pace.moves() && area <= 0.0) {
             return Err(Error::new("a face of the roof is turned over"));
         }

@@ -20,31 +20,37 @@ fn hip(rings: &[Vec<DVec2>]) -> Skeleton {
     Skeleton::new(rings, &paces).expect("a skeleton")
 }
 
-/// The even skeletons, and those with some edges that stand still or rest, of plans; how many there were.
+/// Checks the even skeletons of plans, and those with some edges that stand still, rest or are slow; how many plans
+/// there were.
 fn all_are_sound(plans: impl Iterator<Item = Vec<Vec<DVec2>>>, random: &mut Random) -> usize {
-    let (mut count, mut failed) = (0, Vec::new());
+    let (mut count, mut failed, mut stuck) = (0, Vec::new(), Vec::new());
     for rings in plans {
         let mut paces = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
         if let Err(error) = Skeleton::new(&rings, &paces) {
             failed.push(format!("{error}: {rings:?}"));
         }
-        for pace in &mut paces {
-            match random.next() {
-                chance if chance < 0.1 => *pace = Pace::STILL,
-                chance if chance < 0.15 => pace.rest = (chance * 1024.0).round() / 64.0,
-                chance if chance < 0.2 => pace.speed = chance * 4.0,
-                _ => {}
-            }
-        }
-        // What is left of walls that stand still may overlap itself; nothing else is wrong with them.
-        if let Err(error) = Skeleton::new(&rings, &paces)
-            && !error.message().contains("overlaps itself")
-        {
-            failed.push(format!("{error}: {rings:?} {paces:?}"));
-        }
         count += 1;
+        if count % 4 > 0 {
+            continue;
+        }
+        for index in 1..paces.len() {
+            let chance = random.next();
+            if paces[index - 1] != Pace::default() || chance > 0.2 {
+                continue;
+            }
+            paces[index] = match chance {
+                chance if chance < 0.1 => Pace::STILL,
+                chance if chance < 0.15 => Pace { speed: 1.0, rest: (chance * 1024.0).round() / 64.0 },
+                chance => Pace { speed: chance * 4.0, rest: 0.0 },
+            };
+        }
+        if let Err(error) = Skeleton::new(&rings, &paces) {
+            stuck.push(format!("{error}: {rings:?} {paces:?}"));
+        }
     }
     assert!(failed.is_empty(), "{} of {count}: {}", failed.len(), failed[0]);
+    // A place between edges that all stand still is never reached.
+    assert!(stuck.len() * 200 <= count, "{} of {count}: {}", stuck.len(), stuck[0]);
     count
 }
 
