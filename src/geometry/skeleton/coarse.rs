@@ -4,15 +4,18 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::Peak;
+use super::edge::Edge;
 
 /// Borders no longer than this (m), on the plan and in time, are short; spikes no wider are thin.
 const FINEST: f64 = 1e-3;
+/// What is left between a peak and a border (m), so that a mesh of 32-bit numbers can tell them apart.
+const NARROW: f64 = 2.5e-4;
 
 /// Shrinks short borders and closes thin spikes, as long as the faces stay a map of the plane.
 ///
-/// Two peaks become one only where the border between them is all that the faces around them share. A spike is
-/// closed where one of its borders runs along the other: what is beyond them meets there. No face loses its edge or
-/// touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
+/// Two peaks become one only where the border between them is all that the faces around them share, and a peak on a
+/// straight border between two faces is left out. A spike is closed where one of its borders runs along the other: what
+/// is beyond them meets there. No face loses its edge or touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
 pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
     let sharp = |face: &Vec<usize>| face.len() > 3 && spikes_of(peaks, face).next().is_some();
     let mut short = short_borders(peaks, fixed, faces);
@@ -25,7 +28,8 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
     while done {
         done = false;
         for (_, [kept, gone]) in short {
-            done |= map.shrinks(kept, gone, faces);
+            let far = way(peaks, [kept, gone]).length();
+            done |= map.shrinks(kept, gone, far, faces);
         }
         for face in 0..faces.len() {
             while faces[face].len() > 3 {
@@ -37,7 +41,32 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
                 done = true;
             }
         }
+        for peak in fixed..peaks.len() {
+            done |= map.straightens(peak, peaks, faces);
+        }
         short = short_borders(peaks, fixed, faces);
+    }
+}
+
+/// Widens faces that are all but cut in two: where a peak all but touches a border of a face that it is not an end of,
+/// it moves away from it, by less than borders are short.
+///
+/// Faces over edges that stand still at first are upright there, and left alone.
+pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[Edge], faces: &[Vec<usize>]) {
+    for (face, _) in faces.iter().zip(edges).filter(|(face, edge)| face.len() > 4 && edge.pace.moves()) {
+        for (index, &a) in face.iter().enumerate() {
+            let b = face[(index + 1) % face.len()];
+            let (from, way) = (peaks[a].at, peaks[b].at - peaks[a].at);
+            let length = way.length();
+            let (along, inward) = (way / length, way.perp() / length);
+            for &peak in face[2..].iter().filter(|&&peak| peak >= fixed && peak != a && peak != b) {
+                let there = peaks[peak].at - from;
+                let (far, on) = (inward.dot(there), along.dot(there));
+                if far.abs() < NARROW && on > NARROW && on < length - NARROW {
+                    peaks[peak].at += inward * (NARROW - far);
+                }
+            }
+        }
     }
 }
 
@@ -83,9 +112,10 @@ fn way(peaks: &[Peak], [from, to]: [usize; 2]) -> DVec3 {
     (peaks[to].at - peaks[from].at).extend(peaks[to].time - peaks[from].time)
 }
 
-/// The faces around each peak.
+/// The faces around each peak, and how far (m) the peaks are that it stands for.
 struct Map {
     around: Vec<SmallVec<[usize; 6]>>,
+    spread: Vec<f64>,
 }
 
 /// The corners before and after one of a ring; none if it is not there.
@@ -102,7 +132,7 @@ impl Map {
         for (number, face) in faces.iter().enumerate() {
             face.iter().for_each(|&peak| around[peak].push(number));
         }
-        Self { around }
+        Self { around, spread: vec![0.0; count] }
     }
 
     /// The peaks to which borders go from one.
@@ -111,7 +141,11 @@ impl Map {
     }
 
     /// Lets `kept` stand for `gone`, if that is sound and both are there; whether it is.
-    fn shrinks(&mut self, kept: usize, gone: usize, faces: &mut [Vec<usize>]) -> bool {
+    fn shrinks(&mut self, kept: usize, gone: usize, far: f64, faces: &mut [Vec<usize>]) -> bool {
+        let spread = self.spread[kept].max(far + self.spread[gone]);
+        if spread > 2.0 * FINEST {
+            return false;
+        }
         let shared: SmallVec<[usize; 4]> =
             self.around[gone].iter().copied().filter(|face| self.around[kept].contains(face)).collect();
         let apart = |&face: &usize| faces[face].len() <= 3 || !beside(&faces[face], gone).contains(&kept);
@@ -130,6 +164,26 @@ impl Map {
                 self.around[kept].push(face);
             }
         }
+        self.spread[kept] = spread;
+        true
+    }
+
+    /// Leaves out a peak that is on a straight border between two faces; whether it is.
+    fn straightens(&mut self, peak: usize, peaks: &[Peak], faces: &mut [Vec<usize>]) -> bool {
+        let [one, two] = self.around[peak][..] else { return false };
+        let [a, b] = beside(&faces[one], peak)[..] else { return false };
+        let [there, whole] = [way(peaks, [a, peak]), way(peaks, [a, b])];
+        // Both ends may be off by as much as peaks are that they stand for.
+        if there.cross(whole).length() > 3.0 * FINEST * whole.length()
+            || faces[one].len().min(faces[two].len()) <= 3
+            || self.neighbours(a, faces).contains(&b)
+        {
+            return false;
+        }
+        for face in [one, two] {
+            faces[face].retain(|&other| other != peak);
+        }
+        self.around[peak].clear();
         true
     }
 

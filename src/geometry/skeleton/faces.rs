@@ -3,7 +3,7 @@
 use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
 
-use super::coarse::coarsen;
+use super::coarse::{coarsen, widen};
 use super::edge::{Edge, metres};
 use super::wavefront::Traced;
 use super::{Peak, Skeleton};
@@ -19,7 +19,7 @@ type Borders = SmallVec<[[usize; 2]; 8]>;
 
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
 pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleton> {
-    let Traced { edges, peaks, arcs } = traced;
+    let Traced { edges, mut peaks, arcs } = traced;
     let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
     let mut first = 0;
     for ring in rings {
@@ -36,6 +36,7 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleto
     }
     let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
     coarsen(&peaks, edges.len(), &mut faces);
+    widen(&mut peaks, edges.len(), &edges, &faces);
     verify(rings, &edges, &peaks, &faces)?;
     Ok(Skeleton { peaks, faces })
 }
