@@ -1,6 +1,12 @@
 //! Real data files, where they are beside the repository, against numbers that were computed with other programs.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "numbers of cases are small"
+)]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,6 +16,16 @@ use burgeon::objects::Elevation;
 use burgeon::sources::elevation::{Raster, Relief};
 use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
 use glam::{DVec2, DVec3};
+
+#[path = "elevation/measured.rs"]
+mod measured;
+
+#[test]
+fn measured_ground_is_exact_at_every_sample_at_any_level_and_so_are_its_triangles() {
+    let cases: Vec<measured::Worst> =
+        (0..400).map(|seed| measured::check(seed).unwrap_or_else(|what| panic!("{what}"))).collect();
+    assert!(cases.iter().map(|case| case.samples).sum::<usize>() > 50_000);
+}
 
 /// The file in the folder of shared data; tells that the test is skipped where there is none.
 fn shared(name: &str) -> Option<PathBuf> {
