@@ -77,11 +77,17 @@ impl Error {
         self
     }
 
+    /// Adds `what` in brackets to the message.
+    #[must_use]
+    pub(crate) fn noting(mut self, what: &str) -> Self {
+        self.0.message = format!("{} ({what})", self.0.message);
+        self
+    }
+
     /// Says which feature was being read when it happened.
     #[must_use]
-    pub(crate) fn feature(mut self, id: &str) -> Self {
-        self.0.message = format!("{} (feature {id})", self.0.message);
-        self
+    pub(crate) fn feature(self, id: &str) -> Self {
+        self.noting(&format!("feature {id}"))
     }
 
     /// Says that the data is at fault: what a feature holds cannot be built, whatever the script does with it.

@@ -12,7 +12,8 @@
 //!
 //! Each stage is a folder, and uses only those before it:
 //!
-//! - [`error`]: what a person is told when something is wrong.
+//! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
+//!   can be meant.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -90,7 +91,9 @@ pub mod sources;
 pub mod terrain;
 pub mod trace;
 pub mod variations;
+pub mod warning;
 pub mod watch;
 
 pub use error::{Error, Result};
-pub use run::{Run, RunTimes, check, run, run_session};
+pub use run::{Check, Run, RunTimes, check, run, run_session};
+pub use warning::{Warning, WarningKind};

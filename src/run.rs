@@ -10,6 +10,7 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::script::{Machine, Options, Param, Session, Watchdog};
 use crate::sources::Frame;
+use crate::warning::Warning;
 
 /// What a run of a script gave.
 pub struct Run {
@@ -21,6 +22,8 @@ pub struct Run {
     pub params: Vec<Param>,
     /// The projection and the origin of its data, if it has any.
     pub frame: Option<Frame>,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
     /// Where the time went.
     pub times: RunTimes,
 }
@@ -34,16 +37,15 @@ impl Run {
         }
         report
     }
+}
 
-    /// What people should know of how things were made, each with its place.
-    pub fn warnings(&self) -> Vec<String> {
-        let of = |system: &Arc<Derived>| {
-            let place = system.place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default();
-            let warnings = system.objects.first().map(|object| object.warnings()).unwrap_or_default();
-            warnings.into_iter().map(move |warning| format!("{place}{warning}")).collect::<Vec<_>>()
-        };
-        self.systems.iter().flat_map(of).collect()
-    }
+/// What a script declares, without deriving anything.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// Its parameters.
+    pub params: Vec<Param>,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
 }
 
 /// Where the time of a run went.
@@ -95,11 +97,16 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     }
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
-    Ok(Run { scene, systems, params, frame: session.data.frame(), times })
+    let warnings = session.warnings();
+    if session.options.strict && !warnings.is_empty() {
+        return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
+    }
+    Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
 }
 
-/// Reads the script and everything it requires, compiles every rule, and tells all problems at once.
-pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
+/// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
+/// run would end with are among them if it is to be strict.
+pub fn check(path: &Path, options: Options) -> Result<Check> {
     let session = Session::new(path, Options { check: true, ..options })?;
     let mut found = Vec::new();
     let ran = declare_with(&session, &mut found);
@@ -117,8 +124,15 @@ pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
     if let Err(error) = refuse_unknown(&session, &session.params()) {
         problems.push(error);
     }
+    let warnings = session.warnings();
+    if session.options.strict {
+        problems.extend(warnings.iter().cloned().map(Warning::into_error));
+    }
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
-    if problems.is_empty() { Ok(session.params()) } else { Err(Error::several(problems)) }
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    Ok(Check { params: session.params(), warnings })
 }
 
 /// A machine for a session's script, which is read in the meantime.

@@ -92,6 +92,7 @@ fn tell(told: &Told) {
             report::time(*total)
         )),
         Told::Failed(error) => report::error(error, false),
+        Told::Warning(warning) => report::eprint(&report::warnings([warning])),
         Told::Waiting(text) | Told::Note(text) => report::eprint(&format!("{text}\n")),
     }
 }

@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use burgeon::derive::grouped;
 use burgeon::script::{Param, Setting};
-use burgeon::{Error, Run};
+use burgeon::{Error, Run, Warning};
 use serde_json::json;
 
 /// Prints an error to stderr, with the line of the script that it is about; as JSON to stdout for machines.
@@ -23,6 +23,21 @@ pub(crate) fn error(error: &Error, json: bool) {
         let _ = writeln!(text, "error: {}", problem.with_line(line.as_deref()));
     }
     eprint(&text);
+}
+
+/// Warnings for a person, as errors are told.
+pub(crate) fn warnings<'a>(warnings: impl IntoIterator<Item = &'a Warning>) -> String {
+    let mut text = String::new();
+    for warning in warnings {
+        let line = warning.place().and_then(line);
+        let _ = writeln!(text, "warning: {}", warning.with_line(line.as_deref()));
+    }
+    text
+}
+
+/// Warnings for machines.
+pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
+    warnings.iter().map(Warning::to_json).collect()
 }
 
 /// The text of a line of a script.
@@ -68,9 +83,7 @@ pub(crate) fn summary(run: &Run, writing: Duration, total: Duration, listed: Opt
     if let Some(memory) = peak_memory() {
         let _ = writeln!(text, "{memory} MB of memory at the peak");
     }
-    for warning in run.warnings() {
-        let _ = writeln!(text, "warning: {warning}");
-    }
+    text += &warnings(&run.warnings);
     let report = run.report();
     if !report.is_clean() {
         let _ = match listed {
@@ -94,7 +107,7 @@ pub(crate) fn summary_json(run: &Run, writing: Duration, total: Duration) -> ser
         "instances": run.scene.instances.len(),
         "materials": run.scene.materials.len(),
         "features": run.report().counts_json(),
-        "warnings": run.warnings(),
+        "warnings": warnings_json(&run.warnings),
         "params": params_json(&run.params),
         "seconds": {
             "total": seconds(total),

@@ -27,7 +27,7 @@ pub(crate) struct ScriptFlags {
     #[arg(long, value_name = "FOLDER")]
     data: Vec<PathBuf>,
 
-    /// Ends with an error at the first feature whose data cannot be built, in place of leaving it out
+    /// Ends with an error where there would be a warning, and at the first feature whose data cannot be built
     #[arg(long)]
     strict: bool,
 

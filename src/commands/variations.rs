@@ -7,7 +7,7 @@ use std::time::Instant;
 use burgeon::export::{self, Format};
 use burgeon::picture::{Picture, Quality};
 use burgeon::variations::{Cell, Framing, Over, Sheet, Variations as Cells, sheet};
-use burgeon::{Error, Result};
+use burgeon::{Error, Result, Warning};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
@@ -122,6 +122,17 @@ impl Variations {
                 report::error(error, false);
             }
         }
+        // Most cells have the same ones.
+        let mut warnings: Vec<&Warning> = Vec::new();
+        for warning in cells.iter().filter_map(|cell| cell.made.as_ref().ok()).flat_map(|made| &made.warnings)
+        {
+            let same =
+                |known: &&Warning| known.place() == warning.place() && known.message() == warning.message();
+            if !warnings.iter().any(same) {
+                warnings.push(warning);
+            }
+        }
+        report::eprint(&report::warnings(warnings));
         let failed = cells.iter().filter(|cell| cell.made.is_err()).count();
         let failed = if failed > 0 { format!(", {failed} of them failed") } else { String::new() };
         report::eprint(&format!(
@@ -177,6 +188,7 @@ fn cell_json(cell: &Cell) -> serde_json::Value {
             object["params"] = report::params_json(&made.params);
             object["modules"] = made.modules.into();
             object["triangles"] = made.triangles.into();
+            object["warnings"] = report::warnings_json(&made.warnings);
         }
         Err(error) => object["errors"] = error.problems().map(Error::to_json).collect(),
     }

@@ -30,6 +30,7 @@ use crate::interpret::Interpreting;
 use crate::objects::Object;
 use crate::rules::{Chain, Grammar, Key};
 use crate::script::{Interpretations, Machine, Objects};
+use crate::warning::Warning;
 use cells::Cells;
 use step::Stepper;
 
@@ -90,14 +91,18 @@ impl Plan {
         })
     }
 
-    /// Has objects that expand by themselves do so.
-    fn grow(&self, cells: &Cells<'_>) -> Result<()> {
+    /// Has objects that expand by themselves do so; adds to `said` what they warn of.
+    fn grow(&self, cells: &Cells<'_>, said: &mut Vec<Warning>) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
         if !objects.read(0, |object| Ok(object.grows()))? {
             return Ok(());
         }
         for chain in (0..self.chains).filter(|chain| !objects.has_failed(*chain)) {
-            objects.write(chain, |object| object.grow(cells))?;
+            objects.write(chain, |object| {
+                object.grow(cells)?;
+                said.extend(object.take_warnings());
+                Ok(())
+            })?;
         }
         Ok(())
     }
@@ -179,15 +184,20 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         Trace::new(&plan, &session.values, place)
     });
     let mut interpretations = vec![Use::default(); plan.interpretations.list.len()];
+    let (mut first, mut said) = (Vec::new(), Vec::new());
     let mut interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
         let begin = Instant::now();
-        let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations)?;
-        plan.grow(&cells)?;
+        if settled {
+            // What only earlier passes drew is gone.
+            said.clear();
+        }
+        let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations, &mut said)?;
+        plan.grow(&cells, &mut said)?;
         times.interpretation += begin.elapsed();
         Ok(chain)
     };
     if interprets {
-        plan.grow(&cells)?;
+        plan.grow(&cells, &mut first)?;
     }
     if interprets && !last_only {
         chain = interpret(chain, 0, &mut times)?;
@@ -218,6 +228,10 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     }
     if interprets && last_only {
         chain = interpret(chain, done, &mut times)?;
+    }
+    first.retain(|warning: &Warning| said.iter().all(|later| later.message() != warning.message()));
+    for warning in first.into_iter().chain(said) {
+        session.warn(warning.at(place.clone()));
     }
     let rules = reports(&plan, stepper.uses(), &interpretations);
     drop(stepper);

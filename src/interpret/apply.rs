@@ -6,10 +6,12 @@ use std::time::{Duration, Instant};
 use mlua::Buffer;
 
 use super::Interpreting;
+use super::notices::Notice;
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Object, Value};
 use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_text};
 use crate::script::{Flusher, Machine, Objects, read_column};
+use crate::warning::Warning;
 
 /// Where a piece of the chain has been applied up to.
 pub(crate) struct Applier {
@@ -44,6 +46,8 @@ pub(crate) struct Applier {
     /// The next of the calls that have been read, and the first of its arguments.
     call_at: usize,
     number_at: usize,
+    /// What the objects have warned of during the batch.
+    notices: Vec<Notice>,
 }
 
 /// Where applying has stopped.
@@ -84,6 +88,7 @@ impl Applier {
             failed: None,
             call_at: 0,
             number_at: 0,
+            notices: Vec::new(),
         })
     }
 
@@ -106,6 +111,26 @@ impl Applier {
     /// The times of the entries that have been applied.
     pub(crate) fn take_times(&mut self) -> Vec<Duration> {
         std::mem::take(&mut self.times)
+    }
+
+    /// What the objects have warned of since this was asked last.
+    pub(crate) fn take_notices(&mut self) -> Vec<Notice> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// Takes what `object` warns of after the module at hand, in its recorded call `call` if it was one.
+    #[inline]
+    fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
+        let said = object.take_warnings();
+        if !said.is_empty() {
+            self.note(said, call);
+        }
+    }
+
+    #[cold]
+    fn note(&mut self, said: Vec<Warning>, call: Option<(usize, usize)>) {
+        let module = (self.position, self.param);
+        self.notices.extend(said.into_iter().map(|warning| Notice { warning, module, call }));
     }
 
     /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
@@ -205,12 +230,19 @@ impl Applier {
             match symbol {
                 _ if failed => {}
                 OPEN => object.push(),
-                CLOSE => object.pop()?,
-                END => object.end()?,
+                CLOSE => {
+                    object.pop()?;
+                    self.listen(object, None);
+                }
+                END => {
+                    object.end()?;
+                    self.listen(object, None);
+                }
                 symbol => {
                     let method = methods[usize::from(symbol)];
                     if method != u16::MAX {
                         self.call(object, method, &pass.chain.params[params.clone()])?;
+                        self.listen(object, None);
                     }
                 }
             }
@@ -244,6 +276,7 @@ impl Applier {
                 self.failed = Some((self.next, self.applied));
                 return Err(error);
             }
+            self.listen(object, Some((self.next, self.applied)));
             self.call_at += 1;
             self.number_at += count;
             self.applied += 1;
@@ -316,6 +349,10 @@ impl Flusher for Applier {
 
     fn chain(&self) -> usize {
         self.chain
+    }
+
+    fn warn(&mut self, said: Vec<Warning>) {
+        self.note(said, None);
     }
 
     fn applier(&mut self) -> Option<&mut Applier> {

@@ -5,6 +5,7 @@
 //! object something.
 
 mod apply;
+mod notices;
 
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -13,10 +14,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::derive::{Job, Plan, Use};
-use crate::error::{Error, Result};
-use crate::rules::{Chain, END, Mark};
+use crate::error::{Error, Place, Result};
+use crate::rules::{Chain, END, Mark, Symbol, module_text};
 use crate::script::{Machine, write_column};
+use crate::warning::Warning;
 pub(crate) use apply::Applier;
+use notices::{Notice, Notices};
 
 /// Entries that one call into Lua interprets.
 const ENTRIES: usize = 4096;
@@ -36,16 +39,19 @@ pub(crate) struct Interpreting {
     triangles: AtomicUsize,
     failure: Mutex<Option<(usize, Error)>>,
     uses: Mutex<Vec<Use>>,
+    notices: Notices,
 }
 
 impl Interpreting {
-    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did.
+    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
+    /// `said` what the objects warned of.
     pub(crate) fn pass(
         machine: &Machine,
         plan: &Arc<Plan>,
         chain: Chain,
         step: usize,
         uses: &mut [Use],
+        said: &mut Vec<Warning>,
     ) -> Result<Chain> {
         let starts = chain.starts(plan.grammar.arities());
         let many = plan.chains >= 4 * DEALT;
@@ -70,12 +76,14 @@ impl Interpreting {
             triangles: AtomicUsize::new(0),
             failure: Mutex::new(None),
             uses: Mutex::new(vec![Use::default(); uses.len()]),
+            notices: Notices::default(),
         });
         machine.crew.hand_out(machine, count, 2, || Job::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = machine.crew.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
+        said.extend(done.notices.into_list());
         match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             Some((_, error)) => Err(error),
             None => Ok(done.chain),
@@ -185,31 +193,54 @@ impl Interpreting {
                 return Err(self.find_line(machine, error));
             }
         };
-        let mut applying = Vec::new();
+        let (mut applying, mut notices) = (Vec::new(), Vec::new());
         let applied = with_applier(&mut |applier| {
             applier.finish_entries(called, until)?;
             applying = applier.take_times();
+            notices = applier.take_notices();
             Ok(())
         });
-        match applied {
-            Ok(()) => Ok(applying),
-            Err(error) => Err(self.find_line(machine, error)),
+        if let Err(error) = applied {
+            return Err(self.find_line(machine, error));
         }
+        notices.into_iter().for_each(|notice| self.note(machine, notice));
+        Ok(applying)
+    }
+
+    /// Adds what an object has warned of in the batch that was interpreted last.
+    fn note(&self, machine: &Machine, Notice { warning, module: (module, param), call }: Notice) {
+        let symbol = self.chain.symbols[module];
+        self.notices.add(symbol, module, warning, |warning| {
+            let warning = warning.at(call.and_then(|call| Self::line_of(machine, call)));
+            if symbol <= END {
+                return warning;
+            }
+            let warning = warning.module(self.module_text(machine, module, param), self.step);
+            match self.interpretation_of(symbol) {
+                Some((name, place)) => warning.at(place.clone()).rule(name),
+                None => warning,
+            }
+        });
     }
 
     /// An error of a recorded call with the line of the call: the rule runs once more to find it.
     fn find_line(&self, machine: &Machine, error: Error) -> Error {
         let flusher =
             machine.current.flusher.borrow_mut().as_mut().and_then(|flusher| flusher.applier()?.failed());
-        let Some((entry, call)) = flusher else { return error };
+        let Some(call) = flusher else { return error };
+        error.rather_at(Self::line_of(machine, call))
+    }
+
+    /// The line of a recorded call of the last batch, given as its entry and its number: the rule runs once more to find it.
+    fn line_of(machine: &Machine, call: (usize, usize)) -> Option<Place> {
         let prelude = machine.prelude();
-        let place = match prelude.relive.call::<()>((entry, call)) {
+        let place = match prelude.relive.call::<()>(call) {
             Err(raised) => machine.translate(raised).place().cloned(),
             Ok(()) => None,
         };
         // A machine that cannot even end the batch is thrown away with the run.
         let _ = prelude.finish.call::<()>(());
-        error.rather_at(place)
+        place
     }
 
     /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`
@@ -235,14 +266,27 @@ impl Interpreting {
         if symbol <= END {
             return error;
         }
-        let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+        let error = match self.interpretation_of(symbol) {
+            Some((name, place)) => error.at(place.clone()).rule(name),
+            None => error,
+        };
+        error.module(self.module_text(machine, module, param), self.step)
+    }
+
+    /// A module of the chain with its parameters, which begin at `param`.
+    fn module_text(&self, machine: &Machine, module: usize, param: usize) -> String {
+        let (grammar, symbol) = (&self.plan.grammar, self.chain.symbols[module]);
+        let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[param..param + arity];
-        let text =
-            crate::rules::module_text(self.plan.grammar.symbols(), &machine.session.values, symbol, params);
+        module_text(grammar.symbols(), &machine.session.values, symbol, params)
+    }
+
+    /// The name and the place of the interpretation rule of modules with this symbol.
+    fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<Place>)> {
         let interpretations = &self.plan.interpretations;
-        let (_, name, place) =
-            &interpretations.list[usize::from(interpretations.by_symbol[usize::from(symbol)])];
-        error.at(place.clone()).rule(format!("{name} (interpretation)")).module(text, self.step)
+        let id = interpretations.by_symbol.get(usize::from(symbol))?;
+        let (_, name, place) = interpretations.list.get(usize::from(*id))?;
+        Some((format!("{name} (interpretation)"), place))
     }
 
     /// Counts triangles against the limit.

@@ -42,6 +42,7 @@ use tokio::sync::Semaphore;
 
 use crate::error::{Error, Result};
 use crate::script::Options;
+use crate::warning::Warning;
 use crate::watch::Watch;
 use message::Cause;
 use server::Site;
@@ -83,6 +84,8 @@ pub enum Told {
     },
     /// The script has failed.
     Failed(Error),
+    /// The new model has a warning that the last one did not have.
+    Warning(Warning),
     /// The script does not exist.
     Waiting(String),
     /// Something else worth knowing.

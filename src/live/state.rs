@@ -20,6 +20,7 @@ use crate::export::gltf::Layout;
 use crate::presets::Presets;
 use crate::run::Run;
 use crate::script::{Options, Param, Session, Stop};
+use crate::warning::Warning;
 use crate::watch::Change;
 
 /// Messages that wait for a page at most; a page that is slower gets the present state instead.
@@ -76,6 +77,8 @@ pub(super) struct Inner {
     pub last_step: Option<(Inputs, usize)>,
     /// Values that could not be used, as far as that has been told.
     pub left_out: BTreeSet<String>,
+    /// The warnings of the last model, as far as they have been told.
+    pub warnings: BTreeSet<String>,
     /// The script's files, which an editor may open.
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
@@ -136,6 +139,7 @@ impl State {
             pictures: VecDeque::new(),
             last_step: None,
             left_out: BTreeSet::new(),
+            warnings: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
             over: false,
@@ -219,6 +223,15 @@ impl State {
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
         let mut object = error.to_json();
         if let Some(place) = error.place() {
+            object["file"] = self.short(&place.file).into();
+        }
+        object
+    }
+
+    /// The same of a warning.
+    pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
+        let mut object = warning.to_json();
+        if let Some(place) = warning.place() {
             object["file"] = self.short(&place.file).into();
         }
         object

@@ -17,6 +17,7 @@ use crate::export::gltf::{self, Layout};
 use crate::presets::Presets;
 use crate::run::{Run, run_session};
 use crate::script::{Limits, Options, Session, make_ready};
+use crate::warning::Warning;
 use crate::watch::Watch;
 
 /// How often pages are told how far a run has come.
@@ -268,6 +269,7 @@ fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
             total: 0.0,
         },
         files,
+        warnings: run.warnings.iter().map(|warning| state.warning_json(warning)).collect(),
     }
 }
 
@@ -321,6 +323,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             state.say(&Say::Model(Box::new(message.clone())));
             let left_out = session.map(Session::left_out).unwrap_or_default();
             told.extend(inner.tell_left_out(state, &left_out));
+            told.extend(inner.new_warnings(&run.warnings));
             let report = run.report();
             let remarks = (!report.is_clean())
                 .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
@@ -346,6 +349,15 @@ impl Inner {
         self.finished = Some(job.inputs.clone());
         state.say(&say);
         self.trouble = Some(say);
+    }
+
+    /// The warnings of a run that the one before did not have.
+    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Told> {
+        let text = |it: &Warning| format!("{:?} {}", it.place(), it.message());
+        let new = warnings.iter().filter(|warning| !self.warnings.contains(&text(warning)));
+        let told = new.cloned().map(Told::Warning).collect();
+        self.warnings = warnings.iter().map(text).collect();
+        told
     }
 
     /// Tells of values that the script does not take any more, once each.

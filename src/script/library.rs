@@ -416,11 +416,15 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
     if OF_FILES.iter().any(|known| known.name == kind.name) {
         return Ok(());
     }
+    let library = std::rc::Rc::clone(&machine.library);
     globals.raw_set(
         kind.name,
         lua.create_function(move |_, given: MultiValue| {
             let table = constructor_fields(kind, given).map_err(mlua::Error::external)?;
-            let object = (kind.construct)(&table).map_err(mlua::Error::external)?;
+            let mut object = (kind.construct)(&table).map_err(mlua::Error::external)?;
+            for warning in object.take_warnings() {
+                library.machine().map_err(mlua::Error::external)?.warn(warning);
+            }
             Ok(ObjectHandle(Arc::from(object)))
         })?,
     )

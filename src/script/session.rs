@@ -17,6 +17,7 @@ use super::param::Param;
 use crate::derive::Trace;
 use crate::error::{Error, Result};
 use crate::rules::Values;
+use crate::warning::{Warning, Warnings};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
@@ -139,6 +140,7 @@ pub struct Session {
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
+    warnings: Warnings,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
@@ -172,6 +174,7 @@ impl Session {
             sought: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
+            warnings: Warnings::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             peeking: AtomicBool::new(false),
@@ -238,6 +241,16 @@ impl Session {
             left_out.push((name.to_owned(), error));
         }
         Ok(())
+    }
+
+    /// Takes notice of something that people should know; what is said twice is counted.
+    pub fn warn(&self, warning: Warning) {
+        self.warnings.add(warning);
+    }
+
+    /// What people should know of the run so far, in the order of files and lines.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.warnings.list()
     }
 
     /// The parameters that the script declared, in order.

@@ -24,6 +24,7 @@ use crate::picture::{Extent, Picture, Quality, render_within};
 use crate::run::{declare, no_such, run_session};
 use crate::scene::Scene;
 use crate::script::{Control, Options, Param, Session, Setting, Stop};
+use crate::warning::Warning;
 
 /// What finished scenes may take (bytes) while they wait for a common camera; further ones are made anew.
 const HELD: usize = 1 << 30;
@@ -65,6 +66,8 @@ pub struct Made {
     pub modules: usize,
     /// Triangles, instances counted each.
     pub triangles: usize,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
 }
 
 /// Variations of a script that can be made.
@@ -91,6 +94,7 @@ struct Ran {
     params: Vec<Param>,
     modules: usize,
     triangles: usize,
+    warnings: Vec<Warning>,
 }
 
 impl Variations {
@@ -202,7 +206,8 @@ impl Variations {
             let size = bytes(&run.scene);
             held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < HELD
         });
-        Ok(Ran { scene: room.then_some(run.scene), extent, params: run.params, modules, triangles })
+        let scene = room.then_some(run.scene);
+        Ok(Ran { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
     }
 
     fn photograph(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Made> {
@@ -211,7 +216,8 @@ impl Variations {
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
         let picture = thumbnail(&scene, extent, picture)?;
-        Ok(Made { picture, params: ran.params, modules: ran.modules, triangles: ran.triangles })
+        let Ran { params, modules, triangles, warnings, .. } = ran;
+        Ok(Made { picture, params, modules, triangles, warnings })
     }
 
     fn workers(&self) -> usize {

@@ -149,6 +149,7 @@ function tell(message) {
   steps.show(message);
   readouts.model(message);
   profile.show(message);
+  trouble.warnings(message.warnings ?? []);
 }
 
 // Messages

@@ -6,6 +6,7 @@ import { icon } from './icons.js';
 
 export class Trouble {
   #error = find('#error');
+  #warnings = find('#warnings');
   #waiting = find('#waiting');
   #stale = find('#stale');
   #stage = find('#stage');
@@ -18,27 +19,41 @@ export class Trouble {
 
   /** `drawn` tells whether there is a model to be stale. */
   error({ errors }, drawn) {
-    this.#waiting.hidden = true;
-    const items = errors.map((error) => this.#describe(error));
+    this.#waiting.hidden = this.#warnings.hidden = true;
+    this.#error.classList.remove('folded');
+    this.#list(this.#error, errors.length > 1 ? `${errors.length} errors` : 'Error', errors);
+    this.#age(drawn);
+  }
+
+  /** What should be known of a good model, folded until someone wants to read it. */
+  warnings(warnings) {
+    if (warnings.length === 0) {
+      this.#warnings.hidden = true;
+      this.#warnings.replaceChildren();
+      return;
+    }
+    if (this.#warnings.childElementCount === 0) this.#warnings.classList.add('folded');
+    this.#list(this.#warnings, warnings.length > 1 ? `${warnings.length} warnings` : '1 warning', warnings);
+  }
+
+  /** Lists errors or warnings in a card that can be folded. */
+  #list(card, title, problems) {
     const close = make(
       'button',
       {
         class: 'tool',
         'aria-label': 'Fold',
         title: 'Fold',
-        'aria-expanded': 'true',
-        onclick: () => close.setAttribute('aria-expanded', String(!this.#error.classList.toggle('folded'))),
+        'aria-expanded': String(!card.classList.contains('folded')),
+        onclick: () => close.setAttribute('aria-expanded', String(!card.classList.toggle('folded'))),
       },
       icon('fold'),
     );
-    const title = errors.length > 1 ? `${errors.length} errors` : 'Error';
-    this.#error.classList.remove('folded');
-    this.#error.replaceChildren(
+    card.replaceChildren(
       make('div', { class: 'error-head' }, make('strong', { text: title }), close),
-      make('div', { class: 'error-list' }, ...items),
+      make('div', { class: 'error-list' }, ...problems.map((problem) => this.#describe(problem))),
     );
-    this.#error.hidden = false;
-    this.#age(drawn);
+    card.hidden = false;
   }
 
   waiting({ text }, drawn) {
@@ -68,8 +83,9 @@ export class Trouble {
     tell();
   }
 
-  #describe({ message, file, line, rule, module, step, help, more }) {
+  #describe({ message, file, line, rule, module, step, help, more, count: times }) {
     const facts = [];
+    if (times > 1) facts.push(['times', count(times)]);
     if (rule) facts.push(['rule', rule]);
     if (module) facts.push(['module', module]);
     if (step !== null && step !== undefined) facts.push(['step', String(step)]);

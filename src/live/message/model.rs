@@ -43,6 +43,8 @@ pub struct Model {
     pub times: Times,
     /// The files that decide what the model is.
     pub files: Vec<String>,
+    /// What people should know of it: as errors are told, each with its `kind` and how often it was found, its `count`.
+    pub warnings: Vec<Value>,
 }
 
 /// A box (m).

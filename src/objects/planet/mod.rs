@@ -14,6 +14,7 @@ use crate::rules::Key;
 use crate::scene::{Instance, Material, Mesh, Scene};
 use crate::terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
 use crate::terrain::{Divide, World};
+use crate::warning::Warning;
 
 fields! {
     /// What `planet { ... }` takes.
@@ -68,6 +69,7 @@ pub struct Planet {
     eye: Option<DVec3>,
     /// Whether the script is only checked.
     sketched: bool,
+    warnings: Vec<Warning>,
 }
 
 methods! {
@@ -173,6 +175,7 @@ impl Planet {
         };
         let sea = options.water.as_ref().map(|water| water.level);
         Ok(Self {
+            warnings: options.rules.warnings("planet"),
             globe: Globe::new(world, options.radius, sea),
             options: Arc::new(options),
             wanted: None,
@@ -234,8 +237,8 @@ impl Object for Planet {
         true
     }
 
-    fn warnings(&self) -> Vec<String> {
-        self.options.rules.warnings("planet")
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
     }
 
     fn grows(&self) -> bool {

@@ -31,6 +31,7 @@ use crate::error::{Error, Result};
 use crate::rules::Key;
 use crate::scene::Scene;
 use crate::terrain::{Divide, Drainage, Edit, Edits, Ground, Map, View, World};
+use crate::warning::Warning;
 
 fields! {
     /// What `terrain { ... }` takes.
@@ -98,6 +99,7 @@ pub struct Terrain {
     key: Key,
     /// Whether the script is only checked.
     sketched: bool,
+    warnings: Vec<Warning>,
 }
 
 methods! {
@@ -206,6 +208,7 @@ impl Terrain {
         }
         let world = Arc::new(world);
         Ok(Self {
+            warnings: options.rules.warnings("terrain"),
             plain: Ground::new(Arc::clone(&world)),
             ground: Ground::new(world),
             options: Arc::new(options),
@@ -345,8 +348,8 @@ impl Object for Terrain {
         true
     }
 
-    fn warnings(&self) -> Vec<String> {
-        self.options.rules.warnings("terrain")
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
     }
 
     fn grows(&self) -> bool {

@@ -112,7 +112,9 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         "call",
         lua.create_function(move |lua, (method, application, arguments): (usize, usize, MultiValue)| {
             let arguments = values(&arguments)?;
-            let answer = state.call(method, application, &arguments).map_err(mlua::Error::external)?;
+            let answer = state
+                .call(method, application, &arguments, || super::Machine::place(lua))
+                .map_err(mlua::Error::external)?;
             to_lua(lua, &answer, false)
         })?,
     )?;

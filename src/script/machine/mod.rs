@@ -24,6 +24,7 @@ use super::session::Session;
 use crate::derive::Crew;
 use crate::error::{Error, Place, Result};
 use crate::rules::{Symbol, Symbols};
+use crate::warning::Warning;
 use begun::Begun;
 use prelude::Prelude;
 
@@ -97,6 +98,14 @@ impl Machine {
             return Err(Error::several(problems));
         }
         self.load(&source.name, &source.analysis.text)?.call::<()>(()).map_err(|error| self.translate(error))
+    }
+
+    /// Takes notice of something that people should know of the line of the script that is being run. A machine that
+    /// only helps says nothing, for the leading one runs the same line.
+    pub(crate) fn warn(&self, warning: Warning) {
+        if self.crew.leads() {
+            self.session.warn(warning.at(Self::place(&self.lua)));
+        }
     }
 
     /// Keeps the script from printing, since another machine runs it too.
