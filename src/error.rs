@@ -14,6 +14,30 @@ pub struct Place {
     pub line: usize,
 }
 
+/// The longest file (bytes) of which lines are shown, and the longest line (characters).
+const LARGEST: u64 = 16_000_000;
+const WIDEST: usize = 160;
+
+impl Place {
+    /// The lines from so many before it to so many after, each with its number. None if the file cannot be read, and if
+    /// the line itself is empty or not there.
+    pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {
+        let path = std::path::Path::new(&self.file);
+        let fits = |metadata: std::fs::Metadata| metadata.is_file() && metadata.len() <= LARGEST;
+        if !std::fs::metadata(path).is_ok_and(fits) {
+            return Vec::new();
+        }
+        let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
+        let first = self.line.saturating_sub(before).max(1);
+        let lines = text.lines().enumerate().skip(first - 1).take(self.line + after + 1 - first);
+        let lines = lines.map(|(index, line)| (index + 1, line.trim_end().chars().take(WIDEST).collect()));
+        let lines: Vec<(usize, String)> = lines.collect();
+        let there =
+            lines.iter().any(|(number, line): &(usize, String)| *number == self.line && !line.is_empty());
+        if there { lines } else { Vec::new() }
+    }
+}
+
 impl fmt::Display for Place {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.file, self.line)

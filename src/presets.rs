@@ -26,6 +26,7 @@ use serde_json::{Map, Number, Value};
 use crate::error::{Error, Place, Result, nearest};
 use crate::export;
 use crate::script::{Preset, Setting};
+use crate::watch::settled;
 
 /// The most (bytes) that a file of presets may have.
 const LARGEST: u64 = 16_000_000;
@@ -49,6 +50,11 @@ impl Presets {
     /// The presets of `script`; none if there is no file. Fails, with the line, on a file that cannot be understood.
     pub fn read(script: &Path) -> Result<Self> {
         let path = Self::path_of(script);
+        settled(&path, || Self::read_once(&path))
+    }
+
+    fn read_once(path: &Path) -> Result<Self> {
+        let path = path.to_path_buf();
         let mut text = String::new();
         let read = std::fs::File::open(&path)
             .and_then(|file| file.take(LARGEST + 1).read_to_string(&mut text).map(|_| ()));

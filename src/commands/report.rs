@@ -42,9 +42,8 @@ pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
 
 /// The text of a line of a script.
 fn line(place: &burgeon::error::Place) -> Option<String> {
-    let text = std::fs::read_to_string(&place.file).ok()?;
-    let line = text.lines().nth(place.line.checked_sub(1)?)?.trim();
-    (!line.is_empty()).then(|| line.chars().take(160).collect())
+    let (_, line) = place.excerpt(0, 0).pop()?;
+    Some(line.trim().to_owned())
 }
 
 /// The summary of a run for a person.

@@ -18,13 +18,22 @@ use crate::presets::Presets;
 use crate::run::{Run, run_session};
 use crate::script::{Limits, Options, Session, make_ready};
 use crate::warning::Warning;
-use crate::watch::Watch;
+use crate::watch::{Watch, unsettled};
 
 /// How often pages are told how far a run has come.
 const TICK: Duration = Duration::from_millis(100);
 
 /// The largest model (bytes) that is sent to pages: browsers hold no larger array.
 const LARGEST: usize = 2_000_000_000;
+
+/// Problems of one run, and warnings, that pages are told at most.
+const PROBLEMS: usize = 50;
+
+/// How long a file that was there may be missing, as in the middle of a save, before a page is told.
+const MISSING: Duration = Duration::from_millis(150);
+
+/// How long failures may be kept back because files change.
+const DOUBT: Duration = Duration::from_secs(2);
 
 /// What finding the number of steps may take when nothing else is to be done.
 const IDLE_LIMITS: Limits =
@@ -84,6 +93,11 @@ pub(super) fn work(state: &State, watch: &Watch) {
             followed = files;
         }
         watch.follow(followed.clone(), since);
+        let failed = matches!(outcome, Outcome::Failed(_) | Outcome::Missing);
+        let outcome = match failed && superseded(state, &job, &followed) {
+            true => Outcome::Cancelled,
+            false => outcome,
+        };
         finish(state, &job, session.as_deref(), outcome);
         drop(session);
         if let Some(inputs) = wants_last_step(state) {
@@ -94,6 +108,26 @@ pub(super) fn work(state: &State, watch: &Watch) {
             make_ready();
         }
     }
+}
+
+/// Waits until `files`, on which a run has failed, have been as they are for a while. Returns whether something newer is
+/// to be made: what was read may have been the half of what was being written.
+fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)]) -> bool {
+    let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
+    let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
+    let Some(wait) = young.max(gone.then_some(MISSING)) else { return false };
+    let mut inner = state.lock();
+    // A file that is written all the time is not waited for.
+    if inner.doubts.is_some_and(|since| since.elapsed() > DOUBT) {
+        return false;
+    }
+    inner.doubts.get_or_insert_with(Instant::now);
+    let end = Instant::now() + wait;
+    while inner.due.is_none() && !inner.over {
+        let Some(left) = end.checked_duration_since(Instant::now()) else { return false };
+        inner = state.wake.wait_timeout(inner, left).unwrap_or_else(std::sync::PoisonError::into_inner).0;
+    }
+    true
 }
 
 /// Tells pages how far the run has come, until the state is over.
@@ -186,6 +220,7 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
         }
         let (file, mut message) = rayon::join(|| encode(&run), || describe(state, job, &session, &run));
         let (file, time) = file?;
+        message.nothing = file.note.clone().or(message.nothing);
         if let Some((hash, bytes)) = &file.content {
             message.url = Some(format!("model/{hash}.glb"));
             message.bytes = bytes.len();
@@ -257,6 +292,8 @@ fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
         last_step: 0,
         step_limit: job.inputs.steps,
         seed: job.inputs.seed.to_string(),
+        preset: None,
+        nothing: (run.scene.triangles() == 0).then(|| nothing(run, job.inputs.steps)),
         params: Vec::new(),
         systems: systems.collect(),
         rules: trace::rules(state, run),
@@ -269,7 +306,30 @@ fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
             total: 0.0,
         },
         files,
-        warnings: run.warnings.iter().map(|warning| state.warning_json(warning)).collect(),
+        warnings: run.warnings.iter().take(PROBLEMS).map(|warning| state.warning_json(warning)).collect(),
+    }
+}
+
+/// Why a run shows nothing, and what to do about it.
+fn nothing(run: &Run, limit: Option<usize>) -> String {
+    let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
+    let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
+    let at_limit = limit.is_some_and(|limit| steps >= limit);
+    let after = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
+    if run.systems.is_empty() {
+        "the script derives no system: end it with system:derive()".to_owned()
+    } else if at_limit {
+        format!("nothing is drawn after {after}: look at a later one")
+    } else if modules == 0 {
+        format!("no module is left after {after}: let the rules end in modules that are drawn")
+    } else {
+        let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
+        let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);
+        let who = match modules {
+            1 => "the only module draws nothing".to_owned(),
+            _ => format!("none of the {modules} modules draws anything"),
+        };
+        format!("{who}: give them an interpretation, system:interpret(\"{most}\", function(this) ... end)")
     }
 }
 
@@ -286,6 +346,9 @@ fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
 /// Takes over what came of a run, and tells everybody.
 fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome) {
     let mut inner = state.lock();
+    if !matches!(outcome, Outcome::Cancelled) {
+        inner.doubts = None;
+    }
     let quick = inner.running.take().map(|running| running.begin.elapsed());
     if let Some(session) = session.filter(|_| !matches!(outcome, Outcome::Cancelled)) {
         inner.files = session.files();
@@ -293,22 +356,24 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
     let mut told = Vec::new();
     let mut gone = None;
     match outcome {
-        Outcome::Cancelled => state.say(&Say::Cancelled { run: job.run }),
+        Outcome::Cancelled => inner.cancelled(state, job.run),
         Outcome::Missing => {
             let text = format!("there is no script {} yet", state.script.display());
             inner.end_badly(state, job, Say::Waiting { text: text.clone() });
             told.push(Told::Waiting(text));
         }
         Outcome::Failed(error) => {
-            let errors = error.problems().map(|problem| state.error_json(problem)).collect();
+            let number = error.problems().count();
+            let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
-            inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors });
+            inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors, number });
             told.push(Told::Failed(error));
         }
         Outcome::Made(made) => {
             let Made { run, file, mut message } = *made;
             message.params = inner.wish.knobs(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
+            message.preset = inner.wish.preset();
             let File { content, layout, note } = file;
             let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
             told.push(Told::Model {
@@ -318,6 +383,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             });
             inner.params = Some(run.params.clone());
             inner.trouble = None;
+            inner.cancelled = None;
             inner.took = quick.unwrap_or_default();
             inner.finished = Some(job.inputs.clone());
             state.say(&Say::Model(Box::new(message.clone())));
@@ -346,6 +412,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
 impl Inner {
     fn end_badly(&mut self, state: &State, job: &Job, say: Say) {
         self.params = None;
+        self.cancelled = None;
         self.finished = Some(job.inputs.clone());
         state.say(&say);
         self.trouble = Some(say);
@@ -433,7 +500,7 @@ fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
     inner.last_step = Some((inputs, last_step));
     let Some(shown) = inner.shown.as_mut() else { return };
     let message = Model { last_step, ..shown.message.clone() };
-    state.say(&Say::Model(Box::new(message.clone())));
     let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
     *shown = Arc::new(Shown { run, inputs: shown.inputs.clone(), layout, message });
+    inner.present().into_iter().for_each(|model| state.say(&Say::Model(Box::new(model))));
 }

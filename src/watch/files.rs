@@ -64,6 +64,11 @@ pub(super) struct Found {
 }
 
 impl Found {
+    /// The file.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether it has become missing or empty, as in the middle of a save.
     pub(super) fn looks_unfinished(&self) -> bool {
         let nothing = matches!(
@@ -176,7 +181,7 @@ impl Files {
 }
 
 /// `path` and where it leads, link by link, each also as the system spells its folder.
-fn hops(path: &Path) -> Vec<PathBuf> {
+pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
     let mut hops = Vec::new();
     let mut at = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     // Links may lead in a circle.

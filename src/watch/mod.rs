@@ -9,14 +9,15 @@
 mod files;
 mod folders;
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::error::{Error, Result};
 use files::Files;
-use folders::{AnyWatcher, Folders, Handler};
+use folders::{AnyWatcher, Folders, Handler, Sign};
 
 /// How long it must be quiet after an event until files are compared, unless it is what comes at the end of a save:
 /// editors save in several steps.
@@ -28,6 +29,12 @@ const LONGEST: Duration = Duration::from_millis(100);
 /// How long a file may be missing or empty until that is believed: some editors delete a file or cut it to
 /// nothing before they write it.
 const PATIENCE: Duration = Duration::from_millis(150);
+
+/// How long a file that someone writes into may stay open until what it holds is believed.
+const SAVE: Duration = Duration::from_secs(1);
+
+/// Whether the system tells when a file that was written is closed.
+const TELLS_ENDS: bool = cfg!(any(target_os = "linux", target_os = "android"));
 
 /// How often files are compared without an event: some disks, such as those of other machines, tell of none.
 const ROUND: Duration = Duration::from_secs(1);
@@ -44,6 +51,29 @@ pub struct Change {
     pub at: Instant,
 }
 
+/// How long to wait until `files` have been as they are for a while; `None` if they have.
+///
+/// What has just been written in place may be the half of what is to come: who cannot read it tries again first.
+pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Duration> {
+    let now = SystemTime::now();
+    let young = files.into_iter().filter_map(|path| {
+        let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
+        PATIENCE.checked_sub(now.duration_since(metadata.modified().ok()?).ok()?)
+    });
+    young.filter(|left| !left.is_zero()).max()
+}
+
+/// What `read` makes of the file at `path`; tried again while it fails and the file has only just been written.
+pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
+    let begin = Instant::now();
+    loop {
+        match read() {
+            Err(_) if begin.elapsed() < SAVE && unsettled([path]).is_some() => std::thread::sleep(QUIET),
+            result => return result,
+        }
+    }
+}
+
 /// Watches files in a thread of its own until it is dropped.
 pub struct Watch {
     signals: Sender<Signal>,
@@ -52,8 +82,8 @@ pub struct Watch {
 
 /// What the thread waits for.
 enum Signal {
-    /// Something happened to these paths; none if the system lost count. And whether a save ends so.
-    Event(Vec<PathBuf>, Instant, bool),
+    /// Something happened to these paths; none if the system lost count.
+    Event(Vec<PathBuf>, Instant, Sign),
     Follow(Vec<(PathBuf, bool)>, SystemTime),
     Over,
 }
@@ -68,6 +98,8 @@ struct Watcher {
     complain: Option<Box<Complain>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
+    /// What someone has written into and not closed yet, where the system tells of that.
+    open: BTreeSet<PathBuf>,
 }
 
 impl Watch {
@@ -89,15 +121,16 @@ impl Watch {
     ) -> Result<Self> {
         let (signals, inbox) = channel();
         let events = signals.clone();
-        let seen = move |paths, settled| {
+        let seen = move |paths, sign| {
             // The watcher may be over already.
-            let _ = events.send(Signal::Event(paths, Instant::now(), settled));
+            let _ = events.send(Signal::Event(paths, Instant::now(), sign));
         };
         let mut watcher = Watcher {
             files: Files::default(),
             folders: Folders::new(make, seen),
             complain: Some(Box::new(complain)),
             first: None,
+            open: BTreeSet::new(),
         };
         watcher.files.follow(files.into_iter().map(|path| (path, true)).collect(), None);
         let watch = move || {
@@ -146,11 +179,16 @@ impl Watcher {
             let round = if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
             let wait = due.map_or(round, |due| due.saturating_duration_since(Instant::now()));
             match inbox.recv_timeout(wait) {
-                Ok(Signal::Event(paths, at, settled)) => {
+                Ok(Signal::Event(paths, at, sign)) => {
                     if self.files.concerned_by(&paths) {
                         let first = *self.first.get_or_insert(at);
-                        let quiet = if settled { Duration::ZERO } else { QUIET };
+                        let quiet = if sign == Sign::End { Duration::ZERO } else { QUIET };
                         due = Some((Instant::now() + quiet).min(first + LONGEST));
+                        match sign {
+                            Sign::Write if TELLS_ENDS => self.open.extend(paths),
+                            Sign::End => self.open.retain(|open| !paths.contains(open)),
+                            _ => {}
+                        }
                     }
                 }
                 Ok(Signal::Follow(files, since)) => {
@@ -181,7 +219,14 @@ impl Watcher {
         if found.iter().any(files::Found::looks_unfinished) && first.elapsed() < PATIENCE {
             return Some(Instant::now() + QUIET);
         }
+        let open =
+            |found: &files::Found| files::hops(found.path()).iter().any(|path| self.open.contains(path));
+        if first.elapsed() < SAVE && !self.open.is_empty() && found.iter().any(open) {
+            // That it is closed comes as an event.
+            return Some(first + SAVE);
+        }
         self.first = None;
+        self.open.clear();
         let files = self.files.accept(found);
         // What has just been named may lie elsewhere than before, if it is a link.
         self.cover();

@@ -284,6 +284,7 @@ fn two_servers_find_ports_of_their_own_and_print_the_address_first() {
             Command::new(env!("CARGO_BIN_EXE_burgeon"))
                 .args(["live", "none.lua", "--no-open"])
                 .current_dir(folder.path())
+                .env("XDG_RUNTIME_DIR", folder.path())
                 .stdout(std::process::Stdio::piped())
                 .stderr(std::process::Stdio::null())
                 .spawn()

@@ -1,6 +1,7 @@
 //! What happens when files change.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
@@ -128,9 +129,12 @@ fn a_save_during_a_long_run_stops_it_and_so_does_a_page() {
     server.write("s.lua", SLOW);
     page.until("progress");
     page.say(&json!({ "type": "cancel" }));
-    page.until("cancelled");
+    assert_eq!(page.until("cancelled")["stale"], true);
     // What was cancelled is not tried again until something changes.
     page.is_quiet(Duration::from_millis(100));
+    let mut late = server.page();
+    late.next("model");
+    assert_eq!(late.next("cancelled")["stale"], true);
     server.write("s.lua", script(4));
     assert_eq!(page.next("model")["triangles"], triangles(4));
 }
@@ -204,4 +208,106 @@ plots:derive()
     assert!(page.next("error")["text"].as_str().unwrap().contains("town.geojson"));
     server.write("town.geojson", town(2e-4));
     assert_eq!(page.next("model")["url"], taller["url"]);
+}
+
+/// Writes a file in place, in two parts with a pause between.
+fn write_slowly(server: &Server, name: &str, text: &str, closed: bool) {
+    let (first, rest) = text.split_at(text.len() / 2);
+    let mut file = fs::File::create(server.path(name)).unwrap();
+    file.write_all(first.as_bytes()).unwrap();
+    if closed {
+        drop(file);
+        std::thread::sleep(Duration::from_millis(90));
+        file = fs::File::options().append(true).open(server.path(name)).unwrap();
+    } else {
+        std::thread::sleep(Duration::from_millis(250));
+    }
+    file.write_all(rest.as_bytes()).unwrap();
+}
+
+#[test]
+fn a_file_that_is_seen_half_written_is_read_again_before_anyone_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = |count: usize| format!("require(\"parts\")\n{}", script(count));
+    let parts = |number: usize| format!("return {{ {} }}\n", "1, ".repeat(number));
+    fs::write(folder.path().join("parts.lua"), parts(1)).unwrap();
+    fs::write(folder.path().join("s.lua"), text(3)).unwrap();
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    page.next("model");
+    let presets = |seed: u64| {
+        let one = json!({ format!("seed {seed}"): { "seed": seed, "params": { "length": 2 } } });
+        format!("{one:#}\n")
+    };
+    // Whether a file stays open between its parts can be known on some systems alone.
+    for closed in [true, !cfg!(target_os = "linux")] {
+        for round in 4..7 {
+            write_slowly(&server, "s.lua", &text(round), closed);
+            let mut message = page.any();
+            while ["working", "progress", "cancelled"].iter().any(|kind| message["type"] == **kind) {
+                message = page.any();
+            }
+            assert_eq!(
+                (&message["type"], &message["triangles"]),
+                (&json!("model"), &json!(triangles(round))),
+                "{message}"
+            );
+            write_slowly(&server, "parts.lua", &parts(round), closed);
+            while message["cause"] != "save" || message["type"] != "model" {
+                assert_ne!(message["type"], "error", "{message}");
+                message = page.any();
+            }
+            while let Some(late) = page.within(Duration::from_millis(300)) {
+                assert_ne!(late["type"], "error", "{late}");
+            }
+            write_slowly(&server, "s.presets.json", &presets(round as u64), closed);
+            assert_eq!(page.until("presets")["names"], json!([format!("seed {round}")]));
+            page.is_quiet(Duration::from_millis(50));
+        }
+    }
+}
+
+#[test]
+fn a_long_message_is_cut_and_an_error_shows_its_lines() {
+    let server = Server::new(Some("local A = module(\"A\")\n\nerror(string.rep(\"x\", 2e7))\n-- the end\n"));
+    let mut page = server.page();
+    let error = page.next("error");
+    assert!(error.to_string().len() < 100_000, "{}", error.to_string().len());
+    let lines = json!([
+        { "line": 1, "text": "local A = module(\"A\")" },
+        { "line": 2, "text": "" },
+        { "line": 3, "text": "error(string.rep(\"x\", 2e7))" },
+        { "line": 4, "text": "-- the end" },
+    ]);
+    assert_eq!((&error["errors"][0]["line"], &error["errors"][0]["excerpt"]), (&json!(3), &lines));
+    let wrong = "x.y = 1\n".repeat(500);
+    server.write("s.lua", format!("--!strict\n{wrong}"));
+    let error = page.next("error");
+    let (told, number) = (error["errors"].as_array().unwrap().len(), error["number"].as_u64().unwrap());
+    assert!(told as u64 <= number && told <= 50, "{told} of {number}");
+}
+
+#[test]
+fn a_model_of_nothing_says_why() {
+    let server = Server::new(Some("local s = 1\n"));
+    let mut page = server.page();
+    let says = |page: &mut crate::support::Page, text: &str| {
+        let model = page.until("model");
+        let nothing = model["nothing"].as_str().unwrap_or_default();
+        assert!(nothing.contains(text), "{text}: {nothing}");
+    };
+    says(&mut page, "derives no system");
+    let empty = |rest: &str| {
+        format!(
+            "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem({{ object = turtle() }})\ns:axiom(A())\n{rest}s:derive()\n"
+        )
+    };
+    server.write("s.lua", empty("s:rule(\"A\", function() return nil end)\n"));
+    says(&mut page, "no module is left");
+    server.write("s.lua", empty("s:rule(\"A\", function() return B(), B() end)\n"));
+    says(&mut page, "system:interpret(\"B\"");
+    server.write("s.lua", script(3));
+    assert_eq!(page.until("model")["nothing"], json!(null));
+    page.say(&json!({ "type": "steps", "steps": 0 }));
+    says(&mut page, "after 0 steps");
 }

@@ -33,6 +33,10 @@ pub struct Model {
     pub step_limit: Option<usize>,
     /// The seed.
     pub seed: String,
+    /// The preset whose values and seed these are, if there is one.
+    pub preset: Option<String>,
+    /// Why there is nothing to see, if so.
+    pub nothing: Option<String>,
     /// The parameters in the script's order.
     pub params: Vec<Knob>,
     /// The systems in the order in which they were derived.
