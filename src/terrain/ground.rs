@@ -297,9 +297,12 @@ impl Ground {
     fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
         let world = &self.world;
         let along = DVec2::new(place.x - world.corner.x, world.corner.y + world.size - place.y);
-        if !along.cmpge(DVec2::ZERO).all() || !along.cmple(DVec2::splat(world.size)).all() {
+        // A place on the rim may be outside by what its coordinates are rounded.
+        let slack = (world.corner.abs().max_element() + world.size) * 4.0 * f64::EPSILON;
+        if !along.cmpge(DVec2::splat(-slack)).all() || !along.cmple(DVec2::splat(world.size + slack)).all() {
             return None;
         }
+        let along = along.clamp(DVec2::ZERO, DVec2::splat(world.size));
         let size = world.cell(self.level);
         let window = self.window;
         let of = |at: f64, first: i64, count: usize| {

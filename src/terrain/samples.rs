@@ -73,10 +73,8 @@ impl Samples {
         let near = near / cell;
         let mut rows: Vec<Vec<Sample>> = vec![Vec::new(); own.rows];
         for sample in found {
-            let on_corner = (sample.at - sample.at.round()).abs().max_element() <= near;
-            // The ground at a corner of cells is as it was measured there, and a tile beside this one that cannot show
-            // the sample would leave a gap.
-            if on_corner || !is_shown(ground, sample.at, near) {
+            // A tile beside this one that cannot show the sample would leave a gap.
+            if !is_shown(ground, sample.at, near) {
                 continue;
             }
             if let Some(last) = own.rows.checked_sub(1) {
@@ -163,7 +161,8 @@ impl Samples {
         [[a, b], [b, c], [c, a]].map(|[from, to]| distance(from, to, at))
     }
 
-    /// Tells those in a triangle, its rim included, with their distances from its sides, until `tell` has enough.
+    /// Tells those in a triangle, its rim included but not its corners, where the ground is as it was measured, with
+    /// their distances from its sides, until `tell` has enough.
     fn each(&self, triangle: &Triangle, mut tell: impl FnMut(usize, &Sample, [f64; 3]) -> bool) {
         if self.all.is_empty() {
             return;
@@ -182,7 +181,10 @@ impl Samples {
                 }
                 let sides = [[a, b], [b, c], [c, a]];
                 let distances = sides.map(|[from, to]| distance(from, to, sample.at));
-                if distances.iter().all(|distance| *distance >= -self.near)
+                let inside = distances.iter().all(|distance| *distance >= -self.near);
+                let is_corner = || corners.iter().any(|corner| corner.distance(sample.at) <= 2.0 * self.near);
+                if inside
+                    && !is_corner()
                     && !tell(index, sample, distances)
                 {
                     return;
