@@ -7,7 +7,7 @@ use super::Plan;
 use super::group::{Arranged, Group};
 use super::output::Output;
 use crate::error::{Error, Result};
-use crate::rules::{Bindings, Chain, Links, Mark, module_text};
+use crate::rules::{Around, Bindings, Chain, Links, Mark, module_text};
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.
@@ -63,6 +63,12 @@ impl Batch<'_> {
         Ok(Output { applied, ..self.splice(piece, scratch, spare) })
     }
 
+    /// The contexts of the chain's modules.
+    #[inline]
+    pub(super) fn around(&self) -> Around<'_> {
+        Around { chain: self.chain, links: self.links, grammar: &self.plan.grammar }
+    }
+
     /// Writes the arguments of `rule` for `members` into the machine's input column.
     pub(super) fn fill(&self, rule: u16, members: &[u32], scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
@@ -97,7 +103,7 @@ impl Batch<'_> {
             let left = declared.pattern.left.len();
             for index in members {
                 let active = scratch.active[*index as usize];
-                self.matches(rule, active.module as usize, &mut scratch.bindings);
+                self.around().bind(rule, active.module as usize, &mut scratch.bindings);
                 let at = active.param as usize;
                 for (place, item) in declared.contexts().iter().enumerate() {
                     if place == left {

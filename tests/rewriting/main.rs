@@ -1,8 +1,10 @@
 //! Rewriting, from a script's text to its chains: what the laws of the design and the literature say of it.
 
+mod candidates;
 mod choice;
 mod contexts;
 mod determinism;
+mod generate;
 mod interpretation;
 mod lineage;
 mod literature;

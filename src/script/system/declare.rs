@@ -2,9 +2,10 @@
 
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
+use crate::derive::grouped;
 use crate::error::{Error, Result, nearest};
 use crate::objects::Value;
-use crate::rules::{FIRST_SYMBOL, Pattern, Rule, Symbol};
+use crate::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
 use crate::script::analysis::{analyse, unmarked};
 use crate::script::convert::to_value;
 use crate::script::library::Library;
@@ -39,6 +40,10 @@ impl System {
         let Some(LuaValue::String(text)) = arguments.first().cloned() else {
             return Err(Error::new("a rule begins with a pattern").help(usage));
         };
+        if self.rules.len() == MOST_RULES {
+            return Err(Error::new(format!("a system has at most {} rules", grouped(MOST_RULES)))
+                .help("let one rule stand for many: carry what tells them apart in a parameter"));
+        }
         let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
