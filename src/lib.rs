@@ -71,6 +71,7 @@
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
+mod budget;
 pub mod derive;
 pub mod error;
 pub mod export;
@@ -94,6 +95,7 @@ pub mod variations;
 pub mod warning;
 pub mod watch;
 
+pub use budget::{Budget, Held};
 pub use error::{Error, Result};
 pub use run::{Check, Run, RunTimes, check, run, run_session};
 pub use warning::{Warning, WarningKind};

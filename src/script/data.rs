@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::paths::{is_absolute, lead};
 use super::session::Session;
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 use crate::objects::import::Wanted as WantedModel;
 use crate::objects::terrain::EditFile;
@@ -116,9 +117,11 @@ fn read_heights(
     wanted: &WantedHeights,
     known: &mut Known,
 ) -> Result<Elevation> {
+    let stop = Arc::clone(&session.stop);
+    let budget = Budget::new(session.options.limits.memory, move || stop.check());
     let raster = match session.options.cache.as_deref() {
-        Some(cache) => cache.raster(path, name, wanted)?,
-        None => Arc::new(Raster::open(path, name, wanted)?),
+        Some(cache) => cache.raster(path, name, wanted, &budget)?,
+        None => Arc::new(Raster::open(path, name, wanted, &budget)?),
     };
     if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
         let all = raster.columns * raster.rows;

@@ -10,6 +10,7 @@ mod format;
 mod geotiff;
 mod hgt;
 mod lattice;
+mod meaning;
 mod png;
 mod raster;
 mod raw;

@@ -4,15 +4,22 @@ use std::io::{Cursor, Write};
 use std::time::{Duration, Instant};
 
 use proptest::prelude::*;
-use tiff::encoder::{TiffEncoder, colortype};
+use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, colortype};
 use tiff::tags::Tag;
 use zip::write::SimpleFileOptions;
 
 use super::*;
+use crate::budget::Budget;
 
 /// A tile of `side` by `side` heights, of which the first is `first` and each next one is greater by 1.
 fn tile(side: i16, first: i16) -> Vec<u8> {
     (0..side * side).flat_map(|at| (first + at).to_be_bytes()).collect()
+}
+
+/// A tile of so many columns and rows, each height of which tells where it is.
+fn wide([columns, rows]: [usize; 2]) -> Vec<u8> {
+    let height = |at: usize| i16::try_from(at % columns * 4 + at / columns % 4).unwrap();
+    (0..columns * rows).flat_map(|at| height(at).to_be_bytes()).collect()
 }
 
 fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
@@ -26,6 +33,16 @@ fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
 
 /// A TIFF of 6 by 4 samples, and what its tags say.
 fn geotiff(keys: &[u16], place: &[(Tag, &[f64])], missing: Option<&str>) -> Vec<u8> {
+    geotiff_saying(keys, place, missing, None)
+}
+
+/// The same, with what GDAL tells of its band.
+fn geotiff_saying(
+    keys: &[u16],
+    place: &[(Tag, &[f64])],
+    missing: Option<&str>,
+    metadata: Option<&str>,
+) -> Vec<u8> {
     let mut bytes = Cursor::new(Vec::new());
     let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
     let mut image = encoder.new_image::<colortype::GrayI16>(6, 4).unwrap();
@@ -40,12 +57,21 @@ fn geotiff(keys: &[u16], place: &[(Tag, &[f64])], missing: Option<&str>) -> Vec<
     if let Some(missing) = missing {
         tags.write_tag(Tag::GdalNodata, missing).unwrap();
     }
+    if let Some(metadata) = metadata {
+        tags.write_tag(Tag::Unknown(42112), metadata).unwrap();
+    }
     image.write_data(&(0..24i16).collect::<Vec<_>>()).unwrap();
     bytes.into_inner()
 }
 
 fn read(bytes: &[u8], name: &str) -> Result<Raster, crate::Error> {
-    Raster::read(bytes, name, &Wanted::default())
+    Raster::read(bytes, name, &Wanted::default(), &Budget::default())
+}
+
+/// Reads what does not tell where it lies.
+fn read_square(bytes: &[u8], name: &str) -> Result<Raster, crate::Error> {
+    let wanted = Wanted { bounds: Some([7.0, 43.0, 8.0, 44.0]), crs: Some(4326), ..Wanted::default() };
+    Raster::read(bytes, name, &wanted, &Budget::default())
 }
 
 const SCALE: (Tag, &[f64]) = (Tag::ModelPixelScaleTag, &[10.0, 20.0, 0.0]);
@@ -53,26 +79,45 @@ const TIE: (Tag, &[f64]) = (Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 385_000.0, 6
 
 #[test]
 fn a_tile_lies_where_its_name_says() {
+    let bytes = wide([1201; 2]);
     for (name, first) in [
         ("N43E007.hgt", [7.0, 44.0]),
         ("data/s01w080.HGT", [-80.0, 0.0]),
         ("N43E007.SRTMGL1.hgt", [7.0, 44.0]),
     ] {
-        let raster = read(&tile(5, 100), name).unwrap();
-        assert_eq!((raster.columns, raster.rows, raster.grid.first), (5, 5, first), "{name}");
-        assert_eq!((raster.grid.step, raster.heights[6]), ([0.25; 2], 106.0));
+        let raster = read(&bytes, name).unwrap();
+        assert_eq!((raster.columns, raster.rows, raster.grid.first), (1201, 1201, first), "{name}");
+        assert_eq!((raster.grid.step, raster.heights[1201 + 6]), ([1.0 / 1200.0; 2], 25.0));
         assert_eq!(raster.crs.and_then(|crs| crs.code), Some(4326));
     }
     for name in ["N91E007.hgt", "N43E190.hgt", "a.hgt", "N4+E007.hgt"] {
-        assert!(read(&tile(5, 100), name).unwrap_err().message().contains("where it lies"), "{name}");
+        assert!(read(&bytes, name).unwrap_err().message().contains("where it lies"), "{name}");
+    }
+    let north = read(&wide([1801, 3601]), "N61E007.hgt").unwrap();
+    assert_eq!((north.columns, north.rows, north.grid.step), (1801, 3601, [1.0 / 1800.0, 1.0 / 3600.0]));
+}
+
+#[test]
+fn only_tiles_of_known_sizes_are_a_degree_large_unless_their_place_is_given() {
+    for side in [2, 5, 400, 1200, 1202] {
+        let bytes = vec![1; side * side * 2];
+        let error = read(&bytes, "N43E007.hgt").unwrap_err();
+        assert_eq!(
+            error.message(),
+            format!("N43E007.hgt has {side} x {side} heights, which no tile of a degree has")
+        );
+        let zip = zipped(&[("N43E007.hgt", &bytes)]);
+        assert!(read(&zip, "N43E007.hgt.zip").unwrap_err().message().contains("which no tile of a degree has"));
+        let raster = read_square(&bytes, "N43E007.hgt").unwrap();
+        assert_eq!((raster.columns, raster.bounds()[0]), (side, 7.0));
     }
 }
 
 #[test]
 fn a_zip_gives_its_one_tile() {
-    let plain = read(&tile(9, 1), "N43E007.hgt").unwrap();
+    let plain = read_square(&tile(9, 1), "N43E007.hgt").unwrap();
     let zip = zipped(&[("read.me", b"x"), ("a/N43E007.hgt", &tile(9, 1))]);
-    let packed = read(&zip, "b.zip").unwrap();
+    let packed = read_square(&zip, "b.zip").unwrap();
     assert_eq!((packed.heights, packed.grid), (plain.heights, plain.grid));
     for (files, why) in [
         (&[("a.txt", b"x".as_slice())][..], "holds no .hgt file"),
@@ -86,17 +131,123 @@ fn a_zip_gives_its_one_tile() {
     assert!(read(&zip[..zip.len() / 2], "b.zip").unwrap_err().message().contains("cannot be unpacked"));
 }
 
+/// A budget of some megabytes.
+fn small(megabytes: usize) -> std::sync::Arc<Budget> {
+    Budget::within(Duration::from_secs(60), megabytes * 1_000_000)
+}
+
 #[test]
-fn a_zip_bomb_is_refused_in_time() {
+fn a_zip_bomb_is_refused_before_it_is_unpacked() {
     let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
     zip.start_file("N43E007.hgt", SimpleFileOptions::default()).unwrap();
     let zeros = vec![0; 1 << 20];
     (0..420).for_each(|_| zip.write_all(&zeros).unwrap());
-    let bomb = zip.finish().unwrap().into_inner();
+    let mut bomb = zip.finish().unwrap().into_inner();
     let begin = Instant::now();
     let error = read(&bomb, "b.zip").unwrap_err();
-    assert!(error.message().contains("larger than 400 MB"), "{error}");
-    assert!(bomb.len() < 1 << 20 && begin.elapsed() < Duration::from_secs(20));
+    assert!(error.message().contains("is not square"), "{error}");
+    // The same that says it has a tile's size, in all places that tell it.
+    let [told, real] = [1201 * 1201 * 2u32, 420 << 20].map(u32::to_le_bytes);
+    for at in 0..bomb.len() - 4 {
+        if bomb[at..at + 4] == real {
+            bomb[at..at + 4].copy_from_slice(&told);
+        }
+    }
+    let error = Raster::read(&bomb, "b.zip", &Wanted::default(), &small(20)).unwrap_err();
+    assert!(error.message().contains("cannot be unpacked"), "{error}");
+    assert!(bomb.len() < 1 << 20 && begin.elapsed() < Duration::from_secs(5));
+}
+
+/// A TIFF without heights that says it has some: tags of whole numbers, then its place.
+fn claiming(tags: &[(u16, u32)], place: bool) -> Vec<u8> {
+    let mut tags = tags.to_vec();
+    if place {
+        // Behind the directory.
+        tags.extend([(33550, 0), (33922, 0)]);
+    }
+    let after = 8 + 2 + 12 * tags.len() as u32 + 4;
+    let mut bytes = [b"II*\0".as_slice(), &8u32.to_le_bytes(), &(tags.len() as u16).to_le_bytes()].concat();
+    for (tag, value) in tags {
+        let (kind, count, value) = match tag {
+            33550 => (12u16, 3u32, after),
+            33922 => (12, 6, after + 24),
+            _ => (4, 1, value),
+        };
+        bytes.extend([tag.to_le_bytes(), kind.to_le_bytes()].concat());
+        bytes.extend([count.to_le_bytes(), value.to_le_bytes()].concat());
+    }
+    bytes.extend([0; 4]);
+    bytes.extend([10.0f64, 10.0, 0.0, 0.0, 0.0, 0.0, 5000.0, 6000.0, 0.0].map(f64::to_le_bytes).concat());
+    bytes
+}
+
+#[test]
+fn a_file_that_says_it_has_more_than_it_can_hold_is_refused_before_there_is_room_for_it() {
+    for (columns, rows) in [(14_000, 14_000), (100, 1_000_000), (1_000_000, 150)] {
+        for compression in [1, 5, 8, 32946] {
+            // One strip of 40 bytes.
+            let tags = [
+                (256, columns),
+                (257, rows),
+                (258, 16),
+                (259, compression),
+                (262, 1),
+                (273, 200),
+                (277, 1),
+                (278, rows),
+                (279, 40),
+                (339, 2),
+            ];
+            let bytes = claiming(&tags, true);
+            assert!(bytes.len() < 300);
+            let error = Raster::read(&bytes, "a.tif", &Wanted::default(), &small(1)).unwrap_err();
+            assert!(error.message().contains("cannot hold"), "{compression}: {error}");
+        }
+    }
+    let mut bytes = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut bytes, 14_000, 14_000);
+    encoder.set_color(::png::ColorType::Grayscale);
+    encoder.set_depth(::png::BitDepth::Sixteen);
+    drop(encoder.write_header().unwrap());
+    let wanted = Wanted { low: Some(0.0), high: Some(1.0), bounds: Some([0.0, 0.0, 1.0, 1.0]), ..Wanted::default() };
+    let error = Raster::read(&bytes, "a.png", &wanted, &small(1)).unwrap_err();
+    assert!(error.message().contains("cannot hold 14000 x 14000"), "{error}");
+}
+
+#[test]
+fn the_place_is_asked_for_and_memory_taken_before_heights_are_unpacked() {
+    let deflated = |place: bool| {
+        let mut bytes = Cursor::new(Vec::new());
+        let mut encoder =
+            TiffEncoder::new(&mut bytes).unwrap().with_compression(Compression::Deflate(DeflateLevel::Fast));
+        let mut image = encoder.new_image::<colortype::GrayI16>(3000, 3000).unwrap();
+        image.rows_per_strip(1000).unwrap();
+        if place {
+            image.encoder().write_tag(SCALE.0, SCALE.1).unwrap();
+            image.encoder().write_tag(TIE.0, TIE.1).unwrap();
+        }
+        image.write_data(&vec![7i16; 9_000_000]).unwrap();
+        bytes.into_inner()
+    };
+    let begin = Instant::now();
+    let (without, with) = (deflated(false), deflated(true));
+    assert!(without.len() < 200_000);
+    let packing = begin.elapsed();
+    let begin = Instant::now();
+    // No room for anything: it is not asked for.
+    let error = Raster::read(&without, "a.tif", &Wanted::default(), &small(0)).unwrap_err();
+    assert_eq!(error.message(), "a.tif does not tell where it lies");
+    let error = Raster::read(&with, "a.tif", &Wanted::default(), &small(30)).unwrap_err();
+    assert_eq!(error.message(), "reading takes more than 30 MB of memory");
+    assert!(begin.elapsed() < packing.max(Duration::from_millis(200)));
+    let raster = Raster::read(&with, "a.tif", &Wanted::default(), &small(60)).unwrap();
+    assert!(raster.heights.len() == 9_000_000 && raster.heights.iter().all(|height| *height == 7.0));
+    // And no time.
+    let over = Budget::new(usize::MAX, || Err(crate::Error::new("the time is over")));
+    for (name, bytes) in samples() {
+        let error = Raster::read(&bytes, name, &wanted(name), &over).unwrap_err();
+        assert_eq!(error.message(), "the time is over", "{name}");
+    }
 }
 
 #[test]
@@ -134,12 +285,52 @@ fn heights_in_feet_become_metres() {
 }
 
 #[test]
+fn scale_and_offset_of_the_band_make_heights_of_its_samples() {
+    let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
+    let item = |name: &str, value: &str| {
+        let role = name.to_ascii_lowercase();
+        format!("<Item name=\"{name}\" sample=\"0\" role=\"{role}\">{value}</Item>")
+    };
+    let metadata = |items: &[String]| format!("<GDALMetadata>\n  {}\n</GDALMetadata>\n", items.join("\n  "));
+    let heights = |metadata: &str| {
+        let bytes = geotiff_saying(&area, &[SCALE, TIE], Some("3"), Some(metadata));
+        read(&bytes, "a.tif").map(|raster| (raster.filled, raster.heights[5], raster.heights[20]))
+    };
+    let both = metadata(&[item("OFFSET", "5"), item("SCALE", "0.1")]);
+    // The mark of what is missing is a sample, not a height.
+    assert_eq!(heights(&both).unwrap(), (1, 5.5, 7.0));
+    assert_eq!(heights(&metadata(&[item("SCALE", "2")])).unwrap(), (1, 10.0, 40.0));
+    assert_eq!(heights(&metadata(&[item("OFFSET", "-100")])).unwrap(), (1, -95.0, -80.0));
+    assert_eq!(heights(&metadata(&[item("UNITTYPE", "cm")])).unwrap(), (1, 0.05, 0.2));
+    assert_eq!(heights(&metadata(&[])).unwrap(), (1, 5.0, 20.0));
+    for wrong in ["0", "nan", "inf"] {
+        assert!(heights(&metadata(&[item("SCALE", wrong)])).unwrap_err().message().contains("with the scale"));
+    }
+    assert!(heights(&metadata(&[item("UNITTYPE", "furlong")])).unwrap_err().message().contains("a unit"));
+}
+
+#[test]
+fn a_place_in_space_scales_heights_where_the_file_says_that_they_are_heights() {
+    let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
+    let vertical = [1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067, 4096, 0, 1, 5773];
+    let scale = (SCALE.0, &[10.0, 20.0, 0.5][..]);
+    let tie = (TIE.0, &[0.0, 0.0, 4.0, 385_000.0, 6_671_000.0, 100.0][..]);
+    let height = |keys: &[u16], place: &[(Tag, &[f64])]| read(&geotiff(keys, place, None), "a.tif").unwrap().heights[10];
+    assert_eq!(height(&vertical, &[scale, tie]), 103.0);
+    assert_eq!((height(&area, &[scale, tie]), height(&vertical, &[SCALE, TIE])), (10.0, 10.0));
+    let matrix =
+        [10.0, 0.0, 0.0, 385_000.0, 0.0, -20.0, 0.0, 6_671_000.0, 0.0, 0.0, 2.0, 7.0, 0.0, 0.0, 0.0, 1.0];
+    let place = (Tag::ModelTransformationTag, &matrix[..]);
+    assert_eq!((height(&vertical, &[place]), height(&area, &[place])), (27.0, 10.0));
+}
+
+#[test]
 fn options_win_over_what_a_file_says() {
     let other = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32767];
     let bytes = geotiff(&other, &[SCALE, TIE], None);
     assert!(read(&bytes, "a.tif").unwrap_err().message().contains("none of EPSG's"));
     let wanted = Wanted { crs: Some(3067), bounds: Some([0.0, 0.0, 60.0, 40.0]), ..Wanted::default() };
-    let raster = Raster::read(&bytes, "a.tif", &wanted).unwrap();
+    let raster = Raster::read(&bytes, "a.tif", &wanted, &Budget::default()).unwrap();
     assert_eq!((raster.grid.first, raster.bounds()), ([5.0, 35.0], [0.0, 0.0, 60.0, 40.0]));
     assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
 }
@@ -228,7 +419,7 @@ fn grey_and_colours_become_heights() {
         &[0, 0, 255, 255, 128, 0, 0, 1, 0, 0, 0, 0],
     );
     let wanted = Wanted { low: Some(100.0), high: Some(755.35), bounds, ..Wanted::default() };
-    let raster = Raster::read(&grey, "a.png", &wanted).unwrap();
+    let raster = Raster::read(&grey, "a.png", &wanted, &Budget::default()).unwrap();
     for (found, height) in raster.heights.iter().zip([100.0, 755.35, 427.68, 100.01]) {
         assert!((found - height).abs() < 1e-3, "{found} {height}");
     }
@@ -237,8 +428,8 @@ fn grey_and_colours_become_heights() {
     let colors = [[1, 134, 160]; 6].concat();
     let colored = picture(::png::ColorType::Rgb, ::png::BitDepth::Eight, &colors);
     let wanted = Wanted { terrain_rgb: true, bounds, ..Wanted::default() };
-    assert_eq!(Raster::read(&colored, "a.png", &wanted).unwrap().heights, [0.0; 6]);
-    assert!(Raster::read(&grey, "a.png", &wanted).is_err());
+    assert_eq!(Raster::read(&colored, "a.png", &wanted, &Budget::default()).unwrap().heights, [0.0; 6]);
+    assert!(Raster::read(&grey, "a.png", &wanted, &Budget::default()).is_err());
     assert!(read(&colored, "a.png").unwrap_err().remedy().unwrap().contains("terrain-rgb"));
     let bytes = picture(::png::ColorType::Grayscale, ::png::BitDepth::Eight, &[0; 6]);
     assert!(read(&bytes, "a.png").unwrap_err().message().contains("256 levels"));
@@ -266,7 +457,7 @@ fn wanted(name: &str) -> Wanted {
     let bounds = Some([0.0, 0.0, 30.0, 20.0]);
     match name {
         "a.png" => Wanted { low: Some(0.0), high: Some(9.0), bounds, ..Wanted::default() },
-        "a.r32" | "a.r64" => Wanted { bounds, ..Wanted::default() },
+        "a.r32" | "a.r64" | "N43E007.hgt" | "N43E007.hgt.zip" => Wanted { bounds, ..Wanted::default() },
         _ => Wanted::default(),
     }
 }
@@ -274,10 +465,10 @@ fn wanted(name: &str) -> Wanted {
 #[test]
 fn whole_files_are_read_and_cut_ones_are_told() {
     for (name, bytes) in samples() {
-        Raster::read(&bytes, name, &wanted(name)).unwrap();
+        Raster::read(&bytes, name, &wanted(name), &Budget::default()).unwrap();
         for length in 0..bytes.len() {
             // A part of a square may be a square, and behind its last height a file may end.
-            if let Err(error) = Raster::read(&bytes[..length], name, &wanted(name)) {
+            if let Err(error) = Raster::read(&bytes[..length], name, &wanted(name), &Budget::default()) {
                 assert!(
                     error.remedy().is_some() && error.message().contains(name),
                     "{name} {length}: {error}"
@@ -304,7 +495,7 @@ proptest! {
                 bytes[at] = *byte;
             }
             let begin = Instant::now();
-            if let Ok(raster) = Raster::read(&bytes, name, &wanted(name)) {
+            if let Ok(raster) = Raster::read(&bytes, name, &wanted(name), &Budget::default()) {
                 prop_assert!(raster.heights.iter().all(|height| height.is_finite()));
                 let _ = Relief::new(std::sync::Arc::new(raster), &mut None);
             }
