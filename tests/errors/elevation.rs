@@ -238,7 +238,7 @@ fn sizes_and_heights_that_cannot_be_are_told() {
       help: tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs
     "#);
     assert_snapshot!(told(r#"elevation("bomb.png", { low = 0, high = 1, bounds = { 0, 0, 1, 1 } })"#), @r#"
-    error: in/s.lua:2: bomb.png is cut short: its 33 bytes cannot hold 14000 x 14000 heights
+    error: in/s.lua:2: bomb.png is cut short: its 45 bytes cannot hold 14000 x 14000 heights
       | elevation("bomb.png", { low = 0, high = 1, bounds = { 0, 0, 1, 1 } })
       help: get it again
     "#);
