@@ -1,6 +1,9 @@
 //! What a person is told when something is wrong: where, in which rule, on which module, and what to do.
 
+use std::borrow::Cow;
 use std::fmt;
+
+use crate::text::escaped_lines;
 
 /// The crate's result.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -65,7 +68,19 @@ struct Parts {
     step: Option<usize>,
     help: Option<String>,
     more: Vec<Error>,
-    of_data: bool,
+    fault: Fault,
+}
+
+/// Who can mend what is wrong.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Fault {
+    /// That is not known.
+    #[default]
+    Unknown,
+    /// Whoever made the data.
+    Data,
+    /// Whoever wrote the script.
+    Script,
 }
 
 impl Error {
@@ -117,13 +132,22 @@ impl Error {
     /// Says that the data is at fault: what a feature holds cannot be built, whatever the script does with it.
     #[must_use]
     pub fn of_data(mut self) -> Self {
-        self.0.of_data = true;
+        if self.0.fault == Fault::Unknown {
+            self.0.fault = Fault::Data;
+        }
+        self
+    }
+
+    /// Says that the script is at fault, whatever the data holds, and not the data.
+    #[must_use]
+    pub fn of_script(mut self) -> Self {
+        self.0.fault = Fault::Script;
         self
     }
 
     /// Whether the data is at fault, and not the script: then a run may leave the feature out and go on.
     pub fn is_of_data(&self) -> bool {
-        self.0.of_data
+        self.0.fault == Fault::Data
     }
 
     /// Says what to do about it.
@@ -238,7 +262,10 @@ impl Error {
         if let Some(help) = &parts.help {
             text += &format!("\n  help: {help}");
         }
-        text
+        match escaped_lines(&text) {
+            Cow::Borrowed(_) => text,
+            Cow::Owned(escaped) => escaped,
+        }
     }
 }
 

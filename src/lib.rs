@@ -14,6 +14,7 @@
 //!
 //! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
 //!   can be meant.
+//! - [`Budget`]: what reading foreign bytes may take, and [`text`]: how foreign words are shown.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -75,6 +76,7 @@ mod budget;
 pub mod derive;
 pub mod error;
 pub mod export;
+mod files;
 pub mod geometry;
 mod interpret;
 #[cfg(feature = "live")]
@@ -90,6 +92,7 @@ pub mod scene;
 pub mod script;
 pub mod sources;
 pub mod terrain;
+pub mod text;
 pub mod trace;
 pub mod variations;
 pub mod warning;

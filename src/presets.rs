@@ -15,7 +15,7 @@
 //! A file that is not of this form is refused, and never written over.
 
 use std::fmt;
-use std::io::{Read, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use rustc_hash::FxHashSet;
@@ -55,23 +55,22 @@ impl Presets {
 
     fn read_once(path: &Path) -> Result<Self> {
         let path = path.to_path_buf();
-        let mut text = String::new();
-        let read = std::fs::File::open(&path)
-            .and_then(|file| file.take(LARGEST + 1).read_to_string(&mut text).map(|_| ()));
-        match read {
+        let cannot = |why: &dyn std::fmt::Display| {
+            Error::new(format!("cannot read the presets in {}: {why}", path.display()))
+                .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
+        };
+        let bytes = match crate::files::read(&path, LARGEST) {
+            Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return Ok(Self { path, presets: Vec::new() });
             }
-            Err(error) => {
-                return Err(Error::new(format!("cannot read the presets in {}: {error}", path.display()))
-                    .help("presets are a JSON file that Burgeon can read; move that away if it is something else"));
-            }
-            Ok(()) if text.len() as u64 > LARGEST => {
+            Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
                 return Err(Error::new(format!("{} is too large for presets", path.display()))
                     .help(format!("presets have at most {LARGEST} bytes; move that file away")));
             }
-            Ok(()) => {}
-        }
+            Err(error) => return Err(cannot(&error)),
+        };
+        let text = String::from_utf8(bytes).map_err(|_| cannot(&"stream did not contain valid UTF-8"))?;
         let presets = File { name: path.display().to_string(), text: &text }.presets()?;
         Ok(Self { path, presets })
     }

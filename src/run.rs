@@ -10,7 +10,8 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::script::{Machine, Options, Param, Session, Watchdog};
 use crate::sources::Frame;
-use crate::warning::Warning;
+use crate::text::shown;
+use crate::warning::{Warning, WarningKind};
 
 /// What a run of a script gave.
 pub struct Run {
@@ -95,6 +96,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         };
         shown.map_err(|error| error.rather_at(place))?;
     }
+    systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
     let warnings = session.warnings();
@@ -184,6 +186,21 @@ pub(crate) fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     }
 }
 
+/// Which features of a system were left out, and why; those that its source has told of are not counted.
+fn left_out(system: &Derived) -> Option<Warning> {
+    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
+    let first = skipped.next()?;
+    let (count, why) = (1 + skipped.count(), &first.why);
+    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
+    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
+    let text = match count {
+        1 => format!("left out feature{id}{source}: {why}"),
+        _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
+    };
+    let warning = Warning::new(WarningKind::Data, text).at(system.place.clone());
+    Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
+}
+
 /// Turns the textures' names into files within the script's folder.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
@@ -199,6 +216,10 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             return Err(Error::new(format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
+        crate::files::open(&path).map_err(|error| {
+            Error::new(format!("the texture {shown} cannot be read: {error}"))
+                .help("textures are PNG or JPEG files beside the script")
+        })?;
         texture.path = path;
     }
     Ok(())

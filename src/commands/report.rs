@@ -1,11 +1,14 @@
 //! What commands say: errors with the script's line, and the summary of a run.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
+use std::io::IsTerminal as _;
 use std::path::Path;
 use std::time::Duration;
 
 use burgeon::derive::grouped;
 use burgeon::script::{Param, Setting};
+use burgeon::text::escaped_lines;
 use burgeon::{Error, Run, Warning};
 use serde_json::json;
 
@@ -154,11 +157,13 @@ pub(crate) fn time(duration: Duration) -> String {
 /// Writes to standard output; a reader that has gone away is no error.
 pub(crate) fn print(text: &str) {
     use std::io::Write as _;
+    // A program gets everything as it is.
+    let text = if std::io::stdout().is_terminal() { escaped_lines(text) } else { Cow::Borrowed(text) };
     let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 /// Writes to standard error.
 pub(crate) fn eprint(text: &str) {
     use std::io::Write as _;
-    let _ = std::io::stderr().write_all(text.as_bytes());
+    let _ = std::io::stderr().write_all(escaped_lines(text).as_bytes());
 }

@@ -221,7 +221,7 @@ pub(crate) fn threads(text: &str) -> Result<u16, String> {
     }
 }
 
-fn megabytes(text: &str) -> Result<u32, String> {
+pub(crate) fn megabytes(text: &str) -> Result<u32, String> {
     match text.parse() {
         Ok(megabytes) if megabytes >= 16 => Ok(megabytes),
         _ => Err("write a whole number of megabytes from 16".to_owned()),

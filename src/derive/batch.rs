@@ -136,10 +136,13 @@ impl Batch<'_> {
                 members.retain(|member| member < index);
             }
             let begin = Instant::now();
-            if !members.is_empty()
+            while !members.is_empty()
                 && let Err((index, error)) = self.run(narrow_rule(rule), &members, scratch)
             {
-                first = Some((index, error));
+                if let Err(error) = self.forgive(index, error, &mut members, scratch) {
+                    first = Some((index, error));
+                    break;
+                }
             }
             scratch.groups[rule].members = members;
             scratch.groups[rule].time = begin.elapsed();
@@ -173,6 +176,28 @@ impl Batch<'_> {
         read_column(counts, members.len(), &mut group.ends).map_err(plain)?;
         read_column(order, items, &mut group.order).map_err(plain)?;
         group.rewind();
+        Ok(())
+    }
+
+    /// Leaves the chain of application `index` out, whose data is at fault: its modules stay as they are, and it is no
+    /// more among `members`. Gives every other error back.
+    pub(super) fn forgive(
+        &self,
+        index: u32,
+        error: Error,
+        members: &mut Vec<u32>,
+        scratch: &mut Scratch,
+    ) -> Result<()> {
+        let Some(objects) = &self.plan.objects else { return Err(error) };
+        let chain = scratch.active[index as usize].chain;
+        objects.forgive(chain as usize, error)?;
+        members.retain(|member| {
+            let active = &mut scratch.active[*member as usize];
+            if active.chain == chain {
+                active.rule = NONE;
+            }
+            active.chain != chain
+        });
         Ok(())
     }
 

@@ -12,11 +12,13 @@ impl Batch<'_> {
         let arities = grammar.arities();
         scratch.active.clear();
         let mut guarded: Vec<u32> = Vec::new();
+        // Nothing more becomes of a chain that is left out.
+        let failing = self.plan.objects.as_ref().filter(|objects| objects.any_failed());
         let (mut param, mut chain) = (piece.begin.param, piece.begin.chain);
         for module in piece.begin.module..piece.end {
             let symbol = self.chain.symbols[module];
             let rules = grammar.rules_of(symbol);
-            if !rules.is_empty() {
+            if !rules.is_empty() && !failing.is_some_and(|objects| objects.has_failed(chain)) {
                 let mut active =
                     Active { module: narrow(module), param: narrow(param), chain: narrow(chain), rule: NONE };
                 match grammar.choice(symbol) {
@@ -117,12 +119,17 @@ impl Batch<'_> {
         if asked.is_empty() {
             return Ok(None);
         }
-        self.fill(rule, asked, scratch)?;
         let prelude = self.machine.prelude();
-        let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
-        let failed = match guard.call::<()>(asked.len()) {
-            Ok(()) => None,
-            Err(error) => Some(self.blame(error, rule, asked, scratch)),
+        let (counts, failed) = loop {
+            self.fill(rule, asked, scratch)?;
+            let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
+            let Err(error) = guard.call::<()>(asked.len()) else { break (counts, None) };
+            let (index, error) = self.blame(error, rule, asked, scratch);
+            match self.forgive(index, error, asked, scratch) {
+                Err(error) => break (counts, Some((index, error))),
+                Ok(()) if asked.is_empty() => return Ok(None),
+                Ok(()) => {}
+            }
         };
         if let Some((index, _)) = &failed {
             asked.retain(|asked| asked < index);

@@ -80,6 +80,9 @@ impl Images {
     }
 }
 
+/// The most bytes that an image file may have.
+const LARGEST: u64 = 1_000_000_000;
+
 impl ImageFile {
     fn read(texture: &Texture, material: &str) -> Result<Self> {
         let path = &texture.path;
@@ -88,7 +91,7 @@ impl ImageFile {
         };
         let bytes = match &texture.content {
             Some(content) => content.to_vec(),
-            None => fs::read(path).map_err(|error| {
+            None => crate::files::read(path, LARGEST).map_err(|error| {
                 refused(&error).help("correct the path, which starts at the script's folder")
             })?,
         };

@@ -133,6 +133,11 @@ impl Applier {
         self.notices.extend(said.into_iter().map(|warning| Notice { warning, module, call }));
     }
 
+    /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
+    pub(crate) fn forgive(&mut self, error: Error) -> Result<()> {
+        self.objects.forgive(self.chain, error)
+    }
+
     /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
     pub(crate) fn finish_entries(&mut self, called: usize, until: usize) -> Result<()> {
         let last = self.entries.len();
@@ -167,7 +172,8 @@ impl Applier {
                     self.counted = 0;
                 }
                 Err(error) => {
-                    objects.forgive(self.chain, self.blame(error, self.position, self.param))?;
+                    let error = self.blame(error, self.position, self.param).of_data();
+                    objects.forgive(self.chain, error)?;
                     self.failed = None;
                 }
             }

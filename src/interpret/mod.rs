@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 use crate::derive::{Job, Plan, Use};
 use crate::error::{Error, Place, Result};
 use crate::rules::{Chain, END, Mark, Symbol, module_text};
-use crate::script::{Machine, write_column};
+use crate::script::{Flusher, Machine, write_column};
 use crate::warning::Warning;
 pub(crate) use apply::Applier;
 use notices::{Notice, Notices};
@@ -142,15 +142,32 @@ impl Interpreting {
             }
             machine.session.stop.check()?;
             let begin = Instant::now();
-            let applying = self.interpret(machine, &entries, &ids, &arguments, module)?;
+            let (mut applying, mut from, mut argument) = (Vec::new(), 0, 0);
+            // Where a chain is left out, the others go on behind it.
+            while let Some(done) = self.interpret(
+                machine,
+                &entries[from..],
+                &ids[from..],
+                &arguments[argument..],
+                module,
+                &mut applying,
+            )? {
+                let bound = |id: &u16| interpretations.list[usize::from(*id)].0;
+                argument += ids[from..from + done].iter().map(bound).sum::<usize>();
+                from += done;
+                if self.plan.profiled {
+                    applying.resize(from, Duration::ZERO);
+                }
+            }
             self.count_uses(&ids, begin.elapsed(), applying);
         }
         Ok(())
     }
 
-    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`.
+    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`; adds to `times` the time that
+    /// the calls of each entry took, if that is measured.
     ///
-    /// Gives the time that the calls of each entry took, if that is measured.
+    /// Where the data of a chain is at fault it gives up, and tells how many entries are done up to the end of that chain.
     fn interpret(
         &self,
         machine: &Machine,
@@ -158,7 +175,8 @@ impl Interpreting {
         ids: &[u16],
         arguments: &[f64],
         until: usize,
-    ) -> Result<Vec<Duration>> {
+        times: &mut Vec<Duration>,
+    ) -> Result<Option<usize>> {
         let lua = |error: mlua::Error| machine.translate(error);
         let prelude = machine.prelude();
         write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
@@ -186,17 +204,35 @@ impl Interpreting {
         let called: usize = match prelude.interpret.call::<(usize, usize)>(ids.len()) {
             Ok((called, _)) => called,
             Err(error) => {
-                let at: usize = prelude.at.call(()).unwrap_or(0);
+                let (at, _, called): (usize, f64, usize) = prelude.at.call(()).unwrap_or((0, 0.0, 0));
                 // A machine that cannot even end the batch is thrown away with the run.
                 let _ = prelude.finish.call::<()>(());
                 let error = self.blame(machine, machine.translate(error), entries.get(at).copied());
-                return Err(self.find_line(machine, error));
+                let Some((module, _)) = entries.get(at).copied().filter(|_| error.is_of_data()) else {
+                    return Err(self.find_line(machine, error));
+                };
+                let mut notices = Vec::new();
+                let forgiven = with_applier(&mut |applier| {
+                    applier.flush(at, called)?;
+                    applier.forgive(error.clone())?;
+                    times.append(&mut applier.take_times());
+                    notices = applier.take_notices();
+                    Ok(())
+                });
+                if let Err(error) = forgiven {
+                    return Err(self.find_line(machine, error));
+                }
+                notices.into_iter().for_each(|notice| self.note(machine, notice));
+                let rest = self.chain.symbols[module..].iter().position(|symbol| *symbol == END);
+                let end = module + rest.unwrap_or(0);
+                let done = entries.partition_point(|(module, _)| *module <= end);
+                return Ok(Some(done));
             }
         };
-        let (mut applying, mut notices) = (Vec::new(), Vec::new());
+        let mut notices = Vec::new();
         let applied = with_applier(&mut |applier| {
             applier.finish_entries(called, until)?;
-            applying = applier.take_times();
+            times.append(&mut applier.take_times());
             notices = applier.take_notices();
             Ok(())
         });
@@ -204,7 +240,7 @@ impl Interpreting {
             return Err(self.find_line(machine, error));
         }
         notices.into_iter().for_each(|notice| self.note(machine, notice));
-        Ok(applying)
+        Ok(None)
     }
 
     /// Adds what an object has warned of in the batch that was interpreted last.

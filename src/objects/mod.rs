@@ -6,6 +6,7 @@
 //! `methods!` for what scripts may call, and an implementation of [`Object`].
 
 mod boxed;
+mod colors;
 #[doc(hidden)]
 #[macro_use]
 pub mod declare;

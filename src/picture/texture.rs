@@ -82,7 +82,10 @@ impl Texture {
 fn open(texture: &scene::Texture) -> Result<image::RgbImage, image::ImageError> {
     match &texture.content {
         Some(content) => Ok(image::load_from_memory(content)?.to_rgb8()),
-        None => Ok(image::ImageReader::open(&texture.path)?.with_guessed_format()?.decode()?.to_rgb8()),
+        None => {
+            let file = std::io::BufReader::new(crate::files::open(&texture.path)?.0);
+            Ok(image::ImageReader::new(file).with_guessed_format()?.decode()?.to_rgb8())
+        }
     }
 }
 

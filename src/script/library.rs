@@ -18,6 +18,7 @@ use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy, is_
 use crate::error::{Error, Result};
 use crate::objects::{Call, Elevation, ElevationOptions, KINDS, Kind, Model, Table as ValueTable, Value};
 use crate::rules::{Signature, Symbol, Symbols};
+use crate::text::escaped_lines;
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| compile(include_str!("../../stdlib.lua")));
@@ -338,7 +339,10 @@ impl Library {
                             .help("write elevation(\"N43E007.hgt\", { crs = 4326 })"));
                         }
                     };
-                    session.data.elevation(&session, &name, &options.wanted()?)
+                    let found = session.data.elevation(&session, &name, &options.wanted()?)?;
+                    let machine = library.machine()?;
+                    found.relief().raster().warnings().into_iter().for_each(|it| machine.warn(it));
+                    Ok(found)
                 });
                 made.map(|elevation| ObjectHandle(Arc::new(elevation))).map_err(mlua::Error::external)
             })?,
@@ -380,8 +384,11 @@ fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
     let tostring: Function = lua.globals().get("tostring")?;
     let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
     // On a terminal, what is printed takes the place of the progress that may stand in the line.
-    let clear = if std::io::stderr().is_terminal() { "\r\u{1b}[2K" } else { "" };
-    eprintln!("{clear}{}", texts.join("\t"));
+    let (clear, text) = match std::io::stderr().is_terminal() {
+        true => ("\r\u{1b}[2K", escaped_lines(&texts.join("\t")).into_owned()),
+        false => ("", texts.join("\t")),
+    };
+    eprintln!("{clear}{text}");
     Ok(())
 }
 
@@ -421,7 +428,9 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
         kind.name,
         lua.create_function(move |_, given: MultiValue| {
             let table = constructor_fields(kind, given).map_err(mlua::Error::external)?;
-            let mut object = (kind.construct)(&table).map_err(mlua::Error::external)?;
+            // What one feature has in place of a number, another may have right.
+            let mut object =
+                (kind.construct)(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
             for warning in object.take_warnings() {
                 library.machine().map_err(mlua::Error::external)?.warn(warning);
             }

@@ -1,7 +1,6 @@
 //! What all virtual machines of one run share: source files, parameters, the reason to stop.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -342,14 +341,7 @@ impl Session {
 
 /// Begins to read the file at `path`; `name` is for messages.
 fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)
-        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(Path::new(name), &error))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
-            .help("divide it; other files of its folder come in with require"));
-    }
+    let bytes = crate::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Error::new(format!("{name} is not a text file")).help("scripts are UTF-8 text; check the file's name")
     })?;
@@ -369,7 +361,7 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
 fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
     let remedy = "--stdlib names a Lua file; without it the built-in one is used";
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = crate::files::read(path, LARGEST).map_err(|error| {
         Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy)
     })?;
     let text = String::from_utf8(bytes)
@@ -386,6 +378,13 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Error {
             .help("check the path, or make one: burgeon new NAME"),
         std::io::ErrorKind::IsADirectory => {
             Error::new(format!("{shown} is a folder")).help("name a script in it")
+        }
+        std::io::ErrorKind::FileTooLarge => {
+            Error::new(format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require")
+        }
+        std::io::ErrorKind::InvalidInput => {
+            Error::new(format!("cannot read {shown}: {error}")).help("scripts are text files")
         }
         _ => Error::new(format!("cannot read {shown}: {error}")),
     }

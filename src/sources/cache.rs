@@ -1,7 +1,6 @@
 //! Layers and rasters as they were read last, for runs that follow one another.
 
 use std::fmt;
-use std::fs::File;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -39,7 +38,7 @@ impl Cache {
         if std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0) {
             return None;
         }
-        let content = blake3::hash(&std::fs::read(path).ok()?);
+        let content = hash(path).ok()?;
         let frame = frame.map(|frame| (&frame.name, frame.origin));
         Some(format!("{} {} {wanted:?} {frame:?}", content.to_hex(), path.display()))
     }
@@ -67,12 +66,9 @@ impl Cache {
         wanted: &WantedHeights,
         budget: &Budget,
     ) -> Result<Arc<Raster>> {
-        let mut hasher = blake3::Hasher::new();
         // What is no file is left to the reader, which says so.
-        let content =
-            path.is_file().then(|| File::open(path).and_then(|file| hasher.update_reader(file).map(|_| ())));
-        let Some(Ok(())) = content else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
-        let key = format!("{} {name} {wanted:?}", hasher.finalize().to_hex());
+        let Ok(content) = hash(path) else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
+        let key = format!("{} {name} {wanted:?}", content.to_hex());
         let mut kept = self.rasters.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
             return Ok(Arc::clone(raster));
@@ -84,6 +80,14 @@ impl Cache {
         kept.push((key, Arc::clone(&raster)));
         Ok(raster)
     }
+}
+
+/// What tells a file's content from all others.
+fn hash(path: &Path) -> std::io::Result<blake3::Hash> {
+    let (file, _) = crate::files::open(path)?;
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(file)?;
+    Ok(hasher.finalize())
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ mod facades;
 mod files;
 mod fitting;
 mod footprints;
+mod foreign;
 mod limits;
 mod neighbors;
 mod params;

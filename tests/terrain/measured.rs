@@ -119,7 +119,7 @@ fn relief(luck: &mut Luck) -> Relief {
         _ => [7.5, 43.7],
     };
     let mut frame = (luck.odds(0.8)).then(|| Frame::around(&Crs::epsg(4326).unwrap(), middle, "a").unwrap());
-    let raster = Raster { name: "a".into(), columns, rows, heights, grid, crs, filled: 0 };
+    let raster = Raster { name: "a".into(), columns, rows, heights, grid, crs, filled: 0, surplus: 0 };
     Relief::new(Arc::new(raster), &mut frame).unwrap()
 }
 

@@ -54,9 +54,8 @@ impl Parameter for Rings {
         let what = || {
             Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
         };
-        let not_this = |kind: &str| {
-            Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")).of_data()
-        };
+        let not_this =
+            |kind: &str| Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}"));
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
@@ -93,7 +92,7 @@ impl Parameter for Rings {
     }
 }
 
-/// A height (m), which comes from data as a rule: what is no number is the data's fault.
+/// A height (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Height(pub f64);
 
@@ -103,7 +102,7 @@ impl Parameter for Height {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        f64::from_value(value).map(Self).map_err(Expected::of_data)
+        f64::from_value(value).map(Self)
     }
 
     fn into_value(self) -> Value {

@@ -119,7 +119,7 @@ impl Current {
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
         match method.call {
-            Call::Read(read) => objects.read(chain, |object| read(object, arguments)),
+            Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {
                 let mut said = Vec::new();
@@ -134,7 +134,7 @@ impl Current {
                     let place = place();
                     flusher.warn(said.into_iter().map(|warning| warning.at(place.clone())).collect());
                 }
-                done.or_else(|error| objects.forgive(chain, error).map(|()| Value::Nil))
+                done.or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil))
             }
         }
     }

@@ -267,8 +267,25 @@ fn parse(text: &str) -> Error {
             "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
         ),
         None if message.contains("stack overflow") => error.help("look for a function that calls itself without end"),
+        None if is_of_values(message) => error.of_data(),
         None => error,
     }
+}
+
+/// Whether a message of Luau's is about a value that is of another type than it should be, as what a feature has may be.
+fn is_of_values(message: &str) -> bool {
+    const BEGINNINGS: [&str; 9] = [
+        "attempt to perform arithmetic",
+        "attempt to compare",
+        "attempt to concatenate",
+        "attempt to get length of",
+        "attempt to index",
+        "attempt to iterate over",
+        "invalid argument #",
+        "missing argument #",
+        "invalid 'for'",
+    ];
+    BEGINNINGS.iter().any(|beginning| message.starts_with(beginning))
 }
 
 /// Parts `file:line: message`; no place for the machine's own code.

@@ -86,15 +86,21 @@ impl System {
         axiom.source = shown(source);
         for (id, error) in refused_of(source) {
             axiom.given += 1;
-            axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+            axiom.remarks.push(Remark { unread: true, ..Remark::skipped(&axiom.source, Some(&id), &error) });
         }
         let each = |index: usize, feature: LuaValue, id: Option<&str>| {
             let from_file = id.is_some();
             let id = match (id, &feature) {
                 (Some(id), _) => id.to_owned(),
                 (None, LuaValue::Table(feature)) => match own_id(feature) {
-                    Ok(LuaValue::Nil) | Err(_) => index.to_string(),
-                    Ok(id) => id.to_string().unwrap_or_default(),
+                    Ok(
+                        id @ (LuaValue::String(_)
+                        | LuaValue::Number(_)
+                        | LuaValue::Integer(_)
+                        | LuaValue::Boolean(_)),
+                    ) => id.to_string().unwrap_or_default(),
+                    // What else it may be has no name that is the same each time.
+                    _ => index.to_string(),
                 },
                 (None, _) => index.to_string(),
             };

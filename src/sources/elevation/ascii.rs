@@ -9,6 +9,9 @@ use crate::error::{Error, Result};
 const REMEDY: &str = "a grid begins with ncols, nrows, xllcorner, yllcorner and cellsize; convert the file: \
                       gdal_translate -of AAIGrid IN OUT.asc";
 
+/// More heights than the header says are not counted beyond this.
+const SURPLUS: usize = 1_000_000;
+
 /// What a header says.
 #[derive(Default)]
 struct Header {
@@ -44,7 +47,8 @@ impl Header {
 
 /// Reads a grid called `name`.
 ///
-/// Fails if its header lacks something, if a height is no number, and if there are fewer or more than it says.
+/// Fails if its header lacks something, if a height is no number, and if there are fewer than it says; those that are too
+/// many come last.
 pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::new(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
@@ -98,6 +102,8 @@ fn heights<'a>(
     budget: &Budget,
 ) -> Result<Vec<f32>> {
     let mut heights = Vec::new();
+    // A few too many are counted; of a file that is another than its header says, not all are read.
+    let most = expected + SURPLUS;
     for (number, line) in lines {
         for word in line.split_whitespace() {
             budget.tick()?;
@@ -108,7 +114,7 @@ fn heights<'a>(
             })?;
             heights.push(if Some(value) == missing { f32::NAN } else { narrow(value) });
         }
-        if heights.len() > expected {
+        if heights.len() > most {
             break;
         }
     }
@@ -117,10 +123,6 @@ fn heights<'a>(
             "{name} is cut short: it has {found} of {expected} heights ({length} bytes)"
         ))
         .help("get it again")),
-        found if found > expected => Err(Error::new(format!(
-            "{name} has more heights than the {expected} of its header"
-        ))
-        .help("correct ncols and nrows")),
         _ => Ok(heights),
     }
 }
@@ -155,6 +157,12 @@ mod tests {
         assert_eq!((corner.grid, corner.heights.clone()), (centre.grid, centre.heights));
         assert_eq!((corner.grid.first, corner.bounds()), ([11.0, 23.0], [10.0, 20.0, 16.0, 24.0]));
         assert_eq!(corner.heights, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    }
+
+    #[test]
+    fn surplus_numbers_are_left_out_and_counted() {
+        let read = read("ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\n1 2\n3 4\n5 6 7\n");
+        assert_eq!((read.surplus, read.heights), (3, vec![1.0, 2.0, 3.0, 4.0]));
     }
 
     #[test]

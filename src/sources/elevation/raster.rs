@@ -8,6 +8,7 @@ use super::super::Crs;
 use super::{MOST, Wanted, fill, format};
 use crate::budget::Budget;
 use crate::error::{Error, Result};
+use crate::warning::{Warning, WarningKind};
 
 /// The largest file (bytes).
 const LARGEST: u64 = 2_000_000_000;
@@ -35,6 +36,8 @@ pub struct Raster {
     pub crs: Option<Crs>,
     /// How many heights were missing and were filled from the rims of their holes.
     pub filled: usize,
+    /// How many more heights the file has than its header says; they are left out.
+    pub surplus: usize,
 }
 
 /// Where samples lie, in the units of a coordinate system.
@@ -155,9 +158,11 @@ impl Raster {
         budget.check()?;
         budget.take(columns * rows * size_of::<f32>())?;
         let mut heights = heights(budget)?;
+        let surplus = heights.len().saturating_sub(columns * rows);
+        heights.truncate(columns * rows);
         check_heights(name, columns, &mut heights)?;
         let filled = fill::fill(columns, rows, &mut heights, budget)?;
-        Ok(Self { name: name.to_owned(), columns, rows, heights, grid, crs, filled })
+        Ok(Self { name: name.to_owned(), columns, rows, heights, grid, crs, filled, surplus })
     }
 
     /// Its outer edges: west, south, east and north. A sample stands for the area half a step around it.
@@ -165,6 +170,17 @@ impl Raster {
         let Grid { first, step } = self.grid;
         let (west, north) = (first[0] - step[0] / 2.0, first[1] + step[1] / 2.0);
         [west, north - step[1] * count(self.rows), west + step[0] * count(self.columns), north]
+    }
+
+    /// What people should know of how it was read.
+    pub(crate) fn warnings(&self) -> Vec<Warning> {
+        let Self { name, columns, rows, surplus, .. } = self;
+        let what = if *surplus == 1 { "number" } else { "numbers" };
+        let text =
+            format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
+        let warning =
+            Warning::new(WarningKind::Data, text).help("they are left out; correct ncols and nrows");
+        if *surplus > 0 { vec![warning] } else { Vec::new() }
     }
 
     /// Its lowest and its highest height (m).

@@ -340,6 +340,7 @@ mod tests {
             grid,
             crs: code.map(|code| Crs::epsg(code).unwrap()),
             filled: 0,
+            surplus: 0,
         })
     }
 
