@@ -120,7 +120,9 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
         let wanted = Wanted { layer: layer.map(str::to_owned), ..Wanted::default() };
         Layer::new(Source::open(path, "file").unwrap().read("file", &wanted).unwrap(), frame).unwrap()
     };
-    let raster = Arc::new(Raster::open(&heights, "N43E007.hgt.zip", &Default::default(), &Default::default()).unwrap());
+    let raster = Arc::new(
+        Raster::open(&heights, "N43E007.hgt.zip", &Default::default(), &Default::default()).unwrap(),
+    );
     assert_eq!((raster.columns, raster.rows, raster.filled), (1201, 1201, 1595));
     // Whichever comes first decides the frame.
     for heights_first in [true, false] {

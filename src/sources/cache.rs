@@ -109,7 +109,8 @@ mod tests {
         assert!(Arc::ptr_eq(&first, &read(1.0, 1.0)));
         assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
         assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
-        let error = cache.raster(folder.path(), "a", &WantedHeights::default(), &Budget::default()).unwrap_err();
+        let error =
+            cache.raster(folder.path(), "a", &WantedHeights::default(), &Budget::default()).unwrap_err();
         assert_eq!(error.message(), "a is a folder");
     }
 }

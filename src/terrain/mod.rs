@@ -28,7 +28,7 @@ pub use ground::{Ground, Map};
 pub use measured::Measured;
 pub use mesh::Mesh;
 pub use noise::{octaves, octaves_around};
-pub use river::Drainage;
+pub use river::{Drainage, Dry};
 pub use table::{Draw, Quadrants, RuleTable};
 pub use tile::{Place, Tile};
 pub use view::{DEEPEST, MOST_HEIGHTS, Ring, View};

@@ -183,10 +183,7 @@ impl Samples {
                 let distances = sides.map(|[from, to]| distance(from, to, sample.at));
                 let inside = distances.iter().all(|distance| *distance >= -self.near);
                 let is_corner = || corners.iter().any(|corner| corner.distance(sample.at) <= 2.0 * self.near);
-                if inside
-                    && !is_corner()
-                    && !tell(index, sample, distances)
-                {
+                if inside && !is_corner() && !tell(index, sample, distances) {
                     return;
                 }
             }

@@ -301,7 +301,8 @@ fn a_decay_that_does_not_converge_is_warned_of() {
 
 /// A grid of 33 by 33 samples, 10 m apart, the first of which is in the middle of its square.
 fn grid() -> String {
-    let height = |index: usize| 50.0 + ((index % 33) as f64 * 0.7).sin() * 20.0 + (index / 33 % 4) as f64 * 3.0;
+    let height =
+        |index: usize| 50.0 + ((index % 33) as f64 * 0.7).sin() * 20.0 + (index / 33 % 4) as f64 * 3.0;
     let heights: String = (0..33 * 33).map(|index| format!("{:.3}\n", height(index))).collect();
     format!("ncols 33\nnrows 33\nxllcorner -165\nyllcorner -165\ncellsize 10\n{heights}")
 }
@@ -318,7 +319,8 @@ fn cells_that_cannot_show_measured_samples_are_warned_of_and_the_ground_keeps_th
              if {levels} == 6 then\n  print(ground:height({{ 3, 4 }}))\nend\n"
         )
     };
-    let rules = ", decay = 200, rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { { -1, 1 }, 1, -1, 0.5 } } }";
+    let rules =
+        ", decay = 200, rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { { -1, 1 }, 1, -1, 0.5 } } }";
     let folder = Folder::new()
         .with("a.asc", grid())
         .with("coarse.lua", script(3, ""))
@@ -334,7 +336,9 @@ fn cells_that_cannot_show_measured_samples_are_warned_of_and_the_ground_keeps_th
     let height = |name: &str| told(name).lines().next().and_then(|line| line.parse::<f64>().ok()).unwrap();
     assert!(!told("rough.lua").contains("warning"));
     // Three tenths and four tenths of the way between four samples.
-    let sample = |column: i32, row: i32| grid().lines().nth((5 + row * 33 + column) as usize).unwrap().parse::<f64>().unwrap();
+    let sample = |column: i32, row: i32| {
+        grid().lines().nth((5 + row * 33 + column) as usize).unwrap().parse::<f64>().unwrap()
+    };
     let (north, south) = ([sample(16, 15), sample(17, 15)], [sample(16, 16), sample(17, 16)]);
     let along = |[west, east]: [f64; 2]| west * 0.7 + east * 0.3;
     let straight = along(south) * 0.6 + along(north) * 0.4;
@@ -352,7 +356,8 @@ fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
         )
     };
     let view = "{ cell = 128, rings = { { 2, 3 } } }";
-    let twice = format!("  this:focus(0, 0, {view})\n  this:focus(0, 0, {view})\n  this:focus(64, 0, {view})");
+    let twice =
+        format!("  this:focus(0, 0, {view})\n  this:focus(0, 0, {view})\n  this:focus(64, 0, {view})");
     let planet = "local Do = module(\"Do\")\n\
         local land = lsystem({ object = planet({ radius = 1000, levels = 6, rules = { A = { \"A\", \"A\", \"A\", \"A\" } } }) })\n\
         land:axiom(Do())\nland:interpret(\"Do()\", function(this)\n  this:focus(0, 0, 3000)\n  this:focus(0, 0, 2000)\nend)\nland:derive(0)\n";
@@ -370,7 +375,7 @@ fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
       | this:river({ 10, 20 }, 5)
       module: Do, step 0
       help: give a place above the water: this:height({ x, y }) tells how high the ground is
-    warning: rim.lua:5: rule Do() (interpretation): terrain:river: the source (511.0, 20.0) lies at the rim, at the shore or in an earlier river, so there is no river
+    warning: rim.lua:5: rule Do() (interpretation): terrain:river: the source (511.0, 20.0) lies at the rim or at the shore, so there is no river
       | this:river({ 511, 20 }, 5)
       module: Do, step 0
       help: give a place farther up

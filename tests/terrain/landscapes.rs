@@ -5,8 +5,13 @@ use std::path::Path;
 use burgeon::script::Options;
 
 /// The kinds, and where their water stands, as a part of the size.
-pub(crate) const KINDS: [(&str, Option<f64>); 5] =
-    [("mountains", None), ("hills", Some(-0.009)), ("ridge", None), ("crater", Some(-0.03)), ("plain", Some(-0.0035))];
+pub(crate) const KINDS: [(&str, Option<f64>); 5] = [
+    ("mountains", None),
+    ("hills", Some(-0.009)),
+    ("ridge", None),
+    ("crater", Some(-0.03)),
+    ("plain", Some(-0.0035)),
+];
 
 /// Lengths (m) of a side.
 pub(crate) const SIZES: [u32; 3] = [500, 3000, 50_000];
@@ -14,7 +19,12 @@ pub(crate) const SIZES: [u32; 3] = [500, 3000, 50_000];
 /// Runs a landscape, and says how many trees it has. What is wrong is said: an error, a warning, or a tree in the sea.
 pub(crate) fn check(kind: &str, size: u32, seed: u64) -> Result<usize, String> {
     let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/landscape.lua");
-    let set = [("kind", kind.to_owned()), ("size", size.to_string()), ("levels", "5".into()), ("rough", "2".into())];
+    let set = [
+        ("kind", kind.to_owned()),
+        ("size", size.to_string()),
+        ("levels", "5".into()),
+        ("rough", "2".into()),
+    ];
     // So many trees are seen in an eighth of the time.
     let trees = if size > 3000 { "false" } else { "true" };
     let set = set.into_iter().chain([("trees", trees.into())]).map(|(name, value)| (name.to_owned(), value));

@@ -51,7 +51,8 @@ pub(crate) fn check(seed: u64) -> Result<Worst, String> {
     let whole = (high - low).min_element();
     let aligned = luck.odds(0.3);
     let mut size = whole * luck.between(0.3, 0.68);
-    let mut corner = low.midpoint(high) - size / 2.0 + DVec2::new(luck.between(-0.1, 0.1), luck.between(-0.1, 0.1)) * size;
+    let mut corner =
+        low.midpoint(high) - size / 2.0 + DVec2::new(luck.between(-0.1, 0.1), luck.between(-0.1, 0.1)) * size;
     if aligned {
         // Cells that are as large as samples, or half or twice as large, whose corners or middles samples are.
         let level = 1 << (1 + luck.below(4));
@@ -77,7 +78,8 @@ pub(crate) fn check(seed: u64) -> Result<Worst, String> {
     let edited = luck.odds(0.1);
     if edited {
         let mut edits = Edits::default();
-        let outline = [(0.2, 0.2), (0.4, 0.2), (0.4, 0.4)].map(|(x, y)| (corner + DVec2::new(x, y) * size).to_array());
+        let outline =
+            [(0.2, 0.2), (0.4, 0.2), (0.4, 0.4)].map(|(x, y)| (corner + DVec2::new(x, y) * size).to_array());
         let edit = Edit::Flatten { outline: outline.to_vec(), height: 5.0, margin: size / 50.0 };
         edits.add(&world, edit).map_err(|error| error.to_string())?;
         ground.edit(&Arc::new(edits));
@@ -102,7 +104,13 @@ fn relief(luck: &mut Luck) -> Relief {
         let height = match kind {
             0 => (x.sin() + (1.7 * y).cos()) * step * 3.0,
             1 => luck.between(-1.0, 1.0) * step,
-            _ => if (x + y) as i64 % 2 == 0 { 4.0 * step } else { luck.between(0.0, 0.1) * step },
+            _ => {
+                if (x + y) as i64 % 2 == 0 {
+                    4.0 * step
+                } else {
+                    luck.between(0.0, 0.1) * step
+                }
+            }
         };
         heights.push((height + 300.0) as f32);
     }

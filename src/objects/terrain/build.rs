@@ -79,7 +79,8 @@ const PIECES: u32 = 64;
 fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
     // A raster that is projected may be missing in the middle of a side.
     let sides = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
-    let along = (0..4).flat_map(|side| (0..PIECES).map(move |part| (side, f64::from(part) / f64::from(PIECES))));
+    let along =
+        (0..4).flat_map(|side| (0..PIECES).map(move |part| (side, f64::from(part) / f64::from(PIECES))));
     for (side, part) in along {
         let at = corner + sides[side].lerp(sides[(side + 1) % 4], part) * size;
         if elevation.height_at(at).is_none() {

@@ -30,7 +30,7 @@ use super::{Color, Elevation, Expected, Kind, Object, Parameter, Table, Value, V
 use crate::error::{Error, Result};
 use crate::rules::Key;
 use crate::scene::Scene;
-use crate::terrain::{DEEPEST, Divide, Drainage, Edit, Edits, Ground, Map, View, World};
+use crate::terrain::{DEEPEST, Divide, Drainage, Dry, Edit, Edits, Ground, Map, View, World};
 use crate::warning::{Warning, WarningKind};
 
 fields! {
@@ -155,9 +155,14 @@ methods! {
             }
             let at = source.0.truncate();
             let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
-            let Some(way) = self.drainage()?.river(at) else {
-                self.warnings.push(self.dry(at, height));
-                return Ok(());
+            let way = match self.drainage()?.river(at) {
+                Ok(way) => way,
+                // Water runs there already.
+                Err(Dry::River) => return Ok(()),
+                Err(Dry::Outlet) => {
+                    self.warnings.push(self.dry(at, height));
+                    return Ok(());
+                }
             };
             let depth = width * SHALLOW;
             let path = way.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
@@ -283,12 +288,12 @@ impl Terrain {
                 format!("the source {place} lies {:.1} m under water", level - height),
                 "give a place above the water: this:height({ x, y }) tells how high the ground is",
             ),
-            None => (
-                format!("the source {place} lies at the rim, at the shore or in an earlier river"),
-                "give a place farther up",
-            ),
+            None => {
+                (format!("the source {place} lies at the rim or at the shore"), "give a place farther up")
+            }
         };
-        Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river")).help(help)
+        Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river"))
+            .help(help)
     }
 
     /// What to tell where the cells are too large for the samples of measured ground.

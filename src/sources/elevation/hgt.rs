@@ -101,7 +101,11 @@ fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
 }
 
 /// Where a tile lies, whose samples go from degree to degree, and in which coordinates.
-fn place(name: &str, wanted: &Wanted, [columns, rows]: [usize; 2]) -> Result<(Option<Grid>, Result<Option<Crs>>)> {
+fn place(
+    name: &str,
+    wanted: &Wanted,
+    [columns, rows]: [usize; 2],
+) -> Result<(Option<Grid>, Result<Option<Crs>>)> {
     let corner = corner(name);
     if corner.is_none() && wanted.bounds.is_none() {
         return Err(Error::new(format!("{name} does not tell where it lies"))

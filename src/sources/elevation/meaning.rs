@@ -29,8 +29,10 @@ impl Meaning {
             (scale, offset) => (scale.unwrap_or(1.0), offset.unwrap_or(0.0)),
         };
         if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
-            return Err(Error::new(format!("{name} has heights with the scale {scale} and the offset {offset}"))
-                .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
+            return Err(Error::new(format!(
+                "{name} has heights with the scale {scale} and the offset {offset}"
+            ))
+            .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
         }
         let unit = match keys.get(keys::VERTICAL_UNIT) {
             None => item(&metadata, "unittype").map_or(Ok(1.0), |unit| named(unit, name))?,
@@ -108,7 +110,8 @@ fn named(unit: &str, name: &str) -> Result<f64> {
 }
 
 fn unknown(unit: &str, name: &str) -> Error {
-    Error::new(format!("{name} has heights in a unit that is not known ({unit})")).help("convert it to metres")
+    Error::new(format!("{name} has heights in a unit that is not known ({unit})"))
+        .help("convert it to metres")
 }
 
 #[cfg(test)]
@@ -120,6 +123,9 @@ mod tests {
         let text = "<GDALMetadata>\n  <Item name=\"AREA\">x</Item>\n  <Item name='SCALE' sample='1' role='scale'>7</Item>\n  \
             <Item name=\"SCALE\" sample=\"0\" role=\"scale\"> 0.1 </Item><Item role=\"offset\" name=\"OFFSET\" sample=\"0\">5</Item>";
         assert_eq!((item(text, "scale"), item(text, "offset")), (Some("0.1"), Some("5")));
-        assert_eq!((item(text, "unittype"), item("<Item", "scale"), item("<Item role=scale>", "scale")), (None, None, None));
+        assert_eq!(
+            (item(text, "unittype"), item("<Item", "scale"), item("<Item role=scale>", "scale")),
+            (None, None, None)
+        );
     }
 }

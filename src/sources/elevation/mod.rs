@@ -41,4 +41,6 @@ pub struct Wanted {
 }
 
 #[cfg(test)]
+mod hostile;
+#[cfg(test)]
 mod tests;

@@ -182,7 +182,8 @@ impl Relief {
         let part = at - at.floor();
         let [_, west, east, _] = around_index(column, self.raster.columns);
         let [_, north, south, _] = around_index(row, self.raster.rows);
-        let sample = |column: usize, row: usize| f64::from(self.raster.heights[row * self.raster.columns + column]);
+        let sample =
+            |column: usize, row: usize| f64::from(self.raster.heights[row * self.raster.columns + column]);
         let along = |row: usize| sample(west, row) * (1.0 - part.x) + sample(east, row) * part.x;
         along(north) * (1.0 - part.y) + along(south) * part.y
     }
@@ -227,8 +228,8 @@ impl Relief {
                 let mut place = near;
                 for _ in 0..MOST_STEPS {
                     let off = at - lattice.at(place);
-                    let [east, north] =
-                        [DVec2::X, DVec2::Y].map(|way| lattice.at(place + way * self.step) - lattice.at(place));
+                    let [east, north] = [DVec2::X, DVec2::Y]
+                        .map(|way| lattice.at(place + way * self.step) - lattice.at(place));
                     let by = DMat2::from_cols(east, north).inverse() * off * self.step;
                     place += by;
                     if !(by.length() > self.step * CLOSE) {
