@@ -99,11 +99,42 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
+    if let Some(warning) = emptiness(session, &scene, &systems) {
+        session.warn(warning);
+    }
     let warnings = session.warnings();
     if session.options.strict && !warnings.is_empty() {
         return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
     }
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
+}
+
+/// The warning for a model of drawing objects that is empty, unless someone has asked to see fewer steps.
+fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
+    let mut drawing = systems.iter().filter(|system| system.draws);
+    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
+    if scene.triangles() > 0 || session.options.steps.is_some() {
+        return None;
+    }
+    let tells = |warning: &Warning| {
+        use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
+        matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
+    };
+    let help = if session.warnings().iter().any(tells) {
+        "another warning tells why"
+    } else if systems.iter().any(|system| system.is_placed()) {
+        "a system that another one is to place is not shown by itself: see that it is placed"
+    } else if drawing.objects.is_empty() {
+        "its source has no features"
+    } else if drawing.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0) {
+        "its interpretations draw nothing: see that lengths and scales are above 0"
+    } else if drawing.steps == 0 {
+        "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
+    } else {
+        "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
+    };
+    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
+    Some(warning.at(drawing.place.clone()).help(help))
 }
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict

@@ -49,8 +49,6 @@ pub enum WarningKind {
     NotDerived,
     /// A parameter that was declared twice.
     ParameterTwice,
-    /// A source without features.
-    NoFeatures,
     /// An option or a call that has no effect where it stands.
     NoEffect,
     /// A file that could be read, though not all of it is as it should be.
@@ -75,7 +73,6 @@ impl WarningKind {
             Self::DerivedTwice => "derived-twice",
             Self::NotDerived => "not-derived",
             Self::ParameterTwice => "parameter-twice",
-            Self::NoFeatures => "no-features",
             Self::NoEffect => "no-effect",
             Self::Data => "data",
             Self::Doubtful => "doubtful",

@@ -12,7 +12,7 @@ use burgeon::picture::Picture;
 use burgeon::presets::Presets;
 use burgeon::script::{Param, Preset, Session};
 use burgeon::terrain::{Map, Place};
-use burgeon::{Error, Result};
+use burgeon::{Error, Result, Warning, WarningKind};
 use clap::Args;
 
 use super::progress::Progress;
@@ -103,10 +103,11 @@ impl Run {
     ) -> Result<Option<burgeon::Run>> {
         let (run, writing) = {
             let _progress = Progress::show(session, !self.script.json);
-            let run = burgeon::run_session(session)?;
+            let mut run = burgeon::run_session(session)?;
             if stale() {
                 return Ok(None);
             }
+            self.warn_of_nothing(session, &mut run)?;
             if run.systems.is_empty() && !self.output.is_empty() {
                 let script = self.script.script.display();
                 return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
@@ -153,6 +154,25 @@ impl Run {
             report::eprint(&report::summary(&run, writing, begin.elapsed(), self.report.as_deref()));
         }
         Ok(Some(run))
+    }
+
+    /// Warns of files without a model in them; such a run fails if it is to be strict.
+    fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
+        let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
+        let place = run.systems.first().map(|system| system.place.clone());
+        let (Some(place), false) = (place, known || self.output.is_empty()) else { return Ok(()) };
+        if run.scene.triangles() > 0 || session.options.steps.is_some() {
+            return Ok(());
+        }
+        let text = "the model is empty, for no system has an object that draws";
+        let warning = Warning::new(WarningKind::EmptyModel, text)
+            .at(place)
+            .help("give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE");
+        if session.options.strict {
+            return Err(warning.into_error());
+        }
+        run.warnings.push(warning);
+        Ok(())
     }
 
     /// Saves what this run was given.

@@ -132,6 +132,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let traced = options.trace.filter(|traced| traced.system == index);
     // What was declared since the last derivation holds as well.
     machine.current.system.set(None);
+    machine.library.systems.borrow()[index].note_derivation(machine);
     let (axiom, plan, declared) = {
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
@@ -156,11 +157,13 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             profiled: options.profile,
         };
         let declared = system.prepare(machine)?;
+        system.tell_forestalled(machine, &plan.grammar);
         (axiom, Arc::new(plan), declared)
     };
     let place = machine.library.systems.borrow()[index].place.clone();
-    let last_only = machine.library.systems.borrow()[index].last_only;
+    let last_only = machine.library.systems.borrow()[index].shows_last_only();
     let settled = machine.library.systems.borrow()[index].draws_afresh();
+    let draws = settled && machine.library.systems.borrow()[index].object.is_some();
     let limit = match (steps, options.steps) {
         (Some(a), Some(b)) => a.min(b),
         (Some(limit), None) | (None, Some(limit)) => limit,
@@ -233,6 +236,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     for warning in first.into_iter().chain(said) {
         session.warn(warning.at(place.clone()));
     }
+    let undrawn = machine.library.systems.borrow()[index].undrawn(&machine.library, &chain.symbols);
     let rules = reports(&plan, stepper.uses(), &interpretations);
     drop(stepper);
     drop(cells);
@@ -273,7 +277,8 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         rules,
         place,
     );
-    (derived.given, derived.remarks) = (axiom.given, axiom.remarks);
+    (derived.given, derived.remarks, derived.undrawn) = (axiom.given, axiom.remarks, undrawn);
+    derived.draws = draws;
     Ok(derived)
 }
 
@@ -308,8 +313,8 @@ fn reports(plan: &Plan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleRepor
         done: *done,
     });
     let interpretations =
-        plan.interpretations.list.iter().zip(interpretations).map(|((_, text, place), done)| RuleReport {
-            name: RuleName { text: text.clone(), place: place.clone() },
+        plan.interpretations.list.iter().zip(interpretations).map(|(known, done)| RuleReport {
+            name: RuleName { text: known.name.clone(), place: known.place.clone() },
             interprets: true,
             done: *done,
         });

@@ -102,7 +102,7 @@ impl Trace {
                 .interpretations
                 .list
                 .iter()
-                .map(|(_, text, place)| named(text, place))
+                .map(|known| named(&known.name, &known.place))
                 .collect(),
             interpreted: plan.interpretations.by_symbol.clone(),
             axiom,

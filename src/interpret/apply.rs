@@ -10,7 +10,7 @@ use super::notices::Notice;
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Object, Value};
 use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_text};
-use crate::script::{Flusher, Machine, Objects, read_column};
+use crate::script::{Flusher, Machine, Objects, read_column, returns_modules};
 use crate::warning::Warning;
 
 /// Where a piece of the chain has been applied up to.
@@ -333,7 +333,7 @@ impl Applier {
         let text = module_text(plan.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
         match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
-            Some((_, name, place)) => error.at(place.clone()).rule(format!("{name} (interpretation)")),
+            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
             None => error,
         }
         .module(text, self.pass.step)
@@ -359,6 +359,15 @@ impl Flusher for Applier {
 
     fn warn(&mut self, said: Vec<Warning>) {
         self.note(said, None);
+    }
+
+    fn lost(&mut self, entry: usize) {
+        let Some(module) = self.entries.get(entry).copied() else { return };
+        let interpretations = &self.pass.plan.interpretations;
+        let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
+        if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
+            self.notices.push(Notice { warning: returns_modules(), module, call: None });
+        }
     }
 
     fn applier(&mut self) -> Option<&mut Applier> {

@@ -83,7 +83,8 @@ impl Interpreting {
         let done = machine.crew.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
-        said.extend(done.notices.into_list());
+        let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
+        said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             Some((_, error)) => Err(error),
             None => Ok(done.chain),
@@ -134,7 +135,7 @@ impl Interpreting {
                 if id != u16::MAX {
                     entries.push((module, param));
                     ids.push(id);
-                    let (bound, ..) = interpretations.list[usize::from(id)];
+                    let bound = interpretations.list[usize::from(id)].bound;
                     arguments.extend_from_slice(&self.chain.params[param..param + bound]);
                 }
                 param += usize::from(arities[symbol]);
@@ -152,7 +153,7 @@ impl Interpreting {
                 module,
                 &mut applying,
             )? {
-                let bound = |id: &u16| interpretations.list[usize::from(*id)].0;
+                let bound = |id: &u16| interpretations.list[usize::from(*id)].bound;
                 argument += ids[from..from + done].iter().map(bound).sum::<usize>();
                 from += done;
                 if self.plan.profiled {
@@ -222,7 +223,7 @@ impl Interpreting {
                 if let Err(error) = forgiven {
                     return Err(self.find_line(machine, error));
                 }
-                notices.into_iter().for_each(|notice| self.note(machine, notice));
+                self.note_all(machine, &notices);
                 let rest = self.chain.symbols[module..].iter().position(|symbol| *symbol == END);
                 let end = module + rest.unwrap_or(0);
                 let done = entries.partition_point(|(module, _)| *module <= end);
@@ -239,15 +240,31 @@ impl Interpreting {
         if let Err(error) = applied {
             return Err(self.find_line(machine, error));
         }
-        notices.into_iter().for_each(|notice| self.note(machine, notice));
+        self.note_all(machine, &notices);
         Ok(None)
     }
 
-    /// Adds what an object has warned of in the batch that was interpreted last.
-    fn note(&self, machine: &Machine, Notice { warning, module: (module, param), call }: Notice) {
+    /// Adds what objects have warned of in the batch that was interpreted last.
+    fn note_all(&self, machine: &Machine, notices: &[Notice]) {
+        for (index, notice) in notices.iter().enumerate() {
+            let same = |other: &Notice| {
+                other.module == notice.module && other.warning.message() == notice.warning.message()
+            };
+            self.note(
+                machine,
+                notice,
+                !notices[..index].iter().rev().take_while(|it| it.module == notice.module).any(same),
+            );
+        }
+    }
+
+    /// Adds what an object has warned of in the batch that was interpreted last, for the first time of its module or
+    /// once more.
+    fn note(&self, machine: &Machine, notice: &Notice, is_first: bool) {
+        let (module, param) = notice.module;
         let symbol = self.chain.symbols[module];
-        self.notices.add(symbol, module, warning, |warning| {
-            let warning = warning.at(call.and_then(|call| Self::line_of(machine, call)));
+        self.notices.add((symbol, module), is_first, notice.warning.clone(), |warning| {
+            let warning = warning.at(notice.call.and_then(|call| Self::line_of(machine, call)));
             if symbol <= END {
                 return warning;
             }
@@ -321,8 +338,8 @@ impl Interpreting {
     fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<Place>)> {
         let interpretations = &self.plan.interpretations;
         let id = interpretations.by_symbol.get(usize::from(symbol))?;
-        let (_, name, place) = interpretations.list.get(usize::from(*id))?;
-        Some((format!("{name} (interpretation)"), place))
+        let known = interpretations.list.get(usize::from(*id))?;
+        Some((format!("{} (interpretation)", known.name), &known.place))
     }
 
     /// Counts triangles against the limit.

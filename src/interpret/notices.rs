@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use crate::rules::Symbol;
-use crate::warning::Warning;
+use crate::warning::{Warning, WarningKind};
 
 /// A warning of an object, and what gave rise to it.
 pub(crate) struct Notice {
@@ -19,63 +19,84 @@ pub(crate) struct Notice {
     pub call: Option<(usize, usize)>,
 }
 
-/// The warnings of a pass: by symbol and text the first module with its warning.
+/// The warnings of a pass, by the symbol of the module and by text.
 #[derive(Default)]
-pub(super) struct Notices(Mutex<BTreeMap<(Symbol, String), (usize, Warning)>>);
+pub(super) struct Notices(Mutex<BTreeMap<(Symbol, String), Known>>);
+
+/// What is known of a text.
+struct Known {
+    /// The first module that gave rise to it, and the warning with its line.
+    first: usize,
+    warning: Warning,
+    /// The modules that gave rise to it.
+    modules: usize,
+}
 
 impl Notices {
-    /// Adds what the module at place `module`, which has this symbol, gave rise to; `locate` finds its line, and is
-    /// asked only where no earlier module is known.
+    /// Adds what the module at place `module`, which has this symbol, gave rise to: the first time if `is_first`, or
+    /// once more. `locate` finds its line, and is asked only where no earlier module is known.
     pub(super) fn add(
         &self,
-        symbol: Symbol,
-        module: usize,
+        (symbol, module): (Symbol, usize),
+        is_first: bool,
         warning: Warning,
         locate: impl FnOnce(Warning) -> Warning,
     ) {
         let key = (symbol, warning.message().to_owned());
-        {
-            let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-            if let Some((first, known)) = known.get_mut(&key)
-                && *first <= module
-            {
-                return known.again(warning.count());
+        let (modules, count) = (usize::from(is_first), warning.count());
+        let again = |known: &mut BTreeMap<_, Known>| match known.get_mut(&key) {
+            Some(known) if known.first <= module => {
+                known.warning.again(count);
+                known.modules += modules;
+                true
             }
+            _ => false,
+        };
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if again(&mut lock()) {
+            return;
         }
-        let mut warning = locate(warning);
-        let mut known = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        match known.get_mut(&key) {
-            Some((first, known)) if *first <= module => known.again(warning.count()),
-            Some(later) => {
-                warning.again(later.1.count());
-                *later = (module, warning);
-            }
-            None => drop(known.insert(key, (module, warning))),
+        // Without the lock, for the rule runs once more.
+        let mut new = Known { first: module, warning: locate(warning), modules };
+        let mut known = lock();
+        if again(&mut known) {
+            return;
         }
+        if let Some(later) = known.get(&key) {
+            new.warning.again(later.warning.count());
+            new.modules += later.modules;
+        }
+        known.insert(key, new);
     }
 
-    /// All of them, by symbol.
-    pub(super) fn into_list(self) -> impl Iterator<Item = Warning> {
+    /// All of them, by symbol; `of_symbol` counts the modules with a symbol. That a module draws nothing is told only
+    /// where none of its kind does: sizes may well be 0 here and there.
+    pub(super) fn into_list(self, of_symbol: impl Fn(Symbol) -> usize) -> impl Iterator<Item = Warning> {
         let known = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
-        known.into_values().map(|(_, warning)| warning)
+        known.into_iter().filter_map(move |((symbol, _), known)| {
+            let some = known.warning.kind() == WarningKind::DrawsNothing && known.modules < of_symbol(symbol);
+            (!some).then_some(known.warning)
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::warning::WarningKind;
 
     #[test]
-    fn the_first_module_counts_whichever_comes_first() {
+    fn the_first_module_counts_whichever_comes_first_and_all_have_to_draw_nothing() {
         for order in [[3, 1, 2], [1, 2, 3], [2, 3, 1]] {
-            let notices = Notices::default();
-            for module in order {
-                let warning = Warning::new(WarningKind::DrawsNothing, "nothing is drawn");
-                notices.add(7, module, warning, |warning| warning.rule(format!("A{module}")));
+            for all in [3, 4] {
+                let notices = Notices::default();
+                for module in order {
+                    let warning = Warning::new(WarningKind::DrawsNothing, "nothing is drawn");
+                    notices.add((7, module), true, warning, |warning| warning.rule(format!("A{module}")));
+                }
+                let texts: Vec<String> = notices.into_list(|_| all).map(|it| it.to_string()).collect();
+                let expected: &[&str] = if all == 3 { &["rule A1: nothing is drawn (3 times)"] } else { &[] };
+                assert_eq!(texts, expected);
             }
-            let texts: Vec<String> = notices.into_list().map(|warning| warning.to_string()).collect();
-            assert_eq!(texts, ["rule A1: nothing is drawn (3 times)"]);
         }
     }
 }

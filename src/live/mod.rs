@@ -16,6 +16,7 @@
 mod address;
 mod ask;
 mod connections;
+mod describe;
 mod export;
 mod layout;
 pub mod message;

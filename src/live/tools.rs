@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, PoisonError};
+use std::time::Duration;
 
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::mpsc::Sender;
@@ -16,6 +18,9 @@ use crate::picture::{Background, Picture, Quality};
 use crate::presets::Presets;
 use crate::script::{Options, Param, Preset};
 use crate::variations::{Cell, Framing, Over, Variations};
+
+/// How often a page is told how many scripts of variations have run.
+const TICK: Duration = Duration::from_millis(500);
 
 /// Width and height (pixels) of a small picture.
 const SIZE: (u32, u32) = (320, 240);
@@ -156,12 +161,28 @@ pub(super) fn variations(
             ..Picture::default()
         };
         let of = variations.len();
-        // What looks larger is larger, so that seeds and values can be compared.
-        let made = variations.make(&picture, Framing::Together, |cell| {
-            let say = variation(&state, id, of, cell);
-            if page.blocking_send(say.to_text().into()).is_err() {
-                stop.stop(Error::new("the page has gone"));
+        let (over, ended) = channel::<()>();
+        let (running, page, gone) = (&variations, &page, || stop.stop(Error::new("the page has gone")));
+        let tell = move || {
+            // It ends with the other end of the channel.
+            while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                let say = Say::Variations { id, ran: running.ran(), of };
+                if page.blocking_send(say.to_text().into()).is_err() {
+                    return gone();
+                }
             }
+        };
+        let made = std::thread::scope(|scope| {
+            scope.spawn(tell);
+            // What looks larger is larger, so that seeds and values can be compared.
+            let made = variations.make(&picture, Framing::Together, |cell| {
+                let say = variation(&state, id, of, cell);
+                if page.blocking_send(say.to_text().into()).is_err() {
+                    gone();
+                }
+            });
+            drop(over);
+            made
         });
         if let Err(error) = made
             && !stop.is_stopped()

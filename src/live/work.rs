@@ -8,10 +8,10 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
-use super::message::{Bounds, Cause, Model, Say, System, Times};
+use super::message::{Cause, Model, Say};
 use super::state::{Due, Inner, Running, Shown, State};
 use super::wish::Inputs;
-use super::{Told, trace};
+use super::{Told, describe};
 use crate::error::{Error, Result};
 use crate::export::gltf::{self, Layout};
 use crate::presets::Presets;
@@ -27,7 +27,7 @@ const TICK: Duration = Duration::from_millis(100);
 const LARGEST: usize = 2_000_000_000;
 
 /// Problems of one run, and warnings, that pages are told at most.
-const PROBLEMS: usize = 50;
+pub(super) const PROBLEMS: usize = 50;
 
 /// How long a file that was there may be missing, as in the middle of a save, before a page is told.
 const MISSING: Duration = Duration::from_millis(150);
@@ -40,10 +40,10 @@ const IDLE_LIMITS: Limits =
     Limits { time: Duration::from_secs(10), memory: 1 << 30, modules: 5_000_000, triangles: 10_000_000 };
 
 /// A run to be made.
-struct Job {
-    run: u64,
-    due: Due,
-    inputs: Inputs,
+pub(super) struct Job {
+    pub run: u64,
+    pub due: Due,
+    pub inputs: Inputs,
 }
 
 /// What came of a run.
@@ -218,15 +218,16 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
         if cancelled.load(Ordering::Acquire) {
             return Err(Error::new("there is something newer"));
         }
-        let (file, mut message) = rayon::join(|| encode(&run), || describe(state, job, &session, &run));
+        let (file, mut message) =
+            rayon::join(|| encode(&run), || describe::describe(state, job, &session, &run));
         let (file, time) = file?;
         message.nothing = file.note.clone().or(message.nothing);
         if let Some((hash, bytes)) = &file.content {
             message.url = Some(format!("model/{hash}.glb"));
             message.bytes = bytes.len();
         }
-        message.times.encode = ms(time);
-        message.times.total = ms(job.due.at.elapsed());
+        message.times.encode = describe::ms(time);
+        message.times.total = describe::ms(job.due.at.elapsed());
         Ok(Made { run, file, message })
     });
     match made {
@@ -256,85 +257,6 @@ fn encode(run: &Run) -> Result<(File, Duration)> {
         Err(error) => return Err(error),
     };
     Ok((file, begin.elapsed()))
-}
-
-/// What pages are told of a run, but for what depends on the wish and on the model's bytes.
-fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
-    let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
-    let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
-    let textures = textures.filter(|texture| texture.content.is_none());
-    files.extend(textures.map(|texture| state.name(&texture.path)));
-    files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
-    files.sort();
-    files.dedup();
-    let systems = run.systems.iter().map(|system| {
-        let place = system.place.as_ref();
-        System {
-            system: system.system,
-            place: place.map(|it| format!("{}:{}", state.short(&it.file), it.line)).unwrap_or_default(),
-            chains: system.features.len(),
-            modules: system.modules(),
-            steps: system.steps,
-            symbols: trace::symbols(system),
-        }
-    });
-    let bounds = run.scene.bounds();
-    Model {
-        run: job.run,
-        cause: job.due.cause,
-        url: None,
-        bytes: 0,
-        triangles: run.scene.triangles(),
-        instances: run.scene.instances.len(),
-        modules: run.systems.iter().map(|system| system.modules()).sum(),
-        bounds: bounds.map(|(low, high)| Bounds { low: low.to_array(), high: high.to_array() }),
-        steps: run.systems.iter().map(|system| system.steps).max().unwrap_or(0),
-        last_step: 0,
-        step_limit: job.inputs.steps,
-        seed: job.inputs.seed.to_string(),
-        preset: None,
-        nothing: (run.scene.triangles() == 0).then(|| nothing(run, job.inputs.steps)),
-        params: Vec::new(),
-        systems: systems.collect(),
-        rules: trace::rules(state, run),
-        times: Times {
-            script: ms(run.times.script),
-            rewriting: ms(run.times.derivation.rewriting),
-            interpretation: ms(run.times.derivation.interpretation),
-            scene: ms(run.times.scene),
-            encode: 0.0,
-            total: 0.0,
-        },
-        files,
-        warnings: run.warnings.iter().take(PROBLEMS).map(|warning| state.warning_json(warning)).collect(),
-    }
-}
-
-/// Why a run shows nothing, and what to do about it.
-fn nothing(run: &Run, limit: Option<usize>) -> String {
-    let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
-    let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
-    let at_limit = limit.is_some_and(|limit| steps >= limit);
-    let after = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
-    if run.systems.is_empty() {
-        "the script derives no system: end it with system:derive()".to_owned()
-    } else if at_limit {
-        format!("nothing is drawn after {after}: look at a later one")
-    } else if modules == 0 {
-        format!("no module is left after {after}: let the rules end in modules that are drawn")
-    } else {
-        let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
-        let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);
-        let who = match modules {
-            1 => "the only module draws nothing".to_owned(),
-            _ => format!("none of the {modules} modules draws anything"),
-        };
-        format!("{who}: give them an interpretation, system:interpret(\"{most}\", function(this) ... end)")
-    }
-}
-
-fn ms(duration: Duration) -> f64 {
-    duration.as_secs_f64() * 1e3
 }
 
 fn internal(panic: &(dyn std::any::Any + Send)) -> Error {

@@ -28,6 +28,12 @@ impl Expected {
         Self { found: self.found.or_else(|| Some(shown(found))), ..self }
     }
 
+    /// The same, where what was found is called `found`.
+    #[must_use]
+    pub fn but_was(self, found: impl Into<String>) -> Self {
+        Self { found: Some(found.into()), ..self }
+    }
+
     /// What is wrong with item `number` of a list.
     pub(super) fn item(&self, number: usize) -> String {
         match &self.found {
@@ -57,6 +63,10 @@ fn shown(value: &Value) -> String {
         Value::Table(table) if table.entries.len() <= 4 => {
             let text = value.to_string();
             if text.len() <= LONGEST { text } else { value.describe().to_owned() }
+        }
+        Value::Object(object) => {
+            let name = object.kind().name;
+            format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
         }
         other => other.describe().to_owned(),
     }

@@ -136,6 +136,11 @@ impl Symbols {
         self.standard = self.signatures.len();
     }
 
+    /// Whether `symbol` is one of the standard library's.
+    pub fn is_standard(&self, symbol: Symbol) -> bool {
+        usize::from(symbol) < usize::from(FIRST_SYMBOL) + self.standard
+    }
+
     /// The symbol called `name`; unknown ones are an error with the nearest known one.
     pub fn find(&self, name: &str) -> Result<Symbol> {
         self.by_name.get(name).copied().ok_or_else(|| {

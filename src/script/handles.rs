@@ -157,7 +157,7 @@ impl DerivedHandle {
             "steps" => number(derived.steps),
             "modules" => number(derived.modules()),
             "chains" => {
-                let lines = derived.chain_text();
+                let lines = derived.read_chains();
                 let table = lua.create_sequence_from(lines.lines())?;
                 table.set_readonly(true);
                 Ok(LuaValue::Table(table))

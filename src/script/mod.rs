@@ -26,4 +26,4 @@ pub use options::{Limits, Options};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{Progress, Session, Stop};
-pub(crate) use system::{Declared, Interpretations};
+pub(crate) use system::{Declared, Interpretations, returns_modules};

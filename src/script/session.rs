@@ -276,10 +276,23 @@ impl Session {
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
     pub(crate) fn is_quiet(&self, file: &str, line: usize) -> bool {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut named = sources.values().filter(|source| source.name == file);
         !self.metatables.load(Ordering::Acquire)
-            && named.next().is_some_and(|source| source.analysis.quiet.contains(&line))
+            && self.source_called(file).is_some_and(|source| source.analysis.quiet.contains(&line))
+    }
+
+    /// Whether the functions that begin in a line of a file do not look at their first parameter.
+    pub(crate) fn is_blind(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
+    }
+
+    /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
+    pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
+        self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        sources.values().find(|source| source.name == file).cloned()
     }
 
     /// Takes notice of what a piece of the script may do.

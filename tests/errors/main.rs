@@ -25,3 +25,4 @@ mod support;
 mod syntax;
 mod terrain;
 mod variations;
+mod warnings;

@@ -112,7 +112,7 @@ fn sizes_and_views_are_checked_with_their_numbers() {
       help: give a height below 0.0 m
 
     levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: covers must be a list whose item 1 is a cover (cover has no field called colour), not {{colour="#ffffff"}}
+    error: s.lua:1: terrain: covers must be a list whose item 1 is a cover (cover has no field called colour), not {colour="#ffffff"}
       | local land = lsystem({ object = terrain({ levels = 3, covers = { { colour = "#ffffff" } }, rules = { A = { "A", "A", "A", "A" } } }) })
 
     levels = 3, covers = { { }, { on = { symbols = { "B" } } } }, rules = { A = { "A", "A", "A", "A" } }
@@ -121,7 +121,7 @@ fn sizes_and_views_are_checked_with_their_numbers() {
       help: the cells are A
 
     levels = 3, plants = { { density = 5 } }, rules = { A = { "A", "A", "A", "A" } }
-    error: s.lua:1: terrain: plants must be a list whose item 1 is plants with at least one model: { models = { tree:derive() } }, not {{density=5}}
+    error: s.lua:1: terrain: plants must be a list whose item 1 is plants with at least one model: { models = { tree:derive() } }, not {density=5}
       | local land = lsystem({ object = terrain({ levels = 3, plants = { { density = 5 } }, rules = { A = { "A", "A", "A", "A" } } }) })
     "##);
 }

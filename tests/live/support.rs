@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 /// How long anything may take; most takes a hundredth of it.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A script of `count` segments, with a parameter and a random turn.
 pub(crate) fn script(count: usize) -> String {
@@ -227,7 +227,8 @@ impl Page {
             if message["type"] == kind {
                 return message;
             }
-            assert!(message["type"] == "working" || message["type"] == "progress", "{kind}: {message}");
+            let news = ["working", "progress", "variations"].iter().any(|news| message["type"] == **news);
+            assert!(news, "{kind}: {message}");
         }
     }
 

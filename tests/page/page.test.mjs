@@ -52,6 +52,20 @@ test("an error stands over the last good model until it is mended", () =>
     assert.ok((await number(page, "triangles")) > triangles);
   }));
 
+test("warnings stand folded over their model until they are mended", () =>
+  open(`${BLOCKS}tower:derive()\n`, async ({ page, script }) => {
+    const first = await drawn(page);
+    const warnings = seen(page, "warnings");
+    assert.match(await warnings.textContent(), /^1 warning/);
+    const article = warnings.locator("article");
+    assert.ok(await article.isHidden());
+    await warnings.getByRole("button", { name: "Fold" }).click();
+    assert.match(await article.textContent(), /blocks\.lua:16.*derived again/s);
+    save(script, BLOCKS);
+    await drawn(page, first);
+    await warnings.waitFor({ state: "hidden" });
+  }));
+
 test("a rule that fails is told with its rule, module and step", () =>
   open(BLOCKS.replace("if n == 0", "if n == 1 then error('too low') end if n == 0"), async ({ page }) => {
     const error = seen(page, "error");

@@ -11,6 +11,7 @@ mod literature;
 mod meaning;
 mod naive;
 mod parameters;
+mod passes;
 mod properties;
 mod results;
 mod scripts;

@@ -217,10 +217,12 @@ export class Working {
   }
 }
 
+const LONGEST = 400; // letters of a line that goes away
+
 /** A line that goes away by itself. */
 export function toast(text) {
   const place = find('#toast');
-  say(place, text);
+  say(place, text.length > LONGEST ? `${text.slice(0, LONGEST)}…` : text);
   place.hidden = false;
   clearTimeout(toast.timer);
   toast.timer = setTimeout(() => (place.hidden = true), 5000);
@@ -233,8 +235,8 @@ export function connection(state) {
     live: 'live',
     lost: 'connection lost, trying again',
     connecting: 'connecting',
-    moved: 'the server has a new address: open the one that it printed',
+    moved: 'the server has a new address',
   };
   say(place, texts[state]);
-  place.title = state === 'moved' ? texts.moved : '';
+  find('#moved').hidden = state !== 'moved';
 }

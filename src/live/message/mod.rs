@@ -101,6 +101,15 @@ pub enum Say {
         /// The one whose values and seed are the present ones, if there is one.
         chosen: Option<String>,
     },
+    /// How many of the small pictures' scripts have run: all of them have one camera, which is known at the end.
+    Variations {
+        /// The question's id.
+        id: u64,
+        /// How many have run.
+        ran: usize,
+        /// How many there will be.
+        of: usize,
+    },
     /// A small picture of other values.
     Variation {
         /// The question's id.

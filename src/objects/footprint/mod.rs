@@ -55,7 +55,7 @@ impl Parameter for Rings {
             Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
         };
         let not_this =
-            |kind: &str| Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}"));
+            |kind: &str| Expected::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
@@ -355,7 +355,7 @@ fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
-    let error = Error::new(format!("{what} is {height} m"));
+    let error = Error::new(format!("{what} is {} m", Value::Number(height)));
     Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 

@@ -22,6 +22,9 @@ pub(crate) trait Flusher {
     /// Takes what the object of the chain has warned of.
     fn warn(&mut self, said: Vec<Warning>);
 
+    /// Notes that the interpretation rule of `entry` has returned modules.
+    fn lost(&mut self, entry: usize);
+
     /// The one type that implements this, for the loop that drives it.
     fn applier(&mut self) -> Option<&mut crate::interpret::Applier>;
 }

@@ -109,6 +109,16 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
     )?;
     let state = Rc::clone(current);
     host.set(
+        "lost",
+        lua.create_function(move |_, entry: usize| {
+            if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
+                flusher.lost(entry);
+            }
+            Ok(())
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
         "call",
         lua.create_function(move |lua, (method, application, arguments): (usize, usize, MultiValue)| {
             let arguments = values(&arguments)?;

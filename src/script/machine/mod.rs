@@ -17,10 +17,11 @@ use std::rc::Rc;
 use std::sync::Arc;
 
 use mlua::chunk::{ChunkMode, Compiler};
-use mlua::{Buffer, Function, Lua};
+use mlua::{Buffer, Function, Lua, Value};
 
 use super::library::{Library, Quiet};
 use super::session::Session;
+use super::system::tell_unseen;
 use crate::derive::Crew;
 use crate::error::{Error, Place, Result};
 use crate::rules::{Symbol, Symbols};
@@ -86,7 +87,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// Runs the script's main file.
+    /// Runs the script's main file, and tells what it has declared in vain.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
         let path = session.script().canonicalize().map_err(|error| Error::new(error.to_string()))?;
@@ -97,7 +98,10 @@ impl Machine {
             self.load(&source.name, &source.analysis.text)?;
             return Err(Error::several(problems));
         }
-        self.load(&source.name, &source.analysis.text)?.call::<()>(()).map_err(|error| self.translate(error))
+        let chunk = self.load(&source.name, &source.analysis.text)?;
+        let value: Value = chunk.call(()).map_err(|error| self.translate(error))?;
+        tell_unseen(self, !value.is_nil());
+        Ok(())
     }
 
     /// Takes notice of something that people should know of the line of the script that is being run. A machine that
