@@ -192,7 +192,7 @@ mod landscapes;
 #[test]
 fn landscapes_of_all_kinds_and_sizes_come_out_and_no_tree_stands_in_the_sea() {
     let mut trees = 0;
-    for seed in 1..=6 {
+    for seed in 1..=4 {
         for (kind, _) in landscapes::KINDS {
             for size in landscapes::SIZES {
                 trees += landscapes::check(kind, size, seed).unwrap_or_else(|what| panic!("{what}"));
