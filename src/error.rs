@@ -1,6 +1,14 @@
 //! What a person is told when something is wrong: where, in which rule, on which module, and what to do.
 
+use std::borrow::Cow;
 use std::fmt;
+
+use crate::text::escaped_lines;
+
+/// The characters of a message or a remedy that are told at most; more are left out in the middle.
+const LONGEST: usize = 2000;
+/// The same for the name of a rule and for a module.
+const LONGEST_NAME: usize = 500;
 
 /// The crate's result.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
@@ -12,6 +20,30 @@ pub struct Place {
     pub file: String,
     /// The line, counted from 1.
     pub line: usize,
+}
+
+/// The longest file (bytes) of which lines are shown, and the longest line (characters).
+const LARGEST: u64 = 16_000_000;
+const WIDEST: usize = 160;
+
+impl Place {
+    /// The lines from so many before it to so many after, each with its number. None if the file cannot be read, and if
+    /// the line itself is empty or not there.
+    pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {
+        let path = std::path::Path::new(&self.file);
+        let fits = |metadata: std::fs::Metadata| metadata.is_file() && metadata.len() <= LARGEST;
+        if !std::fs::metadata(path).is_ok_and(fits) {
+            return Vec::new();
+        }
+        let Ok(text) = std::fs::read_to_string(path) else { return Vec::new() };
+        let first = self.line.saturating_sub(before).max(1);
+        let lines = text.lines().enumerate().skip(first - 1).take(self.line + after + 1 - first);
+        let lines = lines.map(|(index, line)| (index + 1, line.trim_end().chars().take(WIDEST).collect()));
+        let lines: Vec<(usize, String)> = lines.collect();
+        let there =
+            lines.iter().any(|(number, line): &(usize, String)| *number == self.line && !line.is_empty());
+        if there { lines } else { Vec::new() }
+    }
 }
 
 impl fmt::Display for Place {
@@ -41,13 +73,26 @@ struct Parts {
     step: Option<usize>,
     help: Option<String>,
     more: Vec<Error>,
-    of_data: bool,
+    fault: Fault,
+}
+
+/// Who can mend what is wrong.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+enum Fault {
+    /// That is not known.
+    #[default]
+    Unknown,
+    /// Whoever made the data.
+    Data,
+    /// Whoever wrote the script.
+    Script,
 }
 
 impl Error {
     /// An error that says `message`, a clause without a full stop.
     pub fn new(message: impl fmt::Display) -> Self {
-        Self(Box::new(Parts { message: message.to_string(), ..Parts::default() }))
+        let message = shortened(&message.to_string(), LONGEST).into_owned();
+        Self(Box::new(Parts { message, ..Parts::default() }))
     }
 
     /// Several problems found in one go; `problems` is not empty.
@@ -72,34 +117,49 @@ impl Error {
     #[must_use]
     pub(crate) fn about(mut self, what: &str) -> Self {
         if !self.0.message.contains(what) {
-            self.0.message = format!("{what}: {}", self.0.message);
+            self.0.message = format!("{}: {}", shortened(what, LONGEST_NAME), self.0.message);
         }
+        self
+    }
+
+    /// Adds `what` in brackets to the message.
+    #[must_use]
+    pub(crate) fn noting(mut self, what: &str) -> Self {
+        self.0.message = format!("{} ({what})", self.0.message);
         self
     }
 
     /// Says which feature was being read when it happened.
     #[must_use]
-    pub(crate) fn feature(mut self, id: &str) -> Self {
-        self.0.message = format!("{} (feature {id})", self.0.message);
-        self
+    pub(crate) fn feature(self, id: &str) -> Self {
+        self.noting(&format!("feature {id}"))
     }
 
     /// Says that the data is at fault: what a feature holds cannot be built, whatever the script does with it.
     #[must_use]
     pub fn of_data(mut self) -> Self {
-        self.0.of_data = true;
+        if self.0.fault == Fault::Unknown {
+            self.0.fault = Fault::Data;
+        }
+        self
+    }
+
+    /// Says that the script is at fault, whatever the data holds, and not the data.
+    #[must_use]
+    pub fn of_script(mut self) -> Self {
+        self.0.fault = Fault::Script;
         self
     }
 
     /// Whether the data is at fault, and not the script: then a run may leave the feature out and go on.
     pub fn is_of_data(&self) -> bool {
-        self.0.of_data
+        self.0.fault == Fault::Data
     }
 
     /// Says what to do about it.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {
-        self.0.help.get_or_insert_with(|| help.to_string());
+        self.0.help.get_or_insert_with(|| shortened(&help.to_string(), LONGEST).into_owned());
         self
     }
 
@@ -124,7 +184,7 @@ impl Error {
     /// Names the rule, unless it is named already.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {
-        self.0.rule.get_or_insert_with(|| rule.to_string());
+        self.0.rule.get_or_insert_with(|| shortened(&rule.to_string(), LONGEST_NAME).into_owned());
         self
     }
 
@@ -132,7 +192,7 @@ impl Error {
     #[must_use]
     pub fn module(mut self, module: impl fmt::Display, step: usize) -> Self {
         if self.0.module.is_none() {
-            self.0.module = Some(module.to_string());
+            self.0.module = Some(shortened(&module.to_string(), LONGEST_NAME).into_owned());
             self.0.step = Some(step);
         }
         self
@@ -208,7 +268,10 @@ impl Error {
         if let Some(help) = &parts.help {
             text += &format!("\n  help: {help}");
         }
-        text
+        match escaped_lines(&text) {
+            Cow::Borrowed(_) => text,
+            Cow::Owned(escaped) => escaped,
+        }
     }
 }
 
@@ -226,8 +289,32 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// `text`, without its middle where it has more than `most` characters: how long it is stands in its place.
+pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+    // A text has at least as many bytes as characters.
+    if text.len() <= most {
+        return Cow::Borrowed(text);
+    }
+    let count = text.chars().count();
+    let half = most / 2;
+    let begin = text.char_indices().nth(half).map(|(at, _)| at);
+    let end = text.char_indices().nth_back(half.saturating_sub(1)).map(|(at, _)| at);
+    match (begin, end) {
+        (Some(begin), Some(end)) if count > most => {
+            Cow::Owned(format!("{}... ({count} characters in all) ...{}", &text[..begin], &text[end..]))
+        }
+        _ => Cow::Borrowed(text),
+    }
+}
+
+/// Characters that a misspelt name may have: a longer one is no name at all, and comparing it takes long.
+const LONGEST_NEAR: usize = 100;
+
 /// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_NEAR {
+        return None;
+    }
     let lower = name.to_lowercase();
     // Every name of one letter is one letter away from every other.
     let limit = match name.chars().count() {
@@ -280,6 +367,18 @@ mod tests {
           module: Slab(NaN), step 2
           help: give a finite length
         ");
+    }
+
+    #[test]
+    fn a_long_text_is_told_without_its_middle() {
+        assert_eq!(shortened("0123456789", 10), "0123456789");
+        assert_eq!(shortened("0123456789a", 10), "01234... (11 characters in all) ...6789a");
+        assert_eq!(shortened("äöüäöü", 6), "äöüäöü");
+        assert_eq!(shortened("äöüßéñø", 4), "äö... (7 characters in all) ...ñø");
+        let long = "ä".repeat(20_000_000);
+        let error = Error::new(&long).help(&long).rule(&long).module(&long, 1).feature(&long).about(&long);
+        assert!(error.to_string().len() < 20_000 && error.to_json().to_string().len() < 20_000);
+        assert!(error.message().contains("20000000 characters in all"), "{error}");
     }
 
     #[test]

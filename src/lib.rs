@@ -12,7 +12,9 @@
 //!
 //! Each stage is a folder, and uses only those before it:
 //!
-//! - [`error`]: what a person is told when something is wrong.
+//! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
+//!   can be meant; [`Stop`] ends work that nobody waits for.
+//! - [`Budget`]: what reading foreign bytes may take, and [`text`]: how foreign words are shown.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
@@ -70,9 +72,11 @@
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
+mod budget;
 pub mod derive;
 pub mod error;
 pub mod export;
+mod files;
 pub mod geometry;
 mod interpret;
 #[cfg(feature = "live")]
@@ -87,10 +91,16 @@ mod run;
 pub mod scene;
 pub mod script;
 pub mod sources;
+mod stop;
 pub mod terrain;
+pub mod text;
 pub mod trace;
 pub mod variations;
+pub mod warning;
 pub mod watch;
 
+pub use budget::{Budget, Held};
 pub use error::{Error, Result};
-pub use run::{Run, RunTimes, check, run, run_session};
+pub use run::{Check, Run, RunTimes, check, run, run_session};
+pub use stop::Stop;
+pub use warning::{Warning, WarningKind};

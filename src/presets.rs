@@ -15,7 +15,7 @@
 //! A file that is not of this form is refused, and never written over.
 
 use std::fmt;
-use std::io::{Read, Write as _};
+use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use rustc_hash::FxHashSet;
@@ -26,6 +26,7 @@ use serde_json::{Map, Number, Value};
 use crate::error::{Error, Place, Result, nearest};
 use crate::export;
 use crate::script::{Preset, Setting};
+use crate::watch::settled;
 
 /// The most (bytes) that a file of presets may have.
 const LARGEST: u64 = 16_000_000;
@@ -49,23 +50,27 @@ impl Presets {
     /// The presets of `script`; none if there is no file. Fails, with the line, on a file that cannot be understood.
     pub fn read(script: &Path) -> Result<Self> {
         let path = Self::path_of(script);
-        let mut text = String::new();
-        let read = std::fs::File::open(&path)
-            .and_then(|file| file.take(LARGEST + 1).read_to_string(&mut text).map(|_| ()));
-        match read {
+        settled(&path, || Self::read_once(&path))
+    }
+
+    fn read_once(path: &Path) -> Result<Self> {
+        let path = path.to_path_buf();
+        let cannot = |why: &dyn std::fmt::Display| {
+            Error::new(format!("cannot read the presets in {}: {why}", path.display()))
+                .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
+        };
+        let bytes = match crate::files::read(&path, LARGEST) {
+            Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return Ok(Self { path, presets: Vec::new() });
             }
-            Err(error) => {
-                return Err(Error::new(format!("cannot read the presets in {}: {error}", path.display()))
-                    .help("presets are a JSON file that Burgeon can read; move that away if it is something else"));
-            }
-            Ok(()) if text.len() as u64 > LARGEST => {
+            Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
                 return Err(Error::new(format!("{} is too large for presets", path.display()))
                     .help(format!("presets have at most {LARGEST} bytes; move that file away")));
             }
-            Ok(()) => {}
-        }
+            Err(error) => return Err(cannot(&error)),
+        };
+        let text = String::from_utf8(bytes).map_err(|_| cannot(&"stream did not contain valid UTF-8"))?;
         let presets = File { name: path.display().to_string(), text: &text }.presets()?;
         Ok(Self { path, presets })
     }
@@ -128,12 +133,7 @@ impl Presets {
             object.insert("params".into(), Value::Object(params.collect()));
             file.insert(preset.name.clone(), object.into());
         }
-        // What a link points at is replaced, not the link.
-        let path = match self.path.canonicalize() {
-            Ok(target) if self.path.is_symlink() => target,
-            _ => self.path.clone(),
-        };
-        export::write_file(&path, |out| writeln!(out, "{:#}", Value::Object(file)))
+        export::write_file(&self.path, |out| writeln!(out, "{:#}", Value::Object(file)))
     }
 }
 

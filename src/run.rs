@@ -10,6 +10,8 @@ use crate::error::{Error, Result};
 use crate::scene::Scene;
 use crate::script::{Machine, Options, Param, Session, Watchdog};
 use crate::sources::Frame;
+use crate::text::shown;
+use crate::warning::{Warning, WarningKind};
 
 /// What a run of a script gave.
 pub struct Run {
@@ -21,6 +23,8 @@ pub struct Run {
     pub params: Vec<Param>,
     /// The projection and the origin of its data, if it has any.
     pub frame: Option<Frame>,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
     /// Where the time went.
     pub times: RunTimes,
 }
@@ -34,16 +38,15 @@ impl Run {
         }
         report
     }
+}
 
-    /// What people should know of how things were made, each with its place.
-    pub fn warnings(&self) -> Vec<String> {
-        let of = |system: &Arc<Derived>| {
-            let place = system.place.as_ref().map(|place| format!("{place}: ")).unwrap_or_default();
-            let warnings = system.objects.first().map(|object| object.warnings()).unwrap_or_default();
-            warnings.into_iter().map(move |warning| format!("{place}{warning}")).collect::<Vec<_>>()
-        };
-        self.systems.iter().flat_map(of).collect()
-    }
+/// What a script declares, without deriving anything.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// Its parameters.
+    pub params: Vec<Param>,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
 }
 
 /// Where the time of a run went.
@@ -93,13 +96,51 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
         };
         shown.map_err(|error| error.rather_at(place))?;
     }
+    systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
     find_textures(&mut scene, session)?;
     times.scene = begin.elapsed();
-    Ok(Run { scene, systems, params, frame: session.data.frame(), times })
+    if let Some(warning) = emptiness(session, &scene, &systems) {
+        session.warn(warning);
+    }
+    let warnings = session.warnings();
+    if session.options.strict && !warnings.is_empty() {
+        return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
+    }
+    Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
 }
 
-/// Reads the script and everything it requires, compiles every rule, and tells all problems at once.
-pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
+/// The warning for a model of drawing objects that is empty, unless someone has asked to see less of it.
+fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
+    let mut drawing = systems.iter().filter(|system| system.draws);
+    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
+    let whole = session.options.steps.is_none() && session.options.lod == Options::default().lod;
+    if scene.triangles() > 0 || !whole {
+        return None;
+    }
+    let tells = |warning: &Warning| {
+        use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
+        matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
+    };
+    let help = if session.warnings().iter().any(tells) {
+        "another warning tells why"
+    } else if systems.iter().any(|system| system.is_placed()) {
+        "a system that another one is to place is not shown by itself: see that it is placed"
+    } else if drawing.objects.is_empty() {
+        "its source has no features"
+    } else if drawing.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0) {
+        "its interpretations draw nothing: see that lengths and scales are above 0"
+    } else if drawing.steps == 0 {
+        "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
+    } else {
+        "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
+    };
+    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
+    Some(warning.at(drawing.place.clone()).help(help))
+}
+
+/// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
+/// run would end with are among them if it is to be strict.
+pub fn check(path: &Path, options: Options) -> Result<Check> {
     let session = Session::new(path, Options { check: true, ..options })?;
     let mut found = Vec::new();
     let ran = declare_with(&session, &mut found);
@@ -117,8 +158,15 @@ pub fn check(path: &Path, options: Options) -> Result<Vec<Param>> {
     if let Err(error) = refuse_unknown(&session, &session.params()) {
         problems.push(error);
     }
+    let warnings = session.warnings();
+    if session.options.strict {
+        problems.extend(warnings.iter().cloned().map(Warning::into_error));
+    }
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
-    if problems.is_empty() { Ok(session.params()) } else { Err(Error::several(problems)) }
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    Ok(Check { params: session.params(), warnings })
 }
 
 /// A machine for a session's script, which is read in the meantime.
@@ -170,6 +218,21 @@ pub(crate) fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
     }
 }
 
+/// Which features of a system were left out, and why; those that its source has told of are not counted.
+fn left_out(system: &Derived) -> Option<Warning> {
+    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
+    let first = skipped.next()?;
+    let (count, why) = (1 + skipped.count(), &first.why);
+    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
+    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
+    let text = match count {
+        1 => format!("left out feature{id}{source}: {why}"),
+        _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
+    };
+    let warning = Warning::new(WarningKind::Data, text).at(system.place.clone());
+    Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
+}
+
 /// Turns the textures' names into files within the script's folder.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
@@ -185,6 +248,10 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
             return Err(Error::new(format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
+        crate::files::open(&path).map_err(|error| {
+            Error::new(format!("the texture {shown} cannot be read: {error}"))
+                .help("textures are PNG or JPEG files beside the script")
+        })?;
         texture.path = path;
     }
     Ok(())

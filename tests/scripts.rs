@@ -101,6 +101,50 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
     }
 }
 
+/// The files that a model at `path` names, by what stands before and after their names.
+fn files_of(path: &Path, before: &str, after: &str) -> Vec<String> {
+    let text = fs::read_to_string(path).unwrap();
+    let names = text.split(before).skip(1).filter_map(|rest| rest.split_once(after));
+    names.map(|(name, _)| name.replace("%20", " ")).collect()
+}
+
+#[test]
+fn every_script_writes_every_format_of_models_and_all_files_that_these_name() {
+    let mut scripts = runnable();
+    scripts.push(root().join("examples/village.lua"));
+    let mut textures = 0;
+    for script in scripts {
+        let shown = script.display();
+        let run = run(&script, 2);
+        let folder = tempfile::tempdir().unwrap();
+        for format in ["glb", "gltf", "obj"] {
+            let path = folder.path().join(format!("a model.{format}"));
+            export::write(&run.scene, &path, &Picture::default())
+                .unwrap_or_else(|error| panic!("{shown} as .{format}: {error}"));
+            assert!(fs::metadata(&path).unwrap().len() > 0, "{shown}");
+        }
+        let mut named = files_of(&folder.path().join("a model.gltf"), "\"uri\":\"", "\"");
+        named.extend(files_of(&folder.path().join("a model.obj"), "mtllib ", "\n"));
+        let images = files_of(&folder.path().join("a_model.mtl"), "map_Kd ", "\n");
+        textures += images.len();
+        for file in named.iter().chain(&images) {
+            let length = fs::metadata(folder.path().join(file)).map(|meta| meta.len());
+            assert!(length.is_ok_and(|length| length > 0), "{shown}: there is no file {file:?}");
+        }
+    }
+    assert!(textures > 20, "{textures} images");
+}
+
+#[test]
+fn the_town_takes_few_bytes_for_a_triangle_that_it_stores() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = run(&root().join("scripts/town.lua"), 2);
+    let bytes = glb(&run, folder.path()).len();
+    let stored: usize = run.scene.meshes.iter().map(|mesh| mesh.triangles()).sum();
+    // Every corner of every face by itself, with a normal, would take 60.
+    assert!(stored > 200_000 && bytes < 27 * stored, "{bytes} bytes for {stored} triangles");
+}
+
 #[test]
 fn every_script_gives_the_same_bytes_for_one_thread_and_for_two() {
     let folder = tempfile::tempdir().unwrap();
@@ -150,6 +194,22 @@ fn the_readme_names_every_object_its_fields_and_its_methods() {
             assert!(words.contains(name), "{}: {name} is not in README.md", kind.name);
         }
     }
+}
+
+#[path = "terrain/landscapes.rs"]
+mod landscapes;
+
+#[test]
+fn landscapes_of_all_kinds_and_sizes_come_out_and_no_tree_stands_in_the_sea() {
+    let mut trees = 0;
+    for seed in 1..=4 {
+        for (kind, _) in landscapes::KINDS {
+            for size in landscapes::SIZES {
+                trees += landscapes::check(kind, size, seed).unwrap_or_else(|what| panic!("{what}"));
+            }
+        }
+    }
+    assert!(trees > 10_000, "{trees} trees");
 }
 
 #[test]

@@ -20,15 +20,23 @@ impl Check {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let params = burgeon::check(&self.script.script, self.script.options()?)?;
+        let burgeon::Check { params, warnings } =
+            burgeon::check(&self.script.script, self.script.options()?)?;
         if self.script.json {
             let params: Vec<_> = params
                 .iter()
                 .map(|param| json!({ "name": param.name, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.text }))
                 .collect();
-            report::print(&format!("{}\n", json!({ "ok": true, "params": params })));
+            let warnings = report::warnings_json(&warnings);
+            report::print(&format!("{}\n", json!({ "ok": true, "params": params, "warnings": warnings })))?;
         } else {
-            report::eprint(&format!("{} is fine\n", self.script.script.display()));
+            let script = self.script.script.display();
+            report::eprint(&report::warnings(&warnings));
+            report::eprint(&match warnings.len() {
+                0 => format!("{script} is fine\n"),
+                1 => format!("{script} has 1 warning\n"),
+                count => format!("{script} has {count} warnings\n"),
+            });
             for param in params {
                 let unit = if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) };
                 let text = if param.text.is_empty() { String::new() } else { format!("  {}", param.text) };

@@ -12,7 +12,7 @@ use burgeon::derive::grouped;
 use burgeon::export;
 use burgeon::sources::elevation::{Raster, Wanted};
 use burgeon::terrain::fit::{Fitted, Search, Target};
-use burgeon::{Error, Result};
+use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;
 
@@ -40,9 +40,9 @@ pub(crate) struct Fit {
     #[arg(long, value_name = "N", value_parser = whole::<u64>, default_value_t = 0, allow_negative_numbers = true)]
     seed: u64,
 
-    /// Stops after this time, with the best that was found
-    #[arg(long, value_name = "SECONDS", value_parser = seconds, default_value_t = 60.0, allow_negative_numbers = true)]
-    seconds: f64,
+    /// Stops after this time, with the best that was found [default: 60, or no such limit with --rounds]
+    #[arg(long, value_name = "SECONDS", value_parser = seconds, allow_negative_numbers = true)]
+    seconds: Option<f64>,
 
     /// Stops after N rounds, so that the result does not depend on the time [default: no such limit]
     #[arg(long, value_name = "N", value_parser = whole::<usize>, allow_negative_numbers = true)]
@@ -62,8 +62,11 @@ pub(crate) struct Fit {
     json: bool,
 }
 
-/// The best error so far, and how many tables were tried.
-type Best = Arc<Mutex<Option<(f64, usize)>>>;
+/// How long (s) the search takes if nothing says when it ends.
+const SECONDS: f64 = 60.0;
+
+/// How far the search is: the rounds that are over, and the best error with how many tables were tried.
+type Best = Arc<Mutex<(usize, Option<(f64, usize)>)>>;
 
 impl Fit {
     pub(crate) fn json(&self) -> bool {
@@ -83,7 +86,7 @@ impl Fit {
             // Either it is written or it takes too long.
             let _ = done.lock().unwrap_or_else(PoisonError::into_inner).recv_timeout(PATIENCE);
         })?;
-        let fitted = self.search(&target, begin, &over)?;
+        let (fitted, late) = self.search(&target, begin, &over)?;
         let text = fitted.module(&[
             format!("{}: fitted to {}.", MARK.trim_start_matches("--!strict\n-- "), self.target),
             format!(
@@ -93,26 +96,33 @@ impl Fit {
             ),
         ]);
         export::write_file(&self.output, |out| out.write_all(text.as_bytes()))?;
-        self.tell(&fitted, begin.elapsed());
+        let told = self.tell(&fitted, begin.elapsed(), late);
         // Nobody waits, unless there was an interrupt.
         let _ = written.send(());
-        Ok(())
+        told
     }
 
-    fn search(&self, target: &Target, begin: Instant, over: &AtomicBool) -> Result<Fitted> {
-        let limit = Duration::from_secs_f64(self.seconds);
+    /// The best table, and after how many rounds the time ended the search, if it did before --rounds.
+    fn search(&self, target: &Target, begin: Instant, over: &AtomicBool) -> Result<(Fitted, Option<usize>)> {
+        // Where the rounds end it, the result is the same on every machine, however long they take.
+        let limit = self.seconds.or(self.rounds.is_none().then_some(SECONDS)).map(Duration::from_secs_f64);
         let best = Best::default();
         let shown = Arc::clone(&best);
+        let rounds = self.rounds;
         let message = move || {
-            message(
-                *shown.lock().unwrap_or_else(PoisonError::into_inner),
-                limit.saturating_sub(begin.elapsed()),
-            )
+            let left = limit.map(|limit| limit.saturating_sub(begin.elapsed()));
+            message(*shown.lock().unwrap_or_else(PoisonError::into_inner), left, rounds)
         };
         let _progress = Progress::saying(message, !self.json);
-        let stop = || over.load(Ordering::Acquire) || begin.elapsed() >= limit;
+        let late = AtomicBool::new(false);
+        let stop = || {
+            let ended = limit.is_some_and(|limit| begin.elapsed() >= limit);
+            late.fetch_or(ended, Ordering::AcqRel);
+            ended || over.load(Ordering::Acquire)
+        };
         let mut tell = |fitted: &Fitted| {
-            *best.lock().unwrap_or_else(PoisonError::into_inner) = Some((fitted.error(), fitted.tried));
+            let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
+            *best = (best.0 + 1, Some((fitted.error(), fitted.tried)));
         };
         let search = Search {
             seed: self.seed,
@@ -124,7 +134,11 @@ impl Fit {
         let pool = pool.map_err(|error| {
             Error::new(format!("cannot start threads: {error}")).help("use fewer: --threads 1")
         })?;
-        Ok(pool.install(|| search.run(target, &stop, &mut tell)))
+        let fitted = pool.install(|| search.run(target, &stop, &mut tell));
+        // The round in which the time ended it is not whole.
+        let whole = best.lock().unwrap_or_else(PoisonError::into_inner).0.saturating_sub(1);
+        let late = late.into_inner() && self.rounds.is_some();
+        Ok((fitted, late.then_some(whole)))
     }
 
     /// Refuses, before any work, a file that could not be written when it is done, and one that holds something else.
@@ -135,7 +149,7 @@ impl Fit {
             return Err(Error::new(format!("cannot write {shown}: it is a folder"))
                 .help(format!("name a file in it, such as {}", path.join("rules.lua").display())));
         }
-        export::check_file(path)?;
+        export::check_files([path.as_path()])?;
         if !path.is_file() {
             return Ok(());
         }
@@ -151,7 +165,13 @@ impl Fit {
         Ok(())
     }
 
-    fn tell(&self, fitted: &Fitted, elapsed: Duration) {
+    fn tell(&self, fitted: &Fitted, elapsed: Duration, late: Option<usize>) -> Result<()> {
+        let warning = late.map(|whole| {
+            let asked = self.rounds.unwrap_or_default();
+            format!(
+                "--seconds ended the search after {whole} of {asked} rounds, so its result depends on the machine"
+            )
+        });
         if self.json {
             let document = json!({
                 "ok": true,
@@ -161,9 +181,9 @@ impl Fit {
                 "symbols": fitted.symbols(),
                 "tried": fitted.tried,
                 "seconds": elapsed.as_secs_f64(),
+                "warnings": warning.into_iter().collect::<Vec<_>>(),
             });
-            report::print(&format!("{document}\n"));
-            return;
+            return report::print(&format!("{document}\n"));
         }
         report::eprint(&format!(
             "{}: root mean square error {:.4} with {} symbols, of {} tables tried; {} in all\n",
@@ -173,6 +193,10 @@ impl Fit {
             grouped(fitted.tried),
             report::time(elapsed)
         ));
+        if let Some(warning) = warning {
+            report::eprint(&format!("warning: {warning}\n  help: leave --seconds out\n"));
+        }
+        Ok(())
     }
 }
 
@@ -194,13 +218,19 @@ fn target(name: &str) -> Result<Target> {
         bounds: placeless.then_some([0.0, 0.0, 1.0, 1.0]),
         ..Wanted::default()
     };
-    let raster = Raster::open(path, name, &wanted)?;
+    let raster = Raster::open(path, name, &wanted, &Budget::default())?;
     let heights: Vec<f64> = raster.heights.iter().map(|height| f64::from(*height)).collect();
     Target::resample(raster.columns, raster.rows, &heights, ACROSS)
 }
 
-fn message(best: Option<(f64, usize)>, left: Duration) -> String {
-    let left = format!("{} s left", left.as_secs());
+fn message(
+    (round, best): (usize, Option<(f64, usize)>),
+    left: Option<Duration>,
+    rounds: Option<usize>,
+) -> String {
+    let round = rounds.map(|rounds| format!("round {} of {rounds}", (round + 1).min(rounds)));
+    let left = left.map(|left| format!("{} s left", left.as_secs()));
+    let left = round.into_iter().chain(left).collect::<Vec<_>>().join(", ");
     match best {
         Some((error, tried)) => format!("error {error:.4}, {} tables tried, {left}", grouped(tried)),
         None => format!("the first tables, {left}"),

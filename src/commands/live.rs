@@ -33,7 +33,7 @@ pub(crate) struct Serve {
     #[arg(long, value_name = "COMMAND", value_parser = editor, help_heading = "Page")]
     editor: Option<Editor>,
 
-    /// The secret part of the address, to keep it across restarts
+    /// The secret part of the address, in the place of the one that is kept for the port
     #[arg(long, value_name = "HEX", value_parser = token, hide = true)]
     token: Option<Token>,
 }
@@ -49,12 +49,11 @@ impl Serve {
             // The other end waits for one interrupt only.
             let _ = interrupt.send(());
         })?;
-        let token = self.token.clone().map_or_else(Token::random, Ok)?;
         let live = Live::start(Settings {
             script: self.script.script.clone(),
             options: self.script.options()?,
             port: self.port,
-            token: token.clone(),
+            token: self.token.clone(),
             editor: self.editor.clone(),
             tell: Box::new(tell),
         })?;
@@ -62,10 +61,10 @@ impl Serve {
         if self.script.json {
             report::print(&format!(
                 "{}\n",
-                json!({ "address": address, "port": port, "token": token.as_str() })
-            ));
+                json!({ "address": address, "port": port, "token": live.token().as_str() })
+            ))?;
         } else {
-            report::print(&format!("{address}\n"));
+            report::print(&format!("{address}\n"))?;
             report::eprint("the address is secret, for whoever has it can set parameters; Ctrl-C ends\n");
         }
         if self.port.is_none() && port != PORT {
@@ -92,6 +91,7 @@ fn tell(told: &Told) {
             report::time(*total)
         )),
         Told::Failed(error) => report::error(error, false),
+        Told::Warning(warning) => report::eprint(&report::warnings([warning])),
         Told::Waiting(text) | Told::Note(text) => report::eprint(&format!("{text}\n")),
     }
 }

@@ -1,13 +1,15 @@
 //! `burgeon sources`: what data files hold.
 
 use std::path::PathBuf;
+use std::time::Duration;
 
 use burgeon::sources::Listing;
-use burgeon::{Error, Result};
+use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;
 
 use super::report;
+use super::shared::{megabytes, seconds};
 
 /// Lists the layers of data files, with their attributes, coordinate systems and extents
 #[derive(Args)]
@@ -15,6 +17,16 @@ pub(crate) struct Sources {
     /// GeoJSON files and GeoPackages
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
+
+    /// Stops after this time
+    #[arg(long, value_name = "SECONDS", default_value_t = 300.0, value_parser = seconds,
+          allow_negative_numbers = true, help_heading = "Limits")]
+    time_limit: f64,
+
+    /// Memory that reading may take
+    #[arg(long, value_name = "MEGABYTES", default_value_t = 2048, value_parser = megabytes,
+          allow_negative_numbers = true, help_heading = "Limits")]
+    memory_limit: u32,
 
     /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
@@ -28,8 +40,10 @@ impl Sources {
 
     pub(crate) fn run(&self) -> Result<()> {
         let (mut listings, mut problems): (Vec<Listing>, Vec<Error>) = (Vec::new(), Vec::new());
+        let time = Duration::from_secs_f64(self.time_limit);
+        let budget = Budget::within(time, self.memory_limit as usize * 1_000_000);
         for file in &self.files {
-            match Listing::read(file) {
+            match Listing::read(file, &budget) {
                 Ok(listing) => listings.push(listing),
                 Err(error) => problems.push(error),
             }
@@ -39,10 +53,10 @@ impl Sources {
         }
         if self.json {
             let files: Vec<_> = listings.iter().map(Listing::to_json).collect();
-            report::print(&format!("{}\n", json!({ "ok": true, "files": files })));
+            report::print(&format!("{}\n", json!({ "ok": true, "files": files })))?;
         } else {
             for listing in &listings {
-                report::print(&listing.text());
+                report::print(&listing.text())?;
             }
         }
         Ok(())

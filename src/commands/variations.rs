@@ -7,13 +7,13 @@ use std::time::Instant;
 use burgeon::export::{self, Format};
 use burgeon::picture::{Picture, Quality};
 use burgeon::variations::{Cell, Framing, Over, Sheet, Variations as Cells, sheet};
-use burgeon::{Error, Result};
+use burgeon::{Error, Result, Warning};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
 use super::progress::Progress;
 use super::report;
-use super::shared::{PictureFlags, ScriptFlags, size};
+use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 
 /// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
 #[derive(Args)]
@@ -65,7 +65,8 @@ impl Variations {
 
     pub(crate) fn run(&self) -> Result<()> {
         let begin = Instant::now();
-        export::check_writable(&self.output)?;
+        end_on_interrupt()?;
+        export::check_files([self.output.as_path()])?;
         let options = self.script.options()?;
         let over = self.seeds.as_ref().or(self.sweep.as_ref());
         let over = over.ok_or_else(|| Error::new("give --seeds or --sweep"))?;
@@ -108,7 +109,7 @@ impl Variations {
                 "cells": told,
                 "seconds": { "total": seconds },
             });
-            report::print(&format!("{document}\n"));
+            report::print(&format!("{document}\n"))?;
         } else {
             self.tell(&cells, &layout, begin);
         }
@@ -122,6 +123,17 @@ impl Variations {
                 report::error(error, false);
             }
         }
+        // Most cells have the same ones.
+        let mut warnings: Vec<&Warning> = Vec::new();
+        for warning in cells.iter().filter_map(|cell| cell.made.as_ref().ok()).flat_map(|made| &made.warnings)
+        {
+            let same =
+                |known: &&Warning| known.place() == warning.place() && known.message() == warning.message();
+            if !warnings.iter().any(same) {
+                warnings.push(warning);
+            }
+        }
+        report::eprint(&report::warnings(warnings));
         let failed = cells.iter().filter(|cell| cell.made.is_err()).count();
         let failed = if failed > 0 { format!(", {failed} of them failed") } else { String::new() };
         report::eprint(&format!(
@@ -177,6 +189,7 @@ fn cell_json(cell: &Cell) -> serde_json::Value {
             object["params"] = report::params_json(&made.params);
             object["modules"] = made.modules.into();
             object["triangles"] = made.triangles.into();
+            object["warnings"] = report::warnings_json(&made.warnings);
         }
         Err(error) => object["errors"] = error.problems().map(Error::to_json).collect(),
     }

@@ -7,7 +7,7 @@ use super::Plan;
 use super::group::{Arranged, Group};
 use super::output::Output;
 use crate::error::{Error, Result};
-use crate::rules::{Bindings, Chain, Links, Mark, module_text};
+use crate::rules::{Around, Bindings, Chain, Links, Mark, module_brief};
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.
@@ -63,6 +63,12 @@ impl Batch<'_> {
         Ok(Output { applied, ..self.splice(piece, scratch, spare) })
     }
 
+    /// The contexts of the chain's modules.
+    #[inline]
+    pub(super) fn around(&self) -> Around<'_> {
+        Around { chain: self.chain, links: self.links, grammar: &self.plan.grammar }
+    }
+
     /// Writes the arguments of `rule` for `members` into the machine's input column.
     pub(super) fn fill(&self, rule: u16, members: &[u32], scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
@@ -97,7 +103,7 @@ impl Batch<'_> {
             let left = declared.pattern.left.len();
             for index in members {
                 let active = scratch.active[*index as usize];
-                self.matches(rule, active.module as usize, &mut scratch.bindings);
+                self.around().bind(rule, active.module as usize, &mut scratch.bindings);
                 let at = active.param as usize;
                 for (place, item) in declared.contexts().iter().enumerate() {
                     if place == left {
@@ -130,10 +136,13 @@ impl Batch<'_> {
                 members.retain(|member| member < index);
             }
             let begin = Instant::now();
-            if !members.is_empty()
+            while !members.is_empty()
                 && let Err((index, error)) = self.run(narrow_rule(rule), &members, scratch)
             {
-                first = Some((index, error));
+                if let Err(error) = self.forgive(index, error, &mut members, scratch) {
+                    first = Some((index, error));
+                    break;
+                }
             }
             scratch.groups[rule].members = members;
             scratch.groups[rule].time = begin.elapsed();
@@ -155,7 +164,7 @@ impl Batch<'_> {
         let current = &self.machine.current;
         current.drawn.set(0);
         let (modules, bytes): (usize, usize) =
-            match self.declared.drivers[usize::from(rule)].call(members.len()) {
+            match self.machine.call(&self.declared.drivers[usize::from(rule)], members.len()) {
                 Ok(made) => made,
                 Err(error) => return Err(self.blame(error, rule, members, scratch)),
             };
@@ -167,6 +176,28 @@ impl Batch<'_> {
         read_column(counts, members.len(), &mut group.ends).map_err(plain)?;
         read_column(order, items, &mut group.order).map_err(plain)?;
         group.rewind();
+        Ok(())
+    }
+
+    /// Leaves the chain of application `index` out, whose data is at fault: its modules stay as they are, and it is no
+    /// more among `members`. Gives every other error back.
+    pub(super) fn forgive(
+        &self,
+        index: u32,
+        error: Error,
+        members: &mut Vec<u32>,
+        scratch: &mut Scratch,
+    ) -> Result<()> {
+        let Some(objects) = &self.plan.objects else { return Err(error) };
+        let chain = scratch.active[index as usize].chain;
+        objects.forgive(chain as usize, error)?;
+        members.retain(|member| {
+            let active = &mut scratch.active[*member as usize];
+            if active.chain == chain {
+                active.rule = NONE;
+            }
+            active.chain != chain
+        });
         Ok(())
     }
 
@@ -208,7 +239,7 @@ impl Batch<'_> {
         let symbol = self.chain.symbols[active.module as usize];
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[active.param as usize..][..arity];
-        let module = module_text(grammar.symbols(), &self.machine.session.values, symbol, params);
+        let module = module_brief(grammar.symbols(), &self.machine.session.values, symbol, params);
         let error = self
             .machine
             .translate(error)

@@ -1,10 +1,8 @@
 //! Chooses the rule of each module: by its contexts, its guard and its weight.
 
-use smallvec::SmallVec;
-
 use super::batch::{Active, Batch, NONE, Piece, Scratch, narrow};
-use crate::error::Result;
-use crate::rules::{Bindings, Choice, END};
+use crate::error::{Error, Result};
+use crate::rules::{Candidates, Choice, END, Symbol};
 use crate::script::read_column;
 
 impl Batch<'_> {
@@ -13,32 +11,30 @@ impl Batch<'_> {
         let grammar = &self.plan.grammar;
         let arities = grammar.arities();
         scratch.active.clear();
-        let mut any_guarded = false;
+        let mut guarded: Vec<u32> = Vec::new();
+        // Nothing more becomes of a chain that is left out.
+        let failing = self.plan.objects.as_ref().filter(|objects| objects.any_failed());
         let (mut param, mut chain) = (piece.begin.param, piece.begin.chain);
         for module in piece.begin.module..piece.end {
             let symbol = self.chain.symbols[module];
             let rules = grammar.rules_of(symbol);
-            if !rules.is_empty() {
-                let mut guarded = false;
+            if !rules.is_empty() && !failing.is_some_and(|objects| objects.has_failed(chain)) {
                 let mut active =
                     Active { module: narrow(module), param: narrow(param), chain: narrow(chain), rule: NONE };
                 match grammar.choice(symbol) {
                     Choice::Sole(rule) => active.rule = rule,
-                    Choice::Contexts => {
-                        active.rule = self.choose_unguarded(rules, module, &mut scratch.bindings)
-                    }
-                    Choice::Guards => guarded = true,
+                    Choice::Contexts => active.rule = self.choose_unguarded(rules, module),
+                    Choice::Guards => guarded.push(narrow(scratch.active.len())),
                 }
-                if active.rule != NONE || guarded {
+                if active.rule != NONE || grammar.choice(symbol) == Choice::Guards {
                     scratch.active.push(active);
-                    any_guarded |= guarded;
                 }
             }
             param += usize::from(arities[usize::from(symbol)]);
             chain += usize::from(symbol == END);
         }
-        if any_guarded {
-            self.choose_guarded(scratch)?;
+        if !guarded.is_empty() {
+            self.choose_guarded(guarded, scratch)?;
         }
         for group in &mut scratch.groups {
             group.members.clear();
@@ -51,101 +47,97 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Whether the contexts of `rule` are around `module`, and which modules they are.
-    pub(super) fn matches(&self, rule: u16, module: usize, bindings: &mut Bindings) -> bool {
-        let rule = &self.plan.grammar.rules()[usize::from(rule)];
-        rule.contexts().is_empty()
-            || rule.pattern.matches(self.chain, self.links, &self.plan.grammar, module, bindings)
-    }
-
-    fn choose_unguarded(&self, rules: &[u16], module: usize, bindings: &mut Bindings) -> u16 {
-        let mut weighted: SmallVec<[u16; 8]> = SmallVec::new();
-        for rule in rules {
-            let weight = self.plan.grammar.rules()[usize::from(*rule)].weight;
-            if (weight.is_none() && !weighted.is_empty()) || !self.matches(*rule, module, bindings) {
-                continue;
-            }
-            if weight.is_none() {
-                return *rule;
-            }
-            weighted.push(*rule);
-        }
-        self.draw(&weighted, module)
-    }
-
-    /// Draws one of the weighted candidates with the first number of the module's stream.
-    fn draw(&self, candidates: &[u16], module: usize) -> u16 {
-        let weight = |rule: u16| self.plan.grammar.rules()[usize::from(rule)].weight.unwrap_or(0.0);
-        let Some(last) = candidates.last() else { return NONE };
-        let total: f64 = candidates.iter().map(|rule| weight(*rule)).sum();
-        let mut left = self.chain.keys[module].stream().uniform() * total;
-        for rule in candidates {
-            left -= weight(*rule);
-            if left < 0.0 {
-                return *rule;
-            }
-        }
-        *last
-    }
-
-    /// Asks the guards, rule by rule, each about all modules that it may still decide.
-    fn choose_guarded(&self, scratch: &mut Scratch) -> Result<()> {
-        let grammar = &self.plan.grammar;
-        let mut weighted: Vec<SmallVec<[u16; 4]>> = vec![SmallVec::new(); scratch.active.len()];
-        let mut open: Vec<u32> = (0u32..)
-            .zip(&scratch.active)
-            .filter(|(_, active)| {
-                grammar.choice(self.chain.symbols[active.module as usize]) == Choice::Guards
-            })
-            .map(|(index, _)| index)
-            .collect();
-        for (rule, declared) in (0u16..).zip(grammar.rules()) {
-            let symbol = declared.pattern.predecessor.symbol;
-            if open.is_empty() || grammar.choice(symbol) != Choice::Guards {
-                continue;
-            }
-            let mut asked: Vec<u32> = Vec::new();
-            for index in &open {
-                let module = scratch.active[*index as usize].module as usize;
-                let late = declared.weight.is_none() && !weighted[*index as usize].is_empty();
-                if !late
-                    && self.chain.symbols[module] == symbol
-                    && self.matches(rule, module, &mut scratch.bindings)
-                {
-                    asked.push(*index);
+    fn choose_unguarded(&self, rules: &[u16], module: usize) -> u16 {
+        let mut candidates = Candidates::default();
+        for number in rules {
+            let rule = &self.plan.grammar.rules()[usize::from(*number)];
+            if candidates.admit(rule) && self.around().matches(*number, module) {
+                candidates.add(*number, rule);
+                if candidates.is_settled() {
+                    break;
                 }
             }
-            if declared.guarded {
-                asked = self.ask(rule, &asked, scratch)?;
-            }
-            if declared.weight.is_some() {
-                asked.iter().for_each(|index| weighted[*index as usize].push(rule));
-            } else {
-                asked.iter().for_each(|index| scratch.active[*index as usize].rule = rule);
-                open.retain(|index| scratch.active[*index as usize].rule == NONE);
-            }
         }
-        for index in open {
-            let active = &mut scratch.active[index as usize];
-            active.rule = self.draw(&weighted[index as usize], active.module as usize);
-        }
-        Ok(())
+        self.chosen(&candidates, module)
     }
 
-    /// The ones among `asked` for which the guard of `rule` holds.
-    fn ask(&self, rule: u16, asked: &[u32], scratch: &mut Scratch) -> Result<Vec<u32>> {
-        let Some(guard) = &self.declared.guards[usize::from(rule)] else { return Ok(asked.to_vec()) };
-        if asked.is_empty() {
-            return Ok(Vec::new());
+    /// The rule that is applied to `module`, or none.
+    #[inline]
+    fn chosen(&self, candidates: &Candidates, module: usize) -> u16 {
+        candidates.choose(|| self.chain.keys[module].stream()).unwrap_or(NONE)
+    }
+
+    /// Asks the guards of each symbol's rules, rule by rule, each about all modules that it may still decide.
+    ///
+    /// Of several errors the one that comes first in the chain is told.
+    fn choose_guarded(&self, mut open: Vec<u32>, scratch: &mut Scratch) -> Result<()> {
+        let grammar = &self.plan.grammar;
+        let symbol_of = |scratch: &Scratch, index: u32| -> Symbol {
+            self.chain.symbols[scratch.active[index as usize].module as usize]
+        };
+        open.sort_by_key(|index| symbol_of(scratch, *index));
+        let mut first: Option<(u32, Error)> = None;
+        let mut rest = open.as_slice();
+        while let Some(index) = rest.first() {
+            let symbol = symbol_of(scratch, *index);
+            let (members, others) =
+                rest.split_at(rest.partition_point(|index| symbol_of(scratch, *index) == symbol));
+            rest = others;
+            let mut candidates = vec![Candidates::default(); members.len()];
+            for number in grammar.rules_of(symbol) {
+                let rule = &grammar.rules()[usize::from(*number)];
+                let end = first.as_ref().map_or(u32::MAX, |(index, _)| *index);
+                let asked = members.iter().zip(&candidates).filter(|(index, candidates)| {
+                    let module = scratch.active[**index as usize].module as usize;
+                    **index < end && candidates.admit(rule) && self.around().matches(*number, module)
+                });
+                let mut holds: Vec<u32> = asked.map(|(index, _)| *index).collect();
+                if rule.guarded
+                    && let Some(failed) = self.ask(*number, &mut holds, scratch)?
+                {
+                    first = Some(failed);
+                }
+                let mut holds = holds.into_iter().peekable();
+                for (index, candidates) in members.iter().zip(&mut candidates) {
+                    if holds.next_if_eq(index).is_some() {
+                        candidates.add(*number, rule);
+                    }
+                }
+            }
+            for (index, candidates) in members.iter().zip(&candidates) {
+                let active = &mut scratch.active[*index as usize];
+                active.rule = self.chosen(candidates, active.module as usize);
+            }
         }
-        self.fill(rule, asked, scratch)?;
+        first.map_or(Ok(()), |(_, error)| Err(error))
+    }
+
+    /// Leaves those among `asked` for which the guard of `rule` holds. Where it fails, only those before that module,
+    /// which is returned with the error.
+    fn ask(&self, rule: u16, asked: &mut Vec<u32>, scratch: &mut Scratch) -> Result<Option<(u32, Error)>> {
+        let Some(guard) = &self.declared.guards[usize::from(rule)] else { return Ok(None) };
+        if asked.is_empty() {
+            return Ok(None);
+        }
         let prelude = self.machine.prelude();
-        let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
-        if let Err(error) = guard.call::<()>(asked.len()) {
-            return Err(self.blame(error, rule, asked, scratch).1);
+        let (counts, failed) = loop {
+            self.fill(rule, asked, scratch)?;
+            let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
+            let Err(error) = self.machine.call::<()>(guard, asked.len()) else { break (counts, None) };
+            let (index, error) = self.blame(error, rule, asked, scratch);
+            match self.forgive(index, error, asked, scratch) {
+                Err(error) => break (counts, Some((index, error))),
+                Ok(()) if asked.is_empty() => return Ok(None),
+                Ok(()) => {}
+            }
+        };
+        if let Some((index, _)) = &failed {
+            asked.retain(|asked| asked < index);
         }
         let mut holds: Vec<u32> = Vec::new();
         read_column(counts, asked.len(), &mut holds)?;
-        Ok(asked.iter().zip(holds).filter(|(_, holds)| *holds != 0).map(|(index, _)| *index).collect())
+        let mut holds = holds.into_iter();
+        asked.retain(|_| holds.next().is_some_and(|holds| holds != 0));
+        Ok(failed)
     }
 }

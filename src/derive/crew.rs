@@ -66,6 +66,11 @@ impl Crew {
         Self { done: RefCell::default(), role: RefCell::new(role) }
     }
 
+    /// Whether this is the part of the machine whose result counts.
+    pub(crate) fn leads(&self) -> bool {
+        matches!(&*self.role.borrow(), Role::Lead { .. })
+    }
+
     /// In a following machine: works for the leader until system `index` is derived, and returns the result.
     pub(crate) fn follow(&self, machine: &Machine, index: usize) -> Result<Option<Arc<Derived>>> {
         let (inbox, known) = match &*self.role.borrow() {

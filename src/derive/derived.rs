@@ -11,6 +11,7 @@ use crate::error::{Place, Result};
 use crate::objects::{Model, Object};
 use crate::rules::{Chain, Symbols, Values, chain_text, write_chains};
 use crate::scene::{Origin, Scene};
+use crate::warning::Warning;
 
 /// Where the time of a derivation went.
 #[derive(Debug, Clone, Copy, Default)]
@@ -62,6 +63,11 @@ pub struct Derived {
     pub given: usize,
     /// What could not be built as asked: features that got no chain, then the chains in their order.
     pub remarks: Vec<Remark>,
+    /// Whether it has an object that draws.
+    pub(crate) draws: bool,
+    /// What its chains hold that nothing draws; it counts unless the script reads the chains.
+    pub(crate) undrawn: Vec<Warning>,
+    read: AtomicBool,
     modules: usize,
     model: OnceLock<Arc<Model>>,
     placed: AtomicBool,
@@ -95,6 +101,9 @@ impl Derived {
             place,
             given: 0,
             remarks: Vec::new(),
+            draws: false,
+            undrawn: Vec::new(),
+            read: AtomicBool::new(false),
             modules,
             model: OnceLock::new(),
             placed: AtomicBool::new(false),
@@ -109,6 +118,17 @@ impl Derived {
     /// The chains as text, a line for each.
     pub fn chain_text(&self) -> String {
         chain_text(&self.chain, &self.symbols, &self.values)
+    }
+
+    /// The chains as text for the script, which may make of their modules what it likes.
+    pub(crate) fn read_chains(&self) -> String {
+        self.read.store(true, Ordering::Relaxed);
+        self.chain_text()
+    }
+
+    /// Whether the script has read its chains.
+    pub(crate) fn is_read(&self) -> bool {
+        self.read.load(Ordering::Relaxed)
     }
 
     /// Writes the chains as text, a line for each.

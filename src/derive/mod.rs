@@ -30,6 +30,7 @@ use crate::interpret::Interpreting;
 use crate::objects::Object;
 use crate::rules::{Chain, Grammar, Key};
 use crate::script::{Interpretations, Machine, Objects};
+use crate::warning::Warning;
 use cells::Cells;
 use step::Stepper;
 
@@ -90,14 +91,18 @@ impl Plan {
         })
     }
 
-    /// Has objects that expand by themselves do so.
-    fn grow(&self, cells: &Cells<'_>) -> Result<()> {
+    /// Has objects that expand by themselves do so; adds to `said` what they warn of.
+    fn grow(&self, cells: &Cells<'_>, said: &mut Vec<Warning>) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
         if !objects.read(0, |object| Ok(object.grows()))? {
             return Ok(());
         }
         for chain in (0..self.chains).filter(|chain| !objects.has_failed(*chain)) {
-            objects.write(chain, |object| object.grow(cells))?;
+            objects.write(chain, |object| {
+                object.grow(cells)?;
+                said.extend(object.take_warnings());
+                Ok(())
+            })?;
         }
         Ok(())
     }
@@ -127,6 +132,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let traced = options.trace.filter(|traced| traced.system == index);
     // What was declared since the last derivation holds as well.
     machine.current.system.set(None);
+    machine.library.systems.borrow()[index].note_derivation(machine);
     let (axiom, plan, declared) = {
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
@@ -151,11 +157,13 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             profiled: options.profile,
         };
         let declared = system.prepare(machine)?;
+        system.tell_forestalled(machine, &plan.grammar);
         (axiom, Arc::new(plan), declared)
     };
     let place = machine.library.systems.borrow()[index].place.clone();
-    let last_only = machine.library.systems.borrow()[index].last_only;
+    let last_only = machine.library.systems.borrow()[index].shows_last_only();
     let settled = machine.library.systems.borrow()[index].draws_afresh();
+    let draws = settled && machine.library.systems.borrow()[index].object.is_some();
     let limit = match (steps, options.steps) {
         (Some(a), Some(b)) => a.min(b),
         (Some(limit), None) | (None, Some(limit)) => limit,
@@ -179,15 +187,20 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         Trace::new(&plan, &session.values, place)
     });
     let mut interpretations = vec![Use::default(); plan.interpretations.list.len()];
+    let (mut first, mut said) = (Vec::new(), Vec::new());
     let mut interpret = |chain: Chain, step: usize, times: &mut Times| -> Result<Chain> {
         let begin = Instant::now();
-        let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations)?;
-        plan.grow(&cells)?;
+        if settled {
+            // What only earlier passes drew is gone.
+            said.clear();
+        }
+        let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations, &mut said)?;
+        plan.grow(&cells, &mut said)?;
         times.interpretation += begin.elapsed();
         Ok(chain)
     };
     if interprets {
-        plan.grow(&cells)?;
+        plan.grow(&cells, &mut first)?;
     }
     if interprets && !last_only {
         chain = interpret(chain, 0, &mut times)?;
@@ -219,6 +232,11 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     if interprets && last_only {
         chain = interpret(chain, done, &mut times)?;
     }
+    first.retain(|warning: &Warning| said.iter().all(|later| later.message() != warning.message()));
+    for warning in first.into_iter().chain(said) {
+        session.warn(warning.at(place.clone()));
+    }
+    let undrawn = machine.library.systems.borrow()[index].undrawn(&machine.library, &chain.symbols);
     let rules = reports(&plan, stepper.uses(), &interpretations);
     drop(stepper);
     drop(cells);
@@ -259,7 +277,8 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         rules,
         place,
     );
-    (derived.given, derived.remarks) = (axiom.given, axiom.remarks);
+    (derived.given, derived.remarks, derived.undrawn) = (axiom.given, axiom.remarks, undrawn);
+    derived.draws = draws;
     Ok(derived)
 }
 
@@ -294,8 +313,8 @@ fn reports(plan: &Plan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleRepor
         done: *done,
     });
     let interpretations =
-        plan.interpretations.list.iter().zip(interpretations).map(|((_, text, place), done)| RuleReport {
-            name: RuleName { text: text.clone(), place: place.clone() },
+        plan.interpretations.list.iter().zip(interpretations).map(|(known, done)| RuleReport {
+            name: RuleName { text: known.name.clone(), place: known.place.clone() },
             interprets: true,
             done: *done,
         });

@@ -21,19 +21,35 @@ pub struct Remark {
     pub what: String,
     /// Why, for this one alone; may be empty.
     pub why: String,
+    /// Whether it could not even be read, of which its source has warned.
+    pub unread: bool,
 }
 
 impl Remark {
     /// Nothing was built of a feature because of `error`.
     pub(crate) fn skipped(source: &str, feature: Option<&str>, error: &Error) -> Self {
         let (source, feature) = (source.to_owned(), feature.map(str::to_owned));
-        Self { source, feature, skipped: true, what: "skipped".to_owned(), why: error.message().to_owned() }
+        Self {
+            source,
+            feature,
+            skipped: true,
+            what: "skipped".to_owned(),
+            why: error.message().to_owned(),
+            unread: false,
+        }
     }
 
     /// What an object noted.
     pub(crate) fn simplified(source: &str, feature: Option<&str>, note: &Note) -> Self {
         let (source, feature) = (source.to_owned(), feature.map(str::to_owned));
-        Self { source, feature, skipped: false, what: note.what.clone(), why: note.why.clone() }
+        Self {
+            source,
+            feature,
+            skipped: false,
+            what: note.what.clone(),
+            why: note.why.clone(),
+            unread: false,
+        }
     }
 
     fn to_json(&self) -> serde_json::Value {

@@ -2,7 +2,8 @@
 
 use super::check::{Checked, named};
 use super::color::linear;
-use super::file::Files;
+use super::files::Files;
+use super::stem;
 use crate::error::{Error, Result};
 use crate::scene::Texture;
 use image::{ImageDecoder, ImageFormat, ImageReader};
@@ -56,20 +57,26 @@ impl Images {
         Ok(images)
     }
 
-    /// A file name for a copy of each image beside the export, such as `city_brick.png`.
+    /// A file name for a copy of each image beside the export at `main`, such as `city_brick.png`.
     ///
-    /// They begin with the stem of the export, differ from each other, and no source is overwritten.
-    pub(super) fn copy_names(&self, files: &Files) -> Vec<String> {
+    /// They begin with the stem of the export, differ from each other and from what else is among the `files`, and no
+    /// source is overwritten.
+    pub(super) fn copy_names(&self, main: &Path, files: &Files) -> Vec<String> {
         let place = |path: &Path| fs::canonicalize(path).ok();
         let sources: Vec<_> = self.files.iter().filter_map(|file| place(&file.path)).collect();
         let mut names: Vec<String> = Vec::new();
         for file in &self.files {
-            let stem = format!("{}_{}", files.stem(), file.stem());
+            let own = if file.content.is_some() { plain(&file.stem()) } else { file.stem() };
+            let stem = format!("{}_{own}", stem(main));
             let mut name = format!("{stem}.{}", file.extension());
             let mut count = 1;
-            while names.contains(&name)
-                || place(&files.sibling(&name)).is_some_and(|it| sources.contains(&it))
-            {
+            let is_taken = |name: &String| {
+                let path = main.with_file_name(name);
+                names.contains(name)
+                    || place(&path).is_some_and(|it| sources.contains(&it))
+                    || files.has(&path, &file.bytes) == Some(false)
+            };
+            while is_taken(&name) {
                 count += 1;
                 name = format!("{stem}_{count}.{}", file.extension());
             }
@@ -79,6 +86,9 @@ impl Images {
     }
 }
 
+/// The most bytes that an image file may have.
+const LARGEST: u64 = 1_000_000_000;
+
 impl ImageFile {
     fn read(texture: &Texture, material: &str) -> Result<Self> {
         let path = &texture.path;
@@ -87,7 +97,7 @@ impl ImageFile {
         };
         let bytes = match &texture.content {
             Some(content) => content.to_vec(),
-            None => fs::read(path).map_err(|error| {
+            None => crate::files::read(path, LARGEST).map_err(|error| {
                 refused(&error).help("correct the path, which starts at the script's folder")
             })?,
         };
@@ -104,7 +114,7 @@ impl ImageFile {
         Ok(Self { path: path.clone(), content, bytes, format, has_alpha })
     }
 
-    /// The file's name without folder and extension.
+    /// The file's name without folder and extension; all that it is called, of an image without a file.
     pub(super) fn stem(&self) -> String {
         if self.content.is_some() {
             return self.path.to_string_lossy().into_owned();
@@ -140,6 +150,17 @@ impl ImageFile {
     }
 }
 
+/// The most letters of an image's own name in that of its copy: systems of files take some 255 bytes in all.
+const LONGEST: usize = 48;
+
+/// What an image without a file is called, as every system takes it for the name of one: tiles are called by level,
+/// column and row.
+fn plain(name: &str) -> String {
+    let name = Path::new(name).with_extension("");
+    let letter = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '_' };
+    name.to_string_lossy().chars().take(LONGEST).map(letter).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::check::check;
@@ -168,8 +189,31 @@ mod tests {
             texture.path = own;
         }
         let images = Images::load(&check(&scene).unwrap()).unwrap();
-        let files = Files::beside(&folder.path().join("out.gltf")).unwrap();
-        assert_eq!(images.copy_names(&files), ["out_brick_2.png", "out_out_brick.png"]);
+        let main = folder.path().join("out.gltf");
+        assert_eq!(images.copy_names(&main, &Files::default()), ["out_brick_2.png", "out_out_brick.png"]);
+    }
+
+    #[test]
+    fn an_image_that_is_called_by_level_column_and_row_is_copied_under_a_name_for_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = samples::textured(folder.path());
+        let content: Arc<[u8]> = fs::read(folder.path().join("brick.png")).unwrap().into();
+        let long = "ä".repeat(300);
+        for (material, name) in
+            ["land 1 0/0/0.png", "a\\b: *?\"<>|\n.png", &format!("{long}.png")].into_iter().enumerate()
+        {
+            if let Some(texture) = &mut scene.materials[material].texture {
+                (texture.path, texture.content) = (name.into(), Some(content.clone()));
+            }
+        }
+        let images = Images::load(&check(&scene).unwrap()).unwrap();
+        let long = format!("out_{}.png", "ä".repeat(LONGEST));
+        let names = images.copy_names(&folder.path().join("out.gltf"), &Files::default());
+        assert_eq!(names[..2], ["out_land_1_0_0_0.png", "out_a_b_________.png"]);
+        assert!(names[2..].iter().all(|name| *name == long) && long.len() < 120, "{names:?}");
+        crate::export::write(&scene, &folder.path().join("out.obj"), &Default::default()).unwrap();
+        crate::export::write(&scene, &folder.path().join("out.gltf"), &Default::default()).unwrap();
+        assert!(names.iter().all(|name| folder.path().join(name).is_file()));
     }
 
     #[test]

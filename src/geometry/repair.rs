@@ -22,6 +22,9 @@ const ROUNDS: usize = 4;
 /// How far (m) from an edge that was given what stands for it lies.
 const ALONG: f64 = 0.02;
 
+/// How often the edges of rings may meet for each of them, their ends among it.
+const MEETINGS: usize = 8;
+
 /// What is said of a ring that crosses itself.
 const LOOPS: &str = "loops of the outer ring left out";
 
@@ -35,7 +38,8 @@ pub(super) struct Repaired {
     pub notes: Vec<&'static str>,
 }
 
-/// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan.
+/// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan, or
+/// if the rings meet so often that they are none.
 pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> {
     let known = |point: &DVec3| point.is_finite() && point.truncate().abs().max_element() <= MOST;
     if !given.iter().flatten().all(known) {
@@ -47,6 +51,9 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
     let middle = low.midpoint(high);
     let local: Vec<Vec<DVec2>> =
         given.iter().map(|ring| ring.iter().map(|point| point.truncate() - middle).collect()).collect();
+    if meets_too_often(&local) {
+        return None;
+    }
     let mut notes = Vec::new();
     let mut area = enclosed(&local, &mut notes);
     for _ in 0..ROUNDS {
@@ -73,6 +80,43 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
         note(&mut notes, "a notch cut where it touches itself");
     }
     None
+}
+
+/// Whether the edges of rings meet more often than those of any outline that is meant: so often that what they enclose
+/// would be many times as much as was given.
+///
+/// Edges are looked at from one side to the other, and not beyond the meetings that are allowed.
+fn meets_too_often(rings: &[Vec<DVec2>]) -> bool {
+    let mut edges: Vec<[DVec2; 2]> = rings
+        .iter()
+        .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
+        .collect();
+    let length = edges.iter().fold(DVec2::ZERO, |sum, [a, b]| sum + (*b - *a).abs());
+    if length.x > length.y {
+        // Along the axis on which they cover each other less.
+        edges.iter_mut().flatten().for_each(|point| *point = DVec2::new(point.y, point.x));
+    }
+    let low = |[a, b]: &[DVec2; 2]| a.min(*b);
+    let high = |[a, b]: &[DVec2; 2]| a.max(*b);
+    edges.sort_by(|a, b| low(a).x.total_cmp(&low(b).x));
+    let mut left = MEETINGS * edges.len() + MEETINGS;
+    for (index, a) in edges.iter().enumerate() {
+        for b in edges[index + 1..].iter().take_while(|b| low(b).x <= high(a).x) {
+            if low(a).y > high(b).y || low(b).y > high(a).y {
+                continue;
+            }
+            let side = |[from, to]: &[DVec2; 2], at: DVec2| (*to - *from).perp_dot(at - *from);
+            let apart = |one: f64, two: f64| (one > 0.0 && two > 0.0) || (one < 0.0 && two < 0.0);
+            if apart(side(a, b[0]), side(a, b[1])) || apart(side(b, a[0]), side(b, a[1])) {
+                continue;
+            }
+            if left == 0 {
+                return true;
+            }
+            left -= 1;
+        }
+    }
+    false
 }
 
 /// The points of sound rings that are needed; `None` if the rings meet.
@@ -357,6 +401,42 @@ mod tests {
             made(&[&[[-0.14, 0.29], [0.28, 0.26], [0.0, 0.0]], &[[0.14, 0.27], [0.1, 0.0], [-0.11, -0.23]]]);
         assert_valid(&plan);
         assert!(plan.repairs().0.contains(&"a notch cut where it touches itself"), "{:?}", plan.repairs());
+    }
+
+    #[test]
+    fn scribbles_take_no_longer_than_outlines() {
+        let around = |count: usize, place: &dyn Fn(f64) -> DVec2| -> Vec<DVec3> {
+            (0..count).map(|at| place(at as f64).extend(0.0)).collect()
+        };
+        let mut shapes: Vec<Vec<DVec3>> = Vec::new();
+        for count in [300, 3001, 10_000] {
+            let size = count as f64;
+            // A star of which each edge crosses nearly all others, random places, a comb that lies on itself, circles
+            // that go around again and again, and a flower of many small loops.
+            shapes.push(around(count, &|at| {
+                DVec2::from_angle(at * std::f64::consts::PI * (1.0 + 1.0 / size)) * 20.0
+            }));
+            shapes.push(around(count, &|at| {
+                DVec2::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0)
+            }));
+            shapes.push(around(count, &|at| DVec2::new(at % 2.0 * 30.0, (at * 0.25).floor() % 3.0)));
+            shapes.push(around(count, &|at| DVec2::from_angle(at * 0.1) * 30.0));
+            shapes.push(around(count, &|at| {
+                let turn = at / size * std::f64::consts::TAU;
+                DVec2::from_angle(turn) * 200.0 + DVec2::from_angle(turn * size / 12.0) * 2.0
+            }));
+        }
+        let mut made = 0;
+        for shape in &shapes {
+            let begin = std::time::Instant::now();
+            let plan = Plan::new(std::slice::from_ref(shape));
+            assert!(begin.elapsed().as_secs_f64() < 10.0, "{} points: {:?}", shape.len(), begin.elapsed());
+            if let Ok(plan) = plan {
+                assert_valid(&plan);
+                made += 1;
+            }
+        }
+        assert!(made > 0 && made < shapes.len(), "{made}");
     }
 
     proptest! {

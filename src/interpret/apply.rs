@@ -6,10 +6,12 @@ use std::time::{Duration, Instant};
 use mlua::Buffer;
 
 use super::Interpreting;
+use super::notices::Notice;
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Object, Value};
-use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_text};
-use crate::script::{Flusher, Machine, Objects, read_column};
+use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
+use crate::script::{Flusher, Machine, Objects, read_column, returns_modules};
+use crate::warning::Warning;
 
 /// Where a piece of the chain has been applied up to.
 pub(crate) struct Applier {
@@ -44,6 +46,8 @@ pub(crate) struct Applier {
     /// The next of the calls that have been read, and the first of its arguments.
     call_at: usize,
     number_at: usize,
+    /// What the objects have warned of during the batch.
+    notices: Vec<Notice>,
 }
 
 /// Where applying has stopped.
@@ -84,6 +88,7 @@ impl Applier {
             failed: None,
             call_at: 0,
             number_at: 0,
+            notices: Vec::new(),
         })
     }
 
@@ -106,6 +111,31 @@ impl Applier {
     /// The times of the entries that have been applied.
     pub(crate) fn take_times(&mut self) -> Vec<Duration> {
         std::mem::take(&mut self.times)
+    }
+
+    /// What the objects have warned of since this was asked last.
+    pub(crate) fn take_notices(&mut self) -> Vec<Notice> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// Takes what `object` warns of after the module at hand, in its recorded call `call` if it was one.
+    #[inline]
+    fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
+        let said = object.take_warnings();
+        if !said.is_empty() {
+            self.note(said, call);
+        }
+    }
+
+    #[cold]
+    fn note(&mut self, said: Vec<Warning>, call: Option<(usize, usize)>) {
+        let module = (self.position, self.param);
+        self.notices.extend(said.into_iter().map(|warning| Notice { warning, module, call }));
+    }
+
+    /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
+    pub(crate) fn forgive(&mut self, error: Error) -> Result<()> {
+        self.objects.forgive(self.chain, error)
     }
 
     /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
@@ -142,7 +172,8 @@ impl Applier {
                     self.counted = 0;
                 }
                 Err(error) => {
-                    objects.forgive(self.chain, self.blame(error, self.position, self.param))?;
+                    let error = self.blame(error, self.position, self.param).of_data();
+                    objects.forgive(self.chain, error)?;
                     self.failed = None;
                 }
             }
@@ -205,12 +236,19 @@ impl Applier {
             match symbol {
                 _ if failed => {}
                 OPEN => object.push(),
-                CLOSE => object.pop()?,
-                END => object.end()?,
+                CLOSE => {
+                    object.pop()?;
+                    self.listen(object, None);
+                }
+                END => {
+                    object.end()?;
+                    self.listen(object, None);
+                }
                 symbol => {
                     let method = methods[usize::from(symbol)];
                     if method != u16::MAX {
                         self.call(object, method, &pass.chain.params[params.clone()])?;
+                        self.listen(object, None);
                     }
                 }
             }
@@ -244,6 +282,7 @@ impl Applier {
                 self.failed = Some((self.next, self.applied));
                 return Err(error);
             }
+            self.listen(object, Some((self.next, self.applied)));
             self.call_at += 1;
             self.number_at += count;
             self.applied += 1;
@@ -291,10 +330,10 @@ impl Applier {
         }
         let arity = usize::from(plan.grammar.arities()[usize::from(symbol)]);
         let params = &self.pass.chain.params[param..param + arity];
-        let text = module_text(plan.grammar.symbols(), &self.values, symbol, params);
+        let text = module_brief(plan.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
         match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
-            Some((_, name, place)) => error.at(place.clone()).rule(format!("{name} (interpretation)")),
+            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
             None => error,
         }
         .module(text, self.pass.step)
@@ -316,6 +355,19 @@ impl Flusher for Applier {
 
     fn chain(&self) -> usize {
         self.chain
+    }
+
+    fn warn(&mut self, said: Vec<Warning>) {
+        self.note(said, None);
+    }
+
+    fn lost(&mut self, entry: usize) {
+        let Some(module) = self.entries.get(entry).copied() else { return };
+        let interpretations = &self.pass.plan.interpretations;
+        let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
+        if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
+            self.notices.push(Notice { warning: returns_modules(), module, call: None });
+        }
     }
 
     fn applier(&mut self) -> Option<&mut Applier> {

@@ -5,6 +5,7 @@
 //! object something.
 
 mod apply;
+mod notices;
 
 use std::sync::Arc;
 use std::sync::Mutex;
@@ -13,10 +14,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::derive::{Job, Plan, Use};
-use crate::error::{Error, Result};
-use crate::rules::{Chain, END, Mark};
-use crate::script::{Machine, write_column};
+use crate::error::{Error, Place, Result};
+use crate::rules::{Chain, END, Mark, Symbol, module_brief};
+use crate::script::{Flusher, Machine, write_column};
+use crate::warning::Warning;
 pub(crate) use apply::Applier;
+use notices::{Notice, Notices};
 
 /// Entries that one call into Lua interprets.
 const ENTRIES: usize = 4096;
@@ -36,16 +39,19 @@ pub(crate) struct Interpreting {
     triangles: AtomicUsize,
     failure: Mutex<Option<(usize, Error)>>,
     uses: Mutex<Vec<Use>>,
+    notices: Notices,
 }
 
 impl Interpreting {
-    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did.
+    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
+    /// `said` what the objects warned of.
     pub(crate) fn pass(
         machine: &Machine,
         plan: &Arc<Plan>,
         chain: Chain,
         step: usize,
         uses: &mut [Use],
+        said: &mut Vec<Warning>,
     ) -> Result<Chain> {
         let starts = chain.starts(plan.grammar.arities());
         let many = plan.chains >= 4 * DEALT;
@@ -70,12 +76,15 @@ impl Interpreting {
             triangles: AtomicUsize::new(0),
             failure: Mutex::new(None),
             uses: Mutex::new(vec![Use::default(); uses.len()]),
+            notices: Notices::default(),
         });
         machine.crew.hand_out(machine, count, 2, || Job::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = machine.crew.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
         uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
+        let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
+        said.extend(done.notices.into_list(of_symbol));
         match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
             Some((_, error)) => Err(error),
             None => Ok(done.chain),
@@ -126,7 +135,7 @@ impl Interpreting {
                 if id != u16::MAX {
                     entries.push((module, param));
                     ids.push(id);
-                    let (bound, ..) = interpretations.list[usize::from(id)];
+                    let bound = interpretations.list[usize::from(id)].bound;
                     arguments.extend_from_slice(&self.chain.params[param..param + bound]);
                 }
                 param += usize::from(arities[symbol]);
@@ -134,15 +143,32 @@ impl Interpreting {
             }
             machine.session.stop.check()?;
             let begin = Instant::now();
-            let applying = self.interpret(machine, &entries, &ids, &arguments, module)?;
+            let (mut applying, mut from, mut argument) = (Vec::new(), 0, 0);
+            // Where a chain is left out, the others go on behind it.
+            while let Some(done) = self.interpret(
+                machine,
+                &entries[from..],
+                &ids[from..],
+                &arguments[argument..],
+                module,
+                &mut applying,
+            )? {
+                let bound = |id: &u16| interpretations.list[usize::from(*id)].bound;
+                argument += ids[from..from + done].iter().map(bound).sum::<usize>();
+                from += done;
+                if self.plan.profiled {
+                    applying.resize(from, Duration::ZERO);
+                }
+            }
             self.count_uses(&ids, begin.elapsed(), applying);
         }
         Ok(())
     }
 
-    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`.
+    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`; adds to `times` the time that
+    /// the calls of each entry took, if that is measured.
     ///
-    /// Gives the time that the calls of each entry took, if that is measured.
+    /// Where the data of a chain is at fault it gives up, and tells how many entries are done up to the end of that chain.
     fn interpret(
         &self,
         machine: &Machine,
@@ -150,7 +176,8 @@ impl Interpreting {
         ids: &[u16],
         arguments: &[f64],
         until: usize,
-    ) -> Result<Vec<Duration>> {
+        times: &mut Vec<Duration>,
+    ) -> Result<Option<usize>> {
         let lua = |error: mlua::Error| machine.translate(error);
         let prelude = machine.prelude();
         write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
@@ -175,41 +202,98 @@ impl Interpreting {
             applier.begin_entries(entries, buffers.clone());
             Ok(())
         })?;
-        let called: usize = match prelude.interpret.call::<(usize, usize)>(ids.len()) {
+        let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
             Ok((called, _)) => called,
             Err(error) => {
-                let at: usize = prelude.at.call(()).unwrap_or(0);
+                let (at, _, called): (usize, f64, usize) = prelude.at.call(()).unwrap_or((0, 0.0, 0));
                 // A machine that cannot even end the batch is thrown away with the run.
                 let _ = prelude.finish.call::<()>(());
                 let error = self.blame(machine, machine.translate(error), entries.get(at).copied());
-                return Err(self.find_line(machine, error));
+                let Some((module, _)) = entries.get(at).copied().filter(|_| error.is_of_data()) else {
+                    return Err(self.find_line(machine, error));
+                };
+                let mut notices = Vec::new();
+                let forgiven = with_applier(&mut |applier| {
+                    applier.flush(at, called)?;
+                    applier.forgive(error.clone())?;
+                    times.append(&mut applier.take_times());
+                    notices = applier.take_notices();
+                    Ok(())
+                });
+                if let Err(error) = forgiven {
+                    return Err(self.find_line(machine, error));
+                }
+                self.note_all(machine, &notices);
+                let rest = self.chain.symbols[module..].iter().position(|symbol| *symbol == END);
+                let end = module + rest.unwrap_or(0);
+                let done = entries.partition_point(|(module, _)| *module <= end);
+                return Ok(Some(done));
             }
         };
-        let mut applying = Vec::new();
+        let mut notices = Vec::new();
         let applied = with_applier(&mut |applier| {
             applier.finish_entries(called, until)?;
-            applying = applier.take_times();
+            times.append(&mut applier.take_times());
+            notices = applier.take_notices();
             Ok(())
         });
-        match applied {
-            Ok(()) => Ok(applying),
-            Err(error) => Err(self.find_line(machine, error)),
+        if let Err(error) = applied {
+            return Err(self.find_line(machine, error));
         }
+        self.note_all(machine, &notices);
+        Ok(None)
+    }
+
+    /// Adds what objects have warned of in the batch that was interpreted last.
+    fn note_all(&self, machine: &Machine, notices: &[Notice]) {
+        for (index, notice) in notices.iter().enumerate() {
+            let same = |other: &Notice| {
+                other.module == notice.module && other.warning.message() == notice.warning.message()
+            };
+            self.note(
+                machine,
+                notice,
+                !notices[..index].iter().rev().take_while(|it| it.module == notice.module).any(same),
+            );
+        }
+    }
+
+    /// Adds what an object has warned of in the batch that was interpreted last, for the first time of its module or
+    /// once more.
+    fn note(&self, machine: &Machine, notice: &Notice, is_first: bool) {
+        let (module, param) = notice.module;
+        let symbol = self.chain.symbols[module];
+        self.notices.add((symbol, module), is_first, notice.warning.clone(), |warning| {
+            let warning = warning.at(notice.call.and_then(|call| Self::line_of(machine, call)));
+            if symbol <= END {
+                return warning;
+            }
+            let warning = warning.module(self.module_brief(machine, module, param), self.step);
+            match self.interpretation_of(symbol) {
+                Some((name, place)) => warning.at(place.clone()).rule(name),
+                None => warning,
+            }
+        });
     }
 
     /// An error of a recorded call with the line of the call: the rule runs once more to find it.
     fn find_line(&self, machine: &Machine, error: Error) -> Error {
         let flusher =
             machine.current.flusher.borrow_mut().as_mut().and_then(|flusher| flusher.applier()?.failed());
-        let Some((entry, call)) = flusher else { return error };
+        let Some(call) = flusher else { return error };
+        error.rather_at(Self::line_of(machine, call))
+    }
+
+    /// The line of a recorded call of the last batch, given as its entry and its number: the rule runs once more to find it.
+    fn line_of(machine: &Machine, call: (usize, usize)) -> Option<Place> {
         let prelude = machine.prelude();
-        let place = match prelude.relive.call::<()>((entry, call)) {
+        let place = match prelude.relive.call::<()>(call) {
             Err(raised) => machine.translate(raised).place().cloned(),
             Ok(()) => None,
         };
         // A machine that cannot even end the batch is thrown away with the run.
         let _ = prelude.finish.call::<()>(());
-        error.rather_at(place)
+        place
     }
 
     /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`
@@ -235,14 +319,27 @@ impl Interpreting {
         if symbol <= END {
             return error;
         }
-        let arity = usize::from(self.plan.grammar.arities()[usize::from(symbol)]);
+        let error = match self.interpretation_of(symbol) {
+            Some((name, place)) => error.at(place.clone()).rule(name),
+            None => error,
+        };
+        error.module(self.module_brief(machine, module, param), self.step)
+    }
+
+    /// A module of the chain with its parameters, which begin at `param`.
+    fn module_brief(&self, machine: &Machine, module: usize, param: usize) -> String {
+        let (grammar, symbol) = (&self.plan.grammar, self.chain.symbols[module]);
+        let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[param..param + arity];
-        let text =
-            crate::rules::module_text(self.plan.grammar.symbols(), &machine.session.values, symbol, params);
+        module_brief(grammar.symbols(), &machine.session.values, symbol, params)
+    }
+
+    /// The name and the place of the interpretation rule of modules with this symbol.
+    fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<Place>)> {
         let interpretations = &self.plan.interpretations;
-        let (_, name, place) =
-            &interpretations.list[usize::from(interpretations.by_symbol[usize::from(symbol)])];
-        error.at(place.clone()).rule(format!("{name} (interpretation)")).module(text, self.step)
+        let id = interpretations.by_symbol.get(usize::from(symbol))?;
+        let known = interpretations.list.get(usize::from(*id))?;
+        Some((format!("{} (interpretation)", known.name), &known.place))
     }
 
     /// Counts triangles against the limit.

@@ -1,55 +1,8 @@
-//! Who may ask: the address that only this machine's user knows, and the checks of every request.
+//! Who may ask: the checks of every request besides that of its [token](super::Token).
 //!
 //! Any web page that the user visits can send requests to this machine's ports. So a request needs the token,
 //! must have been sent to this machine by name (or another site could rebind its own name to it), and, where a
 //! browser tells the origin, must come from a page of this server.
-
-use std::fmt;
-
-use crate::error::{Error, Result};
-
-/// Bytes of a token.
-const LENGTH: usize = 16;
-
-/// A random name that is known to those whom the address was told.
-#[derive(Clone, PartialEq, Eq)]
-pub struct Token(String);
-
-impl Token {
-    /// A new one, of 128 random bits. Fails if the system has no random numbers.
-    pub fn random() -> Result<Self> {
-        let mut bytes = [0; LENGTH];
-        getrandom::fill(&mut bytes)
-            .map_err(|error| Error::new(format!("the system gives no random numbers: {error}")))?;
-        Ok(Self(bytes.iter().map(|byte| format!("{byte:02x}")).collect()))
-    }
-
-    /// One that was made before: at least 32 digits from 0 to 9 and a to f.
-    pub fn from_text(text: &str) -> Result<Self> {
-        let hexadecimal = |digit: u8| digit.is_ascii_digit() || (b'a'..=b'f').contains(&digit);
-        if !(LENGTH * 2..=LENGTH * 16).contains(&text.len()) || !text.bytes().all(hexadecimal) {
-            return Err(Error::new("a token has 32 to 256 digits from 0 to 9 and a to f"));
-        }
-        Ok(Self(text.to_owned()))
-    }
-
-    /// The digits.
-    pub fn as_str(&self) -> &str {
-        &self.0
-    }
-
-    /// Whether `given` is it, in a time that does not tell how much of it is right.
-    pub fn is(&self, given: &str) -> bool {
-        let same = self.0.bytes().zip(given.bytes()).fold(0, |seen, (a, b)| seen | (a ^ b)) == 0;
-        same && self.0.len() == given.len()
-    }
-}
-
-impl fmt::Debug for Token {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Token")
-    }
-}
 
 /// Whether a request to `host` from a page of `origin` may be answered.
 pub(super) fn admits(host: Option<&str>, origin: Option<&str>) -> bool {
@@ -78,19 +31,6 @@ fn is_this_machine(host: &str) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tokens_are_random_and_compared_whole() {
-        let (one, two) = (Token::random().unwrap(), Token::random().unwrap());
-        assert_ne!(one, two);
-        assert_eq!(one.as_str().len(), 32);
-        assert!(one.is(one.as_str()) && !one.is(two.as_str()));
-        assert!(!one.is("") && !one.is(&one.as_str()[..31]) && !one.is(&format!("{}0", one.as_str())));
-        assert!(Token::from_text(one.as_str()).is_ok());
-        for wrong in ["", "abc", &"A".repeat(32), &"../".repeat(16), &"0".repeat(300)] {
-            assert!(Token::from_text(wrong).is_err(), "{wrong}");
-        }
-    }
 
     #[test]
     fn only_names_of_this_machine_are_hosts() {

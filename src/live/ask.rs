@@ -28,7 +28,7 @@ impl State {
             Ok(Ask::Variations { id, seeds, param, values }) => {
                 tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
             }
-            Ok(Ask::Preset { action, name }) => tools::preset(self, &action, &name),
+            Ok(Ask::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
             Ok(Ask::Open { file, line }) => {
                 self.open(&file, line.unwrap_or(1)).err().and_then(|error| refused(None, &error))
             }
@@ -37,7 +37,8 @@ impl State {
                 let waiting = inner.due.take().is_some();
                 let running = inner.stop("it was cancelled");
                 if waiting && !running {
-                    self.say(&Say::Cancelled { run: inner.runs + 1 });
+                    let run = inner.runs + 1;
+                    inner.cancelled(self, run);
                 }
                 let idle = !waiting && !running;
                 idle.then(|| Say::Refused { id: None, text: "nothing is running".into() })
@@ -50,7 +51,7 @@ impl State {
                 Ok(())
             }),
             Ok(Ask::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
-                inner.wish.seed = seed(&wished)?;
+                inner.wish.set_seed(seed(&wished)?);
                 Ok(())
             }),
             Ok(Ask::Steps { steps }) => self.change(Cause::Steps, |inner| {
@@ -69,8 +70,14 @@ impl State {
         let same = inner.finished.as_ref() == Some(&inner.wish.inputs(inner.generation));
         let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.quiet);
         if same && idle {
-            let shown = inner.shown.as_ref().map(|shown| Say::Model(Box::new(shown.message.clone())));
-            return inner.trouble.clone().or(shown);
+            let present =
+                inner.trouble.clone().or_else(|| inner.present().map(|it| Say::Model(Box::new(it))));
+            if inner.cancelled.take().is_none() {
+                return present;
+            }
+            // What is shown is the present model again, for all pages.
+            present.iter().for_each(|say| self.say(say));
+            return None;
         }
         inner.post(Due { cause, files: Vec::new(), at: Instant::now() });
         self.wake.notify_all();
@@ -99,25 +106,30 @@ impl State {
         let candidates = [PathBuf::from(name), root.join(name)];
         let found =
             candidates.iter().filter_map(|path| path.canonicalize().ok()).find(|path| own.contains(path));
-        match found {
-            Some(path) => Ok(path),
+        let mut alike: Vec<&PathBuf> = own.iter().filter(|path| path.ends_with(name)).collect();
+        alike.sort();
+        alike.dedup();
+        match (found, &alike[..]) {
+            (Some(path), _) => Ok(path),
             // The name of a link to the script is not that of the file it leads to.
-            None if name == self.script_name() => Ok(script),
-            None => Err(Error::new(format!("{name:?} is not a file of the script"))),
+            (None, _) if name == self.script_name() => Ok(script),
+            // A file in another folder by its name alone, if there is no other one of that name.
+            (None, [path]) if !name.is_empty() => Ok((*path).clone()),
+            (None, _) => Err(Error::new(format!("{name:?} is not a file of the script"))),
         }
     }
-    /// The name that the engine has for the script's file that pages name so.
-    pub(super) fn engine_name(&self, name: &str) -> Result<String> {
-        let path = self.own_file(name)?;
+
+    /// The name that the engine has for `path`, a file of the script.
+    pub(super) fn engine_name(&self, path: &Path) -> String {
         let is = |known: &Path| known.canonicalize().is_ok_and(|known| known == path);
         let whole = [&self.script].into_iter().chain(&self.options.stdlib).find(|known| is(known));
         let root = self.script.canonicalize().ok().and_then(|script| script.parent().map(Path::to_path_buf));
-        let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok()).unwrap_or(&path);
+        let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok()).unwrap_or(path);
         let named = match (whole, self.script.parent()) {
             (Some(whole), _) => whole.clone(),
             (None, Some(folder)) => folder.join(inner),
             (None, None) => inner.to_path_buf(),
         };
-        Ok(named.display().to_string())
+        named.display().to_string()
     }
 }

@@ -1,7 +1,7 @@
 //! The live page: a server on this machine that shows what a script makes, and shows it anew on every save.
 //!
 //! Comes in: a script, and what its pages ask for ([`message`]). Goes out: the page, the present model as glTF, and
-//! news over a socket. It never answers anybody but this machine's user (`address`), never writes to the script's
+//! news over a socket. It never answers anybody but this machine's user (`address`, `token`), never writes to the script's
 //! folder but presets, and never lets a page wait for a run.
 //!
 //! ```text
@@ -15,6 +15,8 @@
 
 mod address;
 mod ask;
+mod connections;
+mod describe;
 mod export;
 mod layout;
 pub mod message;
@@ -22,13 +24,14 @@ mod open;
 mod server;
 mod socket;
 mod state;
+mod token;
 mod tools;
 mod trace;
 mod wish;
 mod work;
 
-pub use address::Token;
 pub use open::{Editor, browse, has_display};
+pub use token::Token;
 
 use std::io::ErrorKind;
 use std::net::{Ipv4Addr, TcpListener};
@@ -42,10 +45,12 @@ use tokio::sync::Semaphore;
 
 use crate::error::{Error, Result};
 use crate::script::Options;
+use crate::warning::Warning;
 use crate::watch::Watch;
 use message::Cause;
 use server::Site;
 use state::{Due, State};
+use token::Keep;
 
 /// The port that is taken if it is free and none was named.
 pub const PORT: u16 = 4747;
@@ -61,8 +66,9 @@ pub struct Settings {
     pub options: Options,
     /// The port; [`PORT`] or one of the next if `None`.
     pub port: Option<u16>,
-    /// The secret part of the address.
-    pub token: Token,
+    /// The secret part of the address. The one that is kept for the port if `None`, so that a page that is open finds the
+    /// next server there; a new one if the port may be any that is free.
+    pub token: Option<Token>,
     /// What opens lines of the script.
     pub editor: Option<Editor>,
     /// Is told what happens, from several threads.
@@ -83,6 +89,8 @@ pub enum Told {
     },
     /// The script has failed.
     Failed(Error),
+    /// The new model has a warning that the last one did not have.
+    Warning(Warning),
     /// The script does not exist.
     Waiting(String),
     /// Something else worth knowing.
@@ -94,6 +102,7 @@ pub struct Live {
     state: Arc<State>,
     port: u16,
     token: Token,
+    keep: Option<Keep>,
     runtime: Option<Runtime>,
     threads: Vec<JoinHandle<()>>,
 }
@@ -105,7 +114,13 @@ impl Live {
         let failed = |error: std::io::Error| Error::new(format!("cannot start the server: {error}"));
         listener.set_nonblocking(true).map_err(failed)?;
         let port = listener.local_addr().map_err(failed)?.port();
-        let token = settings.token.clone();
+        let lasting = settings.token.is_none() && settings.port != Some(0);
+        let keep = if lasting { Keep::of(port) } else { None };
+        let token = match (&settings.token, &keep) {
+            (Some(token), _) => token.clone(),
+            (None, Some(keep)) => keep.token()?,
+            (None, None) => Token::random()?,
+        };
         let state = Arc::new(State::new(settings));
         let (seen, complained) = (Arc::clone(&state), Arc::clone(&state));
         let watch = Watch::new(
@@ -134,14 +149,20 @@ impl Live {
             let _inside = runtime.enter();
             tokio::net::TcpListener::from_std(listener).map_err(failed)?
         };
-        let site = Site { state: Arc::clone(&state), token: token.clone(), exports: Semaphore::new(1) };
-        runtime.spawn(server::serve(listener, Arc::new(site)));
-        Ok(Self { state, port, token, runtime: Some(runtime), threads })
+        let site =
+            Site { state: Arc::clone(&state), token: token.clone(), exports: Arc::new(Semaphore::new(1)) };
+        runtime.spawn(connections::serve(listener, Arc::new(site)));
+        Ok(Self { state, port, token, keep, runtime: Some(runtime), threads })
     }
 
     /// The port that it listens on.
     pub fn port(&self) -> u16 {
         self.port
+    }
+
+    /// The secret part of the address.
+    pub fn token(&self) -> &Token {
+        &self.token
     }
 
     /// Where a browser finds the page.
@@ -153,6 +174,7 @@ impl Live {
 impl Drop for Live {
     fn drop(&mut self) {
         self.state.end();
+        self.keep.iter().for_each(|keep| keep.renew(&self.token));
         if let Some(runtime) = self.runtime.take() {
             runtime.shutdown_background();
         }

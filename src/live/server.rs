@@ -2,23 +2,22 @@
 
 use std::sync::Arc;
 
-use axum::Router;
 use axum::body::{Body, Bytes};
 use axum::extract::ws::WebSocketUpgrade;
-use axum::extract::{FromRequestParts, Request, State as Extract};
+use axum::extract::{FromRequestParts, Request};
 use axum::http::header::{self, HeaderMap, HeaderName, HeaderValue};
 use axum::http::{Method, StatusCode};
 use axum::response::{IntoResponse, Response};
-use axum::serve::ListenerExt;
-use tokio::net::TcpListener;
 use tokio::sync::Semaphore;
 
-use super::address::{Token, admits};
-use super::export::{self, Download};
+use super::Token;
+use super::address::admits;
+use super::export;
 use super::socket;
 use super::state::State;
-use crate::error::Result;
+use crate::error::Error;
 use crate::export::gltf;
+use crate::stop::Stop;
 
 const INDEX: &[u8] = include_bytes!("../../viewer/dist/index.html");
 const SCRIPT: &[u8] = include_bytes!("../../viewer/dist/viewer.js");
@@ -38,21 +37,40 @@ const NEVER: &str = "no-store";
 pub(super) struct Site {
     pub state: Arc<State>,
     pub token: Token,
-    /// Exports are made one at a time.
-    pub exports: Semaphore,
+    /// Exports are made one at a time; those that were given up count until they have ended.
+    pub exports: Arc<Semaphore>,
 }
 
-/// Answers requests until it is dropped.
-pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
-    let routes = Router::new().fallback(answer).with_state(site);
-    // Messages are small, and none is to wait for the next. A connection that refuses is only slower.
-    let listener = listener.tap_io(|connection| drop(connection.set_nodelay(true)));
-    // It ends only with the runtime.
-    let _ = axum::serve(listener, routes).await;
+/// Stops what is made for a request when the page has gone and nobody waits for it any more.
+struct Waiting(Arc<Stop>);
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.stop(Error::new("nobody waits for it any more"));
+    }
 }
 
-async fn answer(Extract(site): Extract<Arc<Site>>, request: Request) -> Response {
-    let mut response = route(&site, request).await;
+impl Site {
+    /// What `make` gives, in its turn and apart from runs; it ends early when the page goes. `None` if it panicked.
+    async fn export<T: Send + 'static>(
+        &self,
+        make: impl FnOnce(&Arc<Stop>) -> T + Send + 'static,
+    ) -> Option<T> {
+        let turn = Arc::clone(&self.exports).acquire_owned().await.ok()?;
+        let waiting = Waiting(Arc::default());
+        let stop = Arc::clone(&waiting.0);
+        let made = tokio::task::spawn_blocking(move || {
+            let made = export::apart(|| make(&stop));
+            drop(turn);
+            made
+        });
+        made.await.ok()
+    }
+}
+
+/// The answer to a request; `known` is called before it is made if the request has the token.
+pub(super) async fn answer(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
+    let mut response = route(site, request, known).await;
     let headers = response.headers_mut();
     let always: [(HeaderName, &str); 6] = [
         (header::CONTENT_SECURITY_POLICY, POLICY),
@@ -69,7 +87,7 @@ async fn answer(Extract(site): Extract<Arc<Site>>, request: Request) -> Response
     response
 }
 
-async fn route(site: &Arc<Site>, request: Request) -> Response {
+async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
     let headers = request.headers();
     if !admits(
         only(headers, &header::HOST).unwrap_or(None),
@@ -82,12 +100,19 @@ async fn route(site: &Arc<Site>, request: Request) -> Response {
         Some((token, inner)) => (token, Some(inner)),
         None => (path.strip_prefix('/').unwrap_or(""), None),
     };
+    if let ("proof", Some(question), &Method::GET) = (token, inner, request.method()) {
+        return match site.token.proof(question) {
+            Some(proof) => plain_text(StatusCode::OK, proof),
+            None => missing(),
+        };
+    }
     if !site.token.is(token) {
         return plain(
             StatusCode::FORBIDDEN,
             "open the address that burgeon live printed: it ends with a token",
         );
     }
+    known();
     if request.method() != Method::GET {
         let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered");
         return ([(header::ALLOW, "GET")], refused).into_response();
@@ -148,15 +173,13 @@ async fn measured(site: &Arc<Site>, name: &str) -> Response {
     let shown = site.state.lock().shown.clone();
     let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
-    let Ok(_turn) = site.exports.acquire().await else { return missing() };
-    let make = move || export::apart(|| gltf::glb_with_texture_coordinates(&shown.run.scene));
-    match tokio::task::spawn_blocking(make).await {
-        Ok(Ok(bytes)) => {
+    match site.export(move |stop| gltf::glb_with_texture_coordinates(&shown.run.scene, stop)).await {
+        Some(Ok(bytes)) => {
             let kind = "model/gltf-binary";
             ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
         }
-        Ok(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
-        Err(_) => {
+        Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+        None => {
             plain(StatusCode::INTERNAL_SERVER_ERROR, "the model ended early: this is a mistake in Burgeon")
         }
     }
@@ -175,12 +198,7 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
     let Some(shown) = site.state.lock().shown.clone() else {
         return plain(StatusCode::CONFLICT, "there is no model yet");
     };
-    let made: Option<Result<Download>> = {
-        let Ok(_turn) = site.exports.acquire().await else { return missing() };
-        let make = move || export::apart(|| export::download(&shown.run.scene, &name, &picture));
-        tokio::task::spawn_blocking(make).await.ok()
-    };
-    match made {
+    match site.export(move |stop| export::download(&shown.run.scene, &name, &picture, stop)).await {
         Some(Ok(download)) => {
             let disposition = disposition(&download.name);
             let headers = [

@@ -1,7 +1,7 @@
 //! A page's socket: what the server says to all pages, and answers to this one.
 
 use std::sync::Arc;
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use axum::extract::ws::{Message, Utf8Bytes, WebSocket, WebSocketUpgrade};
 use tokio::sync::broadcast::Receiver;
@@ -21,8 +21,11 @@ const PATIENCE: Duration = Duration::from_secs(30);
 /// Answers that wait for a page at most.
 const ANSWERS: usize = 16;
 
-/// How often a silent page is asked whether it is still there.
+/// How often a page is asked whether it is still there.
 const HEARTBEAT: Duration = Duration::from_secs(30);
+
+/// How long a page may say nothing, not even that it is still there, before it is given up.
+const SILENCE: Duration = Duration::from_secs(100);
 
 /// A socket that takes no large messages.
 pub(super) fn limited(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
@@ -34,6 +37,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
     let Some(mut said) = greet(&mut socket, &state).await else { return };
     let (later, mut answers) = channel(ANSWERS);
     let mut heartbeat = tokio::time::interval(HEARTBEAT);
+    let mut heard = Instant::now();
     loop {
         let going = tokio::select! {
             message = said.recv() => match message {
@@ -46,7 +50,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
                 Err(RecvError::Closed) => false,
             },
             Some(text) = answers.recv() => send(&mut socket, text).await,
-            message = socket.recv() => match message {
+            message = socket.recv() => { heard = Instant::now(); match message {
                 Some(Ok(Message::Text(text))) => answer(&mut socket, &state, &later, text).await,
                 Some(Ok(Message::Binary(_))) => {
                     let refused = Say::Refused { id: None, text: "a message is text".into() };
@@ -54,8 +58,11 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
                 }
                 Some(Ok(Message::Ping(_) | Message::Pong(_))) => true,
                 Some(Ok(Message::Close(_)) | Err(_)) | None => false,
-            },
-            _ = heartbeat.tick() => deliver(&mut socket, Message::Ping(axum::body::Bytes::new())).await,
+            } },
+            _ = heartbeat.tick() => {
+                heard.elapsed() < SILENCE
+                    && deliver(&mut socket, Message::Ping(axum::body::Bytes::new())).await
+            }
         };
         if !going {
             return;

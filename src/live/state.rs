@@ -14,12 +14,14 @@ use super::message::{Cause, Hello, Model, Say};
 use super::open::Editor;
 use super::wish::{Inputs, Wish};
 use super::{Settings, Told};
-use crate::error::Error;
+use crate::error::{Error, Place};
 use crate::export::Format;
 use crate::export::gltf::Layout;
 use crate::presets::Presets;
 use crate::run::Run;
-use crate::script::{Options, Param, Session, Stop};
+use crate::script::{Options, Param, Session};
+use crate::stop::Stop;
+use crate::warning::Warning;
 use crate::watch::Change;
 
 /// Messages that wait for a page at most; a page that is slower gets the present state instead.
@@ -28,6 +30,9 @@ const QUEUE: usize = 64;
 /// Models that are kept at most, and their size (bytes) beyond which only the present one is.
 const KEPT: usize = 3;
 const KEPT_BYTES: usize = 256 << 20;
+
+/// Lines that an error shows before and after its own.
+const AROUND: usize = 2;
 
 /// Small pictures that are kept at most.
 const PICTURES: usize = 512;
@@ -61,6 +66,10 @@ pub(super) struct Inner {
     pub shown: Option<Arc<Shown>>,
     /// Why there is no newer model: the script is missing or has an error.
     pub trouble: Option<Say>,
+    /// That the last run was stopped by a page, so that what is shown is older than what is wished.
+    pub cancelled: Option<Say>,
+    /// Since when failures are kept back because files change.
+    pub doubts: Option<Instant>,
     /// What the last run that came to an end was made from.
     pub finished: Option<Inputs>,
     /// How long that took.
@@ -76,6 +85,8 @@ pub(super) struct Inner {
     pub last_step: Option<(Inputs, usize)>,
     /// Values that could not be used, as far as that has been told.
     pub left_out: BTreeSet<String>,
+    /// The warnings of the last model, as far as they have been told.
+    pub warnings: BTreeSet<String>,
     /// The script's files, which an editor may open.
     pub files: Vec<PathBuf>,
     /// Ends what is made besides models, for it is about a script that has changed.
@@ -127,6 +138,8 @@ impl State {
             running: None,
             shown: None,
             trouble: None,
+            cancelled: None,
+            doubts: None,
             finished: None,
             took: Duration::ZERO,
             generation: 0,
@@ -136,6 +149,7 @@ impl State {
             pictures: VecDeque::new(),
             last_step: None,
             left_out: BTreeSet::new(),
+            warnings: BTreeSet::new(),
             files: Vec::new(),
             aside: Arc::default(),
             over: false,
@@ -171,12 +185,13 @@ impl State {
 
     /// What a new page is told first, and where it hears the rest.
     pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
+        let presets = self.presets.lock().unwrap_or_else(PoisonError::into_inner);
         let inner = self.lock();
-        let mut texts: Vec<Utf8Bytes> = vec![Say::Hello(self.hello()).to_text().into()];
-        if let Some(shown) = &inner.shown {
-            texts.push(Say::Model(Box::new(shown.message.clone())).to_text().into());
+        let mut texts: Vec<Utf8Bytes> = vec![Say::Hello(self.hello(presets.clone())).to_text().into()];
+        if let Some(model) = inner.present() {
+            texts.push(Say::Model(Box::new(model)).to_text().into());
         }
-        texts.extend(inner.trouble.iter().map(|say| say.to_text().into()));
+        texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|say| say.to_text().into()));
         if let Some(running) = inner.running.as_ref().filter(|running| !running.quiet) {
             let (run, cause, files) = (running.run, running.cause, running.files.clone());
             let say = Say::Working { run, cause, files };
@@ -185,14 +200,14 @@ impl State {
         (texts, self.pages.subscribe())
     }
 
-    fn hello(&self) -> Hello {
+    fn hello(&self, presets: Vec<String>) -> Hello {
         Hello {
             version: env!("CARGO_PKG_VERSION"),
             script: self.script_name(),
             path: self.script.display().to_string(),
             editor: self.editor.is_some(),
             formats: Format::ALL.map(Format::extension).to_vec(),
-            presets: super::tools::presets(&self.script),
+            presets,
         }
     }
 
@@ -215,11 +230,24 @@ impl State {
         inner.unwrap_or(path).display().to_string()
     }
 
-    /// An error whose file is named as pages name it.
+    /// An error whose file is named as pages name it, with the lines around its own.
     pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
-        let mut object = error.to_json();
-        if let Some(place) = error.place() {
+        self.placed(error.to_json(), error.place())
+    }
+
+    /// The same of a warning.
+    pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
+        self.placed(warning.to_json(), warning.place())
+    }
+
+    fn placed(&self, mut object: serde_json::Value, place: Option<&Place>) -> serde_json::Value {
+        if let Some(place) = place {
             object["file"] = self.short(&place.file).into();
+            let excerpt = place.excerpt(AROUND, AROUND);
+            if !excerpt.is_empty() {
+                let line = |(line, text)| serde_json::json!({ "line": line, "text": text });
+                object["excerpt"] = excerpt.into_iter().map(line).collect();
+            }
         }
         object
     }
@@ -307,6 +335,22 @@ impl Inner {
             }
         }
         self.due = Some(due);
+    }
+
+    /// The model that is shown, as pages are told it now.
+    pub(super) fn present(&self) -> Option<Model> {
+        let shown = self.shown.as_ref()?;
+        Some(Model { preset: self.wish.preset(), ..shown.message.clone() })
+    }
+
+    /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is wished.
+    pub(super) fn cancelled(&mut self, state: &State, run: u64) {
+        let stale = self.due.is_none();
+        let say = Say::Cancelled { run, stale };
+        state.say(&say);
+        if stale {
+            self.cancelled = Some(say);
+        }
     }
 
     /// Stops the run that is under way. Returns whether there is one that pages know of.

@@ -2,7 +2,9 @@
 
 use std::collections::BTreeMap;
 use std::path::Path;
+use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::sync::{Arc, PoisonError};
+use std::time::Duration;
 
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::mpsc::Sender;
@@ -14,8 +16,11 @@ use crate::error::{Error, Result};
 use crate::export::encode_png;
 use crate::picture::{Background, Picture, Quality};
 use crate::presets::Presets;
-use crate::script::{Options, Preset};
+use crate::script::{Options, Param, Preset};
 use crate::variations::{Cell, Framing, Over, Variations};
+
+/// How often a page is told how many scripts of variations have run.
+const TICK: Duration = Duration::from_millis(500);
 
 /// Width and height (pixels) of a small picture.
 const SIZE: (u32, u32) = (320, 240);
@@ -29,12 +34,13 @@ fn names(presets: &Presets) -> Vec<String> {
     presets.names().map(str::to_owned).collect()
 }
 
-/// Saves, loads or deletes a preset. Returns what the page that asked is answered.
-pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
+/// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
+/// that asked is answered.
+pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> Option<Say> {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let done =
         match action {
-            "save" => save(state, name).map(Some),
+            "save" => save(state, name, replace).map(Some),
             "delete" => Presets::remove(&state.script, name).map(Some),
             "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
                 Ok(preset) => {
@@ -50,9 +56,12 @@ pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
         };
     match done {
         Ok(presets) => {
-            *known = presets.as_ref().map(names).unwrap_or_default();
-            let _order = state.lock();
-            state.say(&Say::Presets { names: known.clone() });
+            let mut inner = state.lock();
+            if let Some(presets) = &presets {
+                *known = names(presets);
+                inner.wish.look_for_preset(presets);
+            }
+            state.say(&Say::Presets { names: known.clone(), chosen: inner.wish.preset() });
             None
         }
         Err(error) => Some(Say::Refused { id: None, text: error.to_string() }),
@@ -62,29 +71,46 @@ pub(super) fn preset(state: &State, action: &str, name: &str) -> Option<Say> {
 /// Tells pages of presets that someone has changed in their file.
 pub(super) fn presets_changed(state: &State) {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
-    let say = match Presets::read(&state.script).map(|presets| names(&presets)) {
-        Ok(names) if *known == names => return,
-        Ok(names) => {
+    let read = Presets::read(&state.script);
+    let mut inner = state.lock();
+    let say = match read {
+        Ok(presets) => {
+            let before = inner.wish.preset();
+            inner.wish.look_for_preset(&presets);
+            let (names, chosen) = (names(&presets), inner.wish.preset());
+            if *known == names && chosen == before {
+                return;
+            }
             known.clone_from(&names);
-            Say::Presets { names }
+            Say::Presets { names, chosen }
         }
         Err(error) => Say::Refused { id: None, text: error.to_string() },
     };
-    let _order = state.lock();
     state.say(&say);
 }
 
 /// Saves the values that are set and used, and the seed.
-fn save(state: &State, name: &str) -> Result<Presets> {
+fn save(state: &State, name: &str, replace: bool) -> Result<Presets> {
+    if !replace && Presets::read(&state.script)?.names().any(|known| known == name) {
+        return Err(Error::new(format!("there is a preset called {name} already"))
+            .help("choose another name, or say that it is to be replaced"));
+    }
     let preset = {
         let inner = state.lock();
         let Some(params) = &inner.params else {
             return Err(Error::new("a preset is saved when the script runs without an error"));
         };
         let params = inner.wish.used(params);
-        Preset { name: name.to_owned(), seed: Some(inner.wish.seed), params, ..Preset::default() }
+        Preset { name: name.to_owned(), seed: Some(inner.wish.seed()), params, ..Preset::default() }
     };
-    Presets::save(&state.script, preset)
+    let presets = Presets::save(&state.script, preset.clone())?;
+    let inner = &mut *state.lock();
+    // Another page may have changed them since.
+    let same = |params: &[Param]| inner.wish.used(params) == preset.params;
+    if inner.params.as_deref().is_some_and(same) && preset.seed == Some(inner.wish.seed()) {
+        inner.wish.is_preset(preset);
+    }
+    Ok(presets)
 }
 
 /// Has small pictures of other values made, and sent to the page that asked through `page`, in place of those
@@ -135,11 +161,28 @@ pub(super) fn variations(
             ..Picture::default()
         };
         let of = variations.len();
-        let made = variations.make(&picture, Framing::Each, |cell| {
-            let say = variation(&state, id, of, cell);
-            if page.blocking_send(say.to_text().into()).is_err() {
-                stop.stop(Error::new("the page has gone"));
+        let (over, ended) = channel::<()>();
+        let (running, page, gone) = (&variations, &page, || stop.stop(Error::new("the page has gone")));
+        let tell = move || {
+            // It ends with the other end of the channel.
+            while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                let say = Say::Variations { id, ran: running.ran(), of };
+                if page.blocking_send(say.to_text().into()).is_err() {
+                    return gone();
+                }
             }
+        };
+        let made = std::thread::scope(|scope| {
+            scope.spawn(tell);
+            // What looks larger is larger, so that seeds and values can be compared.
+            let made = variations.make(&picture, Framing::Together, |cell| {
+                let say = variation(&state, id, of, cell);
+                if page.blocking_send(say.to_text().into()).is_err() {
+                    gone();
+                }
+            });
+            drop(over);
+            made
         });
         if let Err(error) = made
             && !stop.is_stopped()

@@ -81,7 +81,13 @@ pub(super) fn pick(state: &State, pick: &Pick) -> Say {
 pub(super) fn highlight(state: &State, id: u64, file: &str, line: usize) -> Say {
     let find = || -> Result<Highlighted> {
         let (shown, options) = present(state)?;
-        let name = state.engine_name(file)?;
+        let path = state.own_file(file)?;
+        let lines = std::fs::read_to_string(&path).map_or(0, |text| text.lines().count());
+        if !(1..=lines).contains(&line) {
+            let number = if lines == 1 { "1 line".to_owned() } else { format!("{lines} lines") };
+            return Err(Error::new(format!("{file} has {number}, so there is no line {line}")));
+        }
+        let name = state.engine_name(&path);
         let scene = &shown.run.scene;
         let _turn = state.tracing.lock().unwrap_or_else(PoisonError::into_inner);
         let systems = shown.run.systems.len();

@@ -9,14 +9,17 @@ use serde_json::{Map, Value};
 
 use super::message::Knob;
 use crate::error::{Error, Result, nearest};
+use crate::presets::Presets;
 use crate::script::{Options, Param, Preset, Setting};
 
 /// What pages have wished.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Wish {
     values: BTreeMap<String, Given>,
-    pub seed: u64,
+    seed: u64,
     pub steps: Option<usize>,
+    /// The preset that has been loaded or saved, as long as its values and its seed are the present ones.
+    preset: Option<Preset>,
 }
 
 /// A value that was set.
@@ -44,7 +47,7 @@ impl Wish {
         let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
         let values =
             preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
-        Self { values, seed: options.seed, steps: options.steps }
+        Self { values, seed: options.seed, steps: options.steps, preset: None }
     }
 
     pub(super) fn inputs(&self, generation: u64) -> Inputs {
@@ -85,6 +88,9 @@ impl Wish {
             }
             read.push((name.clone(), text, param.map(|param| param.default.clone())));
         }
+        if !read.is_empty() {
+            self.preset = None;
+        }
         for (name, text, default) in read {
             match text {
                 Some(text) => {
@@ -101,6 +107,35 @@ impl Wish {
     /// Puts all defaults back.
     pub(super) fn reset(&mut self) {
         self.values.clear();
+        self.preset = None;
+    }
+
+    /// The seed.
+    pub(super) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Takes another seed.
+    pub(super) fn set_seed(&mut self, seed: u64) {
+        if seed != self.seed {
+            self.preset = None;
+        }
+        self.seed = seed;
+    }
+
+    /// The name of the preset whose values and seed are the present ones.
+    pub(super) fn preset(&self) -> Option<String> {
+        self.preset.as_ref().map(|preset| preset.name.clone())
+    }
+
+    /// Notes that `preset` has the present values and seed.
+    pub(super) fn is_preset(&mut self, preset: Preset) {
+        self.preset = Some(preset);
+    }
+
+    /// Forgets the preset unless it is one of `presets` still, as it was.
+    pub(super) fn look_for_preset(&mut self, presets: &Presets) {
+        self.preset.take_if(|known| !presets.get(&known.name).is_ok_and(|preset| preset.is_like(known)));
     }
 
     /// Takes the values of a preset in the place of all others, and its seed if it has one.
@@ -108,6 +143,7 @@ impl Wish {
         let given = |(name, text)| (name, Given { text, default: None });
         self.values = preset.set().into_iter().map(given).collect();
         self.seed = preset.seed.unwrap_or(self.seed);
+        self.preset = Some(preset.clone());
     }
 
     /// The values that are set and that `params` take.

@@ -8,16 +8,17 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
-use super::message::{Bounds, Cause, Model, Say, System, Times};
+use super::message::{Cause, Model, Say};
 use super::state::{Due, Inner, Running, Shown, State};
 use super::wish::Inputs;
-use super::{Told, trace};
+use super::{Told, describe};
 use crate::error::{Error, Result};
 use crate::export::gltf::{self, Layout};
 use crate::presets::Presets;
 use crate::run::{Run, run_session};
 use crate::script::{Limits, Options, Session, make_ready};
-use crate::watch::Watch;
+use crate::warning::Warning;
+use crate::watch::{Watch, unsettled};
 
 /// How often pages are told how far a run has come.
 const TICK: Duration = Duration::from_millis(100);
@@ -25,15 +26,24 @@ const TICK: Duration = Duration::from_millis(100);
 /// The largest model (bytes) that is sent to pages: browsers hold no larger array.
 const LARGEST: usize = 2_000_000_000;
 
+/// Problems of one run, and warnings, that pages are told at most.
+pub(super) const PROBLEMS: usize = 50;
+
+/// How long a file that was there may be missing, as in the middle of a save, before a page is told.
+const MISSING: Duration = Duration::from_millis(150);
+
+/// How long failures may be kept back because files change.
+const DOUBT: Duration = Duration::from_secs(2);
+
 /// What finding the number of steps may take when nothing else is to be done.
 const IDLE_LIMITS: Limits =
     Limits { time: Duration::from_secs(10), memory: 1 << 30, modules: 5_000_000, triangles: 10_000_000 };
 
 /// A run to be made.
-struct Job {
-    run: u64,
-    due: Due,
-    inputs: Inputs,
+pub(super) struct Job {
+    pub run: u64,
+    pub due: Due,
+    pub inputs: Inputs,
 }
 
 /// What came of a run.
@@ -83,6 +93,11 @@ pub(super) fn work(state: &State, watch: &Watch) {
             followed = files;
         }
         watch.follow(followed.clone(), since);
+        let failed = matches!(outcome, Outcome::Failed(_) | Outcome::Missing);
+        let outcome = match failed && superseded(state, &job, &followed, watch) {
+            true => Outcome::Cancelled,
+            false => outcome,
+        };
         finish(state, &job, session.as_deref(), outcome);
         drop(session);
         if let Some(inputs) = wants_last_step(state) {
@@ -93,6 +108,30 @@ pub(super) fn work(state: &State, watch: &Watch) {
             make_ready();
         }
     }
+}
+
+/// Waits until `files`, on which a run has failed, have been as they are for a while. Returns whether something newer is
+/// to be made: what was read may have been the half of what was being written.
+fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
+    let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
+    let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
+    let wait = young.max(gone.then_some(MISSING)).unwrap_or_default();
+    let mut inner = state.lock();
+    // A file that is written all the time is not waited for.
+    if inner.doubts.is_some_and(|since| since.elapsed() > DOUBT) {
+        return false;
+    }
+    inner.doubts.get_or_insert_with(Instant::now);
+    let end = Instant::now() + wait;
+    while inner.due.is_none() && !inner.over {
+        let Some(left) = end.checked_duration_since(Instant::now()) else {
+            drop(inner);
+            watch.catch_up();
+            return state.lock().due.is_some();
+        };
+        inner = state.wake.wait_timeout(inner, left).unwrap_or_else(std::sync::PoisonError::into_inner).0;
+    }
+    true
 }
 
 /// Tells pages how far the run has come, until the state is over.
@@ -183,14 +222,16 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
         if cancelled.load(Ordering::Acquire) {
             return Err(Error::new("there is something newer"));
         }
-        let (file, mut message) = rayon::join(|| encode(&run), || describe(state, job, &session, &run));
+        let (file, mut message) =
+            rayon::join(|| encode(&run), || describe::describe(state, job, &session, &run));
         let (file, time) = file?;
+        message.nothing = file.note.clone().or(message.nothing);
         if let Some((hash, bytes)) = &file.content {
             message.url = Some(format!("model/{hash}.glb"));
             message.bytes = bytes.len();
         }
-        message.times.encode = ms(time);
-        message.times.total = ms(job.due.at.elapsed());
+        message.times.encode = describe::ms(time);
+        message.times.total = describe::ms(job.due.at.elapsed());
         Ok(Made { run, file, message })
     });
     match made {
@@ -222,59 +263,6 @@ fn encode(run: &Run) -> Result<(File, Duration)> {
     Ok((file, begin.elapsed()))
 }
 
-/// What pages are told of a run, but for what depends on the wish and on the model's bytes.
-fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
-    let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
-    let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
-    let textures = textures.filter(|texture| texture.content.is_none());
-    files.extend(textures.map(|texture| state.name(&texture.path)));
-    files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
-    files.sort();
-    files.dedup();
-    let systems = run.systems.iter().map(|system| {
-        let place = system.place.as_ref();
-        System {
-            system: system.system,
-            place: place.map(|it| format!("{}:{}", state.short(&it.file), it.line)).unwrap_or_default(),
-            chains: system.features.len(),
-            modules: system.modules(),
-            steps: system.steps,
-            symbols: trace::symbols(system),
-        }
-    });
-    let bounds = run.scene.bounds();
-    Model {
-        run: job.run,
-        cause: job.due.cause,
-        url: None,
-        bytes: 0,
-        triangles: run.scene.triangles(),
-        instances: run.scene.instances.len(),
-        modules: run.systems.iter().map(|system| system.modules()).sum(),
-        bounds: bounds.map(|(low, high)| Bounds { low: low.to_array(), high: high.to_array() }),
-        steps: run.systems.iter().map(|system| system.steps).max().unwrap_or(0),
-        last_step: 0,
-        step_limit: job.inputs.steps,
-        seed: job.inputs.seed.to_string(),
-        params: Vec::new(),
-        systems: systems.collect(),
-        rules: trace::rules(state, run),
-        times: Times {
-            script: ms(run.times.script),
-            rewriting: ms(run.times.derivation.rewriting),
-            interpretation: ms(run.times.derivation.interpretation),
-            scene: ms(run.times.scene),
-            encode: 0.0,
-            total: 0.0,
-        },
-        files,
-    }
-}
-
-fn ms(duration: Duration) -> f64 {
-    duration.as_secs_f64() * 1e3
-}
-
 fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
     let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
     Error::new(format!("internal error: {}", text.unwrap_or("without a message")))
@@ -284,6 +272,9 @@ fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
 /// Takes over what came of a run, and tells everybody.
 fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome) {
     let mut inner = state.lock();
+    if !matches!(outcome, Outcome::Cancelled) {
+        inner.doubts = None;
+    }
     let quick = inner.running.take().map(|running| running.begin.elapsed());
     if let Some(session) = session.filter(|_| !matches!(outcome, Outcome::Cancelled)) {
         inner.files = session.files();
@@ -291,22 +282,24 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
     let mut told = Vec::new();
     let mut gone = None;
     match outcome {
-        Outcome::Cancelled => state.say(&Say::Cancelled { run: job.run }),
+        Outcome::Cancelled => inner.cancelled(state, job.run),
         Outcome::Missing => {
             let text = format!("there is no script {} yet", state.script.display());
             inner.end_badly(state, job, Say::Waiting { text: text.clone() });
             told.push(Told::Waiting(text));
         }
         Outcome::Failed(error) => {
-            let errors = error.problems().map(|problem| state.error_json(problem)).collect();
+            let number = error.problems().count();
+            let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
-            inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors });
+            inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors, number });
             told.push(Told::Failed(error));
         }
         Outcome::Made(made) => {
             let Made { run, file, mut message } = *made;
             message.params = inner.wish.knobs(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
+            message.preset = inner.wish.preset();
             let File { content, layout, note } = file;
             let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
             told.push(Told::Model {
@@ -316,11 +309,13 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             });
             inner.params = Some(run.params.clone());
             inner.trouble = None;
+            inner.cancelled = None;
             inner.took = quick.unwrap_or_default();
             inner.finished = Some(job.inputs.clone());
             state.say(&Say::Model(Box::new(message.clone())));
             let left_out = session.map(Session::left_out).unwrap_or_default();
             told.extend(inner.tell_left_out(state, &left_out));
+            told.extend(inner.new_warnings(&run.warnings));
             let report = run.report();
             let remarks = (!report.is_clean())
                 .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
@@ -343,9 +338,19 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
 impl Inner {
     fn end_badly(&mut self, state: &State, job: &Job, say: Say) {
         self.params = None;
+        self.cancelled = None;
         self.finished = Some(job.inputs.clone());
         state.say(&say);
         self.trouble = Some(say);
+    }
+
+    /// The warnings of a run that the one before did not have.
+    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Told> {
+        let text = |it: &Warning| format!("{:?} {}", it.place(), it.message());
+        let new = warnings.iter().filter(|warning| !self.warnings.contains(&text(warning)));
+        let told = new.cloned().map(Told::Warning).collect();
+        self.warnings = warnings.iter().map(text).collect();
+        told
     }
 
     /// Tells of values that the script does not take any more, once each.
@@ -421,7 +426,7 @@ fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
     inner.last_step = Some((inputs, last_step));
     let Some(shown) = inner.shown.as_mut() else { return };
     let message = Model { last_step, ..shown.message.clone() };
-    state.say(&Say::Model(Box::new(message.clone())));
     let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
     *shown = Arc::new(Shown { run, inputs: shown.inputs.clone(), layout, message });
+    inner.present().into_iter().for_each(|model| state.say(&Say::Model(Box::new(model))));
 }

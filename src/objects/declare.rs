@@ -105,10 +105,11 @@ pub fn refuse_unknown(kind: &str, fields: &[Field], table: &Table) -> Result<()>
             return Err(Error::new(format!(
                 "{kind} takes named fields, but was given {value} without a name"
             ))
-            .help(format!("write {kind} {{ {} = {value} }}", fields.first().map_or("name", |f| f.name))));
+            .help(format!("write {kind} {{ {} = {value} }}", fields.first().map_or("name", |f| f.name)))
+            .of_script());
         };
         if !fields.iter().any(|field| field.name == &**name) {
-            let error = Error::new(format!("{kind} has no field called {name}"));
+            let error = Error::new(format!("{kind} has no field called {name}")).of_script();
             return Err(match nearest(name, fields.iter().map(|field| field.name)) {
                 Some(near) => error.help(format!("did you mean {near}?")),
                 None => error.help(format!(
@@ -295,7 +296,8 @@ impl<'a> Arguments<'a> {
                 self.method,
                 self.taken,
                 self.values.len()
-            )));
+            ))
+            .of_script());
         }
         Ok(())
     }
@@ -354,5 +356,7 @@ pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
 
 #[cold]
 fn wrong_type() -> Error {
-    Error::new("the method belongs to another type of object").help("call it with a colon: this:method()")
+    Error::new("the method belongs to another type of object")
+        .help("call it with a colon: this:method()")
+        .of_script()
 }

@@ -13,6 +13,7 @@ use super::{Drawing, Surface};
 use crate::error::{Error, Result};
 use crate::geometry::{Frame, Section, Segment, Station, SweepOptions, sweep};
 use crate::scene::{Material, Scene};
+use crate::warning::{Warning, WarningKind};
 
 fields! {
     /// What `extruder { ... }` takes.
@@ -60,6 +61,7 @@ pub struct Extruder {
     known: Vec<(Shape, Arc<Section>)>,
     drawing: Drawing,
     open_edges: usize,
+    warnings: Vec<Warning>,
 }
 
 /// A cross-section that a few numbers describe.
@@ -294,6 +296,7 @@ impl Extruder {
             known: Vec::new(),
             drawing: Drawing::default(),
             open_edges: 0,
+            warnings: Vec::new(),
         })
     }
 
@@ -320,6 +323,11 @@ impl Extruder {
 
     fn segment(&mut self, length: f64) -> Result<()> {
         let state = &mut self.state;
+        if state.scale == DVec2::ZERO && state.taper == DVec2::ZERO {
+            let text = "extruder:extrude draws nothing where the scale is 0";
+            let help = "give a scale above 0, or go on without drawing: this:advance(length)";
+            self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help).of_all());
+        }
         let section = if state.around > 0 {
             Arc::new(state.section.resampled(state.around as usize)?)
         } else {
@@ -464,6 +472,10 @@ impl Object for Extruder {
 
     fn end(&mut self) -> Result<()> {
         self.close()
+    }
+
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
     }
 
     fn triangles(&self) -> usize {

@@ -6,6 +6,7 @@
 //! `methods!` for what scripts may call, and an implementation of [`Object`].
 
 mod boxed;
+mod colors;
 #[doc(hidden)]
 #[macro_use]
 pub mod declare;
@@ -57,6 +58,7 @@ use std::any::Any;
 use crate::error::Result;
 use crate::scene::Scene;
 use crate::terrain::Divide;
+use crate::warning::Warning;
 
 /// The built-in types that scripts can construct.
 pub static KINDS: &[&Kind] = &[
@@ -121,8 +123,8 @@ pub trait Object: Any + Send + Sync {
     /// Takes the level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
     fn set_detail(&mut self, _: u8) {}
 
-    /// What people should know of how it was made.
-    fn warnings(&self) -> Vec<String> {
+    /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
+    fn take_warnings(&mut self) -> Vec<Warning> {
         Vec::new()
     }
 

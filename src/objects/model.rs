@@ -56,6 +56,16 @@ impl Model {
         self.scene.triangles()
     }
 
+    /// About how much memory (bytes) it takes.
+    pub(crate) fn memory(&self) -> usize {
+        let parts = self.scene.meshes.iter().flat_map(|mesh| &mesh.parts);
+        let images =
+            self.scene.materials.iter().filter_map(|material| material.texture.as_ref()?.content.as_ref());
+        parts.map(|part| part.positions.len() * 32 + part.triangles.len() * 12).sum::<usize>()
+            + self.scene.instances.len() * 300
+            + images.map(|image| image.len()).sum::<usize>()
+    }
+
     /// The number of meshes that it shows, each as often as it is seen.
     pub fn instances(&self) -> usize {
         self.scene.instances.len()

@@ -5,40 +5,70 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Boxed, Key, Object, Table, Value};
+use super::{Boxed, Key, Object, Table, Value, colors};
 use crate::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
 #[derive(Debug, Clone)]
 pub struct Expected {
     what: String,
-    of_data: bool,
+    /// What was found instead, where that is only a part of the value.
+    found: Option<String>,
 }
 
 impl Expected {
     /// Expected `what`, with its article.
     pub fn new(what: impl Into<String>) -> Self {
-        Self { what: what.into(), of_data: false }
+        Self { what: what.into(), found: None }
     }
 
-    /// The same, where what was found instead is a matter of the data, not of the script.
+    /// The same, where `found` is what is wrong within the value.
     #[must_use]
-    pub fn of_data(self) -> Self {
-        Self { of_data: true, ..self }
+    pub fn found(self, found: &Value) -> Self {
+        Self { found: self.found.or_else(|| Some(shown(found))), ..self }
     }
 
-    /// The error: `name` of `owner` is not as expected.
+    /// The same, where what was found is called `found`.
+    #[must_use]
+    pub fn but_was(self, found: impl Into<String>) -> Self {
+        Self { found: Some(found.into()), ..self }
+    }
+
+    /// What is wrong with item `number` of a list.
+    pub(super) fn item(&self, number: usize) -> String {
+        match &self.found {
+            Some(found) => format!("item {number} must be {}, not {found}", self.what),
+            None => format!("item {number} must be {}", self.what),
+        }
+    }
+
+    /// The error: `name` of `owner` is not as expected. What a feature has may be right with another one.
     pub fn refuse(&self, owner: &str, name: &str, value: &Value) -> Error {
-        let found = match value {
-            Value::Number(number) if number.is_nan() => "NaN".to_owned(),
-            Value::Number(number) if number.is_infinite() => "infinity".to_owned(),
-            Value::Number(_) | Value::Text(_) | Value::Boolean(_) => value.to_string(),
-            Value::Table(_) if value.to_string().len() <= 40 => value.to_string(),
-            other => other.describe().to_owned(),
-        };
-        let error = Error::new(format!("{owner}: {name} must be {}, not {found}", self.what));
-        let no_number = matches!(value, Value::Number(number) if !number.is_finite());
-        if self.of_data || no_number { error.of_data() } else { error }
+        let found = self.found.clone().unwrap_or_else(|| shown(value));
+        Error::new(format!("{owner}: {name} must be {}, not {found}", self.what)).of_data()
+    }
+}
+
+/// A value for a message.
+fn shown(value: &Value) -> String {
+    /// The longest text of a value that is shown.
+    const LONGEST: usize = 40;
+    match value {
+        Value::Number(number) if number.is_nan() => "NaN".to_owned(),
+        Value::Number(number) if number.is_infinite() => "infinity".to_owned(),
+        Value::Text(text) if text.len() > 2 * LONGEST => {
+            format!("{:?}...", text.chars().take(LONGEST).collect::<String>())
+        }
+        Value::Number(_) | Value::Text(_) | Value::Boolean(_) => value.to_string(),
+        Value::Table(table) if table.entries.len() <= 4 => {
+            let text = value.to_string();
+            if text.len() <= LONGEST { text } else { value.describe().to_owned() }
+        }
+        Value::Object(object) => {
+            let name = object.kind().name;
+            format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
+        }
+        other => other.describe().to_owned(),
     }
 }
 
@@ -282,9 +312,9 @@ impl<T: Parameter> Parameter for Vec<T> {
                 list.into_iter()
                     .enumerate()
                     .map(|(index, value)| {
-                        T::from_value(value).map_err(|inner| Expected {
-                            what: format!("a list whose item {} is {}", index + 1, inner.what),
-                            ..inner
+                        T::from_value(value.clone()).map_err(|inner| {
+                            let what = format!("a list whose item {} is {}", index + 1, inner.what);
+                            Expected { what, ..inner }.found(&value)
                         })
                     })
                     .collect()
@@ -319,10 +349,13 @@ impl Parameter for Vector {
         if parts.is_empty() {
             parts = ["x", "y", "z"].iter().filter_map(|name| table.get(name).cloned()).collect();
         }
-        let numbers: Vec<f64> = parts
-            .into_iter()
-            .map(|part| f64::from_value(part).map_err(|_| what()))
-            .collect::<Result<_, _>>()?;
+        let number = |part: Value| match part {
+            Value::Number(number) if !number.is_finite() => {
+                Err(Expected::new("a vector of finite numbers").found(&Value::Table(Arc::clone(&table))))
+            }
+            part => f64::from_value(part).map_err(|_| what()),
+        };
+        let numbers: Vec<f64> = parts.into_iter().map(number).collect::<Result<_, _>>()?;
         match numbers.as_slice() {
             [x, y] => Ok(Self(DVec3::new(*x, *y, 0.0))),
             [x, y, z] => Ok(Self(DVec3::new(*x, *y, *z))),
@@ -361,19 +394,17 @@ impl Parameter for Color {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a colour: \"#rrggbb\" or { red, green, blue } from 0 to 1");
+        let what = || {
+            Expected::new(
+                "a colour: \"#rrggbb\", a name such as \"lightblue\", or { red, green, blue } from 0 to 1",
+            )
+        };
         let channels: Vec<f64> = match value {
-            Value::Text(text) => {
-                let digits = text.strip_prefix('#').ok_or_else(what)?;
-                if !matches!(digits.len(), 6 | 8) || !digits.is_ascii() {
-                    return Err(what());
-                }
-                (0..digits.len())
-                    .step_by(2)
-                    .map(|at| u8::from_str_radix(&digits[at..at + 2], 16).map(|byte| f64::from(byte) / 255.0))
-                    .collect::<Result<_, _>>()
-                    .map_err(|_| what())?
-            }
+            Value::Text(text) => match colors::read(&text) {
+                Ok(channels) => channels.map(|channel| f64::from(channel) / 255.0).to_vec(),
+                Err(Some(near)) => return Err(Expected::new(format!("a colour, such as \"{near}\""))),
+                Err(None) => return Err(what()),
+            },
             value => Vec::<f64>::from_value(value).map_err(|_| what())?,
         };
         if !matches!(channels.len(), 3 | 4) || channels.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
@@ -427,8 +458,11 @@ mod tests {
         assert_eq!(hex.into_value().to_string(), "\"#336699\"");
         let list = Color::from_value(vec![0.2, 0.4, 0.6].into_value()).unwrap();
         assert_eq!(list.into_value().to_string(), "\"#336699\"");
-        for wrong in ["336699", "#33669", "#gggggg"] {
+        for wrong in ["#33669", "#gggggg", "", "#", "no colour", "é", "#é00000"] {
             assert!(Color::from_value(Value::Text(wrong.into())).is_err(), "{wrong}");
+        }
+        for right in ["LightSteelBlue", "#369", "336699"] {
+            assert!(Color::from_value(Value::Text(right.into())).is_ok(), "{right}");
         }
     }
 

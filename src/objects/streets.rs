@@ -9,8 +9,9 @@ use rstar::{PointDistance, RTree};
 
 use super::parameter::{Expected, object};
 use super::{Features, Kind, Object, Parameter, Shape, Table, Value, Vector};
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::sources::Geometry;
+use crate::warning::{Warning, WarningKind};
 
 /// The farthest (m) that a street lies from what faces it.
 const FARTHEST: f64 = 300.0;
@@ -21,7 +22,12 @@ const TRIES: usize = 64;
 
 /// Lines of points (m): a source, geometries, or lists of points.
 #[derive(Debug, Clone, Default)]
-pub struct Lines(pub Vec<Vec<DVec3>>);
+pub struct Lines {
+    /// The lines.
+    pub lines: Vec<Vec<DVec3>>,
+    /// How many items of a list were left out, and the first of them.
+    pub refused: Option<(usize, String)>,
+}
 
 impl Parameter for Lines {
     fn luau() -> String {
@@ -29,29 +35,29 @@ impl Parameter for Lines {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        let mut lines = Vec::new();
+        let mut lines = Self::default();
         collect(value, &mut lines, 0)?;
-        Ok(Self(lines))
+        Ok(lines)
     }
 
     fn into_value(self) -> Value {
-        let lines = self.0.into_iter().map(|line| line.into_iter().map(Vector).collect());
+        let lines = self.lines.into_iter().map(|line| line.into_iter().map(Vector).collect());
         lines.collect::<Vec<Vec<Vector>>>().into_value()
     }
 }
 
 /// Adds the lines of a value: of a source, a feature, a geometry, or a list of these or of points.
-fn collect(value: Value, lines: &mut Vec<Vec<DVec3>>, depth: usize) -> Result<(), Expected> {
+fn collect(value: Value, lines: &mut Lines, depth: usize) -> Result<(), Expected> {
     let what = || Expected::new("a source of lines, a list of lines, or a list of points");
     match value {
         Value::Object(object) => {
             let any: &dyn std::any::Any = &*object;
             if let Some(shape) = any.downcast_ref::<Shape>() {
-                add(shape.geometry(), lines);
+                add(shape.geometry(), &mut lines.lines);
                 return Ok(());
             }
             let features = any.downcast_ref::<Features>().ok_or_else(what)?;
-            features.0.features.iter().for_each(|feature| add(&feature.geometry, lines));
+            features.0.features.iter().for_each(|feature| add(&feature.geometry, &mut lines.lines));
         }
         Value::Table(table) => {
             if let Some(geometry) = table.get("geometry") {
@@ -62,12 +68,14 @@ fn collect(value: Value, lines: &mut Vec<Vec<DVec3>>, depth: usize) -> Result<()
             }
             if let Some(rings) = table.get("rings") {
                 let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).map_err(|_| what())?;
-                lines.extend(rings.into_iter().map(|ring| closed(ring.into_iter().map(|at| at.0).collect())));
+                lines
+                    .lines
+                    .extend(rings.into_iter().map(|ring| closed(ring.into_iter().map(|at| at.0).collect())));
                 return Ok(());
             }
             if let Ok(points) = Vec::<Vector>::from_value(Value::Table(Arc::clone(&table))) {
                 if !points.is_empty() {
-                    lines.push(points.into_iter().map(|point| point.0).collect());
+                    lines.lines.push(points.into_iter().map(|point| point.0).collect());
                 }
                 return Ok(());
             }
@@ -75,8 +83,22 @@ fn collect(value: Value, lines: &mut Vec<Vec<DVec3>>, depth: usize) -> Result<()
             if depth > 4 || list.len() != table.entries.len() {
                 return Err(what());
             }
-            for item in list {
-                collect(item, lines, depth + 1)?;
+            // One bad item among others is left out alone.
+            let (mut good, mut bad) = (0, None);
+            for (number, item) in (1..).zip(list) {
+                let known = lines.lines.len();
+                match collect(item, lines, depth + 1) {
+                    Ok(()) => good += 1,
+                    Err(error) => {
+                        lines.lines.truncate(known);
+                        let (count, _) = lines.refused.get_or_insert_with(|| (0, error.item(number)));
+                        *count += 1;
+                        bad.get_or_insert(error);
+                    }
+                }
+            }
+            if let (0, Some(error)) = (good, bad) {
+                return Err(error);
             }
         }
         _ => return Err(what()),
@@ -111,6 +133,7 @@ fields! {
 #[derive(Clone)]
 pub struct Streets {
     pieces: Arc<RTree<Line<[f64; 2]>>>,
+    warnings: Vec<Warning>,
 }
 
 impl fmt::Debug for Streets {
@@ -143,12 +166,15 @@ impl Streets {
 
     /// The streets that a script names.
     pub fn new(options: Options) -> Result<Self> {
-        let lines = options.lines.0;
-        if let Some(wrong) = lines.iter().flatten().find(|point| !point.is_finite()) {
-            return Err(Error::new(format!("streets: a point is ({}, {})", wrong.x, wrong.y))
-                .help("give finite coordinates in metres"));
+        let Lines { lines, refused } = options.lines;
+        let mut streets = Self::over(&lines);
+        if let Some((count, first)) = refused {
+            let items = if count == 1 { "item" } else { "items" };
+            let text = format!("streets: left out {count} {items} of the list: {first}");
+            let warning = Warning::new(WarningKind::Data, text);
+            streets.warnings.push(warning.help("give lines of points with finite coordinates in metres"));
         }
-        Ok(Self::over(&lines))
+        Ok(streets)
     }
 
     /// Streets along `lines` (m).
@@ -158,7 +184,7 @@ impl Streets {
             // A piece without length has no nearest point.
             (from.distance_squared(to) > 0.0).then(|| Line::new(from.to_array(), to.to_array()))
         });
-        Self { pieces: Arc::new(RTree::bulk_load(pieces.collect())) }
+        Self { pieces: Arc::new(RTree::bulk_load(pieces.collect())), warnings: Vec::new() }
     }
 
     /// Distance (m) from the middle of the edge from `a` to `b`, whose right side faces outwards, to the nearest
@@ -198,5 +224,9 @@ impl Object for Streets {
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
+    }
+
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
     }
 }

@@ -1,6 +1,6 @@
 //! From samples to pixels: finds what each pixel sees, has it lit, and mixes the colours.
 
-use super::light_map::noise;
+use super::coverage::noise;
 use super::settings::{Background, Detail, Picture};
 use super::shade::{Fragment, Light};
 use super::sky::smooth;
@@ -32,12 +32,19 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Rgba
     let mut pixels = vec![0_u8; width * height * 4];
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
     for (index, rows) in pixels.chunks_mut(band * width * 4).enumerate() {
+        // What is seen of a band takes its time and its memory, also where nothing is drawn any more.
+        if light.stage.stop.is_stopped() {
+            break;
+        }
         let first = index * band;
         let last = (first + band).min(height);
         let visible = Visible::new(light.stage, light.camera, detail, width, first..last);
         rows.par_chunks_mut(TILE[1] * width * 4).enumerate().for_each(|(index, rows)| {
             let top = first + index * TILE[1];
             for left in (0..width).step_by(TILE[0]) {
+                if light.stage.stop.is_stopped() {
+                    return;
+                }
                 let size = [TILE[0].min(width - left), rows.len() / (width * 4)];
                 let tile = tile(light, picture, &visible, [left, top], size);
                 for (y, line) in tile.chunks(size[0]).enumerate() {

@@ -11,6 +11,9 @@ pub const CLOSE: Symbol = 1;
 /// Ends a chain.
 pub const END: Symbol = 2;
 
+/// How deep the branches of one successor, axiom or context may be nested.
+pub const DEEPEST: usize = 200;
+
 /// The chains of a system, in columns. Each chain ends with [`END`]; brackets balance within it.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Chain {

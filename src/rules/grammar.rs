@@ -3,9 +3,13 @@
 use std::sync::Arc;
 
 use super::chain::{END, Symbol};
+use super::matching::{Ahead, Branches};
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
 use crate::error::Place;
+
+/// The largest number of rules that a system may have: they are numbered in 16 bits.
+pub const MOST_RULES: usize = 65_000;
 
 /// A production, without its successor: that is a function in each of the script's virtual machines.
 #[derive(Debug, Clone)]
@@ -71,6 +75,9 @@ pub struct Grammar {
     symbols: Arc<Symbols>,
     rules: Vec<Rule>,
     by_symbol: Vec<Vec<u16>>,
+    /// By rule: its right context.
+    rights: Vec<Box<[Ahead]>>,
+    branches: Branches,
     choices: Vec<Choice>,
     skipped: Vec<bool>,
     arities: Vec<u8>,
@@ -80,7 +87,8 @@ pub struct Grammar {
 }
 
 impl Grammar {
-    /// A grammar of `rules` in the order of their declaration. A rule of weight 0 never applies.
+    /// A grammar of `rules` in the order of their declaration, at most [`MOST_RULES`]. A rule of weight 0 is no
+    /// candidate: it never applies.
     ///
     /// `ignored` lists the symbols that contexts pass over. `random` tells whether successors may draw random
     /// numbers; weights are seen from the rules themselves.
@@ -96,12 +104,14 @@ impl Grammar {
         }
         let left = rules.iter().any(|rule| !rule.pattern.left.is_empty());
         let right = rules.iter().any(|rule| !rule.pattern.right.is_empty());
+        let mut branches = Branches::default();
+        let rights = rules.iter().map(|rule| branches.number(&rule.pattern.right)).collect();
         let choices = by_symbol
             .iter()
             .map(|of| Choice::among(of.iter().map(|rule| &rules[usize::from(*rule)]), of))
             .collect();
         let random = random || rules.iter().any(|rule| rule.weight.is_some());
-        Self { symbols, rules, by_symbol, choices, skipped, arities, left, right, random }
+        Self { symbols, rules, by_symbol, rights, branches, choices, skipped, arities, left, right, random }
     }
 
     /// The declared modules.
@@ -114,10 +124,21 @@ impl Grammar {
         &self.rules
     }
 
-    /// The rules of a symbol, in the order of their declaration.
+    /// The rules of a symbol that can be chosen, in the order of their declaration.
     #[inline]
     pub fn rules_of(&self, symbol: Symbol) -> &[u16] {
         &self.by_symbol[usize::from(symbol)]
+    }
+
+    /// The right context of rule number `rule`.
+    #[inline]
+    pub(crate) fn right_of(&self, rule: u16) -> &[Ahead] {
+        &self.rights[usize::from(rule)]
+    }
+
+    /// The branches that contexts name.
+    pub(crate) fn branches(&self) -> &Branches {
+        &self.branches
     }
 
     /// How the rule for a module with this symbol is chosen.

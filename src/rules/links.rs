@@ -1,5 +1,8 @@
 //! Neighbours along the tree, found once a step so that a context costs O(1) for each of its modules.
 
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
+
 use super::chain::{CLOSE, Chain, END, OPEN};
 use super::grammar::Grammar;
 
@@ -11,11 +14,35 @@ pub(crate) const NONE: u32 = u32::MAX;
 pub struct Links {
     /// The nearest module towards the axiom that is not ignored. A closed branch is not on that path.
     pub(crate) left: Vec<u32>,
-    /// For [`OPEN`] its closing bracket; for a module the next one on its own branch that is not ignored.
+    /// For [`OPEN`] its closing bracket; for a module the next one on its own branch that is not ignored; for [`CLOSE`]
+    /// the first such module behind the branch.
     pub(crate) right: Vec<u32>,
+    /// The first branch on the symbol's own that begins there or behind it, with only ignored modules before it.
+    pub(crate) branch: Vec<u32>,
     /// Where each symbol's parameters begin.
     pub(crate) param: Vec<u32>,
+    /// For each branch that the grammar names, what searches for it have found.
+    known: Vec<OnceLock<Known>>,
     stack: Vec<u32>,
+}
+
+/// What the searches of a step for one named branch have found, by the opening bracket that they came by. All threads
+/// add to it: whoever finds something finds the same.
+#[derive(Debug)]
+pub(crate) struct Known(Vec<AtomicU32>);
+
+/// Nothing is known yet; an opening bracket is never so far that it could stand for a place.
+const UNKNOWN: u32 = NONE - 1;
+
+impl Known {
+    pub(crate) fn get(&self, open: u32) -> Option<u32> {
+        let found = self.0[open as usize].load(Ordering::Relaxed);
+        (found != UNKNOWN).then_some(found)
+    }
+
+    pub(crate) fn note(&self, open: u32, found: u32) {
+        self.0[open as usize].store(found, Ordering::Relaxed);
+    }
 }
 
 impl Links {
@@ -23,7 +50,9 @@ impl Links {
     pub fn build(&mut self, chain: &Chain, grammar: &Grammar) {
         self.left.clear();
         self.right.clear();
+        self.branch.clear();
         self.param.clear();
+        self.known.clear();
         if grammar.has_contexts() {
             self.find_params(chain, grammar);
         }
@@ -33,6 +62,17 @@ impl Links {
         if grammar.has_right_contexts() {
             self.find_right(chain, grammar);
         }
+        let named = grammar.branches().len();
+        if named > 0 {
+            self.find_branches(chain, grammar);
+            self.known.resize_with(named, OnceLock::new);
+        }
+    }
+
+    /// What is known of the named branch of this number. It takes memory only once it is asked for.
+    pub(crate) fn known(&self, number: u32) -> &Known {
+        self.known[number as usize]
+            .get_or_init(|| Known((0..self.right.len()).map(|_| AtomicU32::new(UNKNOWN)).collect()))
     }
 
     fn find_params(&mut self, chain: &Chain, grammar: &Grammar) {
@@ -66,16 +106,17 @@ impl Links {
         self.right.resize(chain.symbols.len(), NONE);
         let mut nearest = NONE;
         for (index, symbol) in chain.symbols.iter().enumerate().rev() {
-            let here = u32::try_from(index).unwrap_or(NONE);
+            let here = narrow(index);
             match *symbol {
                 CLOSE => {
-                    self.stack.push(nearest);
+                    self.right[index] = nearest;
                     self.stack.push(here);
                     nearest = NONE;
                 }
                 OPEN => {
-                    self.right[index] = self.stack.pop().unwrap_or(NONE);
-                    nearest = self.stack.pop().unwrap_or(NONE);
+                    let closing = self.stack.pop().unwrap_or(NONE);
+                    self.right[index] = closing;
+                    nearest = self.right.get(closing as usize).copied().unwrap_or(NONE);
                 }
                 END => nearest = NONE,
                 symbol => {
@@ -87,4 +128,22 @@ impl Links {
             }
         }
     }
+
+    fn find_branches(&mut self, chain: &Chain, grammar: &Grammar) {
+        self.branch.resize(chain.symbols.len(), NONE);
+        let mut next = NONE;
+        for (index, symbol) in chain.symbols.iter().enumerate().rev() {
+            next = match *symbol {
+                OPEN => narrow(index),
+                symbol if symbol > END && grammar.is_skipped(symbol) => next,
+                _ => NONE,
+            };
+            self.branch[index] = next;
+        }
+    }
+}
+
+/// Chains have fewer than 2^32 symbols; the limit on modules sees to that.
+fn narrow(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(NONE)
 }

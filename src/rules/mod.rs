@@ -4,22 +4,25 @@
 //! module of a [`Chain`]. It never runs Lua: guards and successors are only known to exist.
 
 mod chain;
+mod choice;
 mod grammar;
 mod key;
 mod links;
+mod matching;
 mod pattern;
 mod symbols;
 mod text;
 mod values;
 
-pub use chain::{CLOSE, Chain, END, Mark, OPEN, Symbol};
-pub use grammar::{Choice, Grammar, Rule};
+pub use chain::{CLOSE, Chain, DEEPEST, END, Mark, OPEN, Symbol};
+pub(crate) use choice::Candidates;
+pub use grammar::{Choice, Grammar, MOST_RULES, Rule};
 pub use key::Key;
 pub use links::Links;
-pub(crate) use pattern::Bindings;
+pub use matching::{Around, Bindings};
 pub use pattern::{Context, Item, Pattern};
 pub use symbols::{FIRST_SYMBOL, Signature, Symbols};
-pub use text::{chain_text, module_text, write_chains};
+pub use text::{chain_text, module_brief, module_text, write_chains};
 pub use values::Values;
 
 pub use crate::objects::Boxed;

@@ -1,12 +1,11 @@
-//! Patterns such as `A B < S(x) > C [D] E`: reading them, and matching them along the tree.
+//! Patterns such as `A B < S(x) > C [D] E`, and how they are read.
 
-use smallvec::SmallVec;
-
-use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
-use super::grammar::Grammar;
-use super::links::{Links, NONE};
+use super::chain::{DEEPEST, Symbol};
 use super::symbols::Symbols;
 use crate::error::{Error, Result};
+
+/// Characters of a pattern that are shown before the place where reading stopped, and behind it.
+const AROUND: usize = 100;
 
 /// A predecessor with its contexts.
 #[derive(Debug, Clone, PartialEq)]
@@ -41,41 +40,13 @@ pub enum Context {
     Branch(Vec<Context>),
 }
 
-/// The places of the context modules that a pattern matched, in the order in which it names them.
-pub(crate) type Bindings = SmallVec<[u32; 8]>;
-
 impl Pattern {
     /// Reads a pattern; its symbols must be declared in `symbols`.
     pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
-        Reader { text, at: 0, symbols, formals: Vec::new() }.pattern()
+        Reader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
     }
 
-    /// Whether the contexts of this pattern match around the module at `index`; fills `bindings` if so.
-    pub(crate) fn matches(
-        &self,
-        chain: &Chain,
-        links: &Links,
-        grammar: &Grammar,
-        index: usize,
-        bindings: &mut Bindings,
-    ) -> bool {
-        bindings.clear();
-        if !self.left.is_empty() {
-            let mut nearest = links.left[index];
-            for item in self.left.iter().rev() {
-                if nearest == NONE || chain.symbols[nearest as usize] != item.symbol {
-                    return false;
-                }
-                bindings.push(nearest);
-                nearest = links.left[nearest as usize];
-            }
-            bindings.reverse();
-        }
-        self.right.is_empty()
-            || Around { chain, links, grammar }.matches(&self.right, Behind::Module(index), bindings)
-    }
-
-    /// The context modules in the order in which [`Bindings`] lists them.
+    /// The context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
     pub(crate) fn context_items(&self) -> Vec<Item> {
         fn flatten(contexts: &[Context], items: &mut Vec<Item>) {
             for context in contexts {
@@ -91,88 +62,11 @@ impl Pattern {
     }
 }
 
-/// Where a right context continues.
-#[derive(Clone, Copy)]
-enum Behind {
-    /// Behind a module, whose next neighbour is linked.
-    Module(usize),
-    /// At this symbol, which may be anything.
-    At(usize),
-}
-
-struct Around<'a> {
-    chain: &'a Chain,
-    links: &'a Links,
-    grammar: &'a Grammar,
-}
-
-impl Around<'_> {
-    fn matches(&self, contexts: &[Context], from: Behind, bindings: &mut Bindings) -> bool {
-        let mut here = from;
-        for context in contexts {
-            let next = match context {
-                Context::Module(item) => self.module(*item, here, bindings),
-                Context::Branch(inner) => self.branch(inner, here, bindings),
-            };
-            match next {
-                Some(next) => here = next,
-                None => return false,
-            }
-        }
-        true
-    }
-
-    fn module(&self, item: Item, from: Behind, bindings: &mut Bindings) -> Option<Behind> {
-        let found = match from {
-            Behind::Module(index) => self.links.right[index],
-            Behind::At(index) => self.next_module(index),
-        };
-        if found == NONE || self.chain.symbols[found as usize] != item.symbol {
-            return None;
-        }
-        bindings.push(found);
-        Some(Behind::Module(found as usize))
-    }
-
-    /// The first module at or behind `index` on its own branch that is not ignored.
-    fn next_module(&self, mut index: usize) -> u32 {
-        loop {
-            match self.chain.symbols[index] {
-                CLOSE | END => return NONE,
-                OPEN => index = self.links.right[index] as usize + 1,
-                symbol if self.grammar.is_skipped(symbol) => return self.links.right[index],
-                _ => return u32::try_from(index).unwrap_or(NONE),
-            }
-        }
-    }
-
-    /// Matches the first branch ahead that begins with `inner`.
-    fn branch(&self, inner: &[Context], from: Behind, bindings: &mut Bindings) -> Option<Behind> {
-        let mut index = match from {
-            Behind::Module(index) => index + 1,
-            Behind::At(index) => index,
-        };
-        loop {
-            match self.chain.symbols[index] {
-                OPEN => {
-                    let behind = self.links.right[index] as usize + 1;
-                    let bound = bindings.len();
-                    if self.matches(inner, Behind::At(index + 1), bindings) {
-                        return Some(Behind::At(behind));
-                    }
-                    bindings.truncate(bound);
-                    index = behind;
-                }
-                symbol if symbol > END && self.grammar.is_skipped(symbol) => index += 1,
-                _ => return None,
-            }
-        }
-    }
-}
-
 struct Reader<'a> {
     text: &'a str,
     at: usize,
+    /// How many branches are open there.
+    depth: usize,
     symbols: &'a Symbols,
     formals: Vec<String>,
 }
@@ -244,6 +138,10 @@ impl Reader<'_> {
             return self.item().map(Context::Module);
         }
         let begin = self.at;
+        if self.depth == DEEPEST {
+            return Err(self.unexpected(&format!("branches are nested at most {DEEPEST} deep")));
+        }
+        self.depth += 1;
         self.at += 1;
         let mut inner = Vec::new();
         loop {
@@ -259,6 +157,7 @@ impl Reader<'_> {
                 Some(_) => inner.push(self.context()?),
             }
         }
+        self.depth -= 1;
         if inner.is_empty() {
             self.at = begin;
             return Err(self.unexpected("a branch in a context names at least one module"));
@@ -336,11 +235,21 @@ impl Reader<'_> {
             Some(c) => format!("unexpected '{c}'"),
             None => "unexpected end".to_owned(),
         };
-        let column = self.text[..self.at].chars().count();
-        let line: String = self.text.chars().map(|c| if c.is_whitespace() { ' ' } else { c }).collect();
+        let before = self.text[..self.at].chars().count();
+        let shown = |c: char| if c.is_whitespace() { ' ' } else { c };
+        let mut line: String =
+            self.text.chars().skip(before.saturating_sub(AROUND)).take(2 * AROUND).map(shown).collect();
+        let mut column = before.min(AROUND);
+        if before > AROUND {
+            line.insert_str(0, "...");
+            column += 3;
+        }
+        if self.text.chars().count() > before.saturating_sub(AROUND) + 2 * AROUND {
+            line.push_str("...");
+        }
         Error::new(format!(
             "malformed pattern: {found} at character {}\n    {line}\n    {}^",
-            column + 1,
+            before + 1,
             " ".repeat(column)
         ))
         .help(help)

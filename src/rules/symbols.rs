@@ -8,6 +8,9 @@ use crate::error::{Error, Result, nearest};
 /// The first number that a declared symbol may have; those below are the brackets and the end of a chain.
 pub const FIRST_SYMBOL: Symbol = 3;
 
+/// The largest number of modules that a script may declare, those of the standard library among them.
+const MOST_MODULES: usize = 65_000;
+
 /// The largest number of parameters that a module may have.
 const MOST_PARAMETERS: usize = 32;
 
@@ -118,8 +121,11 @@ impl Symbols {
                     .help("declare it once, or give the other module another name"));
             }
         }
-        let symbol = u16::try_from(self.signatures.len() + usize::from(FIRST_SYMBOL))
-            .map_err(|_| Error::new("more than 65,000 modules are declared"))?;
+        let symbol = u16::try_from(self.signatures.len() + usize::from(FIRST_SYMBOL)).ok();
+        let symbol = symbol.filter(|_| self.signatures.len() < MOST_MODULES).ok_or_else(|| {
+            Error::new("more than 65,000 modules are declared")
+                .help("declare fewer, and tell them apart by a parameter")
+        })?;
         self.by_name.insert(signature.name.clone(), symbol);
         self.signatures.push(signature);
         Ok(symbol)
@@ -128,6 +134,11 @@ impl Symbols {
     /// Marks what is declared so far as the standard library's.
     pub fn end_of_standard(&mut self) {
         self.standard = self.signatures.len();
+    }
+
+    /// Whether `symbol` is one of the standard library's.
+    pub fn is_standard(&self, symbol: Symbol) -> bool {
+        usize::from(symbol) < usize::from(FIRST_SYMBOL) + self.standard
     }
 
     /// The symbol called `name`; unknown ones are an error with the nearest known one.

@@ -110,7 +110,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
             } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), manner == Manner::Freeze) {
                 source.value()?
             } else if let (Ok(system), Manner::Field) = (data.borrow::<SystemHandle>(), manner) {
-                Value::Object(Arc::new(System { index: system.index() }))
+                Value::Object(Arc::new(System { index: system.give() }))
             } else {
                 return Err(Error::new("this object cannot be passed on"));
             }

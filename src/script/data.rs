@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::paths::{is_absolute, lead};
 use super::session::Session;
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 use crate::objects::import::Wanted as WantedModel;
 use crate::objects::terrain::EditFile;
@@ -29,6 +30,18 @@ struct Known {
     models: BTreeMap<PathBuf, Result<Arc<Model>>>,
     edits: BTreeMap<PathBuf, Result<EditFile>>,
     elevations: BTreeMap<String, Result<Elevation>>,
+    /// What all reading of the run may take.
+    budget: Option<Arc<Budget>>,
+}
+
+impl Known {
+    fn budget(&mut self, session: &Session) -> Arc<Budget> {
+        let make = || {
+            let stop = Arc::clone(&session.stop);
+            Budget::new(session.options.limits.memory, move || stop.check())
+        };
+        Arc::clone(self.budget.get_or_insert_with(make))
+    }
 }
 
 impl Data {
@@ -39,10 +52,12 @@ impl Data {
         if let Some(loaded) = known.loaded.get(&key) {
             return loaded.clone();
         }
-        let stop = Arc::clone(&session.stop);
-        wanted.stopped = Some(Arc::new(move || stop.is_stopped()));
+        wanted.budget = known.budget(session);
+        let before = wanted.budget.taken();
         let loaded = read(session, text, wanted, &mut known);
         session.stop.check()?;
+        let kept = loaded.as_ref().map_or(0, |layer| layer.size());
+        known.budget(session).settle(before, kept);
         known.loaded.insert(key, loaded.clone());
         loaded
     }
@@ -57,7 +72,16 @@ impl Data {
         }
         let path = find(session, "model", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        known.models.entry(path.clone()).or_insert_with(|| read_model(session, &path, name)).clone()
+        if let Some(model) = known.models.get(&path) {
+            return model.clone();
+        }
+        let budget = known.budget(session);
+        let before = budget.taken();
+        let read = read_model(session, &path, name, &budget);
+        session.stop.check()?;
+        budget.settle(before, read.as_ref().map_or(0, |model| model.memory()));
+        known.models.insert(path, read.clone());
+        read
     }
 }
 
@@ -95,8 +119,9 @@ impl Data {
         }
         let path = find(session, "file of edits", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let budget = known.budget(session);
         let read = || -> Result<EditFile> {
-            let text = String::from_utf8(read_file(&path, name)?)
+            let text = String::from_utf8(read_file(&path, name, "name a .json file", &budget)?)
                 .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
             Ok(EditFile { name: name.to_owned(), text: text.into() })
         };
@@ -116,10 +141,16 @@ fn read_heights(
     wanted: &WantedHeights,
     known: &mut Known,
 ) -> Result<Elevation> {
+    let budget = known.budget(session);
+    let before = budget.taken();
     let raster = match session.options.cache.as_deref() {
-        Some(cache) => cache.raster(path, name, wanted)?,
-        None => Arc::new(Raster::open(path, name, wanted)?),
+        Some(cache) => cache.raster(path, name, wanted, &budget),
+        None => Raster::open(path, name, wanted, &budget).map(Arc::new),
     };
+    // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
+    let kept = raster.as_ref().map_or(0, |raster| raster.heights.len() * size_of::<f32>());
+    budget.settle(before, kept);
+    let raster = raster?;
     if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
         let all = raster.columns * raster.rows;
         eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);
@@ -130,28 +161,29 @@ fn read_heights(
 /// The largest file (bytes) of a model.
 const LARGEST: u64 = 1_000_000_000;
 
-fn read_model(session: &Session, path: &Path, name: &str) -> Result<Arc<Model>> {
-    let content = read_file(path, name)?;
+fn read_model(session: &Session, path: &Path, name: &str, budget: &Budget) -> Result<Arc<Model>> {
+    let remedy = "name a .glb or .gltf file";
+    let content = read_file(path, name, remedy, budget)?;
     // Files beside it are named from its own folder.
     let folder = Path::new(name).parent().map(Path::to_path_buf).unwrap_or_default();
     let mut beside = |uri: &str| {
         let name = folder.join(uri).display().to_string();
-        read_file(&find(session, "file of a model", &name)?, &name)
+        read_file(&find(session, "file of a model", &name)?, &name, remedy, budget)
     };
     let triangles = session.options.limits.triangles;
-    crate::objects::import::model(&content, &mut WantedModel { name, triangles, beside: &mut beside })
+    crate::objects::import::model(&content, &mut WantedModel { name, triangles, budget, beside: &mut beside })
 }
 
-fn read_file(path: &Path, name: &str) -> Result<Vec<u8>> {
+/// The content of a file, for which memory is taken.
+fn read_file(path: &Path, name: &str, remedy: &str, budget: &Budget) -> Result<Vec<u8>> {
     let cannot = |why: &dyn std::fmt::Display| Error::new(format!("cannot read {name}: {why}"));
-    let meta = path.metadata().map_err(|error| cannot(&error))?;
-    if !meta.is_file() {
-        return Err(cannot(&"it is not a file").help("name a .glb or .gltf file"));
-    }
+    let (_, meta) = crate::files::open(path).map_err(|error| cannot(&error).help(remedy))?;
     if meta.len() > LARGEST {
         return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));
     }
-    std::fs::read(path).map_err(|error| cannot(&error))
+    budget.check()?;
+    budget.take(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
+    crate::files::read(path, meta.len()).map_err(|error| cannot(&error).help(remedy))
 }
 
 fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {
@@ -170,7 +202,7 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
             layer
         }
         None => {
-            let table = Source::open(&path, name)?.read(name, &wanted)?;
+            let table = Source::open_within(&path, name, &wanted)?.read(name, &wanted)?;
             let shown = table.shown.clone();
             let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
             let layer = Arc::new(layer);
@@ -180,21 +212,8 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
             layer
         }
     };
-    let shown = &layer.shown;
-    // A layer that is read in parts is told of once.
-    if layer.empty > 0 && known.told.insert(shown.clone()) && !session.options.quiet {
-        let features = if layer.empty == 1 { "feature" } else { "features" };
-        eprintln!("{shown}: left out {} {features} without a geometry", layer.empty);
-    }
-    if let Some((_, error)) = layer.refused.first() {
-        if session.options.strict {
-            return Err(error.clone());
-        }
-        if known.told.insert(format!("refused {shown}")) && !session.options.quiet {
-            let count = layer.refused.len();
-            let features = if count == 1 { "feature" } else { "features" };
-            eprintln!("{shown}: left out {count} {features} that cannot be read: {}", error.message());
-        }
+    if let (true, Some((_, error))) = (session.options.strict, layer.refused.first()) {
+        return Err(error.clone());
     }
     Ok(layer)
 }

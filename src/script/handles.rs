@@ -1,5 +1,6 @@
 //! Objects and derived systems as scripts hold them.
 
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
@@ -13,6 +14,7 @@ pub(crate) struct Objects {
     list: Vec<RwLock<Box<dyn Object>>>,
     /// By object: what its data is at fault for. Nothing more is drawn with such an object.
     failures: Vec<OnceLock<Error>>,
+    any_failed: AtomicBool,
     forgiving: bool,
 }
 
@@ -20,7 +22,17 @@ impl Objects {
     /// The objects of chains. With `forgiving`, bad data leaves a chain out and does not end the run.
     pub(crate) fn new(objects: Vec<Box<dyn Object>>, forgiving: bool) -> Self {
         let failures = objects.iter().map(|_| OnceLock::new()).collect();
-        Self { list: objects.into_iter().map(RwLock::new).collect(), failures, forgiving }
+        Self {
+            list: objects.into_iter().map(RwLock::new).collect(),
+            failures,
+            any_failed: AtomicBool::new(false),
+            forgiving,
+        }
+    }
+
+    /// Whether the data of any chain was at fault.
+    pub(crate) fn any_failed(&self) -> bool {
+        self.any_failed.load(Ordering::Relaxed)
     }
 
     /// Whether the data of a chain was at fault, so that nothing more is done with its object.
@@ -34,6 +46,7 @@ impl Objects {
             Some(failure) if self.forgiving && error.is_of_data() => {
                 // The first one counts.
                 let _ = failure.set(error);
+                self.any_failed.store(true, Ordering::Relaxed);
                 Ok(())
             }
             _ => Err(error),
@@ -144,7 +157,7 @@ impl DerivedHandle {
             "steps" => number(derived.steps),
             "modules" => number(derived.modules()),
             "chains" => {
-                let lines = derived.chain_text();
+                let lines = derived.read_chains();
                 let table = lua.create_sequence_from(lines.lines())?;
                 table.set_readonly(true);
                 Ok(LuaValue::Table(table))

@@ -15,9 +15,11 @@ use super::machine::{Machine, compile, native};
 use super::param::Param;
 use super::require::require;
 use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy, is_unread_geometry};
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::objects::{Call, Elevation, ElevationOptions, KINDS, Kind, Model, Table as ValueTable, Value};
 use crate::rules::{Signature, Symbol, Symbols};
+use crate::text::escaped_lines;
+use crate::warning::{Warning, WarningKind};
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| compile(include_str!("../../stdlib.lua")));
@@ -58,6 +60,8 @@ pub(crate) struct Library {
     pub systems: RefCell<Vec<System>>,
     pub standard: RefCell<Vec<Standard>>,
     pub problems: RefCell<Vec<Error>>,
+    /// Where the script declared its modules.
+    pub places: RefCell<FxHashMap<Symbol, Place>>,
     /// Constructors of modules, by symbol.
     pub constructors: RefCell<FxHashMap<Symbol, Function>>,
     /// The files that are being required, from the main one on.
@@ -70,6 +74,8 @@ pub(crate) struct Library {
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
+    /// The parameters as they were declared first, and where.
+    params: RefCell<Vec<(Param, Option<Place>)>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
 }
 
@@ -90,6 +96,30 @@ impl Library {
         *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
     }
 
+    /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
+    /// line once more, share it.
+    fn add_param(&self, param: Param, place: Option<Place>) -> Result<()> {
+        let machine = self.machine()?;
+        let mut params = self.params.borrow_mut();
+        if let Some((known, first)) = params.iter().find(|(known, _)| known.name == param.name) {
+            let in_file = |place: &Option<Place>| place.as_ref().map(|place| place.file.clone());
+            let shared = *known == param && (*first == place || in_file(first) != in_file(&place));
+            if !shared {
+                let first = first.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
+                let text = format!(
+                    "the parameter {} is declared already{first}, and people only see that one",
+                    param.name
+                );
+                let help = "declare it once and use its value again, or give this one another name";
+                machine.warn(Warning::new(WarningKind::ParameterTwice, text).at(place).help(help));
+            }
+            return Ok(());
+        }
+        machine.session.add_param(param.clone());
+        params.push((param, place));
+        Ok(())
+    }
+
     /// Refuses what belongs at the top level while rules run; the standard library is always at the top.
     fn at_top_level(&self, what: &str) -> Result<()> {
         self.machine()?.refuse_in_rules(what)
@@ -100,7 +130,7 @@ impl Library {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
         let (name, chunk) = match machine.session.stdlib() {
-            None => ("stdlib.lua", machine.load_compiled("stdlib.lua", &STANDARD_COMPILED)?),
+            None => ("stdlib.lua", machine.load_compiled(&STANDARD_COMPILED)?),
             Some((name, text)) => (name, machine.load(name, text)?),
         };
         let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
@@ -120,7 +150,7 @@ impl Library {
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         self.standard_chunk.replace(Some(chunk));
-        for name in ["__interpretation", "__class"] {
+        for name in ["__interpretation", "__class", "__refuse", "__describe"] {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());
@@ -231,9 +261,16 @@ impl Library {
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
             "module",
-            lua.create_function(move |_, (name, parameters): (String, Variadic<String>)| {
+            lua.create_function(move |lua, (name, parameters): (String, Variadic<String>)| {
                 library.at_top_level("module").map_err(mlua::Error::external)?;
-                declare(&library, &name, &parameters).map_err(mlua::Error::external)
+                let (symbol, constructor) =
+                    declare(&library, &name, &parameters).map_err(mlua::Error::external)?;
+                if let (false, Some(place)) =
+                    (library.symbols.borrow().is_standard(symbol), Machine::place(lua))
+                {
+                    library.places.borrow_mut().entry(symbol).or_insert(place);
+                }
+                Ok(constructor)
             })?,
         )?;
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
@@ -256,7 +293,7 @@ impl Library {
                     Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
                 }
                 let value = param.value.to_value();
-                session.add_param(param);
+                library.add_param(param, Machine::place(lua)).map_err(mlua::Error::external)?;
                 to_lua(lua, &value, false)
             })?,
         )?;
@@ -338,7 +375,10 @@ impl Library {
                             .help("write elevation(\"N43E007.hgt\", { crs = 4326 })"));
                         }
                     };
-                    session.data.elevation(&session, &name, &options.wanted()?)
+                    let found = session.data.elevation(&session, &name, &options.wanted()?)?;
+                    let machine = library.machine()?;
+                    found.relief().raster().warnings().into_iter().for_each(|it| machine.warn(it));
+                    Ok(found)
                 });
                 made.map(|elevation| ObjectHandle(Arc::new(elevation))).map_err(mlua::Error::external)
             })?,
@@ -359,18 +399,18 @@ impl Library {
     }
 }
 
-fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<Function> {
+fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symbol, Function)> {
     let signature = Signature::new(name, parameters)?;
     let symbol = library.symbols.borrow_mut().declare(signature)?;
     if let Some(constructor) = library.constructors.borrow().get(&symbol) {
-        return Ok(constructor.clone());
+        return Ok((symbol, constructor.clone()));
     }
     // The standard library declares modules before the machine is complete, so the prelude is asked directly.
     let machine = library.machine()?;
     let constructor =
         machine.constructor(&library.symbols.borrow(), symbol).map_err(|error| machine.translate(error))?;
     library.constructors.borrow_mut().insert(symbol, constructor.clone());
-    Ok(constructor)
+    Ok((symbol, constructor))
 }
 
 fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
@@ -380,8 +420,11 @@ fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
     let tostring: Function = lua.globals().get("tostring")?;
     let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
     // On a terminal, what is printed takes the place of the progress that may stand in the line.
-    let clear = if std::io::stderr().is_terminal() { "\r\u{1b}[2K" } else { "" };
-    eprintln!("{clear}{}", texts.join("\t"));
+    let (clear, text) = match std::io::stderr().is_terminal() {
+        true => ("\r\u{1b}[2K", escaped_lines(&texts.join("\t")).into_owned()),
+        false => ("", texts.join("\t")),
+    };
+    eprintln!("{clear}{text}");
     Ok(())
 }
 
@@ -416,11 +459,17 @@ fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua
     if OF_FILES.iter().any(|known| known.name == kind.name) {
         return Ok(());
     }
+    let library = std::rc::Rc::clone(&machine.library);
     globals.raw_set(
         kind.name,
         lua.create_function(move |_, given: MultiValue| {
             let table = constructor_fields(kind, given).map_err(mlua::Error::external)?;
-            let object = (kind.construct)(&table).map_err(mlua::Error::external)?;
+            // What one feature has in place of a number, another may have right.
+            let mut object =
+                (kind.construct)(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
+            for warning in object.take_warnings() {
+                library.machine().map_err(mlua::Error::external)?.warn(warning);
+            }
             Ok(ObjectHandle(Arc::from(object)))
         })?,
     )

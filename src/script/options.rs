@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
-use super::{Preset, Stop};
+use super::Preset;
 use crate::derive::Traced;
 use crate::objects::Kind;
 use crate::sources::Cache;
+use crate::stop::Stop;
 
 /// How much a run may use.
 #[derive(Debug, Clone)]
@@ -68,7 +69,8 @@ pub struct Options {
     pub forgiving: bool,
     /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
     pub profile: bool,
-    /// Whether bad data ends the run; otherwise its features are left out, and [`Derived::remarks`] tells which.
+    /// Whether warnings end the run as errors, and bad data does; otherwise its features are left out, and
+    /// [`Derived::remarks`] tells which.
     ///
     /// [`Derived::remarks`]: crate::derive::Derived::remarks
     pub strict: bool,

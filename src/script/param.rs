@@ -142,7 +142,9 @@ impl Param {
                 (Setting::Text(default.to_string()), Control::Choice(choices))
             }
             (Some(Value::Text(default)), None) => {
-                let is_color = Color::from_value(Value::Text(default.clone())).is_ok();
+                // A word may be the name of anything.
+                let is_color =
+                    default.starts_with('#') && Color::from_value(Value::Text(default.clone())).is_ok();
                 (Setting::Text(default.to_string()), if is_color { Control::Color } else { Control::Text })
             }
             (Some(Value::Boolean(default)), _) => (Setting::Boolean(*default), Control::Switch),
@@ -208,9 +210,16 @@ impl Param {
                 "false" | "off" | "no" | "0" => Ok(Setting::Boolean(false)),
                 _ => refuse("true or false"),
             },
-            Control::Color if Color::from_value(Value::Text(given.into())).is_err() => {
-                refuse("a colour, #rrggbb")
-            }
+            Control::Color => match Color::from_value(Value::Text(given.into())) {
+                Ok(_) if given.starts_with('#') && matches!(given.len(), 7 | 9) => {
+                    Ok(Setting::Text(given.to_owned()))
+                }
+                Ok(color) => match color.into_value() {
+                    Value::Text(digits) => Ok(Setting::Text(digits.to_string())),
+                    _ => refuse("a colour, #rrggbb"),
+                },
+                Err(_) => refuse("a colour, #rrggbb"),
+            },
             _ => Ok(Setting::Text(given.to_owned())),
         }
     }

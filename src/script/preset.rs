@@ -26,6 +26,11 @@ impl Preset {
         self.params.iter().map(|(name, value)| (name.clone(), value.plain())).collect()
     }
 
+    /// Whether `other` has the same name, seed and values, wherever they stand.
+    pub fn is_like(&self, other: &Self) -> bool {
+        (&self.name, self.seed, &self.params) == (&other.name, other.seed, &other.params)
+    }
+
     /// Where the value of the parameter `name` stands.
     pub(crate) fn place_of(&self, name: &str) -> Option<Place> {
         let index = self.params.iter().position(|(known, _)| known == name)?;

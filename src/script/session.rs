@@ -1,7 +1,6 @@
 //! What all virtual machines of one run share: source files, parameters, the reason to stop.
 
 use std::collections::BTreeMap;
-use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -17,48 +16,11 @@ use super::param::Param;
 use crate::derive::Trace;
 use crate::error::{Error, Result};
 use crate::rules::Values;
+use crate::stop::Stop;
+use crate::warning::{Warning, Warnings};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
-
-/// Tells everything that works on a run to stop, and why.
-#[derive(Debug, Default)]
-pub struct Stop {
-    parent: Option<Arc<Stop>>,
-    stopped: AtomicBool,
-    reason: Mutex<Option<Error>>,
-}
-
-impl Stop {
-    /// Stops whenever `parent` does, too.
-    fn under(parent: Option<Arc<Self>>) -> Self {
-        Self { parent, ..Self::default() }
-    }
-
-    /// Asks for a stop; the first reason is kept.
-    pub fn stop(&self, reason: Error) {
-        self.reason.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
-        self.stopped.store(true, Ordering::Release);
-    }
-
-    /// Whether a stop was asked for.
-    #[inline]
-    pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Acquire) || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
-    }
-
-    /// The reason as an error, if a stop was asked for.
-    pub fn check(&self) -> Result<()> {
-        if !self.is_stopped() {
-            return Ok(());
-        }
-        if let Some(parent) = self.parent.as_ref().filter(|_| !self.stopped.load(Ordering::Acquire)) {
-            return parent.check();
-        }
-        let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        Err(reason.unwrap_or_else(|| Error::new("stopped")))
-    }
-}
 
 /// How far a run has come, for those who wait.
 #[derive(Debug, Default)]
@@ -139,6 +101,7 @@ pub struct Session {
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
+    warnings: Warnings,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
@@ -172,6 +135,7 @@ impl Session {
             sought: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
+            warnings: Warnings::default(),
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             peeking: AtomicBool::new(false),
@@ -240,6 +204,16 @@ impl Session {
         Ok(())
     }
 
+    /// Takes notice of something that people should know; what is said twice is counted.
+    pub fn warn(&self, warning: Warning) {
+        self.warnings.add(warning);
+    }
+
+    /// What people should know of the run so far, in the order of files and lines.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.warnings.list()
+    }
+
     /// The parameters that the script declared, in order.
     pub fn params(&self) -> Vec<Param> {
         self.params.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -264,10 +238,23 @@ impl Session {
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
     pub(crate) fn is_quiet(&self, file: &str, line: usize) -> bool {
-        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
-        let mut named = sources.values().filter(|source| source.name == file);
         !self.metatables.load(Ordering::Acquire)
-            && named.next().is_some_and(|source| source.analysis.quiet.contains(&line))
+            && self.source_called(file).is_some_and(|source| source.analysis.quiet.contains(&line))
+    }
+
+    /// Whether the functions that begin in a line of a file do not look at their first parameter.
+    pub(crate) fn is_blind(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
+    }
+
+    /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
+    pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
+        self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        sources.values().find(|source| source.name == file).cloned()
     }
 
     /// Takes notice of what a piece of the script may do.
@@ -329,14 +316,7 @@ impl Session {
 
 /// Begins to read the file at `path`; `name` is for messages.
 fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
-    let mut bytes = Vec::new();
-    std::fs::File::open(path)
-        .and_then(|file| file.take(LARGEST + 1).read_to_end(&mut bytes))
-        .map_err(|error| unreadable(Path::new(name), &error))?;
-    if bytes.len() as u64 > LARGEST {
-        return Err(Error::new(format!("{name} is larger than {} MB", LARGEST / 1_000_000))
-            .help("divide it; other files of its folder come in with require"));
-    }
+    let bytes = crate::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Error::new(format!("{name} is not a text file")).help("scripts are UTF-8 text; check the file's name")
     })?;
@@ -356,7 +336,7 @@ fn data_root(folder: &Path) -> Result<PathBuf> {
 fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
     let remedy = "--stdlib names a Lua file; without it the built-in one is used";
-    let bytes = std::fs::read(path).map_err(|error| {
+    let bytes = crate::files::read(path, LARGEST).map_err(|error| {
         Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy)
     })?;
     let text = String::from_utf8(bytes)
@@ -374,6 +354,13 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Error {
         std::io::ErrorKind::IsADirectory => {
             Error::new(format!("{shown} is a folder")).help("name a script in it")
         }
+        std::io::ErrorKind::FileTooLarge => {
+            Error::new(format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require")
+        }
+        std::io::ErrorKind::InvalidInput => {
+            Error::new(format!("cannot read {shown}: {error}")).help("scripts are text files")
+        }
         _ => Error::new(format!("cannot read {shown}: {error}")),
     }
 }
@@ -389,16 +376,5 @@ mod tests {
         let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
         assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");
         assert_eq!(after(4.0), "step 5 of 20, 1000000 modules, 0.2 M modules/s, at least 12 s left");
-    }
-
-    #[test]
-    fn a_stop_under_another_stops_with_its_reason() {
-        let parent = Arc::new(Stop::default());
-        let (child, other) = (Stop::under(Some(Arc::clone(&parent))), Stop::under(Some(Arc::clone(&parent))));
-        other.stop(Error::new("mine"));
-        assert!(!child.is_stopped() && !parent.is_stopped());
-        parent.stop(Error::new("all"));
-        assert_eq!(child.check().unwrap_err().message(), "all");
-        assert_eq!(other.check().unwrap_err().message(), "mine");
     }
 }

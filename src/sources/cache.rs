@@ -1,12 +1,12 @@
 //! Layers and rasters as they were read last, for runs that follow one another.
 
 use std::fmt;
-use std::fs::File;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
 use super::elevation::{Raster, Wanted as WantedHeights};
 use super::{Frame, Layer, Wanted};
+use crate::budget::Budget;
 use crate::error::Result;
 
 /// How many layers are kept.
@@ -38,7 +38,7 @@ impl Cache {
         if std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0) {
             return None;
         }
-        let content = blake3::hash(&std::fs::read(path).ok()?);
+        let content = hash(path).ok()?;
         let frame = frame.map(|frame| (&frame.name, frame.origin));
         Some(format!("{} {} {wanted:?} {frame:?}", content.to_hex(), path.display()))
     }
@@ -59,13 +59,16 @@ impl Cache {
         kept.push((key, Arc::clone(layer), frame.clone()));
     }
     /// The raster in the file at `path`, called `name`; read, unless it is kept. The oldest goes when there are many.
-    pub(crate) fn raster(&self, path: &Path, name: &str, wanted: &WantedHeights) -> Result<Arc<Raster>> {
-        let mut hasher = blake3::Hasher::new();
+    pub(crate) fn raster(
+        &self,
+        path: &Path,
+        name: &str,
+        wanted: &WantedHeights,
+        budget: &Budget,
+    ) -> Result<Arc<Raster>> {
         // What is no file is left to the reader, which says so.
-        let content =
-            path.is_file().then(|| File::open(path).and_then(|file| hasher.update_reader(file).map(|_| ())));
-        let Some(Ok(())) = content else { return Raster::open(path, name, wanted).map(Arc::new) };
-        let key = format!("{} {name} {wanted:?}", hasher.finalize().to_hex());
+        let Ok(content) = hash(path) else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
+        let key = format!("{} {name} {wanted:?}", content.to_hex());
         let mut kept = self.rasters.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
             return Ok(Arc::clone(raster));
@@ -73,10 +76,18 @@ impl Cache {
         if kept.len() >= MOST_RASTERS {
             kept.remove(0);
         }
-        let raster = Arc::new(Raster::open(path, name, wanted)?);
+        let raster = Arc::new(Raster::open(path, name, wanted, budget)?);
         kept.push((key, Arc::clone(&raster)));
         Ok(raster)
     }
+}
+
+/// What tells a file's content from all others.
+fn hash(path: &Path) -> std::io::Result<blake3::Hash> {
+    let (file, _) = crate::files::open(path)?;
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(file)?;
+    Ok(hasher.finalize())
 }
 
 #[cfg(test)]
@@ -91,13 +102,15 @@ mod tests {
         let read = |height: f32, east: f64| {
             std::fs::write(&path, [height.to_le_bytes(); 4].concat()).unwrap();
             let bounds = Some([0.0, 0.0, east, 1.0]);
-            cache.raster(&path, "a.r32", &WantedHeights { bounds, ..WantedHeights::default() }).unwrap()
+            let wanted = WantedHeights { bounds, ..WantedHeights::default() };
+            cache.raster(&path, "a.r32", &wanted, &Budget::default()).unwrap()
         };
         let first = read(1.0, 1.0);
         assert!(Arc::ptr_eq(&first, &read(1.0, 1.0)));
         assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
         assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
-        let error = cache.raster(folder.path(), "a", &WantedHeights::default()).unwrap_err();
+        let error =
+            cache.raster(folder.path(), "a", &WantedHeights::default(), &Budget::default()).unwrap_err();
         assert_eq!(error.message(), "a is a folder");
     }
 }

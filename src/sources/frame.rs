@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use super::table::{Feature, Table};
 use crate::error::{Error, Result};
+use crate::text::shown;
 
 /// The farthest (m) that a coordinate may lie from the origin.
 pub(super) const FARTHEST: f64 = 2_000_000.0;
@@ -59,6 +60,20 @@ impl Crs {
         self.definition.contains("+proj=longlat")
     }
 
+    /// About how many metres one of its units is.
+    pub(super) fn metres(&self) -> f64 {
+        let value = |key: &str| self.definition.split_whitespace().find_map(|part| part.strip_prefix(key));
+        if self.is_geographic() {
+            return 111_320.0;
+        }
+        let factor = value("+to_meter=").and_then(|factor| factor.parse::<f64>().ok());
+        factor.filter(|factor| *factor > 0.0).unwrap_or(match value("+units=") {
+            Some("us-ft" | "ft") => 0.3048,
+            Some("km") => 1000.0,
+            _ => 1.0,
+        })
+    }
+
     /// What its angles are multiplied by to be radians; 1 where it has none.
     fn unit(&self) -> f64 {
         if self.is_geographic() { 1f64.to_radians() } else { 1.0 }
@@ -102,16 +117,40 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// The frame that suits `table` best.
+    /// The frame that suits `table` best. Features with places that cannot be are left out of the table.
     ///
     /// A projected layer keeps its projection, in metres. A geographic one, or one in Mercator's projection, whose
     /// metres are longer than those of the ground, is projected by a transverse Mercator projection around its
     /// centre, rounded to a tenth of a degree: lengths are true to 1e-5 within 25 km of it, and north is up, where
     /// a UTM zone would shorten all lengths by 4e-4 and turn north by up to 3 degrees.
-    pub fn new(table: &Table) -> Result<Self> {
+    ///
+    /// Where features lie too far apart for one model, those around the median decide.
+    pub fn new(table: &mut Table) -> Result<Self> {
         let crs = table.crs.clone()?;
-        check_degrees(&crs, table)?;
-        Self::around(&crs, centre(&crs, table)?, &table.shown)
+        refuse_odd_degrees(&crs, table)?;
+        let (place, half) = centre(&crs, table, |_| true)?;
+        let frame = Self::around(&crs, place, &table.shown)?;
+        // Half as far is near enough in any projection.
+        if half * crs.metres() < FARTHEST / 2.0 {
+            return Ok(frame);
+        }
+        let reached = |frame: &Self| -> Result<Vec<bool>> {
+            let passage = frame.passage(&crs)?;
+            let near = |at: &[f64; 3]| within(passage.enter([at[0], at[1]]));
+            Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
+        };
+        if reached(&frame)?.iter().all(|near| *near) {
+            return Ok(frame);
+        }
+        let middle = Self::around(&crs, median(&crs, table), &table.shown)?;
+        let near = reached(&middle)?;
+        let mut each = near.iter();
+        let Ok((place, _)) = centre(&crs, table, |_| each.next().is_some_and(|near| *near)) else {
+            return Ok(frame);
+        };
+        let better = Self::around(&crs, place, &table.shown)?;
+        let kept = reached(&better)?.iter().zip(&near).all(|(here, there)| here | !there);
+        Ok(if kept { better } else { middle })
     }
 
     /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
@@ -156,39 +195,39 @@ impl Frame {
         if normal(&crs.definition) == normal(&self.definition) { crs.code } else { None }
     }
 
-    /// Brings the features of `table` into this frame.
+    /// Brings the features of `table` into this frame; those that have no place there are left out.
     pub(super) fn bring(&self, table: &mut Table) -> Result<()> {
         let crs = table.crs.clone()?;
-        check_degrees(&crs, table)?;
+        refuse_odd_degrees(&crs, table)?;
         let passage = self.passage(&crs)?;
-        let shown = &table.shown;
-        let place = |feature: &mut Feature| -> Option<Error> {
-            for point in feature.geometry.points_mut() {
+        let name = table.shown.clone();
+        table.refuse_those(|feature| {
+            let place = |point: &mut [f64; 3]| -> Option<[f64; 3]> {
                 let was = *point;
                 [point[0], point[1]] = passage.enter([was[0], was[1]]);
-                // A comparison with what is no number fails.
-                if point.iter().all(|value| value.abs() <= FARTHEST) {
-                    continue;
-                }
-                let where_ = format!("feature {} of {shown}", feature.id);
-                let at = format!("{}, {}", was[0], was[1]);
-                return Some(if point.iter().all(|value| value.is_finite()) {
-                    Error::new(format!("{where_} lies more than 2,000 km from the middle, at {at}")).help(
-                        "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
-                    )
-                } else {
-                    Error::new(format!(
-                        "{where_} cannot be projected from {} to {}, at {at}",
-                        crs.name(),
-                        self.name
-                    ))
+                let near = within([point[0], point[1]]) && was[2].abs() <= FARTHEST;
+                (!near).then_some(was)
+            };
+            let at = feature.geometry.points_mut().find_map(place)?;
+            let feature = format!("feature {} of {name}", shown(&feature.id));
+            let [x, y] = passage.enter([at[0], at[1]]);
+            let at = format!("{}, {}", at[0], at[1]);
+            Some(if x.is_finite() && y.is_finite() {
+                Error::new(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
+                    "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
+                )
+            } else {
+                Error::new(format!("{feature} cannot be projected from {} to {}, at {at}", crs.name(), self.name))
                     .help(REMEDY)
-                });
-            }
-            None
-        };
-        table.features.par_iter_mut().find_map_first(place).map_or(Ok(()), Err)
+            })
+        })
     }
+}
+
+/// Whether a place of a frame (m) may be one of a model.
+fn within(place: [f64; 2]) -> bool {
+    // A comparison with what is no number fails.
+    place.iter().all(|value| value.abs() <= FARTHEST)
 }
 
 /// The way from a coordinate system into a frame, and back.
@@ -234,35 +273,49 @@ fn normal(definition: &str) -> Vec<&str> {
     parts
 }
 
-/// Refuses coordinates that are no numbers, and degrees that there are not.
-fn check_degrees(crs: &Crs, table: &Table) -> Result<()> {
-    let wrong =
-        |feature: &Feature, why: &str| Error::new(format!("feature {} of {} {why}", feature.id, table.shown));
-    let geographic = crs.is_geographic();
-    let look = |feature: &Feature| -> Option<Error> {
-        for point in feature.geometry.points() {
-            if point.iter().any(|value| !value.is_finite()) {
-                let error = wrong(feature, "has a coordinate that is not a finite number");
-                return Some(error.help("repair the file, or leave the feature out"));
-            }
-            if geographic && (point[0].abs() > 360.0 || point[1].abs() > 90.0) {
-                let what = format!("lies at {}, {}, which is no longitude and latitude", point[0], point[1]);
-                let error = wrong(feature, &what);
-                return Some(
-                    error.help("name the coordinate system of the file: source(file, { crs = 3067 })"),
-                );
-            }
-        }
-        None
-    };
-    table.features.par_iter().find_map_first(look).map_or(Ok(()), Err)
+/// Leaves out features with coordinates that are no numbers, or degrees that there are not.
+fn refuse_odd_degrees(crs: &Crs, table: &mut Table) -> Result<()> {
+    table.refuse_endless()?;
+    if !crs.is_geographic() {
+        return Ok(());
+    }
+    let name = table.shown.clone();
+    table.refuse_those(|feature| {
+        let [x, y, _] = *feature.geometry.points().find(|at| at[0].abs() > 360.0 || at[1].abs() > 90.0)?;
+        let id = shown(&feature.id);
+        let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
+        let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
+        Some(Error::new(message).help(help))
+    })
 }
 
-/// The middle of the features' bounds. Longitudes are counted on from the first one, across the date line.
-fn centre(crs: &Crs, table: &Table) -> Result<[f64; 2]> {
+/// A place in the midst of most features: the median of their first points, along each axis.
+fn median(crs: &Crs, table: &Table) -> [f64; 2] {
+    let middle = |values: &mut Vec<f64>| {
+        let half = values.len() / 2;
+        if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(half, f64::total_cmp).1 }
+    };
+    let firsts = || table.features.iter().filter_map(|feature| feature.geometry.points().next());
+    if !crs.is_geographic() {
+        return [0, 1].map(|axis| middle(&mut firsts().map(|point| point[axis]).collect()));
+    }
+    // Longitudes have no order across the date line, but places on a sphere have.
+    let on_sphere = firsts().map(|point| {
+        let ((sin, cos), (up, out)) = (point[0].to_radians().sin_cos(), point[1].to_radians().sin_cos());
+        [cos * out, sin * out, up]
+    });
+    let places: Vec<[f64; 3]> = on_sphere.collect();
+    let [x, y, z] = [0, 1, 2].map(|axis| middle(&mut places.iter().map(|place| place[axis]).collect()));
+    [y.atan2(x).to_degrees(), z.atan2(x.hypot(y)).to_degrees()]
+}
+
+/// The middle of the bounds of those features that count, and half of their greater side. Longitudes are counted on from
+/// the first one, across the date line.
+fn centre(crs: &Crs, table: &Table, mut counts: impl FnMut(&Feature) -> bool) -> Result<([f64; 2], f64)> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let (mut first, geographic) = (None, crs.is_geographic());
-    for point in table.features.iter().flat_map(|feature| feature.geometry.points()) {
+    let features = table.features.iter().filter(|feature| counts(feature));
+    for point in features.flat_map(|feature| feature.geometry.points()) {
         let mut x = point[0];
         if geographic {
             let first = *first.get_or_insert(x);
@@ -275,7 +328,7 @@ fn centre(crs: &Crs, table: &Table) -> Result<[f64; 2]> {
     }
     let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
     if middle.iter().all(|value| value.is_finite()) {
-        Ok(middle)
+        Ok((middle, (high[0] - low[0]).max(high[1] - low[1]) / 2.0))
     } else {
         Err(Error::new(format!("{} has no features", table.shown)))
     }
@@ -283,13 +336,14 @@ fn centre(crs: &Crs, table: &Table) -> Result<[f64; 2]> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Layer;
     use super::super::table::Geometry;
     use super::*;
 
     fn table(code: u32, points: &[[f64; 2]]) -> Table {
-        let mut table = Table::new("a", "a", Crs::epsg(code));
+        let mut table = Table::new("a", "a", Crs::epsg(code), std::sync::Arc::default());
         for [x, y] in points {
-            table.push("p", vec![Geometry::Point([*x, *y, 5.0])], Vec::new());
+            table.push("p", vec![Geometry::Point([*x, *y, 5.0])], Vec::new()).unwrap();
         }
         table
     }
@@ -304,7 +358,7 @@ mod tests {
         // A second of latitude at 45 degrees is 30.87 m, one of longitude 21.90 m.
         let second = 1.0 / 3600.0;
         let points = [[7.0, 45.0], [7.0, 45.0 + second], [7.0 + second, 45.0]];
-        let frame = Frame::new(&table(4326, &points)).unwrap();
+        let frame = Frame::new(&mut table(4326, &points)).unwrap();
         let [a, b, c] = placed(&frame, table(4326, &points))[..] else { panic!("three") };
         assert!((b[1] - a[1] - 30.8702).abs() < 1e-3 && (b[0] - a[0]).abs() < 1e-6, "{a:?} {b:?}");
         assert!((c[0] - a[0] - 21.9014).abs() < 1e-3 && (c[1] - a[1]).abs() < 1e-2, "{a:?} {c:?}");
@@ -314,18 +368,18 @@ mod tests {
     #[test]
     fn projected_metres_stay_and_feet_and_mercator_become_metres() {
         let corner = [385_423.178, 6_671_463.227];
-        let frame = Frame::new(&table(3067, &[corner])).unwrap();
+        let frame = Frame::new(&mut table(3067, &[corner])).unwrap();
         assert_eq!((frame.origin, frame.name.as_str()), ([385_400.0, 6_671_500.0], "EPSG:3067"));
         let at = placed(&frame, table(3067, &[corner]))[0];
         assert_eq!(at[..2], [corner[0] - 385_400.0, corner[1] - 6_671_500.0]);
         // EPSG:2272 counts in feet of 0.3048006 m.
         let feet = [[2_690_000.0, 235_000.0], [2_690_100.0, 235_000.0]];
-        let frame = Frame::new(&table(2272, &feet)).unwrap();
+        let frame = Frame::new(&mut table(2272, &feet)).unwrap();
         let [a, b] = placed(&frame, table(2272, &feet))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 30.480_06).abs() < 1e-4, "{a:?} {b:?}");
         // At 60 degrees Mercator's metres are twice those of the ground.
         let mercator = [[1_113_194.908, 8_399_737.89], [1_113_294.908, 8_399_737.89]];
-        let frame = Frame::new(&table(3857, &mercator)).unwrap();
+        let frame = Frame::new(&mut table(3857, &mercator)).unwrap();
         let [a, b] = placed(&frame, table(3857, &mercator))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 50.0).abs() < 0.3, "{a:?} {b:?}");
     }
@@ -333,7 +387,7 @@ mod tests {
     #[test]
     fn another_coordinate_system_comes_into_the_first_ones_frame() {
         // PROJ 9 has 385600, 6671500 of EPSG:3067 at 24.93802 E, 60.16435 N or so; there and back is exact.
-        let frame = Frame::new(&table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
+        let frame = Frame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
         let wgs = Crs::epsg(4326).unwrap();
         let mut point = (385_600.0, 6_671_500.0, 0.0);
         transform(&frame.projection, &wgs.projection().unwrap(), &mut point).unwrap();
@@ -348,17 +402,45 @@ mod tests {
     #[test]
     fn a_layer_across_the_date_line_stays_together() {
         let points = [[179.9, -16.0], [-179.9, -16.0]];
-        let frame = Frame::new(&table(4326, &points)).unwrap();
+        let frame = Frame::new(&mut table(4326, &points)).unwrap();
         let [a, b] = placed(&frame, table(4326, &points))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 21_400.0).abs() < 50.0, "{a:?} {b:?}");
     }
 
     #[test]
+    fn what_lies_far_from_the_others_is_left_out_alone() {
+        let town: Vec<[f64; 2]> = (0..20).map(|at| [2.29 + f64::from(at) * 1e-3, 48.85]).collect();
+        let date_line: Vec<[f64; 2]> = town.iter().map(|at| [at[0] + 177.7, at[1]]).collect();
+        let metres: Vec<[f64; 2]> = town.iter().map(|at| [at[0] * 1e5, 6_671_463.0]).collect();
+        for (code, town) in [(4326, town), (4326, date_line), (3067, metres)] {
+            let alone = Layer::new(table(code, &town), &mut None).unwrap();
+            let odd: &[[f64; 2]] = match code {
+                4326 => &[[0.0, 0.0], [-120.0, -80.0], [1e9, 1.0], [f64::NAN, 1.0], [20.0, 91.0]],
+                _ => &[[0.0, 0.0], [1e300, 1.0], [f64::INFINITY, 1.0], [-3e6, 6e6], [4e6, 9e6]],
+            };
+            for at in [0, 7, 20] {
+                let mut all = town.clone();
+                all.splice(at..at, odd.iter().copied());
+                let layer = Layer::new(table(code, &all), &mut None).unwrap();
+                assert_eq!(
+                    (layer.features.len(), layer.refused.len()),
+                    (20, 5),
+                    "{code} {:?}",
+                    layer.refused
+                );
+                assert_eq!(
+                    (layer.origin, &layer.crs, layer.bounds),
+                    (alone.origin, &alone.crs, alone.bounds)
+                );
+            }
+        }
+    }
+
+    #[test]
     fn coordinates_that_cannot_be_are_refused() {
         let told = |code: u32, x: f64, y: f64| {
-            let table = table(code, &[[x, y]]);
-            let error = table.crs.clone().err().or_else(|| Frame::new(&table).err());
-            error.map(|error| error.message().to_owned()).unwrap_or_default()
+            let layer = Layer::new(table(code, &[[x, y]]), &mut None);
+            layer.err().map(|error| error.message().to_owned()).unwrap_or_default()
         };
         assert!(told(4326, 385_423.0, 6_671_463.0).contains("no longitude and latitude"));
         assert!(told(4326, f64::NAN, 1.0).contains("not a finite number"));

@@ -3,6 +3,9 @@
 //! Source: OGC 12-128r18, GeoPackage Encoding Standard.
 
 use std::path::Path;
+use std::sync::Arc;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::Duration;
 
 use rusqlite::config::DbConfig;
 use rusqlite::hooks::{AuthAction, Authorization};
@@ -11,14 +14,56 @@ use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
 
 use super::wkb::read_blob;
-use super::{Attribute, Crs, Table, Wanted};
+use super::{Attribute, Crs, Table, Wanted, arc};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
+use crate::text::shown;
+
+/// The longest text or blob (bytes) of a file.
+const LONGEST: i32 = 200_000_000;
+/// How often is looked whether a query is to end.
+const PERIOD: Duration = Duration::from_millis(20);
+/// How long a query that is told to end may go on.
+const GRACE: Duration = Duration::from_millis(500);
 
 /// An open GeoPackage.
 pub struct GeoPackage {
     connection: Connection,
     name: String,
     layers: Vec<Described>,
+}
+
+/// Has `work` done with a connection by a thread of its own, and gives what comes of it.
+///
+/// SQLite looks for an interrupt only between the steps of a query, of which one may take long: a sort, or a function
+/// over long texts. When the budget is used up, the query is interrupted; if it does not end soon, it is left to itself,
+/// and ends behind the step that it is at.
+fn watched<T: Send + 'static>(
+    connection: Connection,
+    budget: &Arc<Budget>,
+    work: impl FnOnce(Connection) -> Result<T> + Send + 'static,
+) -> Result<T> {
+    let interrupt = connection.get_interrupt_handle();
+    let (done, result) = sync_channel(1);
+    let begun = std::thread::Builder::new().name("sqlite".into()).spawn(move || {
+        // Nobody may wait any more.
+        let _ = done.send(work(connection));
+    });
+    begun.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
+    loop {
+        match result.recv_timeout(PERIOD) {
+            Ok(done) => return done,
+            Err(RecvTimeoutError::Disconnected) => return Err(Error::new("the database gave no answer")),
+            Err(RecvTimeoutError::Timeout) => {
+                if let Err(over) = budget.check() {
+                    interrupt.interrupt();
+                    // What it says then is that it was interrupted.
+                    let _ = result.recv_timeout(GRACE);
+                    return Err(over);
+                }
+            }
+        }
+    }
 }
 
 /// What the package's own tables say of a layer.
@@ -29,14 +74,33 @@ struct Described {
 }
 
 impl GeoPackage {
-    pub(super) fn open(path: &Path, name: &str) -> Result<Self> {
-        let error = |error: rusqlite::Error| broken(name, &error);
-        let mut connection = connect(path).map_err(error)?;
+    pub(super) fn open(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
+        let connection = connect(path).map_err(|error| broken(name, &error))?;
+        let (owned, budget) = (name.to_owned(), Arc::clone(&wanted.budget));
+        watched(connection, &wanted.budget, move |connection| Self::with(connection, owned, &budget))
+    }
+
+    fn with(mut connection: Connection, name: String, budget: &Arc<Budget>) -> Result<Self> {
+        let error = |error: rusqlite::Error| broken(&name, &error);
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true).map_err(error)?;
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false).map_err(error)?;
         // A misspelt name in quotes is an error, not a text.
         connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DQS_DML, false).map_err(error)?;
-        connection.set_limit(Limit::SQLITE_LIMIT_LENGTH, 200_000_000).map_err(error)?;
+        let memory = i32::try_from(budget.memory()).unwrap_or(i32::MAX);
+        for (limit, most) in [
+            (Limit::SQLITE_LIMIT_LENGTH, LONGEST.min(memory)),
+            (Limit::SQLITE_LIMIT_SQL_LENGTH, 1_000_000),
+            (Limit::SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000),
+            (Limit::SQLITE_LIMIT_ATTACHED, 0),
+            (Limit::SQLITE_LIMIT_WORKER_THREADS, 0),
+        ] {
+            connection.set_limit(limit, most).map_err(error)?;
+        }
+        // What is sorted stays in memory, where it is counted.
+        connection.pragma_update(None, "temp_store", "MEMORY").map_err(error)?;
+        limit_heap(budget.memory());
+        let clock = Arc::clone(budget);
+        connection.progress_handler(1000, Some(move || clock.check().is_err())).map_err(error)?;
         connection
             .authorizer(Some(|context: rusqlite::hooks::AuthContext<'_>| match context.action {
                 AuthAction::Select | AuthAction::Read { .. } | AuthAction::Recursive => Authorization::Allow,
@@ -53,26 +117,35 @@ impl GeoPackage {
                 Error::new(format!("{name} is an SQLite database, but no GeoPackage"))
                     .help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns")
             }
-            error => broken(name, &error),
+            error => broken(&name, &error),
         })?;
-        Ok(Self { connection, name: name.to_owned(), layers })
+        Ok(Self { connection, name, layers })
     }
 
     pub(super) fn layers(&self) -> Vec<String> {
         self.layers.iter().map(|layer| layer.table.clone()).collect()
     }
 
-    pub(super) fn read(mut self, layer: &str, wanted: &Wanted) -> Result<Table> {
+    pub(super) fn read(self, layer: &str, wanted: &Wanted) -> Result<Table> {
+        let Self { connection, name, layers } = self;
+        let (layer, wanted) = (layer.to_owned(), wanted.clone());
+        let budget = Arc::clone(&wanted.budget);
+        watched(connection, &budget, move |connection| {
+            Self { connection, name, layers }.table(&layer, &wanted)
+        })
+    }
+
+    fn table(mut self, layer: &str, wanted: &Wanted) -> Result<Table> {
         let name = self.name.clone();
         let error = |error: rusqlite::Error| broken(&name, &error);
-        if let Some(stopped) = wanted.stopped.clone() {
-            self.connection.progress_handler(10_000, Some(move || stopped())).map_err(error)?;
-        }
         let Some(position) = self.layers.iter().position(|known| known.table == layer) else {
             return Err(Error::new(format!("{name} has no layer called {layer}")));
         };
         let described = self.layers.swap_remove(position);
-        let mut table = Table::new(layer, &format!("{name}:{layer}"), described.crs);
+        let label = format!("{name}:{}", shown(layer));
+        let mut table = Table::new(layer, &label, described.crs, Arc::clone(&wanted.budget));
+        let crs = wanted.crs.map_or_else(|| table.crs.clone(), Crs::epsg);
+        let near = arc::NEAR / crs.map_or(1.0, |crs| crs.metres());
         let columns = Columns::read(&self.connection, layer, &described.column).map_err(error)?;
         table.names = columns.names.clone();
         let id = match &wanted.id {
@@ -89,23 +162,24 @@ impl GeoPackage {
             let key = row.get_ref(0).ok().and_then(id_text).unwrap_or_else(|| count.to_string());
             let id = id.and_then(|id| id_text(row.get_ref(id + 2).ok()?)).unwrap_or_else(|| key.clone());
             let wrong = |why: &str| {
-                Error::new(format!("the geometry of feature {id} of {} {why}", table.shown))
-                    .help("points, lines and polygons are read, single or as multi-geometries")
-                    .of_data()
+                Error::new(format!("the geometry of feature {} of {label} {why}", shown(&id)))
+                    .help("points, lines, polygons, curves, surfaces and collections of these are read")
             };
             let parts = match row.get_ref(1).map_err(error)? {
                 ValueRef::Null => Vec::new(),
-                ValueRef::Blob(blob) => match read_blob(blob) {
+                ValueRef::Blob(blob) => match read_blob(blob, near, &wanted.budget) {
                     Ok(parts) => parts,
                     Err(why) => {
+                        // It may be that the time is over, and not the geometry's fault.
+                        wanted.budget.check()?;
                         let error = wrong(&why);
-                        table.refused.push((id, error));
+                        table.refuse(id, error)?;
                         continue;
                     }
                 },
                 _ => {
                     let error = wrong("is no geometry of a GeoPackage");
-                    table.refused.push((id, error));
+                    table.refuse(id, error)?;
                     continue;
                 }
             };
@@ -121,9 +195,19 @@ impl GeoPackage {
                 };
                 attributes.push((index, value));
             }
-            table.push(&id, parts, attributes);
+            table.push(&id, parts, attributes)?;
         }
         Ok(table)
+    }
+}
+
+/// Limits the memory (bytes) that SQLite takes in this process for everything but what is read.
+fn limit_heap(memory: usize) {
+    let most = i64::try_from(memory).unwrap_or(i64::MAX);
+    #[allow(unsafe_code, reason = "rusqlite has no way to set this")]
+    // SAFETY: it sets a number that SQLite guards by its own lock.
+    unsafe {
+        rusqlite::ffi::sqlite3_hard_heap_limit64(most);
     }
 }
 
@@ -169,7 +253,7 @@ fn described(connection: &Connection) -> rusqlite::Result<Vec<Described>> {
 
 /// The coordinate system with a package's own number.
 fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>> {
-    let found: Option<(String, Option<String>, Option<i64>)> = connection
+    let found: Option<(Option<String>, Option<String>, Option<i64>)> = connection
         .query_row(
             "SELECT srs_name, organization, organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?1",
             [number],
@@ -185,7 +269,9 @@ fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>>
             Crs::epsg(u32::try_from(code).unwrap_or(0))
         }
         Some((name, ..)) => {
-            Err(Error::new(format!("the layer's coordinate system {name:?} is none of EPSG's")).help(remedy))
+            let name = name.unwrap_or_default();
+            Err(Error::new(format!("the layer's coordinate system \"{}\" is none of EPSG's", shown(&name)))
+                .help(remedy))
         }
         None => {
             Err(Error::new(format!("the layer's coordinate system {number} is not described in the file"))
@@ -273,6 +359,7 @@ fn refused(shown: &str, wanted: &Wanted, error: &rusqlite::Error) -> Error {
     let text = words(error);
     match &wanted.condition {
         Some(condition) if !text.contains("malformed") => {
+            let condition: String = condition.chars().take(200).collect();
             Error::new(format!("where {condition:?} of {shown}: {text}"))
                 .help("write an SQL condition on the layer's columns, such as where = \"height > 10\"")
         }

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::frame::Frame;
 use super::table::{Feature, Table};
 use crate::error::{Error, Result};
+use crate::warning::{Warning, WarningKind};
 
 /// Features of a data file, in metres around the run's origin.
 #[derive(Debug)]
@@ -30,17 +31,50 @@ pub struct Layer {
 }
 
 impl Layer {
+    /// What people should know of how it was read.
+    pub(crate) fn warnings(&self) -> Vec<Warning> {
+        let features = |count: usize| if count == 1 { "feature" } else { "features" };
+        let shown = &self.shown;
+        let mut warnings = Vec::new();
+        if self.empty > 0 {
+            let what = features(self.empty);
+            let text = format!("{shown}: left out {} {what} without a geometry", self.empty);
+            warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+        }
+        if let Some((_, error)) = self.refused.first() {
+            let (count, such) = (self.refused.len(), if self.refused.len() == 1 { "" } else { "such as: " });
+            let what = features(count);
+            let text = format!("left out {count} {what} that cannot be used: {such}{}", error.message());
+            let warning = Warning::new(WarningKind::Data, text);
+            warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or leave them out")));
+        }
+        warnings
+    }
+
+    /// About how much memory (bytes) it takes.
+    pub(crate) fn size(&self) -> usize {
+        let of = |feature: &Feature| {
+            300 + feature.id.len() + feature.geometry.points().count() * 24 + feature.attributes.len() * 40
+        };
+        self.features.iter().map(of).sum()
+    }
+
     /// Brings `table` into `frame`, which is made for it unless there is one already.
     pub fn new(mut table: Table, frame: &mut Option<Frame>) -> Result<Self> {
-        table.refuse_endless();
-        if let (true, Some((_, error))) = (table.features.is_empty(), table.refused.first()) {
-            return Err(error.clone());
-        }
-        let frame = match frame {
-            Some(frame) => frame,
-            None => frame.insert(Frame::new(&table)?),
+        table.refuse_endless()?;
+        let left = |table: &Table| match table.refused.first() {
+            Some((_, error)) if table.features.is_empty() => Err(error.clone()),
+            _ => Ok(()),
         };
-        frame.bring(&mut table)?;
+        left(&table)?;
+        let found = match frame {
+            Some(frame) => frame.clone(),
+            None => Frame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
+        };
+        found.bring(&mut table)?;
+        // What decides on a place must have one.
+        left(&table)?;
+        let frame = frame.insert(found);
         let nothing = || [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         let turned = table.features.par_iter_mut().map(|feature| {
             if let super::Geometry::Polygon(rings) = &mut feature.geometry {
@@ -96,8 +130,8 @@ mod tests {
     fn outer_rings_turn_left_and_holes_turn_right() {
         let square = |size: f64| vec![[0.0, 0.0, 0.0], [0.0, size, 0.0], [size, size, 0.0], [size, 0.0, 0.0]];
         let hole = square(1.0).into_iter().rev().collect();
-        let mut table = Table::new("a", "a", Crs::epsg(3067));
-        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new());
+        let mut table = Table::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
+        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new()).unwrap();
         let layer = Layer::new(table, &mut None).unwrap();
         let Geometry::Polygon(rings) = &layer.features[0].geometry else { panic!("a polygon") };
         assert_eq!((doubled_area(&rings[0]), doubled_area(&rings[1])), (32.0, -2.0));

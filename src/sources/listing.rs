@@ -3,11 +3,14 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 use std::path::Path;
+use std::sync::Arc;
 
 use serde_json::{Value, json};
 
 use super::{Attribute, Kind, Source, Table, Wanted};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
+use crate::text::{escaped, shown};
 
 /// How many texts are shown of an attribute.
 const EXAMPLES: usize = 3;
@@ -36,6 +39,8 @@ pub struct LayerListing {
     pub kinds: BTreeMap<Kind, usize>,
     /// How many features have no geometry.
     pub empty: usize,
+    /// How many features cannot be read, and why the first of them cannot.
+    pub refused: Option<(usize, String)>,
     /// West, south, east and north in the layer's own units; nothing without features.
     pub extent: Option<[f64; 4]>,
     /// The attributes, in the order of the file.
@@ -58,10 +63,12 @@ pub struct AttributeListing {
 }
 
 impl Listing {
-    /// Reads all layers of the file at `path`.
-    pub fn read(path: &Path) -> Result<Self> {
+    /// Reads all layers of the file at `path`, within a budget.
+    pub fn read(path: &Path, budget: &Arc<Budget>) -> Result<Self> {
         let name = path.display().to_string();
-        let open = || Source::open(path, &name).map_err(|error| missing(path, error));
+        let wanted = Wanted { budget: Arc::clone(budget), ..Wanted::default() };
+        let before = budget.taken();
+        let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing(path, error));
         let source = open()?;
         let format = source.format();
         let mut layers = Vec::new();
@@ -70,9 +77,11 @@ impl Listing {
         } else {
             for layer in source.layers() {
                 let Source::GeoPackage(package) = open()? else { continue };
-                layers.push(LayerListing::of(&package.read(&layer, &Wanted::default())?));
+                layers.push(LayerListing::of(&package.read(&layer, &wanted)?));
+                budget.settle(before, 0);
             }
         }
+        budget.settle(before, 0);
         Ok(Self { file: name, format, layers })
     }
 
@@ -84,7 +93,7 @@ impl Listing {
 
     /// The listing for people.
     pub fn text(&self) -> String {
-        let mut text = format!("{}: {}\n", self.file, self.format);
+        let mut text = format!("{}: {}\n", escaped(&self.file), self.format);
         if self.layers.is_empty() {
             text += "  no layers of features\n";
         }
@@ -149,6 +158,10 @@ impl LayerListing {
             records: table.records,
             kinds,
             empty: table.empty,
+            refused: table
+                .refused
+                .first()
+                .map(|(_, error)| (table.refused.len(), error.message().to_owned())),
             extent,
             attributes,
         }
@@ -165,11 +178,15 @@ impl LayerListing {
             "records": self.records,
             "features": self.kinds.values().sum::<usize>(),
             "empty": self.empty,
+            "refused": self.refused.as_ref().map_or(0, |(count, _)| *count),
             "extent": self.extent,
             "attributes": attributes,
         });
         if let Err(error) = &self.crs {
             object["problem"] = error.message().into();
+        }
+        if let Some((_, why)) = &self.refused {
+            object["refusal"] = why.as_str().into();
         }
         object
     }
@@ -190,13 +207,17 @@ impl LayerListing {
             if features == self.records { String::new() } else { format!(" in {} records", self.records) };
         let empty = if self.empty > 0 { format!(", {} without geometry", self.empty) } else { String::new() };
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "  {}: {kinds}{parts}{empty}; {crs}", self.name);
+        let _ = writeln!(text, "  {}: {kinds}{parts}{empty}; {}", shown(&self.name), escaped(&crs));
+        if let Some((count, why)) = &self.refused {
+            let _ = writeln!(text, "    {count} left out, such as: {}", escaped(why));
+        }
         if let Some([west, south, east, north]) = self.extent {
             let _ = writeln!(text, "    from {west}, {south} to {east}, {north}");
         }
-        let width = self.attributes.iter().map(|known| known.name.chars().count()).max().unwrap_or(0);
-        for known in &self.attributes {
-            let _ = writeln!(text, "    {:width$}  {}", known.name, known.text());
+        let names: Vec<_> = self.attributes.iter().map(|known| shown(&known.name)).collect();
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        for (name, known) in names.iter().zip(&self.attributes) {
+            let _ = writeln!(text, "    {name:width$}  {}", known.text());
         }
     }
 }

@@ -4,6 +4,7 @@
 //! Comes in: a file. Goes out: a [`Listing`] of what it holds, or a [`Layer`] in metres around an origin, ready to
 //! be modelled. Coordinates are projected here, once: everything behind works in metres.
 
+mod arc;
 mod cache;
 pub mod elevation;
 mod frame;
@@ -15,8 +16,7 @@ mod table;
 mod wkb;
 
 use std::fmt;
-use std::fs::File;
-use std::io::Read;
+use std::io::{Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -27,10 +27,19 @@ pub(crate) use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
 pub use table::{Attribute, Feature, Geometry, Kind, Table};
 
+use crate::budget::Budget;
 use crate::error::{Error, Result};
+use crate::text::{listed, shown};
 
 /// The extensions of data files.
-pub const EXTENSIONS: [&str; 3] = ["geojson", "json", "gpkg"];
+pub const EXTENSIONS: [&str; 8] =
+    ["geojson", "json", "gpkg", "geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
+
+/// The extensions of files that hold one GeoJSON document after another.
+const SEQUENCES: [&str; 5] = ["geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
+
+/// The deepest that geometries may be nested in collections.
+const DEEPEST: usize = 32;
 
 /// What is wanted of a data file.
 #[derive(Clone, Default)]
@@ -47,14 +56,14 @@ pub struct Wanted {
     pub kind: Option<Kind>,
     /// The EPSG code that holds in place of the file's.
     pub crs: Option<u32>,
-    /// Asked now and then: whether to give up.
-    pub stopped: Option<Arc<dyn Fn() -> bool + Send + Sync>>,
+    /// What reading may take.
+    pub budget: Arc<Budget>,
 }
 
 impl fmt::Debug for Wanted {
     /// All that decides what is read.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Self { layer, condition, limit, id, kind, crs, stopped: _ } = self;
+        let Self { layer, condition, limit, id, kind, crs, budget: _ } = self;
         write!(f, "{layer:?} {condition:?} {limit:?} {id:?} {kind:?} {crs:?}")
     }
 }
@@ -72,30 +81,36 @@ impl Source {
     ///
     /// Fails if it cannot be read, or is neither GeoJSON nor a GeoPackage.
     pub fn open(path: &Path, name: &str) -> Result<Self> {
+        Self::open_within(path, name, &Wanted::default())
+    }
+
+    /// The same, if it takes no more than the budget that is `wanted`.
+    pub fn open_within(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
         let cannot = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => {
                 Error::new(format!("there is no data file {name}")).help("check the path")
             }
-            _ => Error::new(format!("cannot read {name}: {error}")),
+            std::io::ErrorKind::IsADirectory => {
+                Error::new(format!("{name} is a folder")).help("name a .geojson or .gpkg file in it")
+            }
+            _ => Error::new(format!("cannot read {name}: {error}")).help("name a .geojson or .gpkg file"),
         };
-        let meta = path.metadata().map_err(cannot)?;
-        if meta.is_dir() {
-            return Err(Error::new(format!("{name} is a folder")).help("name a .geojson or .gpkg file in it"));
-        }
-        if !meta.is_file() {
-            return Err(Error::new(format!("{name} is not a file")).help("name a .geojson or .gpkg file"));
-        }
+        let (mut file, meta) = crate::files::open(path).map_err(cannot)?;
         let mut head = Vec::new();
-        File::open(path).and_then(|file| file.take(16).read_to_end(&mut head)).map_err(cannot)?;
+        (&mut file).take(16).read_to_end(&mut head).map_err(cannot)?;
         if head.starts_with(b"SQLite format 3") {
-            return Ok(Self::GeoPackage(geopackage::GeoPackage::open(path, name)?));
+            return Ok(Self::GeoPackage(geopackage::GeoPackage::open(path, name, wanted)?));
         }
         if meta.len() > geojson::LARGEST {
             return Err(Error::new(format!("{name} is larger than {} MB", geojson::LARGEST / 1_000_000))
                 .help("convert it to a GeoPackage, of which a part can be read"));
         }
-        let bytes = std::fs::read(path).map_err(cannot)?;
-        Ok(Self::GeoJson(geojson::read(&bytes, path, name)?))
+        wanted.budget.check()?;
+        let _held = wanted.budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
+        let mut bytes = Vec::with_capacity(usize::try_from(meta.len()).unwrap_or(0));
+        file.rewind().and_then(|()| file.take(meta.len()).read_to_end(&mut bytes)).map_err(cannot)?;
+        let read = geojson::read(&bytes, path, name, wanted);
+        Ok(Self::GeoJson(read.map_err(|error| error.about(name))?))
     }
 
     /// `GeoJSON` or `GeoPackage`.
@@ -157,16 +172,16 @@ impl Source {
 
 /// The layer of `name` that is meant.
 fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
-    let list = layers.join(", ");
+    let list = listed(layers.iter().map(String::as_str));
     match (wanted, layers) {
         (_, []) => Err(Error::new(format!("{name} has no layers of features"))
             .help("it holds no features table; was it written as a GeoPackage of features?")),
         (None, [only]) => Ok(only.clone()),
         (None, _) => Err(Error::new(format!("{name} has several layers"))
-            .help(format!("name one behind a colon: \"{name}:{}\"; it has {list}", layers[0]))),
+            .help(format!("name one behind a colon: \"{name}:{}\"; it has {list}", shown(&layers[0])))),
         (Some(wanted), _) if layers.iter().any(|layer| layer == wanted) => Ok(wanted.to_owned()),
         (Some(wanted), _) => {
-            let error = Error::new(format!("{name} has no layer called {wanted}"));
+            let error = Error::new(format!("{name} has no layer called {}", shown(wanted)));
             Err(match crate::error::nearest(wanted, layers.iter().map(String::as_str)) {
                 Some(near) => error.help(format!("did you mean {near}? It has {list}")),
                 None => error.help(format!("it has {list}")),

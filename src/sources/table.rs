@@ -2,10 +2,13 @@
 
 use std::sync::Arc;
 
-use rustc_hash::FxHashSet;
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
 
 use super::Crs;
+use crate::budget::Budget;
 use crate::error::{Error, Result, nearest};
+use crate::text::{listed, shown};
 
 /// The kinds of geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -137,11 +140,13 @@ pub struct Table {
     pub empty: usize,
     /// The ids of features whose geometry cannot be read, and why; they are left out.
     pub refused: Vec<(String, Error)>,
-    ids: FxHashSet<String>,
+    /// The ids that are taken, each with the number that was tried last behind it.
+    ids: FxHashMap<String, usize>,
+    budget: Arc<Budget>,
 }
 
 impl Table {
-    pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>) -> Self {
+    pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, budget: Arc<Budget>) -> Self {
         Self {
             layer: layer.to_owned(),
             shown: shown.to_owned(),
@@ -151,62 +156,102 @@ impl Table {
             records: 0,
             empty: 0,
             refused: Vec::new(),
-            ids: FxHashSet::default(),
+            ids: FxHashMap::default(),
+            budget,
         }
     }
 
     /// Adds a feature for each of `parts`; with an id that is taken, it becomes `id.2`, `id.3` and so on.
-    pub(super) fn push(&mut self, id: &str, parts: Vec<Geometry>, attributes: Vec<(usize, Attribute)>) {
+    ///
+    /// Fails if reading is to end, or if there is no memory left for more.
+    pub(super) fn push(
+        &mut self,
+        id: &str,
+        parts: Vec<Geometry>,
+        attributes: Vec<(usize, Attribute)>,
+    ) -> Result<()> {
+        self.budget.tick()?;
         if parts.is_empty() {
             self.empty += 1;
-            return;
+            return Ok(());
         }
+        let known: usize = attributes.iter().map(|(_, value)| 40 + value.weight()).sum();
+        let points: usize = parts.iter().map(|part| part.points().count() * 24).sum();
+        // Each id is kept twice, in a list and in a map.
+        self.budget.take(known + points + parts.len() * (300 + 2 * id.len()))?;
         self.records += 1;
         let attributes: Arc<[(usize, Attribute)]> = attributes.into();
         for geometry in parts {
             let id = self.fresh(id);
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
         }
+        Ok(())
+    }
+
+    /// Leaves out a feature for the reason that `error` gives. Fails as [`Table::push`] does.
+    pub(super) fn refuse(&mut self, id: String, error: Error) -> Result<()> {
+        self.budget.tick()?;
+        self.budget.take(500 + id.len())?;
+        self.refused.push((id, error.of_data()));
+        Ok(())
+    }
+
+    /// Leaves out the features of which `why` tells something.
+    pub(super) fn refuse_those(
+        &mut self,
+        why: impl Fn(&mut Feature) -> Option<Error> + Send + Sync,
+    ) -> Result<()> {
+        let wrong: Vec<Option<Error>> = self.features.par_iter_mut().map(why).collect();
+        if wrong.iter().all(Option::is_none) {
+            return Ok(());
+        }
+        for (feature, wrong) in std::mem::take(&mut self.features).into_iter().zip(wrong) {
+            match wrong {
+                Some(error) => self.refuse(feature.id, error)?,
+                None => self.features.push(feature),
+            }
+        }
+        Ok(())
     }
 
     /// Leaves out features with coordinates that are no finite numbers.
-    pub(super) fn refuse_endless(&mut self) {
-        let endless =
-            |feature: &Feature| feature.geometry.points().any(|point| point.iter().any(|it| !it.is_finite()));
-        if !self.features.iter().any(endless) {
-            return;
-        }
-        for feature in std::mem::take(&mut self.features) {
-            if endless(&feature) {
-                let (id, shown) = (&feature.id, &self.shown);
-                let error = Error::new(format!(
-                    "feature {id} of {shown} has a coordinate that is not a finite number"
-                ));
-                let error = error.help("repair the file, or leave the feature out").of_data();
-                self.refused.push((feature.id, error));
-            } else {
-                self.features.push(feature);
-            }
-        }
+    pub(super) fn refuse_endless(&mut self) -> Result<()> {
+        let name = self.shown.clone();
+        self.refuse_those(|feature| {
+            let endless = feature.geometry.points().any(|point| point.iter().any(|it| !it.is_finite()));
+            endless.then(|| {
+                let id = shown(&feature.id);
+                Error::new(format!("feature {id} of {name} has a coordinate that is not a finite number"))
+                    .help("repair the file, or leave the feature out")
+            })
+        })
     }
 
     fn fresh(&mut self, id: &str) -> String {
-        let mut unique = id.to_owned();
-        let mut count = 2;
-        while !self.ids.insert(unique.clone()) {
-            unique = format!("{id}.{count}");
+        let Some(mut count) = self.ids.get(id).copied() else {
+            self.ids.insert(id.to_owned(), 1);
+            return id.to_owned();
+        };
+        loop {
             count += 1;
+            let unique = format!("{id}.{count}");
+            if !self.ids.contains_key(&unique) {
+                self.ids.insert(unique.clone(), 1);
+                if let Some(last) = self.ids.get_mut(id) {
+                    *last = count;
+                }
+                return unique;
+            }
         }
-        unique
     }
 
     /// The number of the attribute `name`, and an error that lists those that there are if there is none.
     pub(super) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
-            let error = Error::new(format!("{} has no attribute called {name}", self.shown));
+            let error = Error::new(format!("{} has no attribute called {}", self.shown, shown(name)));
             match nearest(name, self.names.iter().map(String::as_str)) {
                 Some(near) => error.help(format!("did you mean {near}?")),
-                None => error.help(format!("it has {}", self.names.join(", "))),
+                None => error.help(format!("it has {}", listed(self.names.iter().map(String::as_str)))),
             }
         })
     }
@@ -248,6 +293,26 @@ impl Table {
 }
 
 impl Attribute {
+    /// About how much memory (bytes) it takes besides its place in a list.
+    fn weight(&self) -> usize {
+        fn nested(value: &serde_json::Value) -> usize {
+            use serde_json::Value as Json;
+            match value {
+                Json::String(text) => 80 + text.len(),
+                Json::Array(items) => 80 + items.iter().map(nested).sum::<usize>(),
+                Json::Object(fields) => {
+                    80 + fields.iter().map(|(name, value)| 80 + name.len() + nested(value)).sum::<usize>()
+                }
+                _ => 80,
+            }
+        }
+        match self {
+            Self::Boolean(_) | Self::Number(_) => 0,
+            Self::Text(text) => 16 + text.len(),
+            Self::Nested(value) => nested(value),
+        }
+    }
+
     /// The value as a feature's id.
     pub(super) fn as_id(&self) -> String {
         match self {
@@ -275,12 +340,22 @@ mod tests {
 
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {
-        let mut table = Table::new("a", "a", Crs::epsg(4326));
+        let mut table = Table::new("a", "a", Crs::epsg(4326), Arc::default());
         let point = Geometry::Point([0.0; 3]);
-        table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new());
-        table.push("12.2", vec![point.clone()], Vec::new());
-        table.push("12", vec![point], Vec::new());
+        table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
+        table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
+        table.push("12", vec![point], Vec::new()).unwrap();
         let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
         assert_eq!(ids, ["12", "12.2", "12.3", "12.2.2", "12.4"]);
+    }
+    #[test]
+    fn many_equal_ids_take_no_longer_than_others() {
+        let mut table = Table::new("a", "a", Crs::epsg(4326), Arc::default());
+        for number in 0..200_000 {
+            let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
+            table.push(&id, vec![Geometry::Point([0.0; 3])], Vec::new()).unwrap();
+        }
+        let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &feature.id).collect();
+        assert_eq!(ids.len(), 200_000);
     }
 }

@@ -42,7 +42,7 @@ enum Content {
 
 /// What tells most changes of a file without reading it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Stamp {
+pub(super) struct Stamp {
     length: u64,
     modified: Option<SystemTime>,
     file: u64,
@@ -64,6 +64,11 @@ pub(super) struct Found {
 }
 
 impl Found {
+    /// The file.
+    pub(super) fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Whether it has become missing or empty, as in the middle of a save.
     pub(super) fn looks_unfinished(&self) -> bool {
         let nothing = matches!(
@@ -176,7 +181,7 @@ impl Files {
 }
 
 /// `path` and where it leads, link by link, each also as the system spells its folder.
-fn hops(path: &Path) -> Vec<PathBuf> {
+pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
     let mut hops = Vec::new();
     let mut at = std::path::absolute(path).unwrap_or_else(|_| path.to_path_buf());
     // Links may lead in a circle.
@@ -217,7 +222,7 @@ fn place(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }
 
-fn stamp_of(path: &Path) -> Option<Stamp> {
+pub(super) fn stamp_of(path: &Path) -> Option<Stamp> {
     fs::metadata(path).ok().map(|metadata| stamp(&metadata))
 }
 

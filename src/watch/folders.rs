@@ -9,6 +9,17 @@ use notify::{Event, EventKind, RecursiveMode, Watcher};
 
 use super::files::Files;
 
+/// What an event tells of a file.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Sign {
+    /// Someone has written into it, and may write more.
+    Write,
+    /// It comes when a file has been written: it is closed, or gets its name.
+    End,
+    /// Anything else.
+    Other,
+}
+
 /// Takes what a watcher tells.
 pub(super) type Handler = Box<dyn FnMut(notify::Result<Event>) + Send>;
 
@@ -30,20 +41,20 @@ pub(super) struct Folders {
 
 impl Folders {
     /// Watches no folder yet, by what `make` makes. `seen` gets the paths that something has happened to, none if any may
-    /// be meant, and whether it is what comes at the end of a save.
+    /// be meant, and what it was.
     pub(super) fn new(
         make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>,
-        seen: impl Fn(Vec<PathBuf>, bool) + Send + 'static,
+        seen: impl Fn(Vec<PathBuf>, Sign) + Send + 'static,
     ) -> Self {
         let handle = move |event: notify::Result<Event>| match event {
-            Ok(event) if event.need_rescan() => seen(Vec::new(), false),
+            Ok(event) if event.need_rescan() => seen(Vec::new(), Sign::Other),
             Ok(event) if matters(event.kind) && !event.paths.is_empty() => {
-                let settled = ends_a_save(event.kind);
-                seen(event.paths, settled);
+                let sign = sign(event.kind);
+                seen(event.paths, sign);
             }
             Ok(_) => {}
             // Something was lost.
-            Err(_) => seen(Vec::new(), false),
+            Err(_) => seen(Vec::new(), Sign::Other),
         };
         let watcher = make(Box::new(handle)).map_err(|error| error.to_string());
         let failure = watcher.as_ref().err().cloned();
@@ -94,13 +105,13 @@ fn matters(kind: EventKind) -> bool {
     }
 }
 
-/// Whether this comes when a file has been written: it is closed, or gets its name.
-fn ends_a_save(kind: EventKind) -> bool {
-    matches!(
-        kind,
+fn sign(kind: EventKind) -> Sign {
+    match kind {
         EventKind::Access(AccessKind::Close(AccessMode::Write))
-            | EventKind::Modify(ModifyKind::Name(RenameMode::To | RenameMode::Both))
-    )
+        | EventKind::Modify(ModifyKind::Name(RenameMode::To | RenameMode::Both)) => Sign::End,
+        EventKind::Modify(ModifyKind::Data(_)) => Sign::Write,
+        _ => Sign::Other,
+    }
 }
 
 /// The folder of the file at `path` and the one above it, or the nearest one that is there.

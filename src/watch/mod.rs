@@ -9,14 +9,15 @@
 mod files;
 mod folders;
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime};
 
 use crate::error::{Error, Result};
 use files::Files;
-use folders::{AnyWatcher, Folders, Handler};
+use folders::{AnyWatcher, Folders, Handler, Sign};
 
 /// How long it must be quiet after an event until files are compared, unless it is what comes at the end of a save:
 /// editors save in several steps.
@@ -28,6 +29,15 @@ const LONGEST: Duration = Duration::from_millis(100);
 /// How long a file may be missing or empty until that is believed: some editors delete a file or cut it to
 /// nothing before they write it.
 const PATIENCE: Duration = Duration::from_millis(150);
+
+/// How long a file that someone writes into may stay open until what it holds is believed.
+const SAVE: Duration = Duration::from_secs(1);
+
+/// Whether the system tells when a file that was written is closed.
+const TELLS_ENDS: bool = cfg!(any(target_os = "linux", target_os = "android"));
+
+/// How many events are taken before files are compared that should have been by now.
+const AT_ONCE: usize = 1000;
 
 /// How often files are compared without an event: some disks, such as those of other machines, tell of none.
 const ROUND: Duration = Duration::from_secs(1);
@@ -44,6 +54,32 @@ pub struct Change {
     pub at: Instant,
 }
 
+/// How long to wait until `files` have been as they are for a while; `None` if they have.
+///
+/// What has just been written in place may be the half of what is to come: who cannot read it tries again first.
+pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Duration> {
+    let now = SystemTime::now();
+    let young = files.into_iter().filter_map(|path| {
+        let metadata = std::fs::metadata(path).ok().filter(std::fs::Metadata::is_file)?;
+        PATIENCE.checked_sub(now.duration_since(metadata.modified().ok()?).ok()?)
+    });
+    young.filter(|left| !left.is_zero()).max()
+}
+
+/// What `read` makes of the file at `path`; tried again while it fails and the file has only just been written.
+pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
+    let begin = Instant::now();
+    loop {
+        let before = files::stamp_of(path);
+        let result = read();
+        let young = || files::stamp_of(path) != before || unsettled([path]).is_some();
+        if result.is_ok() || begin.elapsed() > SAVE || !young() {
+            return result;
+        }
+        std::thread::sleep(QUIET);
+    }
+}
+
 /// Watches files in a thread of its own until it is dropped.
 pub struct Watch {
     signals: Sender<Signal>,
@@ -52,9 +88,11 @@ pub struct Watch {
 
 /// What the thread waits for.
 enum Signal {
-    /// Something happened to these paths; none if the system lost count. And whether a save ends so.
-    Event(Vec<PathBuf>, Instant, bool),
+    /// Something happened to these paths; none if the system lost count.
+    Event(Vec<PathBuf>, Instant, Sign),
     Follow(Vec<(PathBuf, bool)>, SystemTime),
+    /// Someone waits until all that has changed by now has been told.
+    CatchUp(Sender<()>),
     Over,
 }
 
@@ -68,6 +106,8 @@ struct Watcher {
     complain: Option<Box<Complain>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
+    /// What someone has written into and not closed yet, where the system tells of that.
+    open: BTreeSet<PathBuf>,
 }
 
 impl Watch {
@@ -89,15 +129,16 @@ impl Watch {
     ) -> Result<Self> {
         let (signals, inbox) = channel();
         let events = signals.clone();
-        let seen = move |paths, settled| {
+        let seen = move |paths, sign| {
             // The watcher may be over already.
-            let _ = events.send(Signal::Event(paths, Instant::now(), settled));
+            let _ = events.send(Signal::Event(paths, Instant::now(), sign));
         };
         let mut watcher = Watcher {
             files: Files::default(),
             folders: Folders::new(make, seen),
             complain: Some(Box::new(complain)),
             first: None,
+            open: BTreeSet::new(),
         };
         watcher.files.follow(files.into_iter().map(|path| (path, true)).collect(), None);
         let watch = move || {
@@ -116,6 +157,15 @@ impl Watch {
     pub fn follow(&self, files: Vec<(PathBuf, bool)>, since: SystemTime) {
         // The thread ends only when this is dropped.
         let _ = self.signals.send(Signal::Follow(files, since));
+    }
+
+    /// Waits until all that has changed by now has been told, but not for ever.
+    pub fn catch_up(&self) {
+        let (done, all) = channel();
+        if self.signals.send(Signal::CatchUp(done)).is_ok() {
+            // Whether it was in time or not, nothing more can be known.
+            let _ = all.recv_timeout(SAVE * 2);
+        }
     }
 }
 
@@ -141,29 +191,56 @@ impl Watcher {
     }
 
     fn work(mut self, inbox: &Receiver<Signal>, changed: &dyn Fn(Change)) {
-        let mut due: Option<Instant> = None;
+        // Before the folders were watched nothing was told of them.
+        let mut due = Some(Instant::now());
+        let mut looked = Instant::now();
+        let mut asked: Vec<Sender<()>> = Vec::new();
+        let mut overdue = 0;
         loop {
-            let round = if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
-            let wait = due.map_or(round, |due| due.saturating_duration_since(Instant::now()));
-            match inbox.recv_timeout(wait) {
-                Ok(Signal::Event(paths, at, settled)) => {
+            // Events of other files, of which there may be many, put off no round.
+            let round = looked + if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
+            let wait = due.unwrap_or(round).saturating_duration_since(Instant::now());
+            overdue = if wait.is_zero() { overdue + 1 } else { 0 };
+            let signal = match overdue {
+                ..AT_ONCE => inbox.recv_timeout(wait),
+                _ => Err(RecvTimeoutError::Timeout),
+            };
+            match signal {
+                Ok(Signal::Event(paths, at, sign)) => {
                     if self.files.concerned_by(&paths) {
                         let first = *self.first.get_or_insert(at);
-                        let quiet = if settled { Duration::ZERO } else { QUIET };
+                        let quiet = if sign == Sign::End { Duration::ZERO } else { QUIET };
                         due = Some((Instant::now() + quiet).min(first + LONGEST));
+                        match sign {
+                            Sign::Write if TELLS_ENDS => self.open.extend(paths),
+                            Sign::End => self.open.retain(|open| !paths.contains(open)),
+                            _ => {}
+                        }
                     }
                 }
                 Ok(Signal::Follow(files, since)) => {
                     if self.files.follow(files, Some(since)) {
                         self.first.get_or_insert_with(Instant::now);
-                        due = Some(Instant::now());
                     }
                     self.cover();
+                    // What has changed before its folder was watched was not told.
+                    due = Some(Instant::now());
+                }
+                Ok(Signal::CatchUp(done)) => {
+                    asked.push(done);
+                    due.get_or_insert_with(Instant::now);
                 }
                 Err(RecvTimeoutError::Timeout) => {
                     // Events that come while files are read lead to another look.
                     self.cover();
                     due = self.look(changed);
+                    (looked, overdue) = (Instant::now(), 0);
+                    if due.is_none() {
+                        // Who asked may have given up.
+                        for done in asked.drain(..) {
+                            let _ = done.send(());
+                        }
+                    }
                 }
                 Ok(Signal::Over) | Err(RecvTimeoutError::Disconnected) => return,
             }
@@ -181,7 +258,14 @@ impl Watcher {
         if found.iter().any(files::Found::looks_unfinished) && first.elapsed() < PATIENCE {
             return Some(Instant::now() + QUIET);
         }
+        let open =
+            |found: &files::Found| files::hops(found.path()).iter().any(|path| self.open.contains(path));
+        if first.elapsed() < SAVE && !self.open.is_empty() && found.iter().any(open) {
+            // That it is closed comes as an event.
+            return Some(first + SAVE);
+        }
         self.first = None;
+        self.open.clear();
         let files = self.files.accept(found);
         // What has just been named may lie elsewhere than before, if it is a link.
         self.cover();

@@ -125,7 +125,7 @@ fn check_lists_the_parameters_and_derives_nothing() {
     let document = folder.burgeon(&["check", "s.lua", "--json", "--set", "n=4"]).done().json();
     assert_eq!(
         document.to_string(),
-        r#"{"ok":true,"params":[{"name":"n","value":4.0,"unit":"m","text":"how far"}]}"#
+        r#"{"ok":true,"params":[{"name":"n","value":4.0,"unit":"m","text":"how far"}],"warnings":[]}"#
     );
     assert_eq!(folder.files().len(), 1);
 }
@@ -293,7 +293,7 @@ fn help_reads_well() {
           --set <NAME=VALUE>    Sets a parameter of the script
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
-          --strict              Ends with an error at the first feature whose data cannot be built, in place of leaving it out
+          --strict              Ends with an error where there would be a warning, and at the first feature whose data cannot be built
           --seed <N>            The seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
           --lod <N>             Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]
@@ -335,7 +335,7 @@ fn help_reads_well() {
           --set <NAME=VALUE>  Sets a parameter of the script
           --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>     Lets the script read data files in this folder and below it; may be repeated
-          --strict            Ends with an error at the first feature whose data cannot be built, in place of leaving it out
+          --strict            Ends with an error where there would be a warning, and at the first feature whose data cannot be built
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
           --lod <N>           Draws less: 0 ground plans, 1 blocks, 2 roofs, 3 everything [default: 3]

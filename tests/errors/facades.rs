@@ -43,7 +43,7 @@ fn walls_and_templates_are_checked_when_they_are_made() {
     error: s.lua:2: panel: width must be a preferred length (m), { least, greatest } or { least, preferred, greatest }, not {3,2}
 
     panel({ model = wall })
-    error: s.lua:2: panel: model must be what derive returned, or model("window.glb"), not an object
+    error: s.lua:2: panel: model must be what derive returned, or model("window.glb"), not a panel
 
     panel({ at = "middle" })
     error: s.lua:2: panel: at must be "bottom", "center" or "top", not "middle"
@@ -71,7 +71,7 @@ fn walls_and_templates_are_checked_when_they_are_made() {
       help: put a margin around one of them: bordered { ... }
 
     list({ wall, 7 })
-    error: s.lua:2: list: walls must be a list whose item 2 is a wall: panel, bordered, extruded, list or grid, not {panel,7}
+    error: s.lua:2: list: walls must be a list whose item 2 is a wall: panel, bordered, extruded, list or grid, not 7
 
     list({ wall }, { direction = "upwards" })
     error: s.lua:2: list: direction is "upwards"
@@ -95,7 +95,7 @@ fn walls_and_templates_are_checked_when_they_are_made() {
       help: write facade({ template { wall = panel { } } })
 
     facade({ wall })
-    error: s.lua:2: facade: templates must be a list whose item 1 is a template: template { wall = ... }, not {panel}
+    error: s.lua:2: facade: templates must be a list whose item 1 is a template: template { wall = ... }, not a panel
     "##);
 }
 

@@ -99,6 +99,25 @@ fn when_the_time_is_over_the_best_is_written() {
 }
 
 #[test]
+fn rounds_end_the_search_however_long_they_take_unless_a_time_is_given_too() {
+    let folder = Folder::new();
+    let rounds = ["fit", "mountains", "-o", "rules.lua", "--rounds", "3", "--json"];
+    let whole = folder.burgeon(&rounds).done().json();
+    assert_eq!((&whole["warnings"], &whole["tried"]), (&serde_json::json!([]), &288.into()));
+    let cut = folder.burgeon(&[&rounds[..], &["--seconds", "0.001"]].concat()).done().json();
+    let told = "--seconds ended the search after 0 of 3 rounds, so its result depends on the machine";
+    assert_eq!(cut["warnings"], serde_json::json!([told]));
+    let cut = folder.burgeon(&[&rounds[..6], &["--seconds", "0.001"]].concat()).done();
+    assert!(
+        cut.stderr.ends_with(&format!("warning: {told}\n  help: leave --seconds out\n")),
+        "{}",
+        cut.stderr
+    );
+    let help = folder.burgeon(&["fit", "--help"]).done().stdout;
+    assert!(help.contains("[default: 60, or no such limit with --rounds]"), "{help}");
+}
+
+#[test]
 fn a_target_or_a_file_that_cannot_be_is_refused_before_the_search() {
     let folder = Folder::new().with("mine.lua", "local n = 3\n").with("folder.lua/a.txt", "");
     assert_snapshot!(folder.refuses(&["fit", "mountain", "-o", "rules.lua"]), @r"

@@ -78,8 +78,8 @@ fn a_value_of_the_wrong_type_is_told_with_the_default() {
       | local on = param("on", { default = true, text = "whether it shines" })
       help: its default is true
     "#);
-    assert_snapshot!(set(&["hue=red"]), @r##"
-    error: s.lua:4: param hue must be a colour, #rrggbb, not "red"
+    assert_snapshot!(set(&["hue=rde"]), @r##"
+    error: s.lua:4: param hue must be a colour, #rrggbb, not "rde"
       | local hue = param("hue", { default = "#ff0000" })
       help: its default is #ff0000
     "##);

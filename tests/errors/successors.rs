@@ -60,6 +60,7 @@ fn a_branch_is_a_list_that_does_not_contain_itself() {
     error: s.lua:4: rule A(x): branches are nested more than 200 deep, or a branch contains itself
       | local t = {} t[1] = t return t
       module: A(1), step 1
+      help: let a rule make the rest: each step adds to what is there
     ");
     assert_snapshot!(successor("return B(), { n = B() }"), @r"
     error: s.lua:4: rule A(x): a branch is a list of modules, but this one has the field n
@@ -80,8 +81,9 @@ fn a_branch_is_a_list_that_does_not_contain_itself() {
       help: return modules, such as A(1), and branches of them, such as { A(1) }
     ");
     assert_snapshot!(refused_rules("local t = { B() } t[2] = t\ns:axiom(t)"), @r"
-    error: s.lua:5: branches are nested more than 200 deep, or a branch contains itself
-      | s:derive(1)
+    error: s.lua:4: branches are nested more than 200 deep, or a branch contains itself
+      | s:axiom(t)
+      help: let a rule make the rest: each step adds to what is there
     ");
 }
 
@@ -208,9 +210,9 @@ fn a_constructor_refuses_unknown_fields_and_wrong_types() {
     error: s.lua:1: turtle: sides must be a whole number from 0, not 2.5
       | local t = turtle({ sides = 2.5 })
     ");
-    assert_snapshot!(refused("local t = turtle({ color = \"red\" })\n"), @r##"
-        error: s.lua:1: turtle: color must be a colour: "#rrggbb" or { red, green, blue } from 0 to 1, not "red"
-          | local t = turtle({ color = "red" })
+    assert_snapshot!(refused("local t = turtle({ color = \"rd\" })\n"), @r##"
+        error: s.lua:1: turtle: color must be a colour: "#rrggbb", a name such as "lightblue", or { red, green, blue } from 0 to 1, not "rd"
+          | local t = turtle({ color = "rd" })
         "##);
     assert_snapshot!(refused("local t = turtle({ heading = { 1 } })\n"), @r##"
     error: s.lua:1: turtle: heading must be a vector: { x, y, z } or vec(x, y, z), not {1}
@@ -222,7 +224,7 @@ fn a_constructor_refuses_unknown_fields_and_wrong_types() {
       help: write turtle { step = 3 }
     ");
     assert_snapshot!(refused("local e = extruder({ shape = { { 0, 0 }, 3 } })\n"), @r##"
-    error: s.lua:1: extruder: shape must be a list whose item 2 is a vector: { x, y, z } or vec(x, y, z), not {{0,0},3}
+    error: s.lua:1: extruder: shape must be a list whose item 2 is a vector: { x, y, z } or vec(x, y, z), not 3
       | local e = extruder({ shape = { { 0, 0 }, 3 } })
     "##);
 }
@@ -258,7 +260,7 @@ fn a_method_tells_what_it_takes() {
       module: A(1), step 0
     "#);
     assert_snapshot!(interpreted("this:color(\"#12\")"), @r##"
-    error: s.lua:4: rule A(x) (interpretation): turtle:color: color must be a colour: "#rrggbb" or { red, green, blue } from 0 to 1, not "#12"
+    error: s.lua:4: rule A(x) (interpretation): turtle:color: color must be a colour: "#rrggbb", a name such as "lightblue", or { red, green, blue } from 0 to 1, not "#12"
       | this:color("#12")
       module: A(1), step 0
     "##);

@@ -119,6 +119,32 @@ impl Folder {
         Said { status: out.status.code().unwrap_or(-1), stdout: text(out.stdout), stderr: text(out.stderr) }
     }
 
+    /// Runs `burgeon`, which must succeed with warnings, say the same in JSON, and fail with them as errors, leaving
+    /// every file as it was, if it is to be strict. Returns what it says of them.
+    pub(crate) fn warned(&self, arguments: &[&str]) -> String {
+        let document = self.burgeon(&[arguments, &["--json"]].concat()).done().json();
+        let text = self.burgeon(arguments).done().stderr;
+        let first = text.find("warning: ").unwrap_or_else(|| panic!("no warning in: {text}"));
+        let of_warning = |line: &&str| line.starts_with("warning: ") || line.starts_with("  ");
+        let text: String =
+            text[first..].lines().take_while(of_warning).map(|line| format!("{line}\n")).collect();
+        assert_decent(&text);
+        let warnings = document["warnings"].as_array().unwrap();
+        assert_eq!(warnings.len(), text.matches("warning: ").count(), "{text}\n{document}");
+        for warning in warnings {
+            for part in ["message", "file", "rule", "module", "help"] {
+                let part = warning[part].as_str().unwrap_or_default();
+                assert!(text.contains(part), "{part:?} is not in: {text}");
+            }
+        }
+        let strict = self.refuses(&[arguments, &["--strict"]].concat());
+        for warning in warnings {
+            let message = warning["message"].as_str().unwrap();
+            assert!(strict.contains(message), "{message:?} is not in: {strict}");
+        }
+        text
+    }
+
     /// Runs `burgeon`, which must fail, say the same in JSON, and leave every file as it was.
     pub(crate) fn refuses(&self, arguments: &[&str]) -> String {
         let before = self.files();

@@ -2,6 +2,7 @@
 #![cfg(feature = "live")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+mod connections;
 mod requests;
 mod saves;
 mod support;

@@ -284,6 +284,7 @@ fn two_servers_find_ports_of_their_own_and_print_the_address_first() {
             Command::new(env!("CARGO_BIN_EXE_burgeon"))
                 .args(["live", "none.lua", "--no-open"])
                 .current_dir(folder.path())
+                .env("XDG_RUNTIME_DIR", folder.path())
                 .stdout(std::process::Stdio::piped())
                 .stderr(std::process::Stdio::null())
                 .spawn()
@@ -326,4 +327,18 @@ fn an_interrupt_ends_it_at_once_and_a_page_finds_the_next_server_under_the_same_
     let (time, status) = server.interrupt();
     assert!(time < PATIENCE / 10, "{time:?}");
     assert_eq!(status, Some(0));
+}
+
+#[test]
+fn a_model_brings_its_warnings_and_a_strict_server_an_error() {
+    let twice = "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:derive(0)\ns:derive(0)\n";
+    let server = Server::new(Some(twice));
+    let mut page = server.page();
+    let warnings = page.next("model")["warnings"].clone();
+    let (kind, file, line) = (&warnings[0]["kind"], &warnings[0]["file"], &warnings[0]["line"]);
+    assert_eq!((kind, file, line), (&"derived-twice".into(), &"s.lua".into(), &4.into()), "{warnings}");
+    server.write("s.lua", script(3));
+    assert_eq!(page.next("model")["warnings"].as_array().map(Vec::len), Some(0));
+    let strict = Server::with(Some(twice), &["--strict"]);
+    assert_eq!(strict.page().next("error")["errors"][0]["line"], 4);
 }

@@ -1,10 +1,11 @@
 //! What happens when files change.
 
 use std::fs;
+use std::io::Write;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use serde_json::json;
+use serde_json::{Value, json};
 
 use crate::support::{SLOW, Server, script, triangles};
 
@@ -128,9 +129,12 @@ fn a_save_during_a_long_run_stops_it_and_so_does_a_page() {
     server.write("s.lua", SLOW);
     page.until("progress");
     page.say(&json!({ "type": "cancel" }));
-    page.until("cancelled");
+    assert_eq!(page.until("cancelled")["stale"], true);
     // What was cancelled is not tried again until something changes.
     page.is_quiet(Duration::from_millis(100));
+    let mut late = server.page();
+    late.next("model");
+    assert_eq!(late.next("cancelled")["stale"], true);
     server.write("s.lua", script(4));
     assert_eq!(page.next("model")["triangles"], triangles(4));
 }
@@ -204,4 +208,114 @@ plots:derive()
     assert!(page.next("error")["text"].as_str().unwrap().contains("town.geojson"));
     server.write("town.geojson", town(2e-4));
     assert_eq!(page.next("model")["url"], taller["url"]);
+}
+
+/// Writes a file in place, in two parts with a pause between. Returns whether the second part came in time: a machine
+/// that is busy may make the pause so long that what is there has to be believed.
+fn write_slowly(server: &Server, name: &str, text: &str, closed: bool) -> bool {
+    let (first, rest) = text.split_at(text.len() / 2);
+    let begin = Instant::now();
+    let mut file = fs::File::create(server.path(name)).unwrap();
+    file.write_all(first.as_bytes()).unwrap();
+    if closed {
+        drop(file);
+        std::thread::sleep(Duration::from_millis(60));
+        file = fs::File::options().append(true).open(server.path(name)).unwrap();
+    } else {
+        std::thread::sleep(Duration::from_millis(250));
+    }
+    file.write_all(rest.as_bytes()).unwrap();
+    drop(file);
+    begin.elapsed() < Duration::from_millis(if closed { 100 } else { 700 })
+}
+
+#[test]
+fn a_file_that_is_seen_half_written_is_read_again_before_anyone_is_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = |count: usize| format!("require(\"parts\")\n{}", script(count));
+    let parts = |number: usize| format!("return {{ {} }}\n", "1, ".repeat(number));
+    fs::write(folder.path().join("parts.lua"), parts(1)).unwrap();
+    fs::write(folder.path().join("s.lua"), text(3)).unwrap();
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    page.next("model");
+    let presets =
+        |number: usize| format!("{:#}\n", json!({ format!("preset {number}"): { "seed": number } }));
+    // All that is told until a message holds what is wanted.
+    let until = |page: &mut crate::support::Page, wanted: &dyn Fn(&Value) -> bool| {
+        let mut told = Vec::new();
+        while told.last().is_none_or(|last| !wanted(last)) {
+            told.push(page.any());
+        }
+        told
+    };
+    let (mut checked, mut length) = ([0; 2], 3);
+    // Whether a file stays open between its parts can be known on some systems alone.
+    for closed in [true, !cfg!(target_os = "linux")].repeat(10) {
+        if checked[usize::from(closed)] >= 9 {
+            continue;
+        }
+        length += 1;
+        let mut check = |in_time: bool, told: Vec<Value>, kinds: &[&str]| {
+            let unwanted = told.iter().find(|it| kinds.iter().any(|kind| it["type"] == **kind));
+            assert!(!in_time || unwanted.is_none(), "{told:?}");
+            checked[usize::from(closed)] += usize::from(in_time);
+        };
+        let in_time = write_slowly(&server, "s.lua", &text(length), closed);
+        let told = until(&mut page, &|it| it["triangles"] == triangles(length));
+        check(in_time, told, &["error", "refused"]);
+        let in_time = write_slowly(&server, "parts.lua", &parts(length), closed);
+        let told = until(&mut page, &|it| it["type"] == "model" && it["cause"] == "save");
+        check(in_time, told, &["error", "refused"]);
+        while page.within(Duration::from_millis(300)).is_some() {}
+        let in_time = write_slowly(&server, "s.presets.json", &presets(length), closed);
+        let told = until(&mut page, &|it| it["names"] == json!([format!("preset {length}")]));
+        check(in_time, told, &["error", "refused"]);
+    }
+    assert!(checked.iter().all(|count| *count > 0), "{checked:?}");
+}
+
+#[test]
+fn a_long_message_is_cut_and_an_error_shows_its_lines() {
+    let server = Server::new(Some("local A = module(\"A\")\n\nerror(string.rep(\"x\", 2e7))\n-- the end\n"));
+    let mut page = server.page();
+    let error = page.next("error");
+    assert!(error.to_string().len() < 100_000, "{}", error.to_string().len());
+    let lines = json!([
+        { "line": 1, "text": "local A = module(\"A\")" },
+        { "line": 2, "text": "" },
+        { "line": 3, "text": "error(string.rep(\"x\", 2e7))" },
+        { "line": 4, "text": "-- the end" },
+    ]);
+    assert_eq!((&error["errors"][0]["line"], &error["errors"][0]["excerpt"]), (&json!(3), &lines));
+    let wrong = "x.y = 1\n".repeat(500);
+    server.write("s.lua", format!("--!strict\n{wrong}"));
+    let error = page.next("error");
+    let (told, number) = (error["errors"].as_array().unwrap().len(), error["number"].as_u64().unwrap());
+    assert!(told as u64 <= number && told <= 50, "{told} of {number}");
+}
+
+#[test]
+fn a_model_of_nothing_says_why() {
+    let server = Server::new(Some("local s = 1\n"));
+    let mut page = server.page();
+    let says = |page: &mut crate::support::Page, text: &str| {
+        let model = page.until("model");
+        let nothing = model["nothing"].as_str().unwrap_or_default();
+        assert!(nothing.contains(text), "{text}: {nothing}");
+    };
+    says(&mut page, "derives no system");
+    let empty = |rest: &str| {
+        format!(
+            "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem({{ object = turtle() }})\ns:axiom(A())\n{rest}s:derive()\n"
+        )
+    };
+    server.write("s.lua", empty("s:rule(\"A\", function() return nil end)\n"));
+    says(&mut page, "no module is left");
+    server.write("s.lua", empty("s:rule(\"A\", function() return B(), B() end)\n"));
+    says(&mut page, "system:interpret(\"B\"");
+    server.write("s.lua", script(3));
+    assert_eq!(page.until("model")["nothing"], json!(null));
+    page.say(&json!({ "type": "steps", "steps": 0 }));
+    says(&mut page, "after 0 steps");
 }

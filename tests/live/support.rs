@@ -10,7 +10,7 @@ use serde_json::{Value, json};
 use tungstenite::{Message, WebSocket};
 
 /// How long anything may take; most takes a hundredth of it.
-pub(crate) const PATIENCE: Duration = Duration::from_secs(10);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(30);
 
 /// A script of `count` segments, with a parameter and a random turn.
 pub(crate) fn script(count: usize) -> String {
@@ -62,11 +62,27 @@ impl Server {
     }
 
     pub(crate) fn start(folder: tempfile::TempDir, flags: &[&str]) -> Self {
-        let mut child = Command::new(env!("CARGO_BIN_EXE_burgeon"))
+        Self::by(Command::new(env!("CARGO_BIN_EXE_burgeon")), folder, flags)
+    }
+
+    /// A server that may open so many files at most.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn with_few_files(script: &str, files: usize) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("s.lua"), script).unwrap();
+        let mut command = Command::new("sh");
+        let limited = format!("ulimit -n {files} && exec \"$0\" \"$@\"");
+        command.args(["-c", &limited, env!("CARGO_BIN_EXE_burgeon")]);
+        Self::by(command, folder, &[])
+    }
+
+    fn by(mut command: Command, folder: tempfile::TempDir, flags: &[&str]) -> Self {
+        let mut child = command
             .args(["live", "s.lua", "--json", "--no-open"])
             .args(flags)
             .args(if flags.contains(&"--port") { &[][..] } else { &["--port", "0"] })
             .current_dir(folder.path())
+            .env("XDG_RUNTIME_DIR", folder.path())
             .stdin(Stdio::null())
             .stdout(Stdio::piped())
             .stderr(Stdio::null())
@@ -122,6 +138,12 @@ impl Server {
         let hello = page.next("hello");
         assert_eq!(hello["script"], "s.lua");
         page
+    }
+
+    /// The number of files that it has open.
+    #[cfg(target_os = "linux")]
+    pub(crate) fn open_files(&self) -> usize {
+        std::fs::read_dir(format!("/proc/{}/fd", self.child.id())).unwrap().count()
     }
 
     /// Interrupts it as a person does. Returns how long it took to end, and its status.
@@ -205,7 +227,8 @@ impl Page {
             if message["type"] == kind {
                 return message;
             }
-            assert!(message["type"] == "working" || message["type"] == "progress", "{kind}: {message}");
+            let news = ["working", "progress", "variations"].iter().any(|news| message["type"] == **news);
+            assert!(news, "{kind}: {message}");
         }
     }
 

@@ -80,6 +80,34 @@ fn a_line_shows_what_it_made_and_the_profile_names_the_lines() {
     assert_eq!(all, model["triangles"].as_u64().unwrap());
     let nothing = ask(&mut page, json!({ "type": "highlight", "id": 6, "file": "s.lua", "line": 1 }));
     assert_eq!((&nothing["modules"], &nothing["ranges"]), (&json!(0), &json!([])));
+    for (line, says) in [(0, "7 lines"), (8, "no line 8"), (4_000_000_000_u64, "7 lines")] {
+        let lit = ask(&mut page, json!({ "type": "highlight", "id": 6, "file": "s.lua", "line": line }));
+        assert!(lit["text"].as_str().unwrap().contains(says), "{lit}");
+    }
     let foreign = ask(&mut page, json!({ "type": "highlight", "id": 7, "file": "/etc/passwd", "line": 1 }));
     assert_eq!((&foreign["type"], &foreign["id"]), (&json!("refused"), &json!(7)));
+}
+
+#[test]
+fn a_line_of_a_required_file_is_found_by_any_name_that_means_it_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("a/b")).unwrap();
+    let text = "local S = module(\"S\")\nreturn function(s)\n  s:axiom(S(), S())\n                \n  s:interpret(\"S\", function(this) this:forward(1) end)\nend\n";
+    std::fs::write(folder.path().join("a/b/parts.lua"), text).unwrap();
+    std::fs::write(
+        folder.path().join("s.lua"),
+        "local s = lsystem({ object = turtle() })\nrequire(\"a/b/parts\")(s)\ns:derive()\n",
+    )
+    .unwrap();
+    // What was written when the server began counts as changed.
+    std::thread::sleep(std::time::Duration::from_millis(200));
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    page.next("model");
+    for name in ["a/b/parts.lua", "b/parts.lua", "parts.lua"] {
+        let lit = ask(&mut page, json!({ "type": "highlight", "id": 1, "file": name, "line": 5 }));
+        assert_eq!((&lit["modules"], &lit["what"]), (&json!(2), &json!("S")), "{name}: {lit}");
+    }
+    let lit = ask(&mut page, json!({ "type": "highlight", "id": 1, "file": "arts.lua", "line": 5 }));
+    assert_eq!(lit["type"], "refused", "{lit}");
 }

@@ -37,7 +37,10 @@ impl Watching {
 
     #[track_caller]
     fn next(&self) -> Value {
-        serde_json::from_str(&self.lines.recv_timeout(PATIENCE).unwrap()).unwrap()
+        match self.lines.recv_timeout(PATIENCE) {
+            Ok(line) => serde_json::from_str(&line).unwrap(),
+            Err(_) => panic!("nothing is said"),
+        }
     }
 
     fn write(&self, text: &str) {
@@ -80,6 +83,16 @@ fn the_outputs_follow_the_script_and_stay_when_it_fails() {
         .collect();
     names.sort();
     assert_eq!(names, ["a.glb", "a.txt", "s.lua"]);
+}
+
+#[test]
+fn each_run_tells_its_own_warnings() {
+    let watching = Watching::new(Some(
+        "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:derive(0)\ns:derive(0)\n",
+    ));
+    assert_eq!(watching.next()["warnings"][0]["kind"], "derived-twice");
+    watching.write(&script(3));
+    assert_eq!(watching.next()["warnings"].as_array().map(Vec::len), Some(0));
 }
 
 #[cfg(unix)]

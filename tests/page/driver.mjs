@@ -3,6 +3,7 @@
 // BURGEON names the binary (target/release/burgeon if it is not given), CHROMIUM the browser, and PLAYWRIGHT the folder
 // whose node_modules has playwright-core.
 
+import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
 import { once } from "node:events";
 import { mkdtempSync, renameSync, writeFileSync } from "node:fs";
@@ -17,8 +18,29 @@ const binary = process.env.BURGEON ?? join(root, "target/release/burgeon");
 const require = createRequire(join(resolve(process.env.PLAYWRIGHT ?? root), "package.json"));
 const { chromium } = require("playwright-core");
 
+/** A tower of blocks with parameters of several kinds. */
+export const BLOCKS = `local count = param("count", { default = 3, min = 1, max = 12, step = 1, text = "Blocks of the tower" })
+local color = param("color", { default = "#b0413e" })
+local hollow = param("hollow", { default = false })
+local style = param("style", { default = "plain", choices = { "plain", "fluted" } })
+local Block, Slab = module("Block", "n"), module("Slab", "n")
+local tower = lsystem({ object = extruder({ shape = { { -2, -2 }, { 2, -2 }, { 2, 2 }, { -2, 2 } }, smooth = false }) })
+tower:axiom(Block(count))
+tower:rule("Block(n)", function(this, n)
+  if n == 0 then return nil end
+  return Slab(n), Block(n - 1)
+end)
+tower:interpret("Slab(n)", function(this, n)
+  this:color(color):caps(not hollow):scale(1 + n * 0.01):extrude(2)
+end)
+tower:derive()
+`;
+
 /** A folder for scripts. */
 export const folder = () => mkdtempSync(join(tmpdir(), "burgeon page "));
+
+// Tokens that are kept are not those of the person who runs this.
+process.env.XDG_RUNTIME_DIR = folder();
 
 /** Saves as editors do: writes beside the file and renames. */
 export function save(path, text) {
@@ -102,7 +124,7 @@ export async function number(page, name) {
 /** The colours of the picture: rows of red, green, blue and opacity, one byte each. */
 export async function pixels(page) {
   const png = await page.locator("canvas#view").screenshot();
-  return page.evaluate(async (text) => {
+  const text = await page.evaluate(async (text) => {
     const image = new Image();
     image.src = `data:image/png;base64,${text}`;
     await image.decode();
@@ -110,8 +132,13 @@ export async function pixels(page) {
     [canvas.width, canvas.height] = [image.width, image.height];
     const context = canvas.getContext("2d");
     context.drawImage(image, 0, 0);
-    return [...context.getImageData(0, 0, image.width, image.height).data];
+    const { data } = context.getImageData(0, 0, image.width, image.height);
+    // A list of numbers would take a machine that is busy many seconds.
+    const parts = [];
+    for (let at = 0; at < data.length; at += 32_768) parts.push(String.fromCharCode(...data.subarray(at, at + 32_768)));
+    return btoa(parts.join(""));
   }, png.toString("base64"));
+  return Buffer.from(text, "base64");
 }
 
 /** How many pixels differ clearly between two pictures of the same size. */
@@ -122,4 +149,26 @@ export function different(a, b) {
     if (far) count += 1;
   }
   return count;
+}
+
+/** Opens a script's page and hands everything to `act`; the console must stay free of errors. */
+export async function show(browser, text, act, { flags = [], fails = false } = {}) {
+  const script = join(folder(), "blocks.lua");
+  if (text !== null) writeFileSync(script, text);
+  const server = await Server.start(script, "--port", "0", ...flags);
+  const context = await browser.newContext({ viewport: { width: 1000, height: 700 } });
+  const page = await context.newPage();
+  const complaints = [];
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  try {
+    await page.goto(server.address);
+    await act({ page, script, server, context, complaints });
+    if (!fails) assert.deepEqual(complaints, []);
+  } finally {
+    await context.close();
+    await server.stop();
+  }
 }

@@ -9,50 +9,13 @@ import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 
-import { Server, browse, different, drawn, folder, number, pixels, run, save, seen } from "./driver.mjs";
-
-const BLOCKS = `local count = param("count", { default = 3, min = 1, max = 12, step = 1, text = "Blocks of the tower" })
-local color = param("color", { default = "#b0413e" })
-local hollow = param("hollow", { default = false })
-local style = param("style", { default = "plain", choices = { "plain", "fluted" } })
-local Block, Slab = module("Block", "n"), module("Slab", "n")
-local tower = lsystem({ object = extruder({ shape = { { -2, -2 }, { 2, -2 }, { 2, 2 }, { -2, 2 } }, smooth = false }) })
-tower:axiom(Block(count))
-tower:rule("Block(n)", function(this, n)
-  if n == 0 then return nil end
-  return Slab(n), Block(n - 1)
-end)
-tower:interpret("Slab(n)", function(this, n)
-  this:color(color):caps(not hollow):scale(1 + n * 0.01):extrude(2)
-end)
-tower:derive()
-`;
+import { BLOCKS, Server, browse, different, drawn, folder, number, pixels, run, save, seen, show } from "./driver.mjs";
 
 let browser;
 before(async () => (browser = await browse()));
 after(() => browser.close());
 
-/** Opens a script's page and hands everything to `act`; the console must stay free of errors. */
-async function open(text, act, { flags = [], fails = false } = {}) {
-  const script = join(folder(), "blocks.lua");
-  if (text !== null) writeFileSync(script, text);
-  const server = await Server.start(script, "--port", "0", ...flags);
-  const context = await browser.newContext({ viewport: { width: 1000, height: 700 } });
-  const page = await context.newPage();
-  const complaints = [];
-  page.on("pageerror", (error) => complaints.push(String(error)));
-  page.on("console", (message) => {
-    if (message.type() === "error") complaints.push(message.text());
-  });
-  try {
-    await page.goto(server.address);
-    await act({ page, script, server, context, complaints });
-    if (!fails) assert.deepEqual(complaints, []);
-  } finally {
-    await context.close();
-    await server.stop();
-  }
-}
+const open = (text, act, given) => show(browser, text, act, given);
 
 test("saving the script changes the picture, and saving it unchanged does nothing", () =>
   open(BLOCKS, async ({ page, script }) => {
@@ -87,6 +50,20 @@ test("an error stands over the last good model until it is mended", () =>
     await error.waitFor({ state: "hidden" });
     await seen(page, "stale").waitFor({ state: "hidden" });
     assert.ok((await number(page, "triangles")) > triangles);
+  }));
+
+test("warnings stand folded over their model until they are mended", () =>
+  open(`${BLOCKS}tower:derive()\n`, async ({ page, script }) => {
+    const first = await drawn(page);
+    const warnings = seen(page, "warnings");
+    assert.match(await warnings.textContent(), /^1 warning/);
+    const article = warnings.locator("article");
+    assert.ok(await article.isHidden());
+    await warnings.getByRole("button", { name: "Fold" }).click();
+    assert.match(await article.textContent(), /blocks\.lua:16.*derived again/s);
+    save(script, BLOCKS);
+    await drawn(page, first);
+    await warnings.waitFor({ state: "hidden" });
   }));
 
 test("a rule that fails is told with its rule, module and step", () =>
@@ -252,13 +229,13 @@ test("exports are downloaded, and a screenshot is", () =>
   open(BLOCKS, async ({ page }) => {
     await drawn(page);
     for (const [format, begins] of [["glb", "glTF"], ["png", "\x89PNG"], ["obj", "PK"], ["svg", "<"]]) {
-      const download = page.waitForEvent("download");
+      const download = page.waitForEvent("download", { timeout: 120_000 });
       await seen(page, "export").click();
       await seen(page, `export-${format}`).click();
       const bytes = await readFile(await (await download).path());
       assert.equal(bytes.subarray(0, begins.length).toString("latin1"), begins, format);
     }
-    const download = page.waitForEvent("download");
+    const download = page.waitForEvent("download", { timeout: 120_000 });
     await seen(page, "screenshot").click();
     const bytes = await readFile(await (await download).path());
     assert.equal(bytes.subarray(1, 4).toString("latin1"), "PNG");

@@ -1,5 +1,6 @@
 //! Which rule is chosen, and that all are applied at once: the design's laws 1 and 2.
 
+use super::candidates::compare;
 use super::scripts::{Plain, chain, divided, error, lines, run_with};
 
 const HEAD: &str = r#"
@@ -178,5 +179,43 @@ fn a_weight_is_a_number_from_0() {
             "{HEAD} s:axiom(A(1)) s:rule(\"A\", {{ weight = {weight} }}, [[ return X() ]]) s:derive(1)"
         ));
         assert!(told.contains("weight") && told.contains("rule A"), "{weight}: {told}");
+    }
+}
+
+#[test]
+fn a_rule_of_weight_0_is_no_candidate_whatever_the_other_rules_are() {
+    let zero = "s:rule(\"A\", { weight = 0 }, [[ return X() ]])";
+    let guarded = "s:rule(\"A(n)\", { when = function(_, n) return n == 3 end }, [[ return Y() ]])";
+    let plain = "s:rule(\"A\", [[ return Z() ]])";
+    let both = "s:rule(\"A(n)\", { weight = 0, when = function() return true end }, [[ return X() ]])";
+    for (rules, expected) in [
+        ([zero, ""], "A(1) A(2) A(3) A(4)"),
+        ([zero, zero], "A(1) A(2) A(3) A(4)"),
+        ([zero, guarded], "A(1) A(2) Y A(4)"),
+        ([guarded, zero], "A(1) A(2) Y A(4)"),
+        ([both, guarded], "A(1) A(2) Y A(4)"),
+        ([both, plain], "Z Z Z Z"),
+        ([zero, plain], "Z Z Z Z"),
+    ] {
+        assert_eq!(chosen(&rules.concat()), expected, "{rules:?}");
+    }
+}
+
+#[test]
+fn of_several_guards_that_fail_the_one_that_comes_first_in_the_chain_is_told() {
+    let rules = "s:axiom(B(), A(1), X(), A(2))
+                 s:rule(\"A(n)\", { when = function(_, n) if n == 2 then error(\"late\") end return false end }, [[ return Y() ]])
+                 s:rule(\"A(n)\", { when = function(_, n) error(\"early\") end }, [[ return Y() ]])
+                 s:rule(\"B\", { when = function() return true end }, [[ return Y() ]])
+                 s:derive(1)";
+    let told = error(&format!("{HEAD}{rules}"));
+    assert!(told.contains("early") && told.contains("A(1)"), "{told}");
+}
+
+#[test]
+fn random_systems_apply_what_the_law_of_choice_allows() {
+    for (seed, options) in [(1, divided(1, 4096)), (2, divided(2, 3)), (3, divided(2, 4096))] {
+        let compared = compare(seed, 200, options);
+        assert!(compared.applied > 300 && compared.drawn > 50 && compared.weightless > 80, "{compared:?}");
     }
 }

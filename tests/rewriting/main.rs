@@ -1,14 +1,17 @@
 //! Rewriting, from a script's text to its chains: what the laws of the design and the literature say of it.
 
+mod candidates;
 mod choice;
 mod contexts;
 mod determinism;
+mod generate;
 mod interpretation;
 mod lineage;
 mod literature;
 mod meaning;
 mod naive;
 mod parameters;
+mod passes;
 mod properties;
 mod results;
 mod scripts;

@@ -3,6 +3,8 @@
 //! Contexts are found by walking the tree of items from each module anew, straight from the design's law of
 //! context. Nothing here is shared with the engine.
 
+use std::collections::HashMap;
+
 /// An item of a chain or of a context.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Item {
@@ -18,9 +20,14 @@ pub(crate) struct Pattern {
     pub right: Vec<Item>,
 }
 
+/// The words of a chain: modules by their names, and brackets.
+pub(crate) fn words(chain: &str) -> Vec<String> {
+    chain.replace('[', " [ ").replace(']', " ] ").split_whitespace().map(str::to_owned).collect()
+}
+
 /// Reads `A [ B C ] D`.
 pub(crate) fn parse(text: &str) -> Vec<Item> {
-    let words = super::scripts::words(text);
+    let words = words(text);
     let mut open: Vec<Vec<Item>> = vec![Vec::new()];
     for word in words {
         match word.as_str() {
@@ -54,7 +61,7 @@ impl Pattern {
     pub(crate) fn parse(text: &str) -> Self {
         let (left, rest) = text.split_once('<').unwrap_or(("", text));
         let (predecessor, right) = rest.split_once('>').unwrap_or((rest, ""));
-        let left = super::scripts::words(left);
+        let left = words(left);
         Self { left, predecessor: predecessor.trim().to_owned(), right: parse(right) }
     }
 
@@ -70,69 +77,87 @@ impl Pattern {
         text
     }
 
-    /// Whether it matches the module at `position` of `items`; `path` is what leads there from the axiom.
-    fn matches(&self, path: &[&str], items: &[Item], position: usize, ignored: &[String]) -> bool {
-        let Item::Module(name) = &items[position] else { return false };
+    /// The context modules around the module at `position` of `items`, in the order in which they are named, if it
+    /// matches; `path` is what leads there from the axiom.
+    fn bind<'a>(
+        &self,
+        path: &[&'a Item],
+        items: &'a [Item],
+        position: usize,
+        ignored: &[String],
+    ) -> Option<Vec<&'a Item>> {
         let skipped = |name: &str| ignored.iter().any(|known| known == name);
-        let mut path = path.iter().rev().filter(|name| !skipped(name));
-        *name == self.predecessor
-            && self.left.iter().rev().all(|wanted| path.next() == Some(&wanted.as_str()))
-            && ahead(&self.right, &items[position + 1..], &skipped)
+        if items[position].name() != Some(&self.predecessor) {
+            return None;
+        }
+        let mut path = path.iter().rev().filter(|item| item.name().is_some_and(|name| !skipped(name)));
+        let mut bound = Vec::new();
+        for wanted in self.left.iter().rev() {
+            bound.push(*path.next().filter(|item| item.name() == Some(wanted))?);
+        }
+        bound.reverse();
+        bound.extend(ahead(&self.right, &items[position + 1..], &skipped)?);
+        Some(bound)
     }
 }
 
-/// Whether `items` begin with `contexts`.
-fn ahead(contexts: &[Item], items: &[Item], skipped: &dyn Fn(&str) -> bool) -> bool {
-    let Some((first, others)) = contexts.split_first() else { return true };
-    match first {
-        Item::Module(wanted) => {
-            for (position, item) in items.iter().enumerate() {
-                if let Item::Module(name) = item
-                    && !skipped(name)
-                {
-                    return name == wanted && ahead(others, &items[position + 1..], skipped);
-                }
-            }
-            false
-        }
-        Item::Branch(wanted) => {
-            for (position, item) in items.iter().enumerate() {
-                match item {
-                    Item::Branch(inner) if ahead(wanted, inner, skipped) => {
-                        return ahead(others, &items[position + 1..], skipped);
-                    }
-                    Item::Module(name) if !skipped(name) => return false,
-                    _ => {}
-                }
-            }
-            false
+impl Item {
+    fn name(&self) -> Option<&String> {
+        match self {
+            Self::Module(name) => Some(name),
+            Self::Branch(_) => None,
         }
     }
+}
+
+/// The modules of `items` that `contexts` name, if they begin so.
+fn ahead<'a>(contexts: &[Item], items: &'a [Item], skipped: &dyn Fn(&str) -> bool) -> Option<Vec<&'a Item>> {
+    let Some((first, others)) = contexts.split_first() else { return Some(Vec::new()) };
+    for (position, item) in items.iter().enumerate() {
+        let behind = &items[position + 1..];
+        let found = match (first, item) {
+            (Item::Module(_), Item::Branch(_)) => continue,
+            (_, Item::Module(name)) if skipped(name) => continue,
+            (Item::Module(wanted), Item::Module(name)) => (wanted == name).then(|| vec![item])?,
+            (Item::Branch(_), Item::Module(_)) => return None,
+            (Item::Branch(wanted), Item::Branch(inner)) => match ahead(wanted, inner, skipped) {
+                Some(found) => found,
+                None => continue,
+            },
+        };
+        return Some([found, ahead(others, behind, skipped)?].concat());
+    }
+    None
+}
+
+/// The numbers of the modules that `pattern` matches, counted from 0 along the chain, each with those of its context.
+pub(crate) fn bound(items: &[Item], pattern: &Pattern, ignored: &[String]) -> Vec<(usize, Vec<usize>)> {
+    let mut found: Vec<(usize, Vec<&Item>)> = Vec::new();
+    let mut numbers: HashMap<*const Item, usize> = HashMap::new();
+    visit(items, &mut Vec::new(), &mut |path, items, position| {
+        let number = numbers.len();
+        numbers.insert(&items[position], number);
+        found.extend(pattern.bind(path, items, position, ignored).map(|bound| (number, bound)));
+    });
+    let number = |item: &Item| numbers[&std::ptr::from_ref(item)];
+    found.into_iter().map(|(module, bound)| (module, bound.into_iter().map(number).collect())).collect()
 }
 
 /// The numbers of the modules, counted from 0 along the chain, that `pattern` matches.
 pub(crate) fn matches(items: &[Item], pattern: &Pattern, ignored: &[String]) -> Vec<usize> {
-    let mut found = Vec::new();
-    let mut number = 0;
-    visit(items, &mut Vec::new(), &mut |path, items, position| {
-        if pattern.matches(path, items, position, ignored) {
-            found.push(number);
-        }
-        number += 1;
-    });
-    found
+    bound(items, pattern, ignored).into_iter().map(|(module, _)| module).collect()
 }
 
 /// Sees the path to an item, the items around it and its place among them.
-type See<'a> = dyn FnMut(&[&'a str], &[Item], usize) + 'a;
+type See<'a, 'b> = dyn FnMut(&[&'a Item], &'a [Item], usize) + 'b;
 
-fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a str>, see: &mut See<'a>) {
+fn visit<'a>(items: &'a [Item], path: &mut Vec<&'a Item>, see: &mut See<'a, '_>) {
     let depth = path.len();
     for (position, item) in items.iter().enumerate() {
         match item {
-            Item::Module(name) => {
+            Item::Module(_) => {
                 see(path, items, position);
-                path.push(name);
+                path.push(item);
             }
             Item::Branch(inner) => visit(inner, path, see),
         }
@@ -161,7 +186,9 @@ pub(crate) fn step(items: &[Item], rules: &[(Pattern, Vec<Item>)], ignored: &[St
     }
     let mut chosen = Vec::new();
     visit(items, &mut Vec::new(), &mut |path, items, position| {
-        chosen.push(rules.iter().position(|(pattern, _)| pattern.matches(path, items, position, ignored)));
+        chosen.push(
+            rules.iter().position(|(pattern, _)| pattern.bind(path, items, position, ignored).is_some()),
+        );
     });
     rewrite(items, &mut chosen.into_iter(), rules)
 }
@@ -173,7 +200,7 @@ pub(crate) fn derive(axiom: &str, rules: &str, ignored: &str, steps: usize) -> S
         .filter_map(|line| line.split_once("->"))
         .map(|(pattern, successor)| (Pattern::parse(pattern.trim()), parse(successor)))
         .collect();
-    let ignored = super::scripts::words(ignored);
+    let ignored = words(ignored);
     let mut items = parse(axiom);
     for _ in 0..steps {
         items = step(&items, &rules, &ignored);

@@ -4,6 +4,7 @@ use burgeon::script::Options;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
+use super::generate::{Engine, KINDS, Made, compare};
 use super::naive::{self, Item, Pattern};
 use super::scripts::{Case, Passing, divided, matched, words};
 
@@ -112,4 +113,33 @@ fn random_patterns_match_often_enough_to_tell_something() {
         with_contexts > 200 && with_branches > 20,
         "{with_contexts} matches, {with_branches} of named branches"
     );
+}
+
+#[test]
+fn contexts_of_every_hard_kind_match_and_bind_as_the_naive_matcher_says() {
+    for kind in KINDS {
+        let mut matched = 0;
+        for seed in 0..300 {
+            matched += compare(kind, seed, 10 + (seed as usize % 10) * 20);
+        }
+        assert!(matched > 500, "{kind:?} tells something: {matched} matches");
+    }
+}
+
+#[test]
+fn a_search_that_passes_many_branches_is_not_made_again() {
+    // 20,000 modules with 20,000 branches behind each take 200 million trials where nothing is remembered.
+    for (unit, pattern) in [
+        (&["X", "[", "C", "]"][..], "X > [ Z ]"),
+        (&["X", "[", "C", "]"], "X > [ [ Z ] ]"),
+        (&["X"], "X > [ Z ]"),
+        (&["X", "[", "]", "[", "X", "]"], "X > [ C ] B"),
+    ] {
+        let words = unit.repeat(20_000);
+        let made = Made { words, patterns: vec![pattern.to_owned()], ignored: vec!["X"] };
+        let engine = Engine::new(&made);
+        let begin = std::time::Instant::now();
+        assert_eq!(engine.matching(0).count(), 0);
+        assert!(begin.elapsed().as_millis() < 1000, "{pattern}: {:?}", begin.elapsed());
+    }
 }

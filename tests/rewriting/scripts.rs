@@ -4,6 +4,7 @@ use burgeon::Run;
 use burgeon::script::Options;
 
 use super::naive::Pattern;
+pub(crate) use super::naive::words;
 
 /// Runs a script as `main.lua` in a folder of its own.
 pub(crate) fn try_run(script: &str, options: Options) -> burgeon::Result<Run> {
@@ -68,6 +69,13 @@ pub(crate) fn declare(names: &str) -> String {
     names.split_whitespace().map(|name| format!("local {name} = module(\"{name}\"); ")).collect()
 }
 
+/// Declares modules with one parameter.
+pub(crate) fn declare_with<'a>(names: impl IntoIterator<Item = &'a str>, parameter: &str) -> String {
+    let declared =
+        names.into_iter().map(|name| format!("local {name} = module(\"{name}\", \"{parameter}\"); "));
+    declared.collect::<String>() + "\n"
+}
+
 /// A chain as Lua: `A [ B ] C` as `A(), { B() }, C()`.
 pub(crate) fn as_lua(chain: &str) -> String {
     let spaced = chain.replace('[', " [ ").replace(']', " ] ");
@@ -81,11 +89,6 @@ pub(crate) fn as_lua(chain: &str) -> String {
         }
     }
     out.trim_end_matches([',', ' ']).to_owned()
-}
-
-/// The words of a chain: modules by their names, and brackets.
-pub(crate) fn words(chain: &str) -> Vec<String> {
-    chain.replace('[', " [ ").replace(']', " ] ").split_whitespace().map(str::to_owned).collect()
 }
 
 /// A system without parameters: `rules` are lines such as `A < B > C -> D [ E ]`; an empty successor erases.
@@ -172,9 +175,8 @@ pub(crate) fn matched(cases: &[Case], options: Options) -> Vec<Vec<usize>> {
     names.retain(|name| name.starts_with(|c: char| c.is_ascii_alphabetic()));
     names.sort();
     names.dedup();
-    let mut script: String =
-        names.iter().map(|name| format!("local {name} = module(\"{name}\", \"n\"); ")).collect();
-    script.push_str("local Hit = module(\"Hit\", \"n\")\n");
+    names.push("Hit".to_owned());
+    let mut script = declare_with(names.iter().map(String::as_str), "n");
     for case in cases {
         script.push_str(&case.script());
     }

@@ -10,6 +10,8 @@ const FIELD = 32 * DEGREE;
 const MARGIN = 0.88;
 const BARS = 120; // pixels above and below that the tools cover
 const TURN_TIME = 260;
+const NEAREST = 1e-3; // metres from the target
+const FARTHEST = 1e10; // and planets are seen whole
 
 /** Azimuth and elevation (degrees) by name, in the order of the keys 1 to 7. */
 export const VIEWS = {
@@ -123,7 +125,7 @@ export class Camera {
   /** Comes nearer by `factor` < 1 so that what is under (x, y), -1 to 1, stays there. */
   zoom(factor, x = 0, y = 0) {
     this.stop();
-    const distance = Math.min(Math.max(this.distance * factor, 1e-3), 1e7);
+    const distance = Math.min(Math.max(this.distance * factor, NEAREST), FARTHEST);
     const moved = 1 - distance / this.distance;
     this.target.addScaledVector(this.right, x * this.reach * this.aspect * moved);
     this.target.addScaledVector(this.up, y * this.reach * moved);

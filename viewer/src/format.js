@@ -14,6 +14,12 @@ export function metres(length) {
   return length.toLocaleString('en-US', { minimumFractionDigits: 0, maximumFractionDigits: digits });
 }
 
+/** Lengths with their unit, which is the same for all of them. */
+export function lengths(all) {
+  const far = Math.max(...all) >= 10_000;
+  return `${all.map((length) => metres(far ? length / 1000 : length)).join(' × ')} ${far ? 'km' : 'm'}`;
+}
+
 export function milliseconds(ms) {
   if (ms >= 10000) return `${(ms / 1000).toFixed(1)} s`;
   if (ms >= 1000) return `${(ms / 1000).toFixed(2)} s`;

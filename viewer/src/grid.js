@@ -53,9 +53,16 @@ void main() {
 /** How many pixels the finest cells measure at least. */
 const FINEST = 9;
 
+/** How much of a model's height lies below zero if it stands on no ground. */
+const FREE = 0.25;
+
 export class Ground {
   cell = 1;
   height = 0;
+  /** Whether the model stands on no ground. */
+  free = false;
+  empty = true;
+  #wanted = null;
   #opacity = 0.4;
   #uniforms = {
     origin: { value: new Vector2() },
@@ -101,9 +108,13 @@ export class Ground {
     this.shade.material.opacity = dark ? 0.5 : 0.3;
   }
 
-  /** The ground lies under `box` and is never above zero; `origin` is where the model's zero is. */
+  /** The ground lies under `box` and is never above zero; `origin` is where the model's zero is.
+   *
+   *  What reaches far below zero, as a planet does, does not stand on anything, so there is no ground unless someone
+   *  wants one. */
   under(box, origin) {
     const zero = -origin.y;
+    this.free = !box.isEmpty() && zero - box.min.y > FREE * (box.max.y - box.min.y);
     this.height = box.isEmpty() ? zero : Math.min(zero, box.min.y);
     const size = box.isEmpty() ? 1 : Math.max(box.max.x - box.min.x, box.max.y - box.min.y, box.max.z - box.min.z);
     this.origin = origin;
@@ -114,8 +125,28 @@ export class Ground {
       this.shade.position.z = (box.min.z + box.max.z) / 2;
     }
     this.shade.scale.setScalar(size * 4);
-    this.shade.visible = !box.isEmpty();
+    this.empty = box.isEmpty();
     this.grid.position.y = this.height - size * 3e-4;
+    this.#show();
+  }
+
+  get visible() {
+    return this.grid.visible;
+  }
+
+  /** Shows or hides the grid, whatever stands on it. */
+  set visible(wanted) {
+    this.#wanted = wanted;
+    this.#show();
+  }
+
+  /** Whether what stands on the ground throws a shadow on it. */
+  shaded(wanted) {
+    this.shade.visible = wanted && !this.empty && !this.free;
+  }
+
+  #show() {
+    this.grid.visible = this.#wanted ?? !this.free;
   }
 
   /** Follows the camera; `ratio` is of the picture's pixels to the page's. Returns how far (m) the grid reaches. */

@@ -10,6 +10,7 @@ import { addIcons } from './icons.js';
 import { keep, restore } from './keep.js';
 import { Loading } from './loading.js';
 import { closeMenu, menu } from './menu.js';
+import { Offer } from './offer.js';
 import { Params } from './params.js';
 import { Places } from './places.js';
 import { listen as listenToPointer } from './pointer.js';
@@ -70,12 +71,16 @@ const view = tools(stage, (mode) => {
   // Texture coordinates come only when they are shown.
   if (mode === 'uv' && state.model?.url && !loading.measured) show(state.model);
 });
+const offer = stage && new Offer(stage, () => view.fit());
 const loading = stage && new Loading(stage, (part) => working.download(part));
 
 function highlight(file, line, again = false) {
   state.marked = { file, line };
   socket.ask({ type: 'highlight', file, line }, (answer) => {
-    if (answer.type === 'refused') return;
+    if (answer.type === 'refused') {
+      clearMark();
+      return profile.refused(answer.text);
+    }
     profile.highlighted(answer);
     stage?.mark.show(stage.model, answer.ranges ?? []);
     stage?.invalidate();
@@ -97,6 +102,7 @@ async function show(message) {
   working.stop();
   trouble.clear();
   let own = { load: 0, draw: 0, total: 0 };
+  const framed = offer?.framed();
   if (!loading) tell(message);
   else {
     try {
@@ -116,6 +122,8 @@ async function show(message) {
     const { marked } = state;
     if (card.open) card.close();
     if (marked) highlight(marked.file, marked.line, true);
+    view.showGrid();
+    if (state.fitted) offer.look(framed);
     if (!state.fitted && message.url) {
       state.fitted = true;
       const kept = restore(stage, state.hello.path);
@@ -142,13 +150,15 @@ function hear(message) {
 
 /** Tells what is known of a model besides its picture. */
 function tell(message) {
-  profile.script = message.files?.[0] ?? state.hello.script;
   params.show(message.params);
   variations.params(message.params);
   seed.show(message.seed);
   steps.show(message);
   readouts.model(message);
   profile.show(message);
+  presets.choose(message.preset);
+  trouble.warnings(message.warnings ?? []);
+  trouble.nothing(message.nothing);
 }
 
 // Messages
@@ -160,17 +170,25 @@ socket.on('lost', () => {
   working.stop();
   steps.pause();
 });
+socket.on('moved', () => connection('moved'));
 socket.on('hello', (hello) => {
+  // Another script is shown here now, or another page shows it.
+  const { path, version } = state.hello;
+  if (path && (path !== hello.path || version !== hello.version)) return location.reload();
   state.hello = hello;
   places.editor = hello.editor;
   say(find('#script'), hello.script);
   find('#script').title = hello.path;
   document.title = `${hello.script} · burgeon`;
   find('.wordmark').title = `burgeon ${hello.version}`;
+  profile.script = hello.script;
   presets.show(hello.presets ?? []);
 });
 socket.on('model', hear);
-socket.on('working', (message) => working.start(message));
+socket.on('working', (message) => {
+  trouble.again();
+  working.start(message);
+});
 socket.on('progress', (message) => working.progress(message));
 socket.on('error', (message) => {
   working.stop();
@@ -182,12 +200,15 @@ socket.on('waiting', (message) => {
   working.stop();
   trouble.waiting(message, state.model !== null);
 });
-socket.on('cancelled', () => {
+socket.on('cancelled', ({ stale }) => {
   working.stop();
+  if (!stale) return;
   steps.pause();
+  trouble.cancelled(state.model !== null);
   toast('Cancelled');
 });
-socket.on('presets', ({ names }) => presets.show(names));
+find('#run-again').addEventListener('click', () => socket.send({ type: 'set', params: {} }));
+socket.on('presets', ({ names, chosen }) => presets.show(names, chosen));
 socket.on('refused', ({ text }) => toast(text));
 
 // The view

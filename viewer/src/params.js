@@ -175,8 +175,15 @@ class Row {
     };
     const put = (value) => {
       if (!this.typing) field.value = plain(value);
+      widen();
       if (slider) slider.value = value;
       fill();
+    };
+    // As wide as the longest number that it is likely to hold.
+    const widen = () => {
+      const { min, max } = this.limitsNow ?? {};
+      const texts = [field.value, ...[min, max].filter(Number.isFinite).map(plain)];
+      field.style.setProperty('--digits', Math.min(Math.max(...texts.map((text) => text.length)), 20));
     };
     const limits = ({ min, max, step }) => {
       this.limitsNow = { min, max };

@@ -1,53 +1,87 @@
-// Named sets of values: choose, save, delete.
+// Named sets of values: choose, save, delete. What would be lost is asked about first.
 
-import { find, make } from './dom.js';
+import { find, make, say } from './dom.js';
 
 export class Presets {
   #select = find('#presets');
+  #save = find('#save-preset');
   #delete = find('#delete-preset');
   #form = find('#preset-form');
   #name = find('#preset-name');
+  #ask = find('#preset-ask');
+  #names = [];
+  /** The preset that was chosen last, whose name is offered when its values have been changed. */
+  #last = '';
+  #answered = null;
 
   constructor(changes, socket) {
+    const send = (action, name, replace) => socket.send({ type: 'preset', action, name, ...replace });
     this.#select.addEventListener('change', () => {
       const name = this.#select.value;
+      this.#quit();
       this.#delete.disabled = !name;
       if (name) changes.send({ type: 'preset', action: 'load', name });
     });
-    find('#save-preset').addEventListener('click', () => {
-      this.#form.hidden = !this.#form.hidden;
-      this.#name.value = this.#select.value;
-      if (!this.#form.hidden) this.#name.select();
+    this.#save.addEventListener('click', () => {
+      const open = this.#form.hidden;
+      this.#quit();
+      this.#form.hidden = !open;
+      this.#name.value = this.#select.value || this.#last;
+      if (open) this.#name.select();
     });
     this.#form.addEventListener('submit', (event) => {
       event.preventDefault();
       const name = this.#name.value.trim();
       if (!name) return;
-      this.#wanted = name;
-      socket.send({ type: 'preset', action: 'save', name });
-      this.#form.hidden = true;
-      find('#save-preset').focus();
+      if (!this.#names.includes(name)) return this.#done(() => send('save', name));
+      this.#question(`Replace \u201c${name}\u201d?`, 'Replace', () => send('save', name, { replace: true }));
     });
-    this.#form.addEventListener('keydown', (event) => {
-      if (event.key !== 'Escape') return;
-      event.stopPropagation();
-      this.#form.hidden = true;
-      find('#save-preset').focus();
+    this.#delete.addEventListener('click', () => {
+      const name = this.#select.value;
+      this.#question(`Delete \u201c${name}\u201d?`, 'Delete', () => send('delete', name));
     });
-    this.#delete.addEventListener('click', () =>
-      socket.send({ type: 'preset', action: 'delete', name: this.#select.value }),
-    );
+    find('#preset-yes').addEventListener('click', () => this.#done(this.#answered));
+    find('#preset-no').addEventListener('click', () => this.#done());
+    for (const place of [this.#form, this.#ask]) {
+      place.addEventListener('keydown', (event) => {
+        if (event.key !== 'Escape') return;
+        event.stopPropagation();
+        this.#done();
+      });
+    }
   }
 
-  #wanted = null;
-
-  show(names) {
-    const kept = this.#wanted ?? this.#select.value;
+  /** Shows the presets that there are, and which of them has the present values. */
+  show(names, chosen = null) {
+    this.#names = names;
     const first = make('option', { value: '', text: names.length ? 'Presets' : 'No presets yet' });
     this.#select.replaceChildren(first, ...names.map((name) => make('option', { value: name, text: name })));
-    this.#select.value = names.includes(kept) ? kept : '';
-    if (names.includes(this.#wanted)) this.#wanted = null;
     this.#select.disabled = names.length === 0;
+    this.choose(chosen);
+  }
+
+  choose(name) {
+    if (name) this.#last = name;
+    this.#select.value = this.#names.includes(name) ? name : '';
     this.#delete.disabled = !this.#select.value;
+  }
+
+  #question(text, yes, answered) {
+    this.#quit();
+    this.#answered = answered;
+    say(find('#preset-question'), text);
+    say(find('#preset-yes'), yes);
+    this.#ask.hidden = false;
+    find('#preset-no').focus();
+  }
+
+  #quit() {
+    this.#form.hidden = this.#ask.hidden = true;
+  }
+
+  #done(act) {
+    this.#quit();
+    act?.();
+    this.#save.focus();
   }
 }

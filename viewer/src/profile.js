@@ -24,8 +24,9 @@ export class Profile {
         find('#line')
           .value.trim()
           .match(/^(?:(.*?):)?(\d+)$/) ?? [];
-      if (line) highlight(file || this.script, Number(line));
-      else find('#line').select();
+      if (line) return highlight(file || this.script, Number(line));
+      this.refused('write a line as 12, or as file.lua:12');
+      find('#line').select();
     });
   }
 
@@ -47,6 +48,13 @@ export class Profile {
         text: `${answer.file}:${answer.line}${answer.what ? `, ${answer.what}` : ''}: ${found || answer.modules ? many(answer.modules, 'module') : 'nothing in the model'}`,
       }),
     );
+  }
+
+  /** Why a line cannot be shown. */
+  refused(text) {
+    const place = find('#line-result');
+    place.hidden = false;
+    place.replaceChildren(make('span', { class: 'refused', text }));
   }
 
   #draw() {

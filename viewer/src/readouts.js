@@ -1,7 +1,7 @@
 // The line at the bottom: size, counts, a bar of known length, and where the time went.
 
 import { find, make, say } from './dom.js';
-import { bytes, many, metres, milliseconds } from './format.js';
+import { bytes, lengths, many, metres, milliseconds } from './format.js';
 
 const STAGES = [
   ['script', 'script'],
@@ -15,8 +15,7 @@ const STAGES = [
 const BAR = 110; // pixels that the bar of known length has at most
 
 export function model({ bounds, triangles, instances, modules }) {
-  const size = bounds && bounds.high.map((high, i) => metres(high - bounds.low[i]));
-  say(find('#size'), size ? `${size.join(' × ')} m` : 'nothing drawn');
+  say(find('#size'), bounds ? lengths(bounds.high.map((high, i) => high - bounds.low[i])) : 'nothing drawn');
   say(find('#triangles'), many(triangles, 'triangle'));
   say(find('#instances'), many(instances, 'instance'));
   say(find('#modules'), many(modules, 'module'));

@@ -1,4 +1,7 @@
 // The connection to the server: messages by type, and a connection that comes back by itself.
+//
+// While the server is away, another program may listen in its place. So the page tells nobody its address, which is
+// secret, before the other side has proved that it knows it.
 
 const FIRST_WAIT = 250;
 const LONGEST_WAIT = 4000;
@@ -10,6 +13,8 @@ export class Socket {
   #wait = FIRST_WAIT;
   #timer = 0;
   #socket = null;
+  #asking = false;
+  #known = true;
 
   constructor(address) {
     this.address = address;
@@ -23,7 +28,8 @@ export class Socket {
     return this.#socket?.readyState === WebSocket.OPEN;
   }
 
-  /** Calls `listener` with each message of `type`; 'open' and 'lost' tell of the connection. */
+  /** Calls `listener` with each message of `type`; 'open' and 'lost' tell of the connection, and 'moved' that another
+   *  server answers, whose address is not known here. */
   on(type, listener) {
     if (!this.#listeners.has(type)) this.#listeners.set(type, []);
     this.#listeners.get(type).push(listener);
@@ -54,12 +60,21 @@ export class Socket {
     for (const listener of this.#listeners.get(type) ?? []) listener(message);
   }
 
-  #connect() {
+  async #connect() {
     clearTimeout(this.#timer);
+    if (!this.#known) {
+      if (this.#asking) return;
+      this.#asking = true;
+      const known = await knows().catch(() => null);
+      this.#asking = false;
+      if (known === false) this.#tell('moved');
+      if (!known) return this.#later();
+    }
     const socket = new WebSocket(this.address);
     this.#socket = socket;
     socket.onopen = () => {
       this.#wait = FIRST_WAIT;
+      this.#known = false;
       this.#tell('open');
     };
     socket.onmessage = ({ data }) => {
@@ -71,10 +86,16 @@ export class Socket {
     socket.onclose = () => {
       if (socket !== this.#socket) return;
       this.#answers.clear();
+      this.#known = false;
       this.#tell('lost');
-      this.#timer = setTimeout(() => this.#connect(), this.#wait);
-      this.#wait = Math.min(this.#wait * 1.7, LONGEST_WAIT);
+      this.#later();
     };
+  }
+
+  #later() {
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#connect(), this.#wait);
+    this.#wait = Math.min(this.#wait * 1.7, LONGEST_WAIT);
   }
 
   #hurry() {
@@ -84,3 +105,18 @@ export class Socket {
     this.#connect();
   }
 }
+
+/** Whether the one who answers at this page's port knows its address. Fails if nobody answers. */
+async function knows() {
+  if (!globalThis.crypto?.subtle) return true;
+  const question = digits(crypto.getRandomValues(new Uint8Array(16)));
+  const answer = await fetch(`/proof/${question}`, { cache: 'no-store', redirect: 'error' });
+  if (!answer.ok) return false;
+  const [, token] = location.pathname.split('/');
+  const bytes = (text) => new TextEncoder().encode(text);
+  const key = await crypto.subtle.importKey('raw', bytes(token), { name: 'HMAC', hash: 'SHA-256' }, false, ['sign']);
+  const proof = await crypto.subtle.sign('HMAC', key, bytes(`burgeon live ${question}`));
+  return (await answer.text()) === digits(new Uint8Array(proof));
+}
+
+const digits = (bytes) => Array.from(bytes, (byte) => byte.toString(16).padStart(2, '0')).join('');

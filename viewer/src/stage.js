@@ -174,7 +174,7 @@ export class Stage {
     // Only a uniform of the same shaders, or those of plain materials, so that nothing has to be compiled.
     for (const part of model.parts) part.receiveShadow = shadows;
     if (this.slow) this.shading.plainly(model, shadows ? null : this.plain);
-    this.ground.shade.visible = shadows && !model.box.isEmpty();
+    this.ground.shaded(shadows);
     this.#scale(ratio ?? this.#ratio(still));
     const grid = this.ground.follow(camera, height, renderer.getPixelRatio());
     const [center, radius] = this.#extent(grid);
@@ -255,6 +255,21 @@ export class Stage {
     this.scene.remove(warm);
     // The materials stay referenced, or their shaders would go with them.
     this.warm = warm;
+  }
+
+  /** How `box` is seen: whether `whole`, whether any of it may be `inside` the picture, and how much of the picture's
+   *  width or height it fills (0 to 1, and more). */
+  framing(box = this.model.box) {
+    const camera = this.camera.active;
+    const corners = Array.from({ length: 8 }, (_, i) =>
+      new Vector3(i & 1 ? box.min.x : box.max.x, i & 2 ? box.min.y : box.max.y, i & 4 ? box.min.z : box.max.z),
+    );
+    const behind = corners.some((it) => it.clone().applyMatrix4(camera.matrixWorldInverse).z > -1e-9);
+    const seen = corners.map((it) => it.clone().project(camera));
+    const ends = ['x', 'y'].map((axis) => seen.map((it) => it[axis])).map((all) => [Math.min(...all), Math.max(...all)]);
+    const whole = !behind && ends.every(([low, high]) => low >= -1 && high <= 1);
+    const inside = behind || ends.every(([low, high]) => low < 1 && high > -1);
+    return { whole, inside, size: behind ? Infinity : Math.max(...ends.map(([low, high]) => high - low)) / 2 };
   }
 
   /** The triangle under a pixel of the window, or null. */

@@ -19,7 +19,7 @@ export class Ticks {
     const { camera, ground, model } = stage;
     const shown = [];
     const low = Math.sin(camera.elevation) < 0.05;
-    const cell = low || !ground.grid.visible ? 0 : this.#cell();
+    const cell = low || !ground.visible ? 0 : this.#cell();
     if (cell) {
       const box = stage.canvas.getBoundingClientRect();
       const cover = this.#cover();

@@ -57,10 +57,13 @@ export function tools(stage, changed) {
 
   function toggleGrid() {
     if (!stage) return;
-    stage.ground.grid.visible = !stage.ground.grid.visible;
-    find('#grid').setAttribute('aria-pressed', String(stage.ground.grid.visible));
+    stage.ground.visible = !stage.ground.visible;
+    showGrid();
     stage.invalidate();
   }
+
+  /** A new model may stand on no ground. */
+  const showGrid = () => find('#grid').setAttribute('aria-pressed', String(stage.ground.visible));
 
   const nextMode = () => setMode(MODES[(MODES.indexOf(find('[name=mode]:checked').value) + 1) % MODES.length]);
 
@@ -78,5 +81,5 @@ export function tools(stage, changed) {
     ),
   );
   menu(find('#views'), find('#views-menu'));
-  return { fit, look, project, nextMode, toggleGrid };
+  return { fit, look, project, nextMode, toggleGrid, showGrid };
 }

@@ -1,12 +1,15 @@
 // How things stand: errors over the last good model, waiting, working, the connection.
 
 import { find, make, say } from './dom.js';
-import { age, count } from './format.js';
+import { age, count, many } from './format.js';
 import { icon } from './icons.js';
 
 export class Trouble {
   #error = find('#error');
+  #warnings = find('#warnings');
   #waiting = find('#waiting');
+  #cancelled = find('#cancelled');
+  #nothing = find('#nothing');
   #stale = find('#stale');
   #stage = find('#stage');
   #clock = 0;
@@ -17,40 +20,81 @@ export class Trouble {
   }
 
   /** `drawn` tells whether there is a model to be stale. */
-  error({ errors }, drawn) {
-    this.#waiting.hidden = true;
-    const items = errors.map((error) => this.#describe(error));
+  error({ errors, number = errors.length }, drawn) {
+    this.#hide();
+    this.#error.classList.remove('folded');
+    const left_out = number - errors.length;
+    this.#list(this.#error, number > 1 ? `${count(number)} errors` : 'Error', errors);
+    if (left_out > 0)
+      find('.error-list', this.#error).append(
+        make('article', { class: 'where', text: `${many(left_out, 'more error')}: the terminal has all of them` }),
+      );
+    this.#age(drawn);
+  }
+
+  /** What should be known of a good model, folded until someone wants to read it. */
+  warnings(warnings) {
+    if (warnings.length === 0) {
+      this.#warnings.hidden = true;
+      this.#warnings.replaceChildren();
+      return;
+    }
+    if (this.#warnings.childElementCount === 0) this.#warnings.classList.add('folded');
+    this.#list(this.#warnings, warnings.length > 1 ? `${warnings.length} warnings` : '1 warning', warnings);
+  }
+
+  /** Lists errors or warnings in a card that can be folded. */
+  #list(card, title, problems) {
     const close = make(
       'button',
       {
         class: 'tool',
         'aria-label': 'Fold',
         title: 'Fold',
-        'aria-expanded': 'true',
-        onclick: () => close.setAttribute('aria-expanded', String(!this.#error.classList.toggle('folded'))),
+        'aria-expanded': String(!card.classList.contains('folded')),
+        onclick: () => close.setAttribute('aria-expanded', String(!card.classList.toggle('folded'))),
       },
       icon('fold'),
     );
-    const title = errors.length > 1 ? `${errors.length} errors` : 'Error';
-    this.#error.classList.remove('folded');
-    this.#error.replaceChildren(
+    card.replaceChildren(
       make('div', { class: 'error-head' }, make('strong', { text: title }), close),
-      make('div', { class: 'error-list' }, ...items),
+      make('div', { class: 'error-list' }, ...problems.map((problem) => this.#describe(problem))),
     );
-    this.#error.hidden = false;
-    this.#age(drawn);
+    card.hidden = false;
   }
 
   waiting({ text }, drawn) {
-    this.#error.hidden = true;
+    this.#hide();
     say(this.#waiting, text);
     this.#waiting.hidden = false;
     this.#age(drawn);
   }
 
+  /** A page has cancelled the run, and nothing newer is on its way. */
+  cancelled(drawn) {
+    this.#cancelled.hidden = !drawn;
+    this.#age(drawn);
+  }
+
+  /** Why nothing is seen in a good model; `text` is null if something is. */
+  nothing(text) {
+    this.#nothing.hidden = !text;
+    say(this.#nothing, text ? `Nothing to see: ${text}` : '');
+  }
+
+  /** Another run has begun. */
+  again() {
+    this.#cancelled.hidden = true;
+  }
+
+  #hide() {
+    this.#error.hidden = this.#waiting.hidden = this.#warnings.hidden = true;
+    this.#cancelled.hidden = this.#nothing.hidden = true;
+  }
+
   /** A good model has come. */
   clear() {
-    this.#error.hidden = this.#waiting.hidden = this.#stale.hidden = true;
+    this.#error.hidden = this.#waiting.hidden = this.#cancelled.hidden = this.#stale.hidden = true;
     this.#error.replaceChildren();
     this.#stage.classList.remove('is-stale');
     clearInterval(this.#clock);
@@ -68,8 +112,9 @@ export class Trouble {
     tell();
   }
 
-  #describe({ message, file, line, rule, module, step, help, more }) {
+  #describe({ message, file, line, excerpt, rule, module, step, help, count: times }) {
     const facts = [];
+    if (times > 1) facts.push(['times', count(times)]);
     if (rule) facts.push(['rule', rule]);
     if (module) facts.push(['module', module]);
     if (step !== null && step !== undefined) facts.push(['step', String(step)]);
@@ -78,6 +123,20 @@ export class Trouble {
       {},
       file ? make('div', { class: 'error-place' }, this.places.open(file, line)) : null,
       make('p', { class: 'error-message', text: message }),
+      excerpt?.length
+        ? make(
+            'pre',
+            { class: 'excerpt' },
+            ...excerpt.map((it) =>
+              make(
+                'span',
+                { class: it.line === line ? 'here' : null },
+                make('i', { text: it.line }),
+                make('code', { text: it.text }),
+              ),
+            ),
+          )
+        : null,
       facts.length
         ? make(
             'dl',
@@ -89,7 +148,6 @@ export class Trouble {
           )
         : null,
       help ? make('p', { class: 'error-help', text: help }) : null,
-      more ? make('pre', { text: Array.isArray(more) ? more.join('\n') : String(more) }) : null,
     );
   }
 }
@@ -106,7 +164,8 @@ const PATIENCE = 120; // ms of work that show nothing, so that quick models do n
 
 /** The thin bar while the server works or a model is on its way. */
 export class Working {
-  #bar = find('#working');
+  #pill = find('#working');
+  #track = find('#track');
   #done = find('#working-done');
   #text = find('#working-text');
   #timer = 0;
@@ -126,14 +185,10 @@ export class Working {
 
   #cause = '';
 
-  progress({ message, step, steps, modules }) {
+  progress({ message, step, steps }) {
     if (!this.busy) return;
     clearTimeout(this.#timer);
-    const parts = [message];
-    if (steps) parts.push(`step ${step} of ${steps}`);
-    else if (step) parts.push(`step ${step}`);
-    if (modules) parts.push(`${count(modules)} modules`);
-    this.#show(parts.join(' · '), steps ? step / steps : null);
+    this.#show(message, steps ? step / steps : null);
   }
 
   download(part) {
@@ -144,7 +199,7 @@ export class Working {
   stop() {
     this.busy = false;
     clearTimeout(this.#timer);
-    this.#bar.hidden = true;
+    this.#pill.hidden = this.#track.hidden = true;
   }
 
   cancel() {
@@ -155,16 +210,19 @@ export class Working {
 
   #show(text, part) {
     say(this.#text, text);
-    this.#bar.classList.toggle('unknown', part === null);
+    this.#text.title = text;
+    this.#track.classList.toggle('unknown', part === null);
     this.#done.style.width = part === null ? '' : `${part * 100}%`;
-    this.#bar.hidden = false;
+    this.#pill.hidden = this.#track.hidden = false;
   }
 }
+
+const LONGEST = 400; // letters of a line that goes away
 
 /** A line that goes away by itself. */
 export function toast(text) {
   const place = find('#toast');
-  say(place, text);
+  say(place, text.length > LONGEST ? `${text.slice(0, LONGEST)}…` : text);
   place.hidden = false;
   clearTimeout(toast.timer);
   toast.timer = setTimeout(() => (place.hidden = true), 5000);
@@ -173,5 +231,12 @@ export function toast(text) {
 export function connection(state) {
   const place = find('#connection');
   place.dataset.state = state;
-  say(place, { live: 'live', lost: 'connection lost, trying again', connecting: 'connecting' }[state]);
+  const texts = {
+    live: 'live',
+    lost: 'connection lost, trying again',
+    connecting: 'connecting',
+    moved: 'the server has a new address',
+  };
+  say(place, texts[state]);
+  find('#moved').hidden = state !== 'moved';
 }

@@ -4,15 +4,18 @@ use std::path::PathBuf;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 use burgeon::script::Session;
-use burgeon::watch::Watch;
+use burgeon::watch::{Watch, unsettled};
 use burgeon::{Error, Result};
 
 use super::super::report;
 use super::super::shared::on_interrupt;
 use super::Run;
+
+/// How long failures may be kept back because files change.
+const DOUBT: Duration = Duration::from_secs(2);
 
 /// What the watcher and the interrupt share with the run that is under way.
 #[derive(Clone, Default)]
@@ -57,6 +60,7 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
         interrupted.over.store(true, Ordering::Release);
         interrupted.stop(&wake);
     })?;
+    let mut doubts: Option<Instant> = None;
     loop {
         now.stale.store(now.over.load(Ordering::Acquire), Ordering::Release);
         let (begin, since) = (Instant::now(), SystemTime::now());
@@ -86,8 +90,26 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
         if let Err(error) = made
             && !stale
         {
+            // It may have read the half of what was being written.
+            let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
+            let patient = doubts.get_or_insert_with(Instant::now).elapsed() < DOUBT;
+            let newer = patient && {
+                let soon = changes.recv_timeout(young.unwrap_or_default()).is_ok();
+                soon || {
+                    watch.catch_up();
+                    changes.try_recv().is_ok()
+                }
+            };
+            if newer {
+                if now.over.load(Ordering::Acquire) {
+                    return Ok(());
+                }
+                while changes.try_recv().is_ok() {}
+                continue;
+            }
             report::error(&error, command.json());
         }
+        doubts = None;
         if !now.is_stale() {
             burgeon::script::make_ready();
         }

@@ -63,6 +63,9 @@ pub enum Ask {
         action: String,
         /// The preset's name.
         name: String,
+        /// Whether one of that name may be saved over.
+        #[serde(default)]
+        replace: bool,
     },
     /// Asks for small pictures of other values.
     Variations {

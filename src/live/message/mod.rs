@@ -5,6 +5,7 @@
 //! model itself is glTF, y up.
 
 mod asked;
+mod bounded;
 mod made;
 mod model;
 
@@ -60,13 +61,18 @@ pub enum Say {
         cause: Cause,
         /// All problems as text.
         text: String,
-        /// Each problem: `{ message, file, line, rule, module, step, help }`, absent where unknown.
+        /// Each problem: `{ message, file, line, excerpt, rule, module, step, help }`, absent where unknown; the excerpt is
+        /// of lines `{ line, text }`. Of very many problems only the first ones.
         errors: Vec<Value>,
+        /// How many problems there are.
+        number: usize,
     },
     /// A run was stopped, by a page or by a newer run.
     Cancelled {
         /// The run's number.
         run: u64,
+        /// Whether nothing newer is on its way, so that the model that is shown is not the present one.
+        stale: bool,
     },
     /// The module that made a triangle.
     Picked(Box<Picked>),
@@ -92,6 +98,17 @@ pub enum Say {
     Presets {
         /// All names, in the order of their file.
         names: Vec<String>,
+        /// The one whose values and seed are the present ones, if there is one.
+        chosen: Option<String>,
+    },
+    /// How many of the small pictures' scripts have run: all of them have one camera, which is known at the end.
+    Variations {
+        /// The question's id.
+        id: u64,
+        /// How many have run.
+        ran: usize,
+        /// How many there will be.
+        of: usize,
     },
     /// A small picture of other values.
     Variation {
@@ -157,9 +174,8 @@ pub enum Cause {
 }
 
 impl Say {
-    /// The message as it travels.
+    /// The message as it travels. Texts that no page could show are cut.
     pub fn to_text(&self) -> String {
-        // Keys are text and numbers are finite or null, so this cannot fail.
-        serde_json::to_string(self).unwrap_or_default()
+        bounded::to_text(self)
     }
 }

@@ -33,6 +33,10 @@ pub struct Model {
     pub step_limit: Option<usize>,
     /// The seed.
     pub seed: String,
+    /// The preset whose values and seed these are, if there is one.
+    pub preset: Option<String>,
+    /// Why there is nothing to see, if so.
+    pub nothing: Option<String>,
     /// The parameters in the script's order.
     pub params: Vec<Knob>,
     /// The systems in the order in which they were derived.
@@ -43,6 +47,8 @@ pub struct Model {
     pub times: Times,
     /// The files that decide what the model is.
     pub files: Vec<String>,
+    /// What people should know of it: as errors are told, each with its `kind` and how often it was found, its `count`.
+    pub warnings: Vec<Value>,
 }
 
 /// A box (m).

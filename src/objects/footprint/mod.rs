@@ -1,10 +1,13 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 
 mod ahead;
+#[cfg(test)]
+mod eaves_tests;
 mod edges;
 mod neighbors;
 mod roof;
 mod shell;
+mod sides;
 #[cfg(test)]
 mod tests;
 mod walls;
@@ -29,6 +32,7 @@ use edges::Edges;
 use neighbors::Neighborhood;
 pub use roof::{Detail, Roof};
 use shell::Shell;
+use sides::Side;
 use walls::Plain;
 pub use walls::Walls;
 
@@ -54,9 +58,8 @@ impl Parameter for Rings {
         let what = || {
             Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
         };
-        let not_this = |kind: &str| {
-            Expected::new(format!("a polygon, and this is a geometry of kind {kind:?}")).of_data()
-        };
+        let not_this =
+            |kind: &str| Expected::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
@@ -93,7 +96,7 @@ impl Parameter for Rings {
     }
 }
 
-/// A height (m), which comes from data as a rule: what is no number is the data's fault.
+/// A height (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Height(pub f64);
 
@@ -103,7 +106,7 @@ impl Parameter for Height {
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
-        f64::from_value(value).map(Self).map_err(Expected::of_data)
+        f64::from_value(value).map(Self)
     }
 
     fn into_value(self) -> Value {
@@ -151,6 +154,8 @@ pub struct Footprint {
     /// The footprints of its system, and its number among them.
     place: Option<(Arc<Neighborhood>, usize)>,
     shell: Shell,
+    /// The walls over each edge, once there are some.
+    sides: Vec<Side>,
     drawing: Drawing,
     /// Where random choices come from.
     seed: u64,
@@ -309,6 +314,7 @@ impl Footprint {
             edges: Arc::default(),
             place: None,
             shell,
+            sides: Vec::new(),
             drawing: Drawing::default(),
             seed: 0,
             detail: 3,
@@ -356,7 +362,7 @@ fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
-    let error = Error::new(format!("{what} is {height} m"));
+    let error = Error::new(format!("{what} is {} m", Value::Number(height)));
     Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 
@@ -394,6 +400,7 @@ impl Object for Footprint {
 
     fn begin(&mut self) {
         self.shell = Shell::new(&self.plan);
+        self.sides.clear();
         self.drawing.clear();
         self.raised = 0;
         self.plain = None;

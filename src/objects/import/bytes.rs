@@ -1,12 +1,16 @@
 //! The bytes of a glTF file and of those beside it, and the columns of numbers in them.
 
+use std::rc::Rc;
+
 use base64::Engine;
 use gltf_json::accessor::{ComponentType, Type};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root, buffer};
+use rustc_hash::FxHashMap;
 
 use super::{Wanted, broken};
-use crate::error::Result;
+use crate::budget::Budget;
+use crate::error::{Error, Result};
 
 /// The buffers of a file.
 pub(super) struct Bytes<'a> {
@@ -46,39 +50,102 @@ impl<'a> Bytes<'a> {
         let bytes = buffer.get(offset..).and_then(|rest| rest.get(..length)).ok_or_else(none)?;
         Ok((bytes, view.byte_stride.map(|stride| stride.0)))
     }
+}
 
-    /// The items of an accessor, each of `N` numbers; whole numbers are scaled to 1 where they are normalized.
-    pub(super) fn column<const N: usize>(
+/// The columns of numbers of a file, each read once however many parts of it use it.
+pub(super) struct Columns<'a> {
+    pub root: &'a Root,
+    pub bytes: &'a Bytes<'a>,
+    pub budget: &'a Budget,
+    pairs: Known<[f32; 2]>,
+    triples: Known<[f32; 3]>,
+    fours: Known<[f32; 4]>,
+    indices: Known<u32>,
+}
+
+type Known<T> = FxHashMap<usize, Rc<[T]>>;
+
+impl<'a> Columns<'a> {
+    pub(super) fn new(root: &'a Root, bytes: &'a Bytes<'a>, budget: &'a Budget) -> Self {
+        let (pairs, triples) = (Known::default(), Known::default());
+        Self { root, bytes, budget, pairs, triples, fours: Known::default(), indices: Known::default() }
+    }
+
+    /// The items of an accessor, each of two numbers; whole numbers are scaled to 1 where they are normalized.
+    pub(super) fn pairs(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 2]]>> {
+        let mut known = std::mem::take(&mut self.pairs);
+        let column = self.kept(&mut known, index, Self::column);
+        self.pairs = known;
+        column
+    }
+
+    /// The same, of three numbers.
+    pub(super) fn triples(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 3]]>> {
+        let mut known = std::mem::take(&mut self.triples);
+        let column = self.kept(&mut known, index, Self::column);
+        self.triples = known;
+        column
+    }
+
+    /// The same, of four numbers.
+    pub(super) fn fours(&mut self, index: Index<Accessor>) -> Result<Rc<[[f32; 4]]>> {
+        let mut known = std::mem::take(&mut self.fours);
+        let column = self.kept(&mut known, index, Self::column);
+        self.fours = known;
+        column
+    }
+
+    /// The items of an accessor of whole numbers.
+    pub(super) fn indices(&mut self, index: Index<Accessor>) -> Result<Rc<[u32]>> {
+        let mut known = std::mem::take(&mut self.indices);
+        let column = self.kept(&mut known, index, Self::whole);
+        self.indices = known;
+        column
+    }
+
+    fn kept<T>(
         &self,
-        root: &Root,
+        known: &mut Known<T>,
         index: Index<Accessor>,
-    ) -> Result<Vec<[f32; N]>, String> {
-        let (accessor, size) = self.described(root, index, N)?;
+        read: impl FnOnce(&Self, Index<Accessor>) -> Result<Vec<T>>,
+    ) -> Result<Rc<[T]>> {
+        if let Some(column) = known.get(&index.value()) {
+            return Ok(Rc::clone(column));
+        }
+        let column: Rc<[T]> = read(self, index)?.into();
+        known.insert(index.value(), Rc::clone(&column));
+        Ok(column)
+    }
+
+    fn column<const N: usize>(&self, index: Index<Accessor>) -> Result<Vec<[f32; N]>> {
+        let (accessor, component) = self.described(index, N)?;
+        let size = component.size();
+        let scale =
+            |value: f32, most: f32| if accessor.normalized { (value / most).max(-1.0) } else { value };
         let read = |bytes: &[u8]| -> f32 {
-            let scale = |value: f32, most: f32| if accessor.normalized { value / most } else { value };
-            match *bytes {
-                [a] => scale(f32::from(a), 255.0),
-                [a, b] => scale(f32::from(u16::from_le_bytes([a, b])), 65535.0),
-                [a, b, c, d] => f32::from_le_bytes([a, b, c, d]),
+            match (component, bytes) {
+                (ComponentType::U8, &[a]) => scale(f32::from(a), 255.0),
+                (ComponentType::I8, &[a]) => scale(f32::from(i8::from_le_bytes([a])), 127.0),
+                (ComponentType::U16, &[a, b]) => scale(f32::from(u16::from_le_bytes([a, b])), 65535.0),
+                (ComponentType::I16, &[a, b]) => scale(f32::from(i16::from_le_bytes([a, b])), 32767.0),
+                (_, &[a, b, c, d]) => f32::from_le_bytes([a, b, c, d]),
                 _ => 0.0,
             }
         };
         let mut items = Vec::new();
-        self.each(root, accessor, size * N, |bytes| {
+        self.each(accessor, size * N, size_of::<[f32; N]>(), |bytes| {
             items.push(std::array::from_fn(|at| read(&bytes[at * size..(at + 1) * size])));
         })?;
         Ok(items)
     }
 
-    /// The items of an accessor of whole numbers.
-    pub(super) fn indices(&self, root: &Root, index: Index<Accessor>) -> Result<Vec<u32>, String> {
-        let (accessor, size) = self.described(root, index, 1)?;
-        if matches!(&accessor.component_type, Checked::Valid(component) if component.0 == ComponentType::F32)
-        {
-            return Err(format!("accessor {} has no whole numbers", index.value()));
+    fn whole(&self, index: Index<Accessor>) -> Result<Vec<u32>> {
+        let (accessor, component) = self.described(index, 1)?;
+        if matches!(component, ComponentType::F32 | ComponentType::I8 | ComponentType::I16) {
+            return Err(Error::new(format!("accessor {} has no whole numbers", index.value())));
         }
         let mut items = Vec::new();
-        self.each(root, accessor, size, |bytes| {
+        self.each(accessor, component.size(), size_of::<u32>(), |bytes| {
             items.push(match *bytes {
                 [a] => u32::from(a),
                 [a, b] => u32::from(u16::from_le_bytes([a, b])),
@@ -89,47 +156,38 @@ impl<'a> Bytes<'a> {
         Ok(items)
     }
 
-    /// An accessor of items of `count` numbers, and the size (bytes) of a number.
-    fn described<'r>(
-        &self,
-        root: &'r Root,
-        index: Index<Accessor>,
-        count: usize,
-    ) -> Result<(&'r Accessor, usize), String> {
+    /// How many numbers each item of an accessor has; none where there is no such accessor.
+    pub(super) fn width(&self, index: Index<Accessor>) -> usize {
+        match self.root.get(index).map(|accessor| &accessor.type_) {
+            Some(Checked::Valid(kind)) => kind.multiplicity(),
+            _ => 0,
+        }
+    }
+
+    /// An accessor of items of `count` numbers, and what these are.
+    fn described(&self, index: Index<Accessor>, count: usize) -> Result<(&'a Accessor, ComponentType)> {
         let number = index.value();
-        let accessor = root.get(index).ok_or_else(|| format!("there is no accessor {number}"))?;
+        let accessor =
+            self.root.get(index).ok_or_else(|| Error::new(format!("there is no accessor {number}")))?;
         if accessor.sparse.is_some() {
-            return Err(format!("accessor {number} is sparse, which is not read"));
+            return Err(Error::new(format!("accessor {number} is sparse, which is not read")));
         }
         let fits = match &accessor.type_ {
             Checked::Valid(kind) => kind.multiplicity() == count && *kind != Type::Mat2,
             Checked::Invalid => false,
         };
-        let size = match &accessor.component_type {
-            Checked::Valid(component) => match component.0 {
-                ComponentType::U8 => 1,
-                ComponentType::U16 => 2,
-                ComponentType::U32 | ComponentType::F32 => 4,
-                ComponentType::I8 | ComponentType::I16 => 0,
-            },
-            Checked::Invalid => 0,
-        };
-        if !fits || size == 0 {
-            return Err(format!("accessor {number} has items of another type than is read"));
+        match &accessor.component_type {
+            Checked::Valid(component) if fits => Ok((accessor, component.0)),
+            _ => Err(Error::new(format!("accessor {number} has items of another type than is read"))),
         }
-        Ok((accessor, size))
     }
 
-    fn each(
-        &self,
-        root: &Root,
-        accessor: &Accessor,
-        size: usize,
-        mut take: impl FnMut(&[u8]),
-    ) -> Result<(), String> {
-        let outside = || "an accessor reaches outside of its view".to_owned();
+    /// Calls `take` with the bytes of each item, for which `kept` bytes are asked for.
+    fn each(&self, accessor: &Accessor, size: usize, kept: usize, mut take: impl FnMut(&[u8])) -> Result<()> {
+        let outside = || Error::new("an accessor reaches outside of its view");
         // Without a view all numbers are 0, which is no shape.
-        let (bytes, stride) = self.view(root, accessor.buffer_view.ok_or_else(outside)?)?;
+        let view = accessor.buffer_view.ok_or_else(outside)?;
+        let (bytes, stride) = self.bytes.view(self.root, view).map_err(Error::new)?;
         let stride = stride.unwrap_or(size).max(1);
         let offset =
             usize::try_from(accessor.byte_offset.map_or(0, |offset| offset.0)).map_err(|_| outside())?;
@@ -141,7 +199,11 @@ impl<'a> Bytes<'a> {
         if last.and_then(|last| last.checked_add(size)).is_none_or(|end| end > bytes.len()) {
             return Err(outside());
         }
+        self.budget.take(count.saturating_mul(kept))?;
         for item in 0..count {
+            if item.is_multiple_of(MANY) {
+                self.budget.check()?;
+            }
             let from = offset + item * stride;
             take(&bytes[from..from + size]);
         }
@@ -149,10 +211,14 @@ impl<'a> Bytes<'a> {
     }
 }
 
+/// How many items are read between two looks at the clock.
+pub(super) const MANY: usize = 1 << 16;
+
 /// What an address in the file means: content in the address itself, or a file beside it.
 pub(super) fn address(uri: &str, wanted: &mut Wanted<'_>) -> Result<Vec<u8>> {
     let Some(data) = uri.strip_prefix("data:") else { return (wanted.beside)(&plain(uri)) };
     let coded = data.split_once(";base64,").map(|(_, coded)| coded);
+    wanted.budget.take(coded.map_or(0, str::len))?;
     let engine = base64::engine::general_purpose::STANDARD;
     coded
         .and_then(|coded| engine.decode(coded).ok())

@@ -17,12 +17,26 @@ use crate::scene::{Material, Texture};
 pub(super) struct Look {
     pub material: Material,
     pub set: u32,
+    /// Whether nothing shines through, whatever its colours say.
+    opaque: bool,
+}
+
+impl Look {
+    /// The material for points with a colour of their own.
+    pub(super) fn tinted(&self, tint: [f32; 4]) -> Material {
+        let mut material = self.material.clone();
+        let channels = if self.opaque { 3 } else { 4 };
+        for (channel, factor) in material.base_color.iter_mut().zip(tint).take(channels) {
+            *channel *= factor;
+        }
+        material
+    }
 }
 
 /// What glTF gives to a primitive without a material.
 pub(super) fn plain() -> Look {
     let material = Material { base_color: [1.0; 4], metallic: 1.0, roughness: 1.0, ..Material::default() };
-    Look { material, set: 0 }
+    Look { material, set: 0, opaque: true }
 }
 
 /// All materials of the file, in its order.
@@ -42,8 +56,9 @@ pub(super) fn materials(root: &Root, bytes: &Bytes<'_>, wanted: &mut Wanted<'_>)
                 double_sided: described.double_sided,
             },
             set: 0,
+            opaque: described.alpha_mode == Checked::Valid(AlphaMode::Opaque),
         };
-        if described.alpha_mode == Checked::Valid(AlphaMode::Opaque) {
+        if look.opaque {
             look.material.base_color[3] = 1.0;
         }
         if let Some(info) = &surface.base_color_texture {
@@ -89,7 +104,9 @@ fn texture(
             let read: Vec<u8> = match (&image.uri, image.buffer_view) {
                 (Some(uri), _) => address(uri, wanted)?,
                 (None, Some(view)) => {
-                    bytes.view(root, view).map_err(|why| broken(wanted.name, why))?.0.to_vec()
+                    let image = bytes.view(root, view).map_err(|why| broken(wanted.name, why))?.0;
+                    wanted.budget.take(image.len())?;
+                    image.to_vec()
                 }
                 (None, None) => return Err(missing()),
             };

@@ -6,24 +6,30 @@
 //! Source: Khronos Group, glTF 2.0 Specification, 2021 (ISO/IEC 12113).
 
 mod bytes;
+mod instances;
 mod look;
 mod shape;
 #[cfg(test)]
 mod tests;
+mod tints;
 
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use gltf_json::{Index, Root, scene::Node};
 
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 use crate::scene::{Instance, Mesh, Scene};
-use bytes::Bytes;
+use bytes::{Bytes, Columns};
 use look::Look;
+use shape::Shape;
 
 /// The deepest that nodes may be nested, and the most of them.
 const DEEPEST: usize = 64;
 const MOST_NODES: usize = 100_000;
+/// The most memory (bytes) that an object of a description takes, and an instance.
+const OBJECT: usize = 500;
 
 /// What an import needs from outside of the file.
 pub(crate) struct Wanted<'a> {
@@ -31,33 +37,39 @@ pub(crate) struct Wanted<'a> {
     pub name: &'a str,
     /// The most triangles, those of repeated meshes counted each time.
     pub triangles: usize,
+    /// What reading may take.
+    pub budget: &'a Budget,
     /// Reads a file beside it, by the address in the file.
     pub beside: &'a mut dyn FnMut(&str) -> Result<Vec<u8>>,
 }
 
 /// The scene of a glTF file, in metres, z up.
 ///
-/// Takes positions, normals, texture coordinates, and of materials base colour with its texture, metal, roughness and
+/// Takes positions, normals, texture coordinates, colours of points, instances of a node, and of materials base colour with its texture, metal, roughness and
 /// light; normals that are missing are those of flat faces, texture coordinates are then metres along the faces. Fails
 /// if the file is damaged, needs an extension that is not known here, or has too many triangles.
 pub(crate) fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
     let name = wanted.name;
     let (json, own) = container(content).map_err(|why| broken(name, why))?;
+    wanted.budget.check()?;
+    // A description may have many objects of a few letters, which take much more when they are read.
+    let objects = json.iter().filter(|byte| **byte == b'{').count();
+    wanted.budget.take(objects.saturating_mul(OBJECT).saturating_add(json.len()))?;
     let root = Root::from_slice(json).map_err(|error| broken(name, format!("its JSON is wrong: {error}")))?;
     check_extensions(&root, name)?;
     let bytes = Bytes::load(&root, own, wanted)?;
+    let materials = look::materials(&root, &bytes, wanted)?;
     let mut model = Import {
         root: &root,
-        bytes: &bytes,
+        columns: Columns::new(&root, &bytes, wanted.budget),
         name,
         scene: Scene::default(),
         meshes: vec![None; root.meshes.len()],
-        materials: Vec::new(),
+        materials,
         nodes: 0,
         left: wanted.triangles,
         limit: wanted.triangles,
     };
-    model.materials = look::materials(&root, &bytes, wanted)?;
     let start = match root.scene.and_then(|index| root.get(index)).or_else(|| root.scenes.first()) {
         Some(scene) => scene.nodes.clone(),
         None => roots(&root),
@@ -68,6 +80,12 @@ pub(crate) fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
             .help("export it with its meshes; lines, points and other scenes are not read"));
     }
     Ok(model.scene)
+}
+
+/// The error for a file that is damaged, or for a limit that was reached on the way.
+fn damaged(name: &str, budget: &Budget, error: &Error) -> Error {
+    // It may be that the time or the memory is at its end, and not the file's fault.
+    budget.check().err().unwrap_or_else(|| broken(name, error.message()))
 }
 
 /// The error for a file that is damaged.
@@ -99,13 +117,17 @@ fn container(content: &[u8]) -> Result<(&[u8], Option<&[u8]>), String> {
             b"BIN\0" if own.is_none() => own = Some(chunk),
             _ => {}
         }
-        at += 8 + chunk.len().next_multiple_of(4);
+        // Chunks are filled up to whole words, though some programs forget it.
+        let [bare, filled] = [chunk.len(), chunk.len().next_multiple_of(4)].map(|length| at + 8 + length);
+        let is_chunk = |at: usize| matches!(whole.get(at + 4..at + 8), Some(b"JSON" | b"BIN\0"));
+        at = if is_chunk(bare) && !is_chunk(filled) { bare } else { filled };
     }
     Ok((json.ok_or("it has no description of itself")?, own))
 }
 
 fn check_extensions(root: &Root, name: &str) -> Result<()> {
-    let unknown = root.extensions_required.iter().find(|needed| !needed.starts_with("KHR_materials_"));
+    let known = |needed: &str| needed.starts_with("KHR_materials_") || needed == instances::EXTENSION;
+    let unknown = root.extensions_required.iter().find(|needed| !known(needed));
     let Some(needed) = unknown else { return Ok(()) };
     Err(Error::new(format!("the model {name} needs the extension {needed}, which is not read")).help(
         "export it without compression of meshes and textures, and without extensions that readers must know",
@@ -125,7 +147,7 @@ fn roots(root: &Root) -> Vec<Index<Node>> {
 
 struct Import<'a> {
     root: &'a Root,
-    bytes: &'a Bytes<'a>,
+    columns: Columns<'a>,
     name: &'a str,
     scene: Scene,
     /// By mesh of the file: the one of the scene, once it has been asked for; none if it has no triangles.
@@ -154,7 +176,17 @@ impl Import<'_> {
                 return Err(broken(self.name, format!("the place of node {} is no number", index.value())));
             }
             if let Some(mesh) = node.mesh {
-                self.instance(mesh, here, node.name.as_deref().unwrap_or_default())?;
+                let name = node.name.as_deref().unwrap_or_default();
+                let places = instances::places(&mut self.columns, node)
+                    .map_err(|error| damaged(self.name, self.columns.budget, &error))?;
+                match places {
+                    None => self.instance(mesh, here, name)?,
+                    Some(places) => {
+                        for place in places {
+                            self.instance(mesh, here * place, name)?;
+                        }
+                    }
+                }
             }
             self.nodes(node.children.as_deref().unwrap_or_default(), here, depth + 1)?;
         }
@@ -162,6 +194,10 @@ impl Import<'_> {
     }
 
     fn instance(&mut self, index: Index<gltf_json::Mesh>, place: DAffine3, name: &str) -> Result<()> {
+        self.columns.budget.tick()?;
+        if !place.is_finite() {
+            return Err(broken(self.name, "the place of an instance is no number"));
+        }
         let known = self.meshes.get(index.value()).copied();
         let mesh = match known {
             Some(Some(mesh)) => mesh,
@@ -174,10 +210,8 @@ impl Import<'_> {
         };
         let Some(mesh) = mesh else { return Ok(()) };
         let triangles = self.scene.meshes[mesh].triangles();
-        self.left = self.left.checked_sub(triangles).ok_or_else(|| {
-            Error::new(format!("the model {} has more than {} triangles", self.name, self.limit))
-                .help("simplify it, or raise the limit: --triangle-limit N")
-        })?;
+        self.left = self.left.checked_sub(triangles).ok_or_else(|| self.too_many())?;
+        self.columns.budget.take(OBJECT + name.len())?;
         self.scene.instances.push(Instance {
             mesh,
             transform: turned(place),
@@ -189,31 +223,45 @@ impl Import<'_> {
         Ok(())
     }
 
+    fn too_many(&self) -> Error {
+        Error::new(format!("the model {} has more than {} triangles", self.name, self.limit))
+            .help("simplify it, or raise the limit: --triangle-limit N")
+    }
+
     /// The mesh of the scene for one of the file; `None` if it has no triangles.
     fn mesh(&mut self, index: Index<gltf_json::Mesh>) -> Result<Option<usize>> {
         let Some(described) = self.root.get(index) else { return Ok(None) };
         let name = described.name.clone().unwrap_or_default();
         let mut mesh = Mesh { name, ..Mesh::default() };
         for primitive in &described.primitives {
-            let Look { material, set } =
+            self.columns.budget.check()?;
+            let look =
                 match primitive.material {
                     Some(index) => self.materials.get(index.value()).cloned().ok_or_else(|| {
                         broken(self.name, format!("there is no material {}", index.value()))
                     })?,
                     None => look::plain(),
                 };
-            let read = shape::part(self.root, self.bytes, primitive, set);
-            let part = read.map_err(|why| broken(self.name, format!("{why} (mesh {})", index.value())))?;
-            let Some(part) = part else { continue };
-            let material = self.scene.material(&material);
-            // Parts of the same material stay apart in the file; here they are one.
-            let whole = mesh.part(material);
-            let first = u32::try_from(whole.positions.len())
-                .map_err(|_| broken(self.name, "a mesh has more than 2^32 points"))?;
-            whole.positions.extend(part.positions);
-            whole.normals.extend(part.normals);
-            whole.uvs.extend(part.uvs);
-            whole.triangles.extend(part.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+            let shapes = shape::shapes(&mut self.columns, primitive, look.set).map_err(|error| {
+                let place = Error::new(format!("{} (mesh {})", error.message(), index.value()));
+                damaged(self.name, self.columns.budget, &place)
+            })?;
+            for Shape { tint, part } in shapes {
+                let material = self.scene.material(&look.tinted(tint));
+                // Parts of the same material stay apart in the file; here they are one.
+                let whole = mesh.part(material);
+                let first = u32::try_from(whole.positions.len())
+                    .map_err(|_| broken(self.name, "a mesh has more than 2^32 points"))?;
+                whole.positions.extend(part.positions);
+                whole.normals.extend(part.normals);
+                whole.uvs.extend(part.uvs);
+                whole
+                    .triangles
+                    .extend(part.triangles.iter().map(|corners| corners.map(|corner| corner + first)));
+            }
+            if mesh.triangles() > self.left {
+                return Err(self.too_many());
+            }
         }
         if mesh.parts.is_empty() {
             return Ok(None);

@@ -7,13 +7,14 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-use super::terrain::{Cover, RuleLayers, Water, rules};
+use super::terrain::{Cover, RuleLayers, Water, lost_focus, rules};
 use super::{Color, Kind, Object, Seed, Table, Vector};
 use crate::error::{Error, Result};
 use crate::rules::Key;
 use crate::scene::{Instance, Material, Mesh, Scene};
 use crate::terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
 use crate::terrain::{Divide, World};
+use crate::warning::Warning;
 
 fields! {
     /// What `planet { ... }` takes.
@@ -68,11 +69,13 @@ pub struct Planet {
     eye: Option<DVec3>,
     /// Whether the script is only checked.
     sketched: bool,
+    warnings: Vec<Warning>,
 }
 
 methods! {
     Planet = "planet" {
-        /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further.
+        /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further. The last focus of a
+        /// pass counts.
         pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
             let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
             if eye.length() < radius * (1.0 - DEEP) {
@@ -81,6 +84,10 @@ methods! {
                     eye.length()
                 ))
                 .help(format!("its ground is about {radius} m from its middle: look from farther out")));
+            }
+            if let Some(earlier) = self.wanted.filter(|earlier| *earlier != eye) {
+                let at = earlier + self.options.position.0;
+                self.warnings.push(lost_focus("planet", &format!("({}, {}, {})", at.x, at.y, at.z)));
             }
             self.wanted = Some(eye);
             Ok(())
@@ -173,6 +180,7 @@ impl Planet {
         };
         let sea = options.water.as_ref().map(|water| water.level);
         Ok(Self {
+            warnings: options.rules.warnings("planet"),
             globe: Globe::new(world, options.radius, sea),
             options: Arc::new(options),
             wanted: None,
@@ -234,8 +242,8 @@ impl Object for Planet {
         true
     }
 
-    fn warnings(&self) -> Vec<String> {
-        self.options.rules.warnings("planet")
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
     }
 
     fn grows(&self) -> bool {

@@ -6,6 +6,7 @@ use crate::error::nearest;
 use crate::objects::{Expected, Key, Kind, Object, Parameter, Table, Value};
 use crate::rules::Symbol;
 use crate::terrain::{Draw, Layer, Quadrants, RuleTable, Rules};
+use crate::warning::{Warning, WarningKind};
 
 /// The rules of a terrain, by level; the first are from level 0.
 #[derive(Debug, Clone, Default)]
@@ -273,10 +274,12 @@ impl RuleLayers {
     }
 
     /// What to tell people of decays that do not shrink.
-    pub(in crate::objects) fn warnings(&self, kind: &str) -> Vec<String> {
+    pub(in crate::objects) fn warnings(&self, kind: &str) -> Vec<Warning> {
         let grown = self.0.iter().find_map(RuleLayer::grows);
-        let warning =
-            |decay| format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
+        let warning = |decay| {
+            let text = format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
+            Warning::new(WarningKind::Doubtful, text).help("give a decay below 1, such as decay = 0.5")
+        };
         grown.map(warning).into_iter().collect()
     }
 }

@@ -11,6 +11,7 @@ mod quiet;
 mod syntax;
 mod walk;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicUsize;
 use std::sync::mpsc::{Receiver, Sender, channel};
@@ -46,6 +47,10 @@ pub(crate) struct Analysis {
     pub random: bool,
     /// The lines on which functions begin that leave nothing behind.
     pub quiet: Vec<usize>,
+    /// The lines on which functions begin that do not look at their first parameter, a rule's `this`.
+    pub blind: Vec<usize>,
+    /// By the line on which an interpretation begins: where it returns modules.
+    pub lost: BTreeMap<usize, usize>,
 }
 
 /// What stands before a successor that is given as text: the line on which it begins.
@@ -112,7 +117,7 @@ impl Reading {
 
 /// The analysis of a script that is not to be run.
 fn unread(text: &str, problems: Vec<Error>) -> Analysis {
-    Analysis { text: text.to_owned(), problems, random: true, quiet: Vec::new() }
+    Analysis { text: text.to_owned(), problems, random: true, ..Analysis::default() }
 }
 
 fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
@@ -137,8 +142,15 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, quiet, .. } = second;
+    let Walk { mut edits, mut problems, random, quiet, mut blind, lost, begins, .. } = second;
+    // Luau knows functions by the line of their first word, which is then another.
+    let is_apart =
+        |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
+    if begins.iter().any(is_apart) {
+        blind.clear();
+    }
     let quiet = quiet.into_iter().filter_map(|(line, quiet)| quiet.then_some(line)).collect();
+    let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     // What is put before a token comes before what replaces it.
     edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));
@@ -153,5 +165,51 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
         at = edit.end;
     }
     out.push_str(&text[at..]);
-    Analysis { text: out, problems, random, quiet }
+    Analysis { text: out, problems, random, quiet, blind, lost }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_function_is_blind_if_it_never_reads_its_first_parameter() {
+        let names = ["select"].map(str::to_owned).to_vec();
+        let globals = Globals { names, ..Globals::default() };
+        let blind = |function: &str| {
+            let script = format!("local function other(x)\n  return x\nend\nlocal f = {function}");
+            analyse("s.lua", &script, &globals).blind.contains(&4)
+        };
+        for function in [
+            "function() return 1 end",
+            "function(this, n) return n end",
+            "function(_, this) return this end",
+            "function(this) local this = 3 return this end",
+            "function(this) for this = 1, 3 do other(this) end end",
+            "function(this, n) this = n end",
+            "function(this, ...) return select(1, ...) end",
+            "function(this) return ({ this = 1 }).this end",
+        ] {
+            assert!(blind(function), "{function}");
+        }
+        for function in [
+            "function(this) return this end",
+            "function(this, n) return other(this) end",
+            "function(o) return o:position() end",
+            "function(this) return function() return this.x end end",
+            "function(this) return `{this}` end",
+            "function(this) return if this then 1 else 2 end",
+            "function(this) local t = { this } return t end",
+            "function(this) for k in this do other(k) end end",
+            "function(this) repeat local x = 1 until this end",
+            "function(this, n) n[this] = 1 end",
+            "function(...) return select(1, ...) end",
+            "function(this) return (this :: any).x end",
+            "function(this) this.x = 1 end",
+            "function(this) this += 1 end",
+            "function\n(this, n) return n end",
+        ] {
+            assert!(!blind(function), "{function}");
+        }
+    }
 }

@@ -110,7 +110,7 @@ impl Walk<'_> {
         let start = first_position(body.block(), body.end_token());
         let mut parameters = body.parameters().iter();
         let rule = if role == Role::Other { None } else { self.rule.clone() };
-        self.functions.push(Function { role, rule, shapes: Vec::new(), quiet: true });
+        self.functions.push(Function::new(role, rule));
         if is_method {
             let id = self.facts.variables.len();
             self.facts.variables.push(Fact::default());
@@ -121,28 +121,46 @@ impl Walk<'_> {
                 module: None,
                 fresh: false,
                 feature: false,
+                receiver: true,
             });
         }
-        for parameter in parameters.by_ref() {
+        for (index, parameter) in parameters.by_ref().enumerate() {
+            let is_first = index == 0 && !is_method;
             if let Parameter::Name(name) = parameter {
                 let id = self.declare(name, start);
                 if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
                     variable.feature = is_axiom;
+                    variable.receiver = is_first;
                 }
+            } else if let (true, Some(function)) = (is_first, self.functions.last_mut()) {
+                // It may look at any of its parameters.
+                function.asks = true;
             }
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        let nothing = Function { role, rule: None, shapes: Vec::new(), quiet: false };
+        let nothing = Function { quiet: false, asks: true, ..Function::new(role, None) };
         let function = self.functions.pop().unwrap_or(nothing);
-        if let Some(position) = body.parameters_parentheses().tokens().0.start_position() {
-            *self.quiet.entry(position.line()).or_insert(true) &= function.quiet;
+        if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
+            *self.quiet.entry(begin.line()).or_insert(true) &= function.quiet;
+            *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
+            if let Some(line) = function.loses {
+                self.lost.insert(begin.line(), line);
+            }
+            self.begins.push(begin.bytes());
         }
         function
     }
 
     pub(super) fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
-        if self.functions.last().is_none_or(|function| function.role != Role::Rule) {
+        let role = self.functions.last().map_or(Role::Script, |function| function.role);
+        if role == Role::Interpretation && values.iter().any(|value| self.makes_modules(value)) {
+            let line = token.start_position().map(|position| position.line());
+            if let Some(function) = self.functions.last_mut() {
+                function.loses = function.loses.or(line);
+            }
+        }
+        if role != Role::Rule {
             return self.expressions(values);
         }
         self.expressions(values);
@@ -163,6 +181,21 @@ impl Walk<'_> {
             if let Some(function) = self.functions.last_mut().filter(|it| !it.shapes.contains(&list)) {
                 function.shapes.push(list);
             }
+        }
+    }
+
+    /// Whether `value` can be seen to be a module, or a branch of them.
+    fn makes_modules(&self, value: &Expression) -> bool {
+        match value {
+            Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
+                (Prefix::Name(name), 1) => self.module(name).is_some(),
+                _ => false,
+            },
+            Expression::TableConstructor(table) => match table.fields().iter().next() {
+                Some(Field::NoKey(first)) => self.makes_modules(first),
+                _ => false,
+            },
+            _ => false,
         }
     }
 

@@ -43,6 +43,16 @@ pub(super) struct Function {
     pub(super) shapes: Vec<String>,
     /// Whether it has left nothing behind so far.
     pub(super) quiet: bool,
+    /// Whether it has looked at its first parameter so far.
+    pub(super) asks: bool,
+    /// The first of its returns that gives modules, where nobody takes them.
+    pub(super) loses: Option<usize>,
+}
+
+impl Function {
+    pub(super) fn new(role: Role, rule: Option<String>) -> Self {
+        Self { role, rule, shapes: Vec::new(), quiet: true, asks: false, loses: None }
+    }
 }
 
 pub(super) struct Variable {
@@ -54,6 +64,8 @@ pub(super) struct Variable {
     pub(super) fresh: bool,
     /// Whether it is what the function of an axiom is given.
     pub(super) feature: bool,
+    /// Whether it is the first parameter of its function.
+    pub(super) receiver: bool,
 }
 
 pub(super) struct Edit {
@@ -79,6 +91,12 @@ pub(super) struct Walk<'a> {
     pub(super) axiom: bool,
     /// By line: whether all functions that begin there leave nothing behind.
     pub(super) quiet: BTreeMap<usize, bool>,
+    /// By line: whether no function that begins there looks at its first parameter.
+    pub(super) blind: BTreeMap<usize, bool>,
+    /// By line: where an interpretation that begins there returns modules.
+    pub(super) lost: BTreeMap<usize, usize>,
+    /// Where the parameters of functions begin.
+    pub(super) begins: Vec<usize>,
 }
 
 impl<'a> Walk<'a> {
@@ -88,7 +106,7 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { role: Role::Script, rule: None, shapes: Vec::new(), quiet: false }],
+            functions: vec![Function { quiet: false, ..Function::new(Role::Script, None) }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
@@ -96,6 +114,9 @@ impl<'a> Walk<'a> {
             rule: None,
             axiom: false,
             quiet: BTreeMap::new(),
+            blind: BTreeMap::new(),
+            lost: BTreeMap::new(),
+            begins: Vec::new(),
         }
     }
 
@@ -129,6 +150,11 @@ impl<'a> Walk<'a> {
             }
             Stmt::CompoundAssignment(assignment) => {
                 self.expression(assignment.rhs());
+                if let Var::Name(name) = assignment.lhs()
+                    && self.find(&text_of(name)).is_some()
+                {
+                    self.read(name);
+                }
                 self.assign(assignment.lhs(), statement);
             }
             Stmt::Do(inner) => self.block(inner.block()),
@@ -236,6 +262,7 @@ impl<'a> Walk<'a> {
             module: None,
             fresh: false,
             feature: false,
+            receiver: false,
         });
         if function > 0
             && self.fact(id).assigned_inside
@@ -326,7 +353,14 @@ impl<'a> Walk<'a> {
     pub(super) fn read(&mut self, token: &TokenReference) {
         let name = text_of(token);
         self.random |= name == "random";
-        if self.find(&name).is_some() || self.globals.names.contains(&name) {
+        if let Some(variable) = self.find(&name) {
+            if variable.receiver {
+                let function = variable.function;
+                self.functions[function].asks = true;
+            }
+            return;
+        }
+        if self.globals.names.contains(&name) {
             return;
         }
         let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());

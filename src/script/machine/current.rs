@@ -3,12 +3,13 @@
 use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Place, Result};
 use crate::objects::{Call, Method, Value};
 use crate::random::Stream;
 use crate::rules::{Key, Symbol};
 use crate::script::handles::Objects;
 use crate::script::session::Session;
+use crate::warning::Warning;
 
 /// Applies recorded method calls to objects while a batch is interpreted.
 pub(crate) trait Flusher {
@@ -17,6 +18,12 @@ pub(crate) trait Flusher {
 
     /// The chain that is being interpreted.
     fn chain(&self) -> usize;
+
+    /// Takes what the object of the chain has warned of.
+    fn warn(&mut self, said: Vec<Warning>);
+
+    /// Notes that the interpretation rule of `entry` has returned modules.
+    fn lost(&mut self, entry: usize);
 
     /// The one type that implements this, for the loop that drives it.
     fn applier(&mut self) -> Option<&mut crate::interpret::Applier>;
@@ -98,8 +105,14 @@ impl Current {
         Ok(stream.uniform())
     }
 
-    /// Calls a method of `this` at once, while rewriting or interpreting.
-    pub(crate) fn call(&self, method: usize, application: usize, arguments: &[Value]) -> Result<Value> {
+    /// Calls a method of `this` at once, while rewriting or interpreting, in the line at `place`.
+    pub(crate) fn call(
+        &self,
+        method: usize,
+        application: usize,
+        arguments: &[Value],
+        place: impl FnOnce() -> Option<Place>,
+    ) -> Result<Value> {
         let methods = self.methods.borrow();
         let method = methods.get(method).ok_or_else(|| Error::new("there is no such method"))?;
         let chain = match self.flusher.borrow().as_ref() {
@@ -109,11 +122,22 @@ impl Current {
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
         match method.call {
-            Call::Read(read) => objects.read(chain, |object| read(object, arguments)),
+            Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {
-                let done = objects.write(chain, |object| values(object, arguments));
-                done.or_else(|error| objects.forgive(chain, error).map(|()| Value::Nil))
+                let mut said = Vec::new();
+                let done = objects.write(chain, |object| {
+                    let done = values(object, arguments);
+                    said = object.take_warnings();
+                    done
+                });
+                if !said.is_empty()
+                    && let Some(flusher) = self.flusher.borrow_mut().as_mut()
+                {
+                    let place = place();
+                    flusher.warn(said.into_iter().map(|warning| warning.at(place.clone())).collect());
+                }
+                done.or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil))
             }
         }
     }

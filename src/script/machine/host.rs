@@ -8,7 +8,7 @@ use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 use super::current::Current;
 use crate::error::Error;
 use crate::objects::{Call, Value};
-use crate::rules::module_text;
+use crate::rules::{DEEPEST, module_text};
 use crate::script::convert::{to_lua, to_value};
 use crate::script::handles::ObjectHandle;
 use crate::script::library::Library;
@@ -20,6 +20,7 @@ const TOP: u8 = 0;
 
 pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
+    host.set("deepest", DEEPEST)?;
     let state = Rc::clone(current);
     host.set(
         "pack",
@@ -109,10 +110,22 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
     )?;
     let state = Rc::clone(current);
     host.set(
+        "lost",
+        lua.create_function(move |_, entry: usize| {
+            if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
+                flusher.lost(entry);
+            }
+            Ok(())
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
         "call",
         lua.create_function(move |lua, (method, application, arguments): (usize, usize, MultiValue)| {
             let arguments = values(&arguments)?;
-            let answer = state.call(method, application, &arguments).map_err(mlua::Error::external)?;
+            let answer = state
+                .call(method, application, &arguments, || super::Machine::place(lua))
+                .map_err(mlua::Error::external)?;
             to_lua(lua, &answer, false)
         })?,
     )?;

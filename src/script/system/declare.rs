@@ -2,13 +2,16 @@
 
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
-use crate::error::{Error, Result, nearest};
+use crate::derive::grouped;
+use crate::error::{Error, Place, Result, nearest};
 use crate::objects::Value;
-use crate::rules::{FIRST_SYMBOL, Pattern, Rule, Symbol};
+use crate::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
 use crate::script::analysis::{analyse, unmarked};
 use crate::script::convert::to_value;
 use crate::script::library::Library;
 use crate::script::machine::Machine;
+use crate::script::session::Session;
+use crate::warning::{Warning, WarningKind};
 
 use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, System};
 
@@ -39,6 +42,10 @@ impl System {
         let Some(LuaValue::String(text)) = arguments.first().cloned() else {
             return Err(Error::new("a rule begins with a pattern").help(usage));
         };
+        if self.rules.len() == MOST_RULES {
+            return Err(Error::new(format!("a system has at most {} rules", grouped(MOST_RULES)))
+                .help("let one rule stand for many: carry what tells them apart in a parameter"));
+        }
         let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
         let name = pattern.text.clone();
         let named = |error: Error| error.rule(&name);
@@ -61,10 +68,12 @@ impl System {
             None => (None, None),
         };
         let place = Machine::place(lua);
-        let successor = match arguments.pop() {
+        let session = std::sync::Arc::clone(&library.machine()?.session);
+        let (successor, mut asks) = match arguments.pop() {
             Some(LuaValue::Function(function)) => {
                 check_parameters(&function, &pattern, "the successor").map_err(named)?;
-                function
+                let asks = may_ask(&session, &function);
+                (function, asks)
             }
             Some(LuaValue::String(body)) => {
                 compile_successor(library, &pattern, &body.to_string_lossy(), place.as_ref())
@@ -80,9 +89,10 @@ impl System {
         };
         if let Some(guard) = &guard {
             check_parameters(guard, &pattern, "the guard").map_err(named)?;
+            asks |= may_ask(&session, guard);
         }
         let rule = Rule::new(pattern, weight, guard.is_some(), place);
-        self.rules.push(DeclaredRule { rule, guard, successor });
+        self.rules.push(DeclaredRule { rule, guard, successor, asks });
         Ok(())
     }
 
@@ -115,15 +125,36 @@ impl System {
                 .rule(&name)
                 .help("a module has one interpretation; join the two functions"));
         }
-        self.interpretations.push(DeclaredInterpretation {
-            symbol: item.symbol,
-            bound: item.bound,
-            rule,
-            name,
-            place: Machine::place(lua),
-        });
+        let machine = library.machine()?;
+        let line = begin_of(&rule)
+            .and_then(|(file, line)| Some(Place { line: machine.session.loses_modules(&file, line)?, file }));
+        let loses = line.is_some();
+        if loses {
+            machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
+        }
+        let (symbol, bound, place) = (item.symbol, item.bound, Machine::place(lua));
+        self.interpretations.push(DeclaredInterpretation { symbol, bound, rule, name, place, loses });
         Ok(())
     }
+}
+
+/// The warning for an interpretation that returns modules.
+pub(crate) fn returns_modules() -> Warning {
+    Warning::new(WarningKind::ReturnedModules, "an interpretation returns modules, and nobody takes them")
+        .help("return them from a rule, system:rule(pattern, function); an interpretation calls methods of this")
+}
+
+/// The file and the line on which a function of the script begins.
+fn begin_of(function: &Function) -> Option<(String, usize)> {
+    let info = function.info();
+    Some((info.source?.strip_prefix('@')?.to_owned(), info.line_defined?))
+}
+
+/// Whether a function may look at its first parameter, `this`.
+fn may_ask(session: &Session, function: &Function) -> bool {
+    let info = function.info();
+    let takes_any = info.num_params > 0 || info.is_vararg;
+    takes_any && !begin_of(function).is_some_and(|(file, line)| session.is_blind(&file, line))
 }
 
 fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
@@ -170,13 +201,14 @@ fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Resul
     Ok(())
 }
 
-/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in scope.
+/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in scope; tells
+/// whether it may look at `this`.
 fn compile_successor(
     library: &Library,
     pattern: &Pattern,
     body: &str,
-    place: Option<&crate::error::Place>,
-) -> Result<Function> {
+    place: Option<&Place>,
+) -> Result<(Function, bool)> {
     let machine = library.machine()?;
     let (marked, body) = unmarked(body);
     let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
@@ -212,7 +244,9 @@ fn compile_successor(
     }
     let text = analysis.text.replacen("local __system = nil; __system:rule(\"\", ", "return (", 1);
     let chunk = machine.load(file, &text)?;
-    chunk.call(()).map_err(|error| machine.translate(error))
+    let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
+    let begin = successor.info().line_defined;
+    Ok((successor, !begin.is_some_and(|line| analysis.blind.contains(&line))))
 }
 
 /// Whether `name` stands in `text` as a whole word.

@@ -1,5 +1,6 @@
 //! Systems and sources as scripts hold them.
 
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use std::sync::Arc;
 
@@ -42,6 +43,10 @@ impl SystemHandle {
             interpretations: Vec::new(),
             ignored: Vec::new(),
             considered: None,
+            derivations: RefCell::default(),
+            late: RefCell::default(),
+            axiom_is_new: Cell::new(false),
+            given: Cell::new(false),
         };
         for pair in options.into_iter().flat_map(Table::pairs::<LuaValue, LuaValue>) {
             let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
@@ -77,21 +82,46 @@ impl SystemHandle {
             }
         }
         let index = system.index;
-        library.systems.borrow_mut().push(system);
+        let Ok(mut systems) = library.systems.try_borrow_mut() else { return Err(in_axiom("lsystem")) };
+        systems.push(system);
         Ok(Self { library: Rc::clone(library), index })
     }
 
-    /// Runs a declaration; a mistake is kept, so that all of them can be told at once. Fails while rules run.
-    fn declare(&self, lua: &Lua, declare: impl FnOnce(&mut System) -> Result<()>) -> mlua::Result<()> {
+    /// Runs a declaration of `what`; a mistake is kept, so that all of them can be told at once. Fails while rules run.
+    fn declare(
+        &self,
+        lua: &Lua,
+        what: &'static str,
+        declare: impl FnOnce(&mut System) -> Result<()>,
+    ) -> mlua::Result<()> {
         let place = Machine::place(lua);
         let machine = self.library.machine().map_err(mlua::Error::external)?;
         machine.refuse_in_rules("a declaration").map_err(mlua::Error::external)?;
-        let result = declare(&mut self.library.systems.borrow_mut()[self.index]);
+        let Ok(mut systems) = self.library.systems.try_borrow_mut() else {
+            return Err(mlua::Error::external(in_axiom("a declaration")));
+        };
+        let system = &mut systems[self.index];
+        if !system.derivations.get_mut().is_empty() {
+            system.late.get_mut().push((what, place.clone()));
+        }
+        let result = declare(system);
         if let Err(error) = result {
-            self.library.problems.borrow_mut().push(error.at(place));
+            let error = error.at(place);
+            let mut problems = self.library.problems.borrow_mut();
+            let same = |known: &Error| known.place() == error.place() && known.message() == error.message();
+            // What a loop declares again and again is wrong once.
+            if !problems.last().is_some_and(same) {
+                problems.push(error);
+            }
         }
         Ok(())
     }
+}
+
+/// The error for what an axiom's function may not do while it makes the chains.
+fn in_axiom(what: &str) -> Error {
+    Error::new(format!("{what} belongs outside of the function that makes each feature's chain"))
+        .help("put it before derive, and let the function use it")
 }
 
 /// The object of a system: one that was made, or a constructor to be called without fields.
@@ -117,8 +147,9 @@ impl UserData for SystemHandle {
         methods.add_function("axiom", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
             let place = Machine::place(lua);
-            this.declare(lua, |system| {
+            this.declare(lua, "axiom", |system| {
                 system.axiom_place = place;
+                system.axiom_is_new.set(true);
                 system.set_axiom(arguments)
             })?;
             Ok(this.again())
@@ -126,20 +157,22 @@ impl UserData for SystemHandle {
         methods.add_function("rule", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
             let arguments: Vec<LuaValue> = arguments.into_iter().collect();
             let library = Rc::clone(&this.library);
-            this.declare(lua, |system| system.add_rule(&library, lua, arguments))?;
+            this.declare(lua, "rule", |system| system.add_rule(&library, lua, arguments))?;
             Ok(this.again())
         });
         methods.add_function(
             "interpret",
             |lua, (this, pattern, rule): (UserDataRef<Self>, LuaValue, LuaValue)| {
                 let library = Rc::clone(&this.library);
-                this.declare(lua, |system| system.add_interpretation(&library, lua, &pattern, rule))?;
+                this.declare(lua, "interpretation", |system| {
+                    system.add_interpretation(&library, lua, &pattern, rule)
+                })?;
                 Ok(this.again())
             },
         );
         methods.add_function("ignore", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
-            this.declare(lua, |system| {
+            this.declare(lua, "ignore", |system| {
                 let symbols = named_symbols(&library, &names)?;
                 system.ignored.extend(symbols);
                 Ok(())
@@ -148,7 +181,7 @@ impl UserData for SystemHandle {
         });
         methods.add_function("consider", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
             let library = Rc::clone(&this.library);
-            this.declare(lua, |system| {
+            this.declare(lua, "consider", |system| {
                 let symbols = named_symbols(&library, &names)?;
                 system.considered.get_or_insert_default().extend(symbols);
                 Ok(())
@@ -196,8 +229,9 @@ impl UserData for SystemHandle {
 }
 
 impl SystemHandle {
-    /// Its place among the systems of the script.
-    pub(crate) fn index(&self) -> usize {
+    /// Its place among the systems of the script, for an object that uses its rules.
+    pub(crate) fn give(&self) -> usize {
+        self.library.systems.borrow()[self.index].given.set(true);
         self.index
     }
 

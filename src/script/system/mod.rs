@@ -5,13 +5,18 @@ mod declare;
 mod handle;
 mod lazy;
 mod source;
+mod unseen;
+
+pub(crate) use declare::returns_modules;
 
 pub(crate) use handle::SystemHandle;
 pub(crate) use lazy::{
     Eager, UNREAD, feature_of, install as install_lazy, is_unread_geometry, peeks, shape_of,
 };
 pub(crate) use source::{GEOMETRY, SourceHandle};
+pub(crate) use unseen::tell_unseen;
 
+use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use mlua::{Function, Table, Value as LuaValue};
@@ -43,6 +48,23 @@ pub(crate) struct System {
     pub(super) interpretations: Vec<DeclaredInterpretation>,
     pub(super) ignored: Vec<Symbol>,
     pub(super) considered: Option<Vec<Symbol>>,
+    /// Each time that it was derived.
+    pub(super) derivations: RefCell<Vec<Derivation>>,
+    /// What was declared since it was derived last, and where.
+    pub(super) late: RefCell<Vec<(&'static str, Option<Place>)>>,
+    /// Whether its axiom was set since it was derived last.
+    pub(super) axiom_is_new: Cell<bool>,
+    /// Whether the script gave it to an object.
+    pub(super) given: Cell<bool>,
+}
+
+/// A time that a system was derived.
+pub(super) struct Derivation {
+    pub(super) place: Option<Place>,
+    /// Its number among those of the script.
+    pub(super) number: usize,
+    /// Whether it began from an axiom of its own.
+    pub(super) axiom_is_new: bool,
 }
 
 pub(super) enum DeclaredAxiom {
@@ -54,6 +76,8 @@ pub(super) struct DeclaredRule {
     pub(super) rule: Rule,
     pub(super) guard: Option<Function>,
     pub(super) successor: Function,
+    /// Whether one of them may look at `this`.
+    pub(super) asks: bool,
 }
 
 pub(super) struct DeclaredInterpretation {
@@ -62,6 +86,8 @@ pub(super) struct DeclaredInterpretation {
     pub(super) rule: Function,
     pub(super) name: String,
     pub(super) place: Option<Place>,
+    /// Whether it has been told already that it returns modules.
+    pub(super) loses: bool,
 }
 
 /// A system ready to derive in one machine: the functions that the grammar's rules run.
@@ -81,14 +107,34 @@ pub(crate) struct Interpretations {
     pub by_symbol: Vec<u16>,
     /// By symbol: the method that the standard library gives it, or `u16::MAX`.
     pub methods: Vec<u16>,
-    /// By interpretation: how many parameters it takes, its name and its place.
-    pub list: Vec<(usize, String, Option<Place>)>,
+    /// The interpretations by their numbers.
+    pub list: Vec<Interpretation>,
+}
+
+/// An interpretation rule, as it is the same in every machine.
+#[derive(Debug, Clone)]
+pub(crate) struct Interpretation {
+    /// How many parameters it takes.
+    pub bound: usize,
+    /// Its pattern.
+    pub name: String,
+    /// Where it was declared.
+    pub place: Option<Place>,
+    /// Whether it has been told already that it returns modules.
+    pub loses: bool,
 }
 
 impl System {
     /// Whether every interpretation pass begins with empty objects, so that earlier passes leave no trace.
     pub(crate) fn draws_afresh(&self) -> bool {
         self.object.as_ref().is_none_or(|object| object.begins_empty())
+    }
+
+    /// Whether only the last pass can be seen: each begins with an empty object, and no rule asks what it drew.
+    pub(crate) fn shows_last_only(&self) -> bool {
+        let empties = |object: &Arc<dyn Object>| object.begins_empty() && !object.grows();
+        self.last_only
+            || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
     }
 
     /// The rules as they can be shared between machines.
@@ -118,7 +164,13 @@ impl System {
             for (index, known) in (0u16..).zip(&self.interpretations) {
                 by_symbol[usize::from(known.symbol)] = index;
                 methods[usize::from(known.symbol)] = u16::MAX;
-                list.push((known.bound, known.name.clone(), known.place.clone()));
+                let DeclaredInterpretation { bound, name, place, loses, .. } = known;
+                list.push(Interpretation {
+                    bound: *bound,
+                    name: name.clone(),
+                    place: place.clone(),
+                    loses: *loses,
+                });
             }
         }
         Interpretations { by_symbol, methods, list }

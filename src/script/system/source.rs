@@ -46,7 +46,9 @@ impl SourceHandle {
     }
 
     fn load(machine: &Machine, text: &str, wanted: Wanted) -> Result<Self> {
-        Ok(Self::Layer(machine.session.data.load(&machine.session, text, wanted)?))
+        let layer = machine.session.data.load(&machine.session, text, wanted)?;
+        layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
+        Ok(Self::Layer(layer))
     }
 
     /// The source as constructors take it.

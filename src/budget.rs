@@ -1,0 +1,163 @@
+//! What reading foreign bytes may take: time until someone stops it, and memory that is asked for before it is taken.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use crate::error::{Error, Result};
+
+/// How many small pieces of work lie between two looks at the clock.
+const PIECES: usize = 1024;
+
+/// Tells whether to go on.
+type Check = dyn Fn() -> Result<()> + Send + Sync;
+
+/// What may be used to read files, by all that are read for one run.
+///
+/// Readers ask [`check`](Self::check) now and then, and [`take`](Self::take) memory before they allocate what the
+/// content of a file decides. What is counted is an estimate, to within a factor of two.
+pub struct Budget {
+    check: Option<Box<Check>>,
+    /// The most memory (bytes), and what is taken of it.
+    most: usize,
+    taken: AtomicUsize,
+    /// Whether more was asked for than there is.
+    spent: AtomicBool,
+    pieces: AtomicUsize,
+}
+
+impl Default for Budget {
+    /// As much as there is.
+    fn default() -> Self {
+        Self {
+            check: None,
+            most: usize::MAX,
+            taken: AtomicUsize::new(0),
+            spent: AtomicBool::new(false),
+            pieces: AtomicUsize::new(0),
+        }
+    }
+}
+
+impl fmt::Debug for Budget {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Budget({} of {} bytes)", self.taken.load(Ordering::Relaxed), self.most)
+    }
+}
+
+impl Budget {
+    /// At most `memory` (bytes), for as long as `check` does not fail.
+    pub fn new(memory: usize, check: impl Fn() -> Result<()> + Send + Sync + 'static) -> Arc<Self> {
+        Arc::new(Self { check: Some(Box::new(check)), most: memory, ..Self::default() })
+    }
+
+    /// At most `memory` (bytes), for `time` from now on.
+    pub fn within(time: Duration, memory: usize) -> Arc<Self> {
+        let begin = Instant::now();
+        Self::new(memory, move || {
+            if begin.elapsed() < time {
+                return Ok(());
+            }
+            Err(Error::new(format!("reading took longer than {} s", time.as_secs_f64()))
+                .help("read a part, or raise the limit: --time-limit SECONDS"))
+        })
+    }
+
+    /// The most memory (bytes).
+    pub fn memory(&self) -> usize {
+        self.most
+    }
+
+    /// Fails if the work is to end: as its time is over, or memory was asked for that there is not.
+    pub fn check(&self) -> Result<()> {
+        if self.spent.load(Ordering::Relaxed) {
+            return Err(self.too_much());
+        }
+        self.check.as_ref().map_or(Ok(()), |check| check())
+    }
+
+    /// As [`check`](Self::check), at the cost of a counter, for small pieces of work.
+    #[inline]
+    pub fn tick(&self) -> Result<()> {
+        if self.pieces.fetch_add(1, Ordering::Relaxed).is_multiple_of(PIECES) { self.check() } else { Ok(()) }
+    }
+
+    /// Takes memory (bytes) that will be kept. Fails if there is not as much left.
+    pub fn take(&self, bytes: usize) -> Result<()> {
+        let taken = self.taken.fetch_add(bytes, Ordering::Relaxed);
+        if taken.checked_add(bytes).is_some_and(|taken| taken <= self.most) {
+            return Ok(());
+        }
+        self.give(bytes);
+        self.spent.store(true, Ordering::Relaxed);
+        Err(self.too_much())
+    }
+
+    fn too_much(&self) -> Error {
+        Error::new(format!("reading takes more than {} MB of memory", self.most / 1_000_000))
+            .help("read a part, or raise the limit: --memory-limit MEGABYTES")
+    }
+
+    /// Gives memory (bytes) back that was taken.
+    pub fn give(&self, bytes: usize) {
+        self.taken.fetch_sub(bytes, Ordering::Relaxed);
+    }
+
+    /// Takes memory (bytes) until the result is dropped.
+    pub fn hold(&self, bytes: usize) -> Result<Held<'_>> {
+        self.take(bytes)?;
+        Ok(Held { budget: self, bytes })
+    }
+
+    /// What is taken so far (bytes).
+    pub fn taken(&self) -> usize {
+        self.taken.load(Ordering::Relaxed)
+    }
+
+    /// Gives back all but `bytes` of what was taken since [`taken`](Self::taken) told `before`, by one reader alone.
+    pub fn settle(&self, before: usize, bytes: usize) {
+        self.taken.store(before.saturating_add(bytes), Ordering::Relaxed);
+        self.spent.store(false, Ordering::Relaxed);
+    }
+}
+
+/// Memory that is given back when this is dropped.
+#[derive(Debug)]
+pub struct Held<'a> {
+    budget: &'a Budget,
+    bytes: usize,
+}
+
+impl Drop for Held<'_> {
+    fn drop(&mut self) {
+        self.budget.give(self.bytes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn memory_is_refused_before_it_is_taken_and_may_be_given_back() {
+        let budget = Budget::within(Duration::from_secs(60), 1_000_000);
+        budget.take(600_000).unwrap();
+        assert!(budget.take(usize::MAX).is_err() && budget.take(500_000).is_err());
+        drop(budget.hold(400_000).unwrap());
+        assert_eq!(budget.taken(), 600_000);
+        insta::assert_snapshot!(budget.take(500_000).unwrap_err(), @r"
+        reading takes more than 1 MB of memory
+          help: read a part, or raise the limit: --memory-limit MEGABYTES
+        ");
+    }
+
+    #[test]
+    fn time_that_is_over_is_told() {
+        let budget = Budget::within(Duration::ZERO, 1);
+        insta::assert_snapshot!(budget.tick().unwrap_err(), @r"
+        reading took longer than 0 s
+          help: read a part, or raise the limit: --time-limit SECONDS
+        ");
+    }
+}

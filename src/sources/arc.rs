@@ -1,0 +1,100 @@
+//! Circular arcs as lines.
+//!
+//! Source: ISO/IEC 13249-3 (SQL/MM), circular strings: each arc is told by its ends and a point between them.
+
+use std::f64::consts::TAU;
+
+use glam::DVec2;
+
+/// How far (m) a line may be from the arc that it stands for.
+pub(super) const NEAR: f64 = 0.01;
+
+/// The most pieces of half an arc: enough for a radius of 8,000 km.
+const MOST: f64 = 65_536.0;
+
+/// Adds the points of the arc from `from` by `by` to `to`, without the first, so that lines between them are at most
+/// `near` from it; all three are among them. Heights change evenly from each to the next.
+///
+/// Where both ends are the same place, it is a circle, and `by` lies opposite. What lies on one line stays one.
+pub(super) fn add(points: &mut Vec<[f64; 3]>, [from, by, to]: [[f64; 3]; 3], near: f64) {
+    // All as seen from the first point.
+    let start = DVec2::new(from[0], from[1]);
+    let [a, b] = [by, to].map(|point| DVec2::new(point[0], point[1]) - start);
+    let is_circle = b == DVec2::ZERO;
+    let twice = 2.0 * a.perp_dot(b);
+    let centre = match is_circle {
+        true => a / 2.0,
+        false => (a * b.length_squared() - b * a.length_squared()).perp() / twice,
+    };
+    let radius = centre.length();
+    if !radius.is_finite() || radius <= near {
+        points.extend([by, to]);
+        return;
+    }
+    // To the left if the point between lies to the right of the way from end to end.
+    let left = is_circle || twice > 0.0;
+    let piece = 2.0 * (1.0 - near / radius).acos();
+    for (begin, end, [one, two]) in [(DVec2::ZERO, a, [from, by]), (a, b, [by, to])] {
+        let [first, last] = [begin, end].map(|place| (place - centre).to_angle());
+        let turn = if left { (last - first).rem_euclid(TAU) } else { -(first - last).rem_euclid(TAU) };
+        let count = (turn.abs() / piece).ceil().clamp(1.0, MOST);
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+        for step in 1..count as u32 {
+            let part = f64::from(step) / count;
+            let at = start + centre + DVec2::from_angle(first + turn * part) * radius;
+            points.push([at.x, at.y, one[2] + (two[2] - one[2]) * part]);
+        }
+        points.push(two);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn arc(places: [[f64; 3]; 3]) -> Vec<[f64; 3]> {
+        let mut points = vec![places[0]];
+        add(&mut points, places, NEAR);
+        points
+    }
+
+    #[test]
+    fn lines_are_within_a_centimetre_of_the_arc_and_pass_through_what_was_given() {
+        let mut cases = 0;
+        for radius in [0.02, 0.5, 3.0, 40.0, 1e3, 1e6] {
+            for (begin, half) in [(0.0, 0.3), (1.0, 1.5), (-2.0, 3.0), (3.0, -0.2), (0.5, -3.1), (2.0, 1e-3)]
+            {
+                let (cx, cy) = (6.6e5, -2.5e6);
+                let at = |angle: f64, z: f64| [cx + radius * angle.cos(), cy + radius * angle.sin(), z];
+                let given = [at(begin, 0.0), at(begin + half, 4.0), at(begin + 2.0 * half, 6.0)];
+                let points = arc(given);
+                assert!(given.iter().all(|point| points.contains(point)));
+                let mut length = 0.0;
+                for pair in points.windows(2) {
+                    let middle = [(pair[0][0] + pair[1][0]) / 2.0, (pair[0][1] + pair[1][1]) / 2.0];
+                    let off = (middle[0] - cx).hypot(middle[1] - cy) - radius;
+                    assert!(off.abs() < NEAR * 1.01, "{radius} {begin} {half}: {off}");
+                    length += (pair[1][0] - pair[0][0]).hypot(pair[1][1] - pair[0][1]);
+                    assert!(pair[1][2] >= pair[0][2]);
+                }
+                let whole = radius * 2.0 * half.abs();
+                assert!((length - whole).abs() < 0.05 * whole + 0.02, "{radius} {half}: {length} {whole}");
+                cases += 1;
+            }
+        }
+        assert_eq!(cases, 36);
+    }
+
+    #[test]
+    fn a_circle_and_a_straight_line_are_what_they_are() {
+        let circle = arc([[0.0; 3], [2.0, 0.0, 0.0], [0.0; 3]]);
+        let area: f64 =
+            circle.windows(2).map(|it| it[0][0] * it[1][1] - it[0][1] * it[1][0]).sum::<f64>() / 2.0;
+        assert!((area - std::f64::consts::PI).abs() < 0.05, "{area}");
+        let line = [[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 2.0]];
+        assert_eq!(arc(line), line);
+        for odd in [[f64::NAN; 3], [f64::INFINITY; 3], [1e300; 3], [0.0; 3]] {
+            assert!(arc([[0.0; 3], odd, [1.0, 0.0, 0.0]]).len() < 10);
+        }
+    }
+}

@@ -1,0 +1,106 @@
+//! One text of GeoJSON: its members, with the features of a collection handed on one by one.
+
+use std::fmt;
+
+use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
+use serde_json::Value;
+use serde_json::value::RawValue;
+
+use super::Reader;
+
+/// What a text says besides the features of its collection.
+#[derive(Default)]
+pub(super) struct Head<'t> {
+    /// Its type, whatever stands there.
+    pub kind: Option<Value>,
+    /// Whether it has a list of features, which the reader has taken.
+    pub features: bool,
+    pub crs: Option<Value>,
+    pub name: Option<Value>,
+    // The text may be a single feature or a geometry.
+    pub id: Option<&'t RawValue>,
+    pub properties: Option<&'t RawValue>,
+    pub geometry: Option<&'t RawValue>,
+    pub coordinates: Option<&'t RawValue>,
+    pub geometries: Option<&'t RawValue>,
+}
+
+/// Reads the text that `text` begins with; gives what it says and what follows it.
+pub(super) fn document<'t>(
+    reader: &mut Reader<'_>,
+    text: &'t str,
+) -> Result<(Head<'t>, &'t str), serde_json::Error> {
+    let mut parser = serde_json::Deserializer::from_str(text);
+    let head = Members(reader).deserialize(&mut parser)?;
+    let end = parser.into_iter::<IgnoredAny>().byte_offset();
+    Ok((head, text.get(end..).unwrap_or_default()))
+}
+
+struct Members<'r, 'a>(&'r mut Reader<'a>);
+
+impl<'t> DeserializeSeed<'t> for Members<'_, '_> {
+    type Value = Head<'t>;
+
+    fn deserialize<D: serde::Deserializer<'t>>(self, deserializer: D) -> Result<Head<'t>, D::Error> {
+        deserializer.deserialize_map(self)
+    }
+}
+
+impl<'t> Visitor<'t> for Members<'_, '_> {
+    type Value = Head<'t>;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'t>>(self, mut map: A) -> Result<Head<'t>, A::Error> {
+        let mut head = Head::default();
+        while let Some(key) = map.next_key::<std::borrow::Cow<'t, str>>()? {
+            match &*key {
+                "type" => head.kind = Some(map.next_value()?),
+                "features" => {
+                    map.next_value_seed(Features(&mut *self.0))?;
+                    head.features = true;
+                }
+                "crs" => head.crs = Some(map.next_value()?),
+                "name" => head.name = map.next_value()?,
+                "id" => head.id = map.next_value()?,
+                "properties" => head.properties = map.next_value()?,
+                "geometry" => head.geometry = map.next_value()?,
+                "coordinates" => head.coordinates = map.next_value()?,
+                "geometries" => head.geometries = map.next_value()?,
+                _ => drop(map.next_value::<IgnoredAny>()?),
+            }
+        }
+        Ok(head)
+    }
+}
+
+/// The list of a collection's features.
+struct Features<'r, 'a>(&'r mut Reader<'a>);
+
+impl<'t> DeserializeSeed<'t> for Features<'_, '_> {
+    type Value = ();
+
+    fn deserialize<D: serde::Deserializer<'t>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_seq(self)
+    }
+}
+
+impl<'t> Visitor<'t> for Features<'_, '_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a list of features")
+    }
+
+    fn visit_seq<A: SeqAccess<'t>>(self, mut list: A) -> Result<(), A::Error> {
+        while let Some(feature) = list.next_element::<&'t RawValue>()? {
+            if let Err(error) = self.0.raw_feature(feature.get()) {
+                self.0.failure = Some(error);
+                return Err(A::Error::custom("stopped"));
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,82 @@
+//! Foreign text on its way to a person: what a terminal would obey is written out, and what is long is cut.
+
+use std::borrow::Cow;
+use std::fmt::Write as _;
+
+/// The most characters of a name or an id that are shown.
+const LONGEST: usize = 80;
+
+/// `text` on one line, with everything written out that a terminal would obey or that would change what stands beside it.
+pub fn escaped(text: &str) -> Cow<'_, str> {
+    escape(text, |_| false)
+}
+
+/// The same, but lines and tabs stay.
+pub fn escaped_lines(text: &str) -> Cow<'_, str> {
+    escape(text, |letter| matches!(letter, '\n' | '\t'))
+}
+
+/// A name or an id for a message: escaped, and cut where it is long.
+pub fn shown(text: &str) -> Cow<'_, str> {
+    match text.char_indices().nth(LONGEST) {
+        Some((end, _)) => Cow::Owned(format!("{}...", escaped(&text[..end]))),
+        None => escaped(text),
+    }
+}
+
+/// Some of many names, and how many more there are.
+pub fn listed<'a>(names: impl ExactSizeIterator<Item = &'a str>) -> String {
+    const MOST: usize = 20;
+    let count = names.len();
+    let some: Vec<_> = names.take(MOST).map(shown).collect();
+    let more = if count > MOST { format!(" and {} more", count - MOST) } else { String::new() };
+    format!("{}{more}", some.join(", "))
+}
+
+fn escape(text: &str, stays: impl Fn(char) -> bool) -> Cow<'_, str> {
+    let obeyed = |letter: char| is_obeyed(letter) && !stays(letter);
+    if !text.contains(obeyed) {
+        return Cow::Borrowed(text);
+    }
+    let mut escaped = String::with_capacity(text.len() + 16);
+    for letter in text.chars() {
+        match letter {
+            '\n' if obeyed(letter) => escaped.push_str("\\n"),
+            '\r' => escaped.push_str("\\r"),
+            '\t' if obeyed(letter) => escaped.push_str("\\t"),
+            // Writing into a string cannot fail.
+            letter if obeyed(letter) => drop(write!(escaped, "\\u{{{:x}}}", u32::from(letter))),
+            letter => escaped.push(letter),
+        }
+    }
+    Cow::Owned(escaped)
+}
+
+/// Whether a terminal does something else with a character than show it: control characters, and those that break
+/// lines or turn the direction of text.
+fn is_obeyed(letter: char) -> bool {
+    letter.is_control()
+        || matches!(letter, '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_terminal_would_obey_is_written_out() {
+        assert_eq!(escaped("a\u{1b}[2J\u{9b}1m\r\n\u{202e}é"), "a\\u{1b}[2J\\u{9b}1m\\r\\n\\u{202e}é");
+        assert_eq!(escaped_lines("a\n\tb\u{7}"), "a\n\tb\\u{7}");
+        assert!(matches!(escaped("plain"), Cow::Borrowed(_)));
+        for letter in (0..=0x10_ffff).filter_map(char::from_u32) {
+            assert!(!escaped(&letter.to_string()).contains(char::is_control), "{letter:?}");
+        }
+    }
+
+    #[test]
+    fn long_names_and_many_are_cut() {
+        assert_eq!(shown(&"é".repeat(200)).chars().count(), LONGEST + 3);
+        let names: Vec<String> = (0..30).map(|number| number.to_string()).collect();
+        assert!(listed(names.iter().map(String::as_str)).ends_with("18, 19 and 10 more"));
+    }
+}

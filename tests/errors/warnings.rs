@@ -1,0 +1,519 @@
+//! What draws nothing, cannot happen or is left out says so; a strict run ends with it.
+
+use std::fmt::Write as _;
+
+use super::support::Folder;
+
+/// A module, and a system with a turtle, in two lines.
+const HEAD: &str = "local A, B = module(\"A\", \"x\"), module(\"B\")\nlocal s = lsystem({ object = turtle() }) s:axiom(A(1))\n";
+
+/// What runs of these scripts are warned of.
+fn warned(scripts: &[&str]) -> String {
+    let mut told = String::new();
+    for script in scripts {
+        let folder = Folder::new().with("s.lua", script);
+        let shown = script.strip_prefix(HEAD).unwrap_or(script);
+        writeln!(told, "{}\n{}", shown.trim_end(), folder.warned(&["run", "s.lua"])).unwrap();
+    }
+    told
+}
+
+/// What `check` says of them.
+fn checked(script: &str) -> String {
+    let folder = Folder::new().with("s.lua", script);
+    let text = folder.burgeon(&["check", "s.lua"]).done().stderr;
+    let document = folder.burgeon(&["check", "s.lua", "--json"]).done().json();
+    assert_eq!(document["warnings"].as_array().unwrap().len(), text.matches("warning: ").count());
+    text
+}
+
+fn with(rest: &str) -> String {
+    format!("{HEAD}{rest}")
+}
+
+/// Asserts that a run says nothing of these scripts, and a check neither.
+fn silent(scripts: &[&str]) {
+    for script in scripts {
+        let folder = Folder::new().with("s.lua", script);
+        for command in
+            [&["run", "s.lua", "--strict", "--json"][..], &["check", "s.lua", "--strict", "--json"]]
+        {
+            let said = folder.burgeon(command);
+            assert_eq!(said.status, 0, "{command:?} of\n{script}\n{}{}", said.stdout, said.stderr);
+        }
+    }
+}
+
+#[test]
+fn modules_that_an_interpretation_returns() {
+    insta::assert_snapshot!(warned(&[
+        &with("s:interpret(\"A(x)\", function(this, x)\n  this:forward(x)\n  return F(x), { B() }\nend)\ns:derive(0)"),
+        &with("local function draw(this, x)\n  this:forward(x)\n  return { { F(x) } }\nend\ns:interpret(\"A(x)\", draw)\ns:derive(0)"),
+        &with("local function part(x) return F(x) end\ns:interpret(\"A(x)\", function(this, x) return part(x) end)\ns:derive(0)"),
+    ]), @r#"
+    s:interpret("A(x)", function(this, x)
+      this:forward(x)
+      return F(x), { B() }
+    end)
+    s:derive(0)
+    warning: s.lua:5: rule A(x) (interpretation): an interpretation returns modules, and nobody takes them
+      | return F(x), { B() }
+      help: return them from a rule, system:rule(pattern, function); an interpretation calls methods of this
+
+    local function draw(this, x)
+      this:forward(x)
+      return { { F(x) } }
+    end
+    s:interpret("A(x)", draw)
+    s:derive(0)
+    warning: s.lua:7: rule A(x) (interpretation): an interpretation returns modules, and nobody takes them
+      | s:interpret("A(x)", draw)
+      module: A(1), step 0
+      help: return them from a rule, system:rule(pattern, function); an interpretation calls methods of this
+
+    local function part(x) return F(x) end
+    s:interpret("A(x)", function(this, x) return part(x) end)
+    s:derive(0)
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: another warning tells why
+    warning: s.lua:4: rule A(x) (interpretation): an interpretation returns modules, and nobody takes them
+      | s:interpret("A(x)", function(this, x) return part(x) end)
+      module: A(1), step 0
+      help: return them from a rule, system:rule(pattern, function); an interpretation calls methods of this
+    "#);
+    silent(&[
+        &with("s:interpret(\"A(x)\", function(this, x) return this:forward(x) end) s:derive(0)"),
+        &with(
+            "s:interpret(\"A(x)\", function(this, x) if x > 3 then return end this:forward(x) return { x } end) s:derive(0)",
+        ),
+    ]);
+}
+
+#[test]
+fn interpretations_without_an_object() {
+    insta::assert_snapshot!(warned(&[
+        "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:interpret(\"A\", function(this) this:forward(1) end)\ns:derive(0)",
+    ]), @r#"
+    local A = module("A")
+    local s = lsystem()
+    s:axiom(A())
+    s:interpret("A", function(this) this:forward(1) end)
+    s:derive(0)
+    warning: s.lua:4: rule A (interpretation): the system has no object, so its interpretations are never run
+      | s:interpret("A", function(this) this:forward(1) end)
+      help: give it one, such as lsystem({ object = turtle() })
+    "#);
+    silent(&[
+        "local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function() return A(), A() end)\ns:derive(1)",
+    ]);
+}
+
+#[test]
+fn declarations_after_derive() {
+    insta::assert_snapshot!(warned(&[
+        &with("s:rule(\"A(x)\", function(this, x) return F(x) end)\ns:derive(1)\n\
+            s:rule(\"B\", function() return F(1) end)\ns:interpret(\"B\", function(this) this:forward(1) end)\n\
+            s:ignore(\"B\")\ns:consider(\"A\")\ns:axiom(B())"),
+    ]), @r#"
+    s:rule("A(x)", function(this, x) return F(x) end)
+    s:derive(1)
+    s:rule("B", function() return F(1) end)
+    s:interpret("B", function(this) this:forward(1) end)
+    s:ignore("B")
+    s:consider("A")
+    s:axiom(B())
+    warning: s.lua:5: this rule comes after derive, so it has no effect
+      | s:rule("B", function() return F(1) end)
+      help: put it before system:derive()
+    warning: s.lua:6: this interpretation comes after derive, so it has no effect
+      | s:interpret("B", function(this) this:forward(1) end)
+      help: put it before system:derive()
+    warning: s.lua:7: this ignore comes after derive, so it has no effect
+      | s:ignore("B")
+      help: put it before system:derive()
+    warning: s.lua:8: this consider comes after derive, so it has no effect
+      | s:consider("A")
+      help: put it before system:derive()
+    warning: s.lua:9: this axiom comes after derive, so it has no effect
+      | s:axiom(B())
+      help: put it before system:derive()
+    "#);
+    // A system may be derived in turns, with more each time.
+    silent(&[&with(
+        "s:rule(\"A(x)\", function(this, x) return F(x) end)\ns:derive(1)\n\
+        s:rule(\"B\", function() return F(1) end)\ns:axiom(B())\ns:derive(1)",
+    )]);
+}
+
+#[test]
+fn modules_that_nothing_draws() {
+    let undrawn = with(
+        "s:interpret(\"A(x)\", function(this, x) this:forward(x) end)\ns:rule(\"A(x)\", function(this, x) return A(x), B() end)\ns:derive(2)",
+    );
+    let other = "local A = module(\"A\")\nlocal s = lsystem({ object = extruder() })\ns:axiom(A(), F(1))\n\
+        s:interpret(\"A\", function(this) this:extrude(1) end)\ns:derive(0)";
+    insta::assert_snapshot!(warned(&[&undrawn, other]), @r#"
+    s:interpret("A(x)", function(this, x) this:forward(x) end)
+    s:rule("A(x)", function(this, x) return A(x), B() end)
+    s:derive(2)
+    warning: s.lua:1: B has neither a rule nor an interpretation, so it is drawn nowhere
+      | local A, B = module("A", "x"), module("B")
+      help: system:interpret("B", function(this) ... end); if it is only a mark, say so: system:ignore("B")
+
+    local A = module("A")
+    local s = lsystem({ object = extruder() })
+    s:axiom(A(), F(1))
+    s:interpret("A", function(this) this:extrude(1) end)
+    s:derive(0)
+    warning: s.lua:2: the standard library draws F with a turtle, and this is none
+      | local s = lsystem({ object = extruder() })
+      help: system:interpret("F(length)", function(this, length) ... end)
+    "#);
+    for script in [&*undrawn, other] {
+        let folder = Folder::new().with("s.lua", script);
+        assert!(checked(script).starts_with(&folder.warned(&["run", "s.lua"])));
+    }
+    silent(&[
+        // What a context names, what is ignored or considered, what is rewritten, and what the script reads.
+        &undrawn.replace("s:derive", "s:ignore(\"B\") s:derive"),
+        &undrawn.replace("s:derive", "s:consider(\"B\") s:derive"),
+        &undrawn.replace("s:rule", "s:rule(\"B < A(x)\", { when = function(this, x) return x > 9 end }, function() return nil end) s:rule"),
+        &undrawn.replace("s:rule", "s:rule(\"A(x) > [B]\", { when = function(this, x) return x > 9 end }, function() return nil end) s:rule"),
+        &undrawn.replace("s:derive", "s:rule(\"B\", { weight = 0 }, function() return nil end) s:derive"),
+        // A system that only the standard library draws, or that draws nothing at all.
+        "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:rule(\"A\", function() return F(1), B() end)\ns:derive()",
+        "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function() return B() end)\ns:derive()",
+        // Modules of a library that this script does not use.
+        &with("local Leaf = module(\"Leaf\", \"size\")\ns:interpret(\"A(x)\", function(this, x) this:forward(x) end)\ns:derive(0)"),
+    ]);
+    let read = Folder::new()
+        .with("s.lua", undrawn.replace("s:derive(2)", "local made = s:derive(2) print(made.chains[1])"));
+    assert_eq!(read.burgeon(&["run", "s.lua", "--strict"]).status, 0);
+}
+
+#[test]
+fn a_module_of_the_library_that_is_declared_anew() {
+    let hidden = "local F = module(\"F\", \"length\", \"width\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(F(1, 2), Sphere(1))\n\
+        s:rule(\"F(l, w)\", function(this, l, w) return F(l, w), F(l, w) end)\ns:derive(2)";
+    insta::assert_snapshot!(warned(&[hidden]), @r#"
+    local F = module("F", "length", "width")
+    local s = lsystem({ object = turtle() })
+    s:axiom(F(1, 2), Sphere(1))
+    s:rule("F(l, w)", function(this, l, w) return F(l, w), F(l, w) end)
+    s:derive(2)
+    warning: s.lua:1: F(length, width) stands in the place of the standard library's F(length?), so the turtle draws nothing for it
+      | local F = module("F", "length", "width")
+      help: interpret it, system:interpret("F(length, width)", function(this, length, width) ... end), or give it another name
+    "#);
+    assert!(checked(hidden).contains("stands in the place of"));
+    silent(&[
+        &hidden.replace(
+            "s:derive",
+            "s:interpret(\"F(l, w)\", function(this, l, w) this:width(w):forward(l) end) s:derive",
+        ),
+        // Declared as it is, and used by a system that has none of its own.
+        "local F = module(\"F\", \"length?\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:derive(0)",
+        "local F = module(\"F\", \"h\")\nlocal s = lsystem({ object = extruder() })\ns:axiom(F(1))\ns:interpret(\"F(h)\", function(this, h) this:extrude(h) end)\ns:derive(0)\n\
+         local t = lsystem({ object = turtle() })\nt:axiom(Sphere(1))\nt:derive(0)",
+    ]);
+}
+
+#[test]
+fn calls_that_draw_nothing() {
+    let scale = "local A, B = module(\"A\", \"r\"), module(\"B\")\nlocal s = lsystem({ object = extruder() })\ns:axiom(A(0), B(), A(0))\n\
+        s:interpret(\"A(r)\", function(this, r)\n  this:scale(1):extrude(1)\n  this:scale(r):extrude(1)\nend)\n\
+        s:interpret(\"B\", function(this) this:scale(1):extrude(1) end)\ns:derive(0)";
+    insta::assert_snapshot!(warned(&[scale]), @r#"
+    local A, B = module("A", "r"), module("B")
+    local s = lsystem({ object = extruder() })
+    s:axiom(A(0), B(), A(0))
+    s:interpret("A(r)", function(this, r)
+      this:scale(1):extrude(1)
+      this:scale(r):extrude(1)
+    end)
+    s:interpret("B", function(this) this:scale(1):extrude(1) end)
+    s:derive(0)
+    warning: s.lua:6: rule A(r) (interpretation): extruder:extrude draws nothing where the scale is 0 (2 times)
+      | this:scale(r):extrude(1)
+      module: A(0), step 0
+      help: give a scale above 0, or go on without drawing: this:advance(length)
+    "#);
+    // Where some sizes are 0 and others are not, that is as it should be, and a cone ends in a point.
+    silent(&[
+        &scale.replace("A(0), B", "A(0.5), B"),
+        &scale.replace("scale(r):extrude(1)", "taper(r):extrude(1)"),
+        &scale.replace("scale(r):extrude(1)", "scale(r):advance(1)"),
+    ]);
+}
+
+#[test]
+fn rules_that_others_forestall() {
+    insta::assert_snapshot!(warned(&[
+        &with("s:rule(\"A(x)\", function(this, x) return F(x) end)\ns:rule(\"A(y)\", function(this, y) return F(1), F(y) end)\n\
+            s:rule(\"B < A(y)\", { when = function(this, b, y) return true end, weight = 2 }, function() return F(1) end)\ns:derive(1)")
+            .replace("this, b, y", "this, y"),
+        &with("s:rule(\"A(x)\", { weight = 3 }, function(this, x) return F(x) end)\ns:rule(\"A(x)\", function(this, x) return F(x), F(x) end)\ns:derive(1)"),
+        &with("s:rule(\"B < A(x) > [B] A(y)\", function(this, x) return F(x) end)\ns:rule(\"B < A(k) > [B] A(l)\", function(this, k) return F(k) end)\n\
+            s:rule(\"A(x)\", function() return F(1) end)\ns:derive(1)"),
+    ]), @r#"
+    s:rule("A(x)", function(this, x) return F(x) end)
+    s:rule("A(y)", function(this, y) return F(1), F(y) end)
+    s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
+    s:derive(1)
+    warning: s.lua:4: rule A(y): it is never used, for the rule A(x) in s.lua:3 always comes first
+      | s:rule("A(y)", function(this, y) return F(1), F(y) end)
+      help: give the earlier rule a guard, or both a weight, or put this one before it
+    warning: s.lua:5: rule B < A(y): it is never used, for the rule A(x) in s.lua:3 always comes first
+      | s:rule("B < A(y)", { when = function(this, y) return true end, weight = 2 }, function() return F(1) end)
+      help: give the earlier rule a guard, or both a weight, or put this one before it
+
+    s:rule("A(x)", { weight = 3 }, function(this, x) return F(x) end)
+    s:rule("A(x)", function(this, x) return F(x), F(x) end)
+    s:derive(1)
+    warning: s.lua:4: rule A(x): it is never used, for the rule A(x) in s.lua:3 always comes first
+      | s:rule("A(x)", function(this, x) return F(x), F(x) end)
+      help: give both rules a weight: { weight = 1 }
+
+    s:rule("B < A(x) > [B] A(y)", function(this, x) return F(x) end)
+    s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
+    s:rule("A(x)", function() return F(1) end)
+    s:derive(1)
+    warning: s.lua:4: rule B < A(k) > [B] A(l): it is never used, for the rule B < A(x) > [B] A(y) in s.lua:3 always comes first
+      | s:rule("B < A(k) > [B] A(l)", function(this, k) return F(k) end)
+      help: give the earlier rule a guard, or both a weight, or put this one before it
+    "#);
+    silent(&[
+        &with(
+            "s:rule(\"A(x)\", { when = function(this, x) return x > 3 end }, function(this, x) return F(x) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"B < A(x)\", function() return F(2) end)\ns:rule(\"A(x) > B\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x)\", { weight = 0 }, function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x)\", { weight = 2 }, function() return F(2) end)\ns:rule(\"A(x)\", { weight = 1 }, function() return F(1) end) s:derive(1)",
+        ),
+        &with(
+            "s:rule(\"A(x) > [B]\", function() return F(2) end)\ns:rule(\"A(x) > B\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
+        ),
+    ]);
+}
+
+#[test]
+fn contexts_that_cannot_occur() {
+    insta::assert_snapshot!(warned(&[
+        &with("s:ignore(\"B\")\ns:rule(\"B < A(x)\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end)\ns:derive(1)"),
+        &with("s:consider(\"A\")\ns:rule(\"A(x) > [A(y) B]\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end)\ns:derive(1)"),
+    ]), @r#"
+    s:ignore("B")
+    s:rule("B < A(x)", function() return F(2) end)
+    s:rule("A(x)", function() return F(1) end)
+    s:derive(1)
+    warning: s.lua:4: rule B < A(x): B is ignored, so this context never occurs
+      | s:rule("B < A(x)", function() return F(2) end)
+      help: take it out of system:ignore(...), or out of the context
+
+    s:consider("A")
+    s:rule("A(x) > [A(y) B]", function() return F(2) end)
+    s:rule("A(x)", function() return F(1) end)
+    s:derive(1)
+    warning: s.lua:4: rule A(x) > [A(y) B]: B is not among the modules to consider, so this context never occurs
+      | s:rule("A(x) > [A(y) B]", function() return F(2) end)
+      help: add it: system:consider("B")
+    "#);
+    // What is ignored may be rewritten itself.
+    silent(&[&with(
+        "s:ignore(\"A\")\ns:rule(\"B < A(x)\", function() return F(2) end)\ns:rule(\"A(x)\", function() return F(1) end) s:derive(1)",
+    )]);
+}
+
+#[test]
+fn a_system_that_is_derived_twice() {
+    let twice = "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:rule(\"F(length)\", function(this, l) return F(l), Turn(90), F(l) end)\n\
+        s:derive(1)\ns:derive(2)\nlocal last = s:derive(3)";
+    insta::assert_snapshot!(warned(&[twice]), @r#"
+    local s = lsystem({ object = turtle() })
+    s:axiom(F(1))
+    s:rule("F(length)", function(this, l) return F(l), Turn(90), F(l) end)
+    s:derive(1)
+    s:derive(2)
+    local last = s:derive(3)
+    warning: s.lua:5: the system is derived again after the time in s.lua:4, and both models stay
+      | s:derive(2)
+      help: derive it once; what another system places is not shown by itself
+    warning: s.lua:6: the system is derived again after the time in s.lua:4, and both models stay
+      | local last = s:derive(3)
+      help: derive it once; what another system places is not shown by itself
+    "#);
+    silent(&[
+        // One of the models is placed, and so not shown by itself; or each begins from an axiom of its own.
+        "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:rule(\"F(length)\", function(this, l) return F(l), F(l) end)\n\
+         local small = s:derive(1)\ns:axiom(F(1), Place(small))\ns:derive(0)",
+        "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nlocal small = s:derive(0)\ns:derive(0)\n\
+         local t = lsystem({ object = turtle() })\nt:axiom(F(1), Place(small))\nt:derive(0)",
+        "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:derive(0)\ns:axiom(Turn(90), F(1))\ns:derive(0)",
+        "local s = lsystem()\ns:axiom(F(1))\ns:derive(0)\ns:derive(0)",
+    ]);
+}
+
+#[test]
+fn systems_of_which_none_is_derived() {
+    insta::assert_snapshot!(warned(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))"]), @r#"
+    local s = lsystem({ object = turtle() })
+    s:axiom(F(1))
+    warning: s.lua:1: no system is derived, so nothing is made
+      | local s = lsystem({ object = turtle() })
+      help: end the script with system:derive()
+    "#);
+    // A file for others to require, and a script without systems.
+    silent(&["local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nreturn s", "print(1)"]);
+}
+
+#[test]
+fn a_parameter_that_is_declared_twice() {
+    insta::assert_snapshot!(warned(&[
+        "local a = param(\"n\", { default = 1 })\nlocal b = param(\"n\", { default = 2, min = 0 })",
+        "local a = param(\"n\", { default = 1 })\nlocal b = param(\"n\", { default = 1 })",
+    ]), @r#"
+    local a = param("n", { default = 1 })
+    local b = param("n", { default = 2, min = 0 })
+    warning: s.lua:2: the parameter n is declared already in s.lua:1, and people only see that one
+      | local b = param("n", { default = 2, min = 0 })
+      help: declare it once and use its value again, or give this one another name
+
+    local a = param("n", { default = 1 })
+    local b = param("n", { default = 1 })
+    warning: s.lua:2: the parameter n is declared already in s.lua:1, and people only see that one
+      | local b = param("n", { default = 1 })
+      help: declare it once and use its value again, or give this one another name
+    "#);
+    // A function that asks for it, and a file that shares it.
+    silent(&["local function n() return param(\"n\", { default = 1 }) end\nlocal a, b = n(), n()"]);
+    let folder = Folder::new()
+        .with("s.lua", "local a = param(\"n\", { default = 1 })\nlocal b = require(\"part\")")
+        .with("part.lua", "return param(\"n\", { default = 1 })");
+    assert_eq!(folder.burgeon(&["run", "s.lua", "--strict"]).done().status, 0);
+}
+
+#[test]
+fn a_model_without_triangles() {
+    let file = |script: &str| {
+        let folder = Folder::new().with("s.lua", script);
+        let told = folder.warned(&["run", "s.lua", "-o", "m.glb"]);
+        assert!(folder.files().contains_key("m.glb"), "a warning is no error");
+        told
+    };
+    insta::assert_snapshot!(warned(&[
+        &with("s:rule(\"A(x)\", function(this, x) return A(x), A(x) end)\ns:derive(2)"),
+        &with("s:derive()"),
+        &with("s:interpret(\"A(x)\", function(this, x) this:advance(x) end)\ns:derive(0)"),
+        "local A = module(\"A\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(source({}), function() return F(1) end)\ns:derive()",
+        "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\nlocal made = s:derive(0)\nlocal t = lsystem({ object = extruder() })\nt:axiom(Place(made))\nt:derive()",
+    ]), @r#"
+    s:rule("A(x)", function(this, x) return A(x), A(x) end)
+    s:derive(2)
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)
+
+    s:derive()
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules
+
+    s:interpret("A(x)", function(this, x) this:advance(x) end)
+    s:derive(0)
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() }) s:axiom(A(1))
+      help: its interpretations draw nothing: see that lengths and scales are above 0
+
+    local A = module("A")
+    local s = lsystem({ object = turtle() })
+    s:axiom(source({}), function() return F(1) end)
+    s:derive()
+    warning: s.lua:2: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = turtle() })
+      help: its source has no features
+
+    local s = lsystem({ object = turtle() })
+    s:axiom(F(1))
+    local made = s:derive(0)
+    local t = lsystem({ object = extruder() })
+    t:axiom(Place(made))
+    t:derive()
+    warning: s.lua:4: the model is empty, for this system draws nothing
+      | local t = lsystem({ object = extruder() })
+      help: a system that another one is to place is not shown by itself: see that it is placed
+    "#);
+    insta::assert_snapshot!(file("local A = module(\"A\")\nlocal s = lsystem()\ns:axiom(A())\ns:derive(0)"), @r#"
+    warning: s.lua:2: the model is empty, for no system has an object that draws
+      | local s = lsystem()
+      help: give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE
+    "#);
+    // Someone looks at an earlier step.
+    let folder =
+        Folder::new().with("s.lua", with("s:rule(\"A(x)\", function(this, x) return F(x) end) s:derive(1)"));
+    assert_eq!(folder.burgeon(&["run", "s.lua", "--steps", "0", "--strict", "-o", "m.glb"]).done().status, 0);
+}
+
+#[test]
+fn warnings_are_the_same_for_any_number_of_threads() {
+    let script = "local A = module(\"A\", \"r\")\nlocal s = lsystem({ object = extruder({ sides = 3 }) })\n\
+        s:axiom(source(table.create(40, {})), function() return A(1) end)\n\
+        s:rule(\"A(r)\", function(this, r) return A(0), A(0), A(0) end)\n\
+        s:interpret(\"A(r)\", function(this, r)\n  if r == 0 then this:scale(r):extrude(1) end\n  return F(1)\nend)\ns:derive(3)\n";
+    let folder = Folder::new().with("s.lua", script);
+    let of = |threads: &str| {
+        let arguments = ["run", "s.lua", "--json", "--threads", threads, "--batch", "7"];
+        folder.burgeon(&arguments).done().json()["warnings"].clone()
+    };
+    let one = of("1");
+    assert_eq!(one.as_array().map(Vec::len), Some(3), "{one}");
+    assert_eq!((&one[1]["count"], &one[2]["count"]), (&(40 * 27).into(), &1.into()), "{one}");
+    for threads in ["2", "3", "4"] {
+        assert_eq!(of(threads), one);
+    }
+}
+
+#[test]
+fn a_sheet_of_variations_tells_each_warning_once() {
+    let script = "local n = param(\"n\", { default = 1, min = 0, max = 3 })\nlocal s = lsystem({ object = turtle() })\n\
+        s:axiom(F(n + 1))\ns:derive(0)\ns:derive(0)\n";
+    let folder = Folder::new().with("s.lua", script);
+    let said = folder
+        .burgeon(&["variations", "s.lua", "--sweep", "n=0..3:1", "--size", "20x20", "-o", "v.png"])
+        .done();
+    assert_eq!(said.stderr.matches("warning: ").count(), 1, "{}", said.stderr);
+    let document = folder
+        .burgeon(&["variations", "s.lua", "--sweep", "n=0..3:1", "--size", "20x20", "-o", "v.png", "--json"])
+        .done()
+        .json();
+    for cell in document["cells"].as_array().unwrap() {
+        assert_eq!(cell["warnings"][0]["kind"], "derived-twice", "{document}");
+    }
+}
+
+#[test]
+fn an_axiom_declares_nothing_while_it_makes_chains() {
+    let script = |body: &str| {
+        format!(
+            "local A = module(\"A\")\nlocal s = lsystem({{ object = turtle() }})\ns:axiom(source({{ {{}} }}), function(f)\n  {body}\n  return A()\nend)\ns:derive(1)\n"
+        )
+    };
+    let mut told = String::new();
+    for body in ["s:rule(\"A\", function() return F(1) end)", "lsystem()"] {
+        let folder = Folder::new().with("s.lua", script(body));
+        told += &folder.refuses(&["run", "s.lua"]);
+    }
+    insta::assert_snapshot!(told, @r#"
+    error: s.lua:4: a declaration belongs outside of the function that makes each feature's chain
+      | s:rule("A", function() return F(1) end)
+      help: put it before derive, and let the function use it
+    error: s.lua:4: lsystem belongs outside of the function that makes each feature's chain
+      | lsystem()
+      help: put it before derive, and let the function use it
+    "#);
+}

@@ -1,0 +1,286 @@
+// What the page tells besides the model: how things stand, what is asked first, what is offered.
+//
+//   node --test tests/page/notes.test.mjs
+
+import assert from "node:assert/strict";
+import { rmSync, writeFileSync } from "node:fs";
+import { createServer } from "node:net";
+import { dirname, join } from "node:path";
+import { after, before, test } from "node:test";
+
+import { BLOCKS, Server, browse, drawn, folder, number, save, seen, show } from "./driver.mjs";
+
+let browser;
+before(async () => (browser = await browse()));
+after(() => browser.close());
+
+const open = (text, act, given) => show(browser, text, act, given);
+const visible = (page, name) => seen(page, name).waitFor({ state: "visible", timeout: 20_000 });
+const hidden = (page, name) => seen(page, name).waitFor({ state: "hidden", timeout: 20_000 });
+
+/** A script that runs until it is stopped, and tells its progress. */
+const ENDLESS = BLOCKS.replace("if n == 0 then return nil end", "if n > -1 then return Block(n) end");
+
+/** What reaches as far below zero as above it. */
+const PLANET = `local radius = param("radius", { default = 63710000, min = 1, max = 637100000, unit = "m" })
+local Body = module("Body")
+local planet = lsystem({ object = turtle({ width = 2402051 }) })
+planet:axiom(Body())
+planet:interpret("Body", function(this)
+  this:pitch(180):forward(1200000 + radius * 0):pitch(180):forward(2402051)
+end)
+planet:derive()
+`;
+
+/** A port that is likely to stay free for a moment. */
+async function freePort() {
+  const server = createServer();
+  await new Promise((done) => server.listen(0, "127.0.0.1", done));
+  const { port } = server.address();
+  await new Promise((done) => server.close(done));
+  return String(port);
+}
+
+/** The rectangle of what can be seen, or null. */
+const place = (page, selector) =>
+  page.evaluate((selector) => {
+    const element = document.querySelector(selector);
+    if (!element?.checkVisibility()) return null;
+    const { left, right, top, bottom } = element.getBoundingClientRect();
+    return { left, right, top, bottom };
+  }, selector);
+
+const apart = (a, b) => a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+
+test("a page finds the next server of its port, shows what that one shows, and is told of a new address", async () => {
+  const scripts = ["blocks.lua", "other.lua"].map((name) => join(folder(), name));
+  writeFileSync(scripts[0], BLOCKS);
+  writeFileSync(scripts[1], BLOCKS.replace("default = 3", "default = 5"));
+  const port = await freePort();
+  const connection = (page, state) =>
+    page.locator(`[data-testid=connection][data-state=${state}]`).waitFor({ timeout: 20_000 });
+  const page = await browser.newPage();
+  const asked = [];
+  page.on("request", (request) => asked.push(request.url()));
+  let server = await Server.start(scripts[0], "--port", port);
+  try {
+    const { address, token } = server;
+    await page.goto(address);
+    await drawn(page);
+    await server.stop();
+    await connection(page, "lost");
+    server = await Server.start(scripts[0], "--port", port);
+    assert.equal(server.address, address);
+    await connection(page, "live");
+    await server.stop();
+    await connection(page, "lost");
+    server = await Server.start(scripts[1], "--port", port);
+    await page.waitForFunction(() => document.querySelector("[data-testid=script]").textContent === "other.lua");
+    await page.waitForFunction(() => document.querySelector("[data-testid=param-count]")?.value === "5");
+    await server.stop();
+    await connection(page, "lost");
+    rmSync(join(process.env.XDG_RUNTIME_DIR, "burgeon"), { recursive: true });
+    asked.length = 0;
+    server = await Server.start(scripts[0], "--port", port);
+    await connection(page, "moved");
+    await visible(page, "moved");
+    // Whoever listens there now is not told the old one.
+    await page.waitForTimeout(1500);
+    assert.ok(asked.length > 0 && !asked.some((url) => url.includes(token)), asked.join("\n"));
+    await page.goto(server.address);
+    await drawn(page);
+  } finally {
+    await page.close();
+    await server.stop();
+  }
+});
+
+test("a line is looked for in the script, and one that is not there leaves no mark of another", () =>
+  open(`require("aaa")\n${BLOCKS}`, async ({ page, script }) => {
+    writeFileSync(join(dirname(script), "aaa.lua"), "return {}\n");
+    await drawn(page);
+    await seen(page, "derivation").locator("summary").click();
+    const line = seen(page, "line");
+    const says = async (text, answer) => {
+      await line.fill(text);
+      await line.press("Enter");
+      await page.waitForFunction(
+        (answer) => new RegExp(answer).test(document.querySelector("[data-testid=highlighted]").textContent),
+        answer,
+        { timeout: 20_000 },
+      );
+    };
+    await says("13", "blocks.lua:13.*3 modules");
+    await says("900", "no line 900");
+    await says("blocks.lua:13", "3 modules");
+    await says("aaa.lua:7", "1 line");
+    await says("none.lua:1", "not a file of the script");
+    await says("what", "write a line as");
+    await says("1", "nothing in the model");
+  }));
+
+test("a message of millions of letters is shown in part, with the lines that it is about", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    await drawn(page);
+    save(script, `${BLOCKS}error(string.rep("wide ", 4e6))\n`);
+    const begin = Date.now();
+    await visible(page, "error");
+    const text = await seen(page, "error").textContent();
+    await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+    assert.ok(Date.now() - begin < 10_000, `${Date.now() - begin} ms`);
+    assert.ok(text.length < 50_000 && /bytes more/.test(text), String(text.length));
+    assert.match(await page.locator(".excerpt .here").textContent(), /16error\(string\.rep/);
+    assert.match(await page.locator(".excerpt").textContent(), /tower:derive\(\)/);
+  }));
+
+test("a cancelled run leaves the model marked as stale, with a way to run again", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    save(script, ENDLESS);
+    await visible(page, "cancel");
+    const progress = await seen(page, "progress").textContent();
+    assert.equal(progress.match(/step/g)?.length ?? 0, 1, progress);
+    assert.equal(progress.match(/ modules,/g)?.length ?? 0, 1, progress);
+    await seen(page, "cancel").click();
+    await visible(page, "cancelled");
+    await visible(page, "stale");
+    await hidden(page, "working");
+    await seen(page, "run-again").click();
+    await visible(page, "cancel");
+    await hidden(page, "cancelled");
+    save(script, BLOCKS.replace("default = 3", "default = 4"));
+    await drawn(page, first);
+    await hidden(page, "stale");
+    await hidden(page, "cancelled");
+  }));
+
+test("notes, tools and cards leave each other room at any width", () =>
+  open(BLOCKS, async ({ page, script }) => {
+    const first = await drawn(page);
+    const widths = [1440, 1100, 900, 600, 390];
+    const within = ({ left, right }, width) => left >= 0 && right <= width;
+    save(script, ENDLESS);
+    await visible(page, "cancel");
+    for (const width of widths) {
+      await page.setViewportSize({ width, height: 844 });
+      await page.waitForTimeout(250);
+      const [pill, bar] = [await place(page, "[data-testid=working]"), await place(page, ".tools")];
+      assert.ok(apart(pill, bar) && within(pill, width), `${width}: ${JSON.stringify([pill, bar])}`);
+    }
+    save(script, BLOCKS);
+    await drawn(page, first);
+    await page.evaluate(() => window.burgeon.project([0, -2.04, 3])).then(([x, y]) => page.mouse.click(x, y));
+    await visible(page, "picked");
+    save(script, BLOCKS.replace("Slab(n), Block(n - 1)", "Slab(n, 7), Block(n - 1)"));
+    await visible(page, "error");
+    for (const width of widths) {
+      await page.setViewportSize({ width, height: 844 });
+      await page.waitForTimeout(250);
+      const [error, card, bar] = [
+        await place(page, "[data-testid=error]"),
+        await place(page, "[data-testid=picked]"),
+        await place(page, ".tools"),
+      ];
+      assert.ok(apart(error, card) && apart(error, bar) && apart(card, bar), `${width}: ${JSON.stringify([error, card, bar])}`);
+      assert.ok(error.bottom - error.top > 90 && card.bottom - card.top > 90, `${width}: ${JSON.stringify([error, card])}`);
+      assert.ok(within(error, width) && within(card, width), `${width}`);
+    }
+  }));
+
+test("a preset is replaced or deleted only after a question, and its name goes with its values", () =>
+  open(BLOCKS, async ({ page }) => {
+    let last = await drawn(page);
+    const names = (wanted) =>
+      page.waitForFunction(
+        (wanted) => [...document.querySelectorAll("[data-testid=presets] option")].slice(1).map((it) => it.value).join() === wanted,
+        wanted,
+      );
+    const chosen = (wanted) =>
+      page.waitForFunction((wanted) => document.querySelector("[data-testid=presets]").value === wanted, wanted);
+    const keep = async (name) => {
+      await seen(page, "preset-save").click();
+      await seen(page, "preset-name").fill(name);
+      await seen(page, "preset-name").press("Enter");
+    };
+    const count = async (value) => {
+      await seen(page, "param-count").fill(value);
+      await seen(page, "param-count").press("Enter");
+      last = await drawn(page, last);
+    };
+    await count("5");
+    await keep("mine");
+    await names("mine");
+    await chosen("mine");
+    await count("7");
+    await chosen("");
+    await keep("mine");
+    await visible(page, "preset-ask");
+    assert.match(await seen(page, "preset-ask").textContent(), /Replace.*mine/);
+    await page.keyboard.press("Escape");
+    await hidden(page, "preset-ask");
+    await seen(page, "presets").selectOption("mine");
+    last = await drawn(page, last);
+    assert.equal(await seen(page, "param-count").inputValue(), "5");
+    await seen(page, "reset-all").click();
+    last = await drawn(page, last);
+    await chosen("");
+    await count("9");
+    await keep("mine");
+    await seen(page, "preset-yes").click();
+    await chosen("mine");
+    await seen(page, "preset-delete").click();
+    await visible(page, "preset-ask");
+    await seen(page, "preset-no").click();
+    await names("mine");
+    await seen(page, "preset-delete").click();
+    await seen(page, "preset-yes").click();
+    await names("");
+  }));
+
+test("a planet stands free, its size is in kilometres, and its radius is seen whole", () =>
+  open(
+    PLANET,
+    async ({ page, script }) => {
+      const first = await drawn(page);
+      assert.match(await seen(page, "size").textContent(), /^[\d,.]+ × [\d,.]+ × [\d,.]+ km$/);
+      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "false");
+      const [wide, inner] = await seen(page, "param-radius").evaluate((it) => [it.scrollWidth, it.clientWidth]);
+      assert.ok(wide <= inner, `${wide} in ${inner}`);
+      await seen(page, "grid").click();
+      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "true");
+      await seen(page, "grid").click();
+      await page.reload();
+      await drawn(page);
+      save(script, BLOCKS);
+      await page.waitForFunction(() => / m$/.test(document.querySelector("[data-testid=size]").textContent));
+      assert.equal(await seen(page, "grid").getAttribute("aria-pressed"), "true");
+      assert.ok(first > 0);
+    },
+  ));
+
+test("an empty model says why, and one that grows out of the view is offered to be fitted", () =>
+  open(BLOCKS.replace("tower:axiom(Block(count))", "tower:axiom(Block(0))"), async ({ page, script }) => {
+    let last = await drawn(page);
+    await visible(page, "nothing");
+    assert.match(await seen(page, "nothing").textContent(), /no module is left/);
+    save(script, BLOCKS);
+    last = await drawn(page, last);
+    await hidden(page, "nothing");
+    await hidden(page, "offer-fit");
+    save(script, BLOCKS.replace("extrude(2)", "extrude(30)"));
+    last = await drawn(page, last);
+    await visible(page, "offer-fit");
+    assert.match(await seen(page, "offer-fit").textContent(), /out of view/);
+    await seen(page, "offer-fit").getByRole("button").click();
+    await hidden(page, "offer-fit");
+    save(script, BLOCKS.replace("extrude(2)", "extrude(29)"));
+    last = await drawn(page, last);
+    await hidden(page, "offer-fit");
+    save(script, BLOCKS.replace("extrude(2)", "extrude(0.001)").replace("{ { -2, -2 }, { 2, -2 }, { 2, 2 }, { -2, 2 } }", "{ { -0.1, -0.1 }, { 0.1, -0.1 }, { 0.1, 0.1 } }"));
+    last = await drawn(page, last);
+    await visible(page, "offer-fit");
+    assert.match(await seen(page, "offer-fit").textContent(), /very small/);
+    await page.keyboard.press("f");
+    await hidden(page, "offer-fit");
+    assert.ok((await number(page, "triangles")) > 0);
+  }));
