@@ -13,7 +13,7 @@
 //! Each stage is a folder, and uses only those before it:
 //!
 //! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
-//!   can be meant.
+//!   can be meant; [`Stop`] ends work that nobody waits for.
 //! - [`Budget`]: what reading foreign bytes may take, and [`text`]: how foreign words are shown.
 //! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
@@ -91,6 +91,7 @@ mod run;
 pub mod scene;
 pub mod script;
 pub mod sources;
+mod stop;
 pub mod terrain;
 pub mod text;
 pub mod trace;
@@ -101,4 +102,5 @@ pub mod watch;
 pub use budget::{Budget, Held};
 pub use error::{Error, Result};
 pub use run::{Check, Run, RunTimes, check, run, run_session};
+pub use stop::Stop;
 pub use warning::{Warning, WarningKind};

@@ -133,12 +133,7 @@ impl Presets {
             object.insert("params".into(), Value::Object(params.collect()));
             file.insert(preset.name.clone(), object.into());
         }
-        // What a link points at is replaced, not the link.
-        let path = match self.path.canonicalize() {
-            Ok(target) if self.path.is_symlink() => target,
-            _ => self.path.clone(),
-        };
-        export::write_file(&path, |out| writeln!(out, "{:#}", Value::Object(file)))
+        export::write_file(&self.path, |out| writeln!(out, "{:#}", Value::Object(file)))
     }
 }
 

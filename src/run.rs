@@ -109,11 +109,12 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
 }
 
-/// The warning for a model of drawing objects that is empty, unless someone has asked to see fewer steps.
+/// The warning for a model of drawing objects that is empty, unless someone has asked to see less of it.
 fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
-    if scene.triangles() > 0 || session.options.steps.is_some() {
+    let whole = session.options.steps.is_none() && session.options.lod == Options::default().lod;
+    if scene.triangles() > 0 || !whole {
         return None;
     }
     let tells = |warning: &Warning| {

@@ -10,6 +10,7 @@
 //! - *An object* keeps a list, adds to it while it is made, in a method that changes it or while it grows, and gives it
 //!   away in [`Object::take_warnings`](crate::objects::Object::take_warnings). The line is that of the constructor's or
 //!   the method's call, or of the system. Where passes begin empty, only what the last pass said counts.
+//!   [`Warning::of_all`] keeps it back as long as some module of the kind does better.
 //! - *A file*: what it was loaded into keeps the warnings, and the function that a script asked for it hands them on to
 //!   its machine, so that they are told by every run, also by one that need not read the file again.
 //!
@@ -87,12 +88,13 @@ pub struct Warning {
     /// What it says, as the error that it is in a strict run.
     told: Error,
     count: usize,
+    of_all: bool,
 }
 
 impl Warning {
     /// A warning that says `message`, a clause without a full stop.
     pub fn new(kind: WarningKind, message: impl fmt::Display) -> Self {
-        Self { kind, told: Error::new(message), count: 1 }
+        Self { kind, told: Error::new(message), count: 1, of_all: false }
     }
 
     /// Says what to do about it.
@@ -117,6 +119,18 @@ impl Warning {
     #[must_use]
     pub fn module(self, module: impl fmt::Display, step: usize) -> Self {
         Self { told: self.told.module(module, step), ..self }
+    }
+
+    /// An object's: tells it only where all modules with the same symbol give rise to it, for a size may well be 0 here
+    /// and there.
+    #[must_use]
+    pub fn of_all(self) -> Self {
+        Self { of_all: true, ..self }
+    }
+
+    /// Whether only all modules with the same symbol together give rise to it.
+    pub(crate) fn is_of_all(&self) -> bool {
+        self.of_all
     }
 
     /// What it is about.

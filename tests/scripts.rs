@@ -136,6 +136,16 @@ fn every_script_writes_every_format_of_models_and_all_files_that_these_name() {
 }
 
 #[test]
+fn the_town_takes_few_bytes_for_a_triangle_that_it_stores() {
+    let folder = tempfile::tempdir().unwrap();
+    let run = run(&root().join("scripts/town.lua"), 2);
+    let bytes = glb(&run, folder.path()).len();
+    let stored: usize = run.scene.meshes.iter().map(|mesh| mesh.triangles()).sum();
+    // Every corner of every face by itself, with a normal, would take 60.
+    assert!(stored > 200_000 && bytes < 27 * stored, "{bytes} bytes for {stored} triangles");
+}
+
+#[test]
 fn every_script_gives_the_same_bytes_for_one_thread_and_for_two() {
     let folder = tempfile::tempdir().unwrap();
     for script in runnable() {

@@ -28,7 +28,7 @@ impl Check {
                 .map(|param| json!({ "name": param.name, "value": report::setting_json(&param.value), "unit": param.unit, "text": param.text }))
                 .collect();
             let warnings = report::warnings_json(&warnings);
-            report::print(&format!("{}\n", json!({ "ok": true, "params": params, "warnings": warnings })));
+            report::print(&format!("{}\n", json!({ "ok": true, "params": params, "warnings": warnings })))?;
         } else {
             let script = self.script.script.display();
             report::eprint(&report::warnings(&warnings));

@@ -15,7 +15,6 @@ impl Completions {
     pub(crate) fn run(&self) -> Result<()> {
         let mut script = Vec::new();
         clap_complete::generate(self.shell, &mut super::Cli::command(), "burgeon", &mut script);
-        super::report::print(&String::from_utf8_lossy(&script));
-        Ok(())
+        super::report::print(&String::from_utf8_lossy(&script))
     }
 }

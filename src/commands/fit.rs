@@ -96,10 +96,10 @@ impl Fit {
             ),
         ]);
         export::write_file(&self.output, |out| out.write_all(text.as_bytes()))?;
-        self.tell(&fitted, begin.elapsed(), late);
+        let told = self.tell(&fitted, begin.elapsed(), late);
         // Nobody waits, unless there was an interrupt.
         let _ = written.send(());
-        Ok(())
+        told
     }
 
     /// The best table, and after how many rounds the time ended the search, if it did before --rounds.
@@ -149,7 +149,7 @@ impl Fit {
             return Err(Error::new(format!("cannot write {shown}: it is a folder"))
                 .help(format!("name a file in it, such as {}", path.join("rules.lua").display())));
         }
-        export::check_file(path)?;
+        export::check_files([path.as_path()])?;
         if !path.is_file() {
             return Ok(());
         }
@@ -165,7 +165,7 @@ impl Fit {
         Ok(())
     }
 
-    fn tell(&self, fitted: &Fitted, elapsed: Duration, late: Option<usize>) {
+    fn tell(&self, fitted: &Fitted, elapsed: Duration, late: Option<usize>) -> Result<()> {
         let warning = late.map(|whole| {
             let asked = self.rounds.unwrap_or_default();
             format!(
@@ -183,8 +183,7 @@ impl Fit {
                 "seconds": elapsed.as_secs_f64(),
                 "warnings": warning.into_iter().collect::<Vec<_>>(),
             });
-            report::print(&format!("{document}\n"));
-            return;
+            return report::print(&format!("{document}\n"));
         }
         report::eprint(&format!(
             "{}: root mean square error {:.4} with {} symbols, of {} tables tried; {} in all\n",
@@ -197,6 +196,7 @@ impl Fit {
         if let Some(warning) = warning {
             report::eprint(&format!("warning: {warning}\n  help: leave --seconds out\n"));
         }
+        Ok(())
     }
 }
 

@@ -62,9 +62,9 @@ impl Serve {
             report::print(&format!(
                 "{}\n",
                 json!({ "address": address, "port": port, "token": live.token().as_str() })
-            ));
+            ))?;
         } else {
-            report::print(&format!("{address}\n"));
+            report::print(&format!("{address}\n"))?;
             report::eprint("the address is secret, for whoever has it can set parameters; Ctrl-C ends\n");
         }
         if self.port.is_none() && port != PORT {

@@ -1,7 +1,7 @@
 //! The commands: each reads its flags, does its work through the library, and says what came of it.
 //!
 //! Comes in: the command line. Goes out: files, standard output, and an exit status: 0 done, 1 the script or its
-//! data failed, 2 the command line is wrong.
+//! data failed or something could not be written, 2 the command line is wrong.
 
 mod check;
 mod completions;
@@ -16,6 +16,7 @@ mod shared;
 mod sources;
 mod variations;
 
+use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
 use burgeon::Error;
@@ -64,9 +65,25 @@ pub(crate) fn main() -> ExitCode {
         Command::Completions(command) => (false, command.run()),
     };
     match result {
+        // Whoever reads no further knows it; whoever asks how it ended is told that something was left out.
+        Ok(()) if report::is_closed() => ExitCode::FAILURE,
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
             report::error(&error, json);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints what was asked about the command line.
+fn print_help(error: &clap::Error) -> ExitCode {
+    // This knows whether a terminal takes colours.
+    let printed = error.print().and_then(|()| std::io::stdout().flush());
+    match printed {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::FAILURE,
+        Err(error) => {
+            report::error(&Error::new(format!("cannot write to standard output: {error}")), false);
             ExitCode::FAILURE
         }
     }
@@ -78,7 +95,10 @@ fn refuse_command_line(error: &clap::Error) -> ExitCode {
         .skip(1)
         .take_while(|argument| argument != "--")
         .any(|argument| argument == "--json");
-    if !error.use_stderr() || !wants_json {
+    if !error.use_stderr() {
+        return print_help(error);
+    }
+    if !wants_json {
         error.exit();
     }
     let text = error.to_string();

@@ -53,7 +53,7 @@ impl New {
             Error::new(format!("cannot write {shown}: {error}")).help("write to another folder or disk")
         })?;
         if self.json {
-            report::print(&format!("{}\n", json!({ "ok": true, "path": path })));
+            report::print(&format!("{}\n", json!({ "ok": true, "path": path })))?;
         } else {
             report::eprint(&format!("made {shown}; now: burgeon run {shown} -o model.glb\n"));
         }

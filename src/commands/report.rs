@@ -1,23 +1,24 @@
 //! What commands say: errors with the script's line, and the summary of a run.
 
-use std::borrow::Cow;
 use std::fmt::Write as _;
-use std::io::IsTerminal as _;
+use std::io::{self, BufWriter, ErrorKind, IsTerminal as _, StdoutLock, Write as _};
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use burgeon::derive::grouped;
 use burgeon::script::{Param, Setting};
 use burgeon::text::escaped_lines;
-use burgeon::{Error, Run, Warning};
+use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 
-/// Prints an error to stderr, with the line of the script that it is about; as JSON to stdout for machines.
+/// Prints an error to stderr, with the line of the script that it is about; as JSON to stdout for machines, if it can be.
 pub(crate) fn error(error: &Error, json: bool) {
     if json {
         let problems: Vec<_> = error.problems().map(Error::to_json).collect();
-        print(&format!("{}\n", json!({ "ok": false, "errors": problems })));
-        return;
+        if print(&format!("{}\n", json!({ "ok": false, "errors": problems }))).is_ok() {
+            return;
+        }
     }
     let mut text = String::new();
     for problem in error.problems() {
@@ -154,16 +155,65 @@ pub(crate) fn time(duration: Duration) -> String {
     if seconds < 1.0 { format!("{:.1} ms", seconds * 1e3) } else { format!("{seconds:.2} s") }
 }
 
-/// Writes to standard output; a reader that has gone away is no error.
-pub(crate) fn print(text: &str) {
-    use std::io::Write as _;
-    // A program gets everything as it is.
-    let text = if std::io::stdout().is_terminal() { escaped_lines(text) } else { Cow::Borrowed(text) };
-    let _ = std::io::stdout().write_all(text.as_bytes());
+/// Whether a reader of standard output has gone away before it had everything.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+/// Whether something was left out on standard output, since its reader has gone away.
+pub(crate) fn is_closed() -> bool {
+    CLOSED.load(Ordering::Relaxed)
+}
+
+/// Standard output: a program gets everything as it is, a terminal all at once, with nothing that it would obey.
+pub(crate) enum Standard {
+    Program(StdoutLock<'static>),
+    Terminal(Vec<u8>),
+}
+
+impl io::Write for Standard {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        match self {
+            Self::Program(out) => out.write(bytes),
+            Self::Terminal(text) => text.write(bytes),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        match self {
+            Self::Program(out) => out.flush(),
+            Self::Terminal(text) => {
+                let text = std::mem::take(text);
+                let mut out = io::stdout().lock();
+                out.write_all(escaped_lines(&String::from_utf8_lossy(&text)).as_bytes())?;
+                out.flush()
+            }
+        }
+    }
+}
+
+/// Writes to standard output. A reader that has gone away, as `head` does, wants no more and is told nothing.
+pub(crate) fn print(text: &str) -> Result<()> {
+    print_all(|out| out.write_all(text.as_bytes()))
+}
+
+/// As [`print`], for what need not be in memory all at once.
+pub(crate) fn print_all(content: impl FnOnce(&mut BufWriter<Standard>) -> io::Result<()>) -> Result<()> {
+    let standard = match io::stdout().is_terminal() {
+        true => Standard::Terminal(Vec::new()),
+        false => Standard::Program(io::stdout().lock()),
+    };
+    let mut out = BufWriter::new(standard);
+    match content(&mut out).and_then(|()| out.flush()) {
+        Ok(()) => Ok(()),
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => {
+            CLOSED.store(true, Ordering::Relaxed);
+            Ok(())
+        }
+        Err(error) => Err(Error::new(format!("cannot write to standard output: {error}"))
+            .help("look at where it leads: whether the disk is full, or the file may be written to")),
+    }
 }
 
 /// Writes to standard error.
 pub(crate) fn eprint(text: &str) {
-    use std::io::Write as _;
-    let _ = std::io::stderr().write_all(escaped_lines(text).as_bytes());
+    let _ = io::stderr().write_all(escaped_lines(text).as_bytes());
 }

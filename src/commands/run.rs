@@ -1,24 +1,20 @@
 //! `burgeon run`: from a script to files.
 
-use std::io::{BufWriter, Write};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 use std::time::Instant;
 
-use burgeon::derive::{Derived, Report};
-use burgeon::export::{self, heights::HeightMap};
-use burgeon::objects::Terrain;
-use burgeon::picture::Picture;
+use burgeon::export;
 use burgeon::presets::Presets;
 use burgeon::script::{Param, Preset, Session};
-use burgeon::terrain::{Map, Place};
-use burgeon::{Error, Result, Warning, WarningKind};
+use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
 
 use super::progress::Progress;
 use super::report;
-use super::shared::{PictureFlags, ScriptFlags, size};
+use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 
+mod outputs;
 mod watch;
 
 /// Runs a script and writes what it makes
@@ -81,6 +77,7 @@ impl Run {
         if self.watch {
             return watch::again_and_again(self);
         }
+        end_on_interrupt()?;
         let begin = Instant::now();
         let session = self.session()?;
         let made = self.make(&session, begin, &|| false)?;
@@ -108,34 +105,8 @@ impl Run {
                 return Ok(None);
             }
             self.warn_of_nothing(session, &mut run)?;
-            if run.systems.is_empty() && !self.output.is_empty() {
-                let script = self.script.script.display();
-                return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
-                    .help("end it with system:derive()"));
-            }
             let writing = Instant::now();
-            let picture = self.picture.picture(self.size);
-            for output in &self.output {
-                export::write(&run.scene, output, &picture)?;
-            }
-            if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
-                write_chains(path, &run.systems)?;
-            }
-            if let Some(path) = &self.heights {
-                let Map { columns, rows, corner, step, heights } = terrain(&run)?.map()?;
-                let map = HeightMap { columns, rows, corner, step, heights, frame: run.frame.clone() };
-                export::heights::write(&map, path)?;
-            }
-            if let Some(path) = &self.edits {
-                let text = terrain(&run)?.edits_json();
-                export::write_file(path, |out| out.write_all(text.as_bytes()))?;
-            }
-            if let Some(folder) = &self.tiles {
-                write_tiles(&run, folder)?;
-            }
-            if let Some(path) = &self.report {
-                write_report(path, &run.report())?;
-            }
+            self.write(&run, session)?;
             if let Some(name) = &self.save_preset {
                 self.save(name, session, &run.params)?;
             }
@@ -149,7 +120,7 @@ impl Run {
                     texts.flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
                 summary["chain"] = lines.into();
             }
-            report::print(&format!("{summary}\n"));
+            report::print(&format!("{summary}\n"))?;
         } else {
             report::eprint(&report::summary(&run, writing, begin.elapsed(), self.report.as_deref()));
         }
@@ -185,110 +156,6 @@ impl Run {
         let preset = Preset { name: name.to_owned(), seed: Some(options.seed), params, ..Preset::default() };
         Presets::save(&self.script.script, preset).map(|_| ())
     }
-
-    /// Whether the chains go to standard output as a part of the JSON document.
-    fn chain_in_json(&self) -> bool {
-        self.script.json && self.chain.as_deref() == Some(Path::new("-"))
-    }
-
-    /// Refuses, before any work, files that could not be written when it is done.
-    fn check_files(&self) -> Result<()> {
-        for output in &self.output {
-            export::check_writable(output)?;
-        }
-        self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
-        self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
-        self.check_text(self.heights.as_deref(), "heights", "the heights", "heights.tif")?;
-        self.check_text(self.edits.as_deref(), "edits", "the edits", "ground.json")?;
-        self.heights.as_deref().map_or(Ok(()), export::heights::check_name)?;
-        if self.script.json && self.report.as_deref() == Some(Path::new("-")) {
-            return Err(Error::new("standard output cannot take both a report and the JSON document")
-                .help("name a file: --report report.json; the document has the counts"));
-        }
-        Ok(())
-    }
-
-    /// Refuses a file that text could not be written to; - is standard output.
-    fn check_text(&self, path: Option<&Path>, flag: &str, what: &str, example: &str) -> Result<()> {
-        let Some(path) = path.filter(|path| *path != Path::new("-")) else { return Ok(()) };
-        let same =
-            |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-        let shown = path.display();
-        if same(path, &self.script.script) {
-            return Err(Error::new(format!("{what} would overwrite the script {shown}"))
-                .help(format!("name another file: --{flag} {example}, or - for standard output")));
-        }
-        if path.is_dir() {
-            return Err(Error::new(format!("cannot write {shown}: it is a folder"))
-                .help(format!("name a file in it, such as {}", path.join(example).display())));
-        }
-        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
-        if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
-            return Err(Error::new(format!("cannot write {shown}: there is no folder {}", folder.display()))
-                .help("make the folder first, or write to one that is there"));
-        }
-        Ok(())
-    }
-}
-
-/// Writes what was skipped or simplified.
-/// Writes each tile of the terrain as a file of its own, called by level, column and row.
-fn write_tiles(run: &burgeon::Run, folder: &Path) -> Result<()> {
-    let tiles = terrain(run)?.ground().tiles();
-    std::fs::create_dir_all(folder)
-        .map_err(|error| Error::new(format!("cannot make the folder {}: {error}", folder.display())))?;
-    for tile in tiles {
-        let Place { level, x, y } = tile.place;
-        let name = format!("{level}/{x}/{y}");
-        let scene = run.scene.only(|instance| instance.name.rsplit(' ').next() == Some(name.as_str()));
-        export::write(&scene, &folder.join(format!("{level}_{x}_{y}.glb")), &Picture::default())?;
-    }
-    Ok(())
-}
-
-/// The terrain of a run; there has to be one.
-fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
-    let objects = run.systems.iter().flat_map(|system| &system.objects);
-    let mut terrains = objects.filter_map(|object| {
-        let any: &dyn std::any::Any = &**object;
-        any.downcast_ref::<Terrain>()
-    });
-    match (terrains.next(), terrains.next()) {
-        (Some(terrain), None) => Ok(terrain),
-        (None, _) => Err(Error::new("there is no terrain to write the heights or the edits of")
-            .help("write lsystem({ object = terrain({ ... }) }):derive()")),
-        _ => Err(Error::new("there are several terrains to write the heights or the edits of")
-            .help("keep one of them in the script")),
-    }
-}
-
-fn write_report(path: &Path, report: &Report) -> Result<()> {
-    if path == Path::new("-") {
-        let mut text = Vec::new();
-        report.write_json(&mut text).map_err(Error::new)?;
-        report::print(&String::from_utf8_lossy(&text));
-        return Ok(());
-    }
-    export::write_file(path, |out| report.write_json(out))
-}
-
-/// Writes the chains of all systems, in the order in which they were derived.
-fn write_chains(path: &Path, systems: &[Arc<Derived>]) -> Result<()> {
-    let failed = |error: std::io::Error| {
-        Error::new(format!("cannot write the chains to {}: {error}", path.display()))
-            .help("check that the folder exists and may be written to")
-    };
-    if path == Path::new("-") {
-        let mut out = BufWriter::new(std::io::stdout().lock());
-        let written =
-            systems.iter().try_for_each(|system| system.write_chains(&mut out)).and_then(|()| out.flush());
-        return match written {
-            // A reader that has gone away wants no more.
-            Err(error) if error.kind() != std::io::ErrorKind::BrokenPipe => Err(failed(error)),
-            _ => Ok(()),
-        };
-    }
-    export::write_file(path, |out| systems.iter().try_for_each(|system| system.write_chains(out)))
 }
 
 fn output(text: &str) -> Result<PathBuf, String> {

@@ -184,9 +184,26 @@ pub(crate) fn on_interrupt(ended: impl Fn() + Send + 'static) -> Result<()> {
     ctrlc::set_handler(move || {
         ended();
         std::thread::sleep(Duration::from_millis(500));
+        burgeon::export::abandon();
         std::process::exit(0);
     })
-    .map_err(|error| Error::new(format!("cannot wait for an interrupt: {error}")))
+    .map_err(deaf)
+}
+
+/// Ends the program when the user or the system asks for it, and leaves nothing half written.
+pub(crate) fn end_on_interrupt() -> Result<()> {
+    ctrlc::set_handler(|| {
+        burgeon::export::abandon();
+        std::process::exit(INTERRUPTED);
+    })
+    .map_err(deaf)
+}
+
+/// What shells take for the end by an interrupt.
+const INTERRUPTED: i32 = 130;
+
+fn deaf(error: ctrlc::Error) -> Error {
+    Error::new(format!("cannot wait for an interrupt: {error}"))
 }
 
 pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {

@@ -53,10 +53,10 @@ impl Sources {
         }
         if self.json {
             let files: Vec<_> = listings.iter().map(Listing::to_json).collect();
-            report::print(&format!("{}\n", json!({ "ok": true, "files": files })));
+            report::print(&format!("{}\n", json!({ "ok": true, "files": files })))?;
         } else {
             for listing in &listings {
-                report::print(&listing.text());
+                report::print(&listing.text())?;
             }
         }
         Ok(())

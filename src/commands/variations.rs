@@ -13,7 +13,7 @@ use serde_json::json;
 
 use super::progress::Progress;
 use super::report;
-use super::shared::{PictureFlags, ScriptFlags, size};
+use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 
 /// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
 #[derive(Args)]
@@ -65,7 +65,8 @@ impl Variations {
 
     pub(crate) fn run(&self) -> Result<()> {
         let begin = Instant::now();
-        export::check_writable(&self.output)?;
+        end_on_interrupt()?;
+        export::check_files([self.output.as_path()])?;
         let options = self.script.options()?;
         let over = self.seeds.as_ref().or(self.sweep.as_ref());
         let over = over.ok_or_else(|| Error::new("give --seeds or --sweep"))?;
@@ -108,7 +109,7 @@ impl Variations {
                 "cells": told,
                 "seconds": { "total": seconds },
             });
-            report::print(&format!("{document}\n"));
+            report::print(&format!("{document}\n"))?;
         } else {
             self.tell(&cells, &layout, begin);
         }

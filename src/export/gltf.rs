@@ -7,6 +7,7 @@
 //! Specification: Khronos Group, "glTF 2.0 Specification", 2021.
 
 mod body;
+mod corners;
 mod decompose;
 mod description;
 mod material;
@@ -20,16 +21,18 @@ pub use place::Place;
 mod tests;
 
 use super::check::{Checked, check};
-use super::file::Files;
+use super::files::Files;
+use super::stem;
 use super::texture::Images;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
+use crate::stop::Stop;
 use body::Body;
 use description::Description;
 use gltf_json as json;
 use json::extras::RawValue;
 use mesh::Arrays;
-use std::io::Write;
+use std::path::Path;
 
 /// Allows attributes that are integers.
 const QUANTIZATION: &str = "KHR_mesh_quantization";
@@ -62,64 +65,72 @@ pub struct Layout {
 ///
 /// Fails if the scene is not sound, if a texture cannot be read, and beyond 4 GiB.
 pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
-    bytes(scene, Arrays::default()).map(|(bytes, _)| bytes)
+    bytes(scene, Arrays::default(), &Stop::default()).map(|(bytes, _)| bytes)
 }
 
 /// As [`glb`], for a viewer: it is as small as it can be without looking worse, and it is told where everything is.
 ///
 /// Primitives whose extras say `flat` are for viewers that know of it: each triangle has the normal of its last corner.
 pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
-    bytes(scene, Arrays { small: true, measured: false })
+    bytes(scene, Arrays { small: true, measured: false }, &Stop::default())
 }
 
 /// As [`glb_for_viewer`], with everything in the same places, but all surfaces have texture coordinates: in metres
-/// where they have no texture.
-pub fn glb_with_texture_coordinates(scene: &Scene) -> Result<Vec<u8>> {
-    bytes(scene, Arrays { small: true, measured: true }).map(|(bytes, _)| bytes)
+/// where they have no texture. Fails if a `stop` was asked for, too.
+pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8>> {
+    bytes(scene, Arrays { small: true, measured: true }, stop).map(|(bytes, _)| bytes)
 }
 
-fn bytes(scene: &Scene, arrays: Arrays) -> Result<(Vec<u8>, Layout)> {
+fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded, arrays)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded, arrays, stop)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
     let length: usize = head.iter().map(Vec::len).sum();
     bytes.reserve_exact(length + document.body.length() as usize);
-    document.body.write(head, &mut bytes).map_err(Error::new)?;
+    document.body.write(head, &mut bytes, stop).map_err(Error::new)?;
+    stop.check()?;
     Ok((bytes, document.layout))
 }
 
-/// Writes one `.glb` file.
-pub(super) fn write_glb(scene: &Scene, files: &mut Files) -> Result<()> {
+/// Writes one `.glb` file to `path`.
+pub(super) fn write_glb(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded, Arrays::default())?;
+    let stop = files.stop();
+    let document = Document::new(&checked, &images, &Textures::Embedded, Arrays::default(), &stop)?;
     let head = document.head()?;
-    let path = files.main().to_owned();
-    files.write(&path, |out| document.body.write(head, out))
+    files.write(path, |out| document.body.write(head, out, &stop))
 }
 
-/// Writes a `.gltf` file, its `.bin` file and copies of the textures.
-pub(super) fn write_gltf(scene: &Scene, files: &mut Files) -> Result<()> {
+/// Writes a `.gltf` file to `path`, and its `.bin` file and copies of the textures beside it.
+pub(super) fn write_gltf(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let names = images.copy_names(files);
+    let names = images.copy_names(path, files);
     for (name, file) in names.iter().zip(&images.files) {
-        files.write(&files.sibling(name), |out| out.write_all(&file.bytes))?;
+        files.copy(&path.with_file_name(name), &file.bytes)?;
     }
-    let mut document = Document::new(&checked, &images, &Textures::Beside(names), Arrays::default())?;
+    let stop = files.stop();
+    let mut document = Document::new(&checked, &images, &Textures::Beside(names), Arrays::default(), &stop)?;
     if let Some(buffer) = document.description.root.buffers.first_mut() {
-        let name = format!("{}.bin", files.stem());
+        let name = format!("{}.bin", stem(path));
         buffer.uri = Some(uri(&name));
-        files.write(&files.sibling(&name), |out| document.body.write(Vec::new(), out))?;
+        files.write(&path.with_file_name(&name), |out| document.body.write(Vec::new(), out, &stop))?;
     }
-    let path = files.main().to_owned();
-    files.write(&path, |out| document.description.write_pretty(out))
+    files.write(path, |out| document.description.write_pretty(out))
 }
 
 impl<'a> Document<'a> {
-    fn new(checked: &Checked<'a>, images: &'a Images, textures: &Textures, arrays: Arrays) -> Result<Self> {
+    fn new(
+        checked: &Checked<'a>,
+        images: &'a Images,
+        textures: &Textures,
+        arrays: Arrays,
+        stop: &Stop,
+    ) -> Result<Self> {
+        stop.check()?;
         let mut description = Description::default();
         description.root.asset = json::Asset {
             generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
@@ -128,7 +139,8 @@ impl<'a> Document<'a> {
         };
         let mut body = Body::default();
         let materials = material::write(checked, images, textures, &mut description.root, &mut body);
-        let meshes = mesh::write(checked, arrays, &materials, &mut description, &mut body);
+        let meshes = mesh::write(checked, arrays, &materials, &mut description, &mut body, stop);
+        stop.check()?;
         let placed = place::write(checked, &meshes, &mut description, &mut body);
         if arrays.small {
             material::use_extension(&mut description.root, QUANTIZATION);

@@ -7,8 +7,7 @@
 //! | `.tif` | a GeoTIFF of 32-bit floats, with its coordinate system |
 //! | `.r32`, `.f32`, `.r64`, `.f64` | a square of raw little-endian floats, row by row |
 
-use std::fs::File;
-use std::io::{self, BufWriter, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 use glam::DVec2;
@@ -16,7 +15,7 @@ use png::{BitDepth, ColorType};
 use tiff::encoder::{Compression, DeflateLevel, TiffEncoder, colortype};
 use tiff::tags::Tag;
 
-use super::write_file;
+use super::{Files, Out};
 use crate::error::{Error, Result};
 use crate::sources::Frame;
 use crate::sources::elevation::{png_text, tiff_key};
@@ -72,15 +71,15 @@ impl Format {
     }
 }
 
-/// Writes `map` to `path` in the format of its extension, whole or not at all.
+/// Writes what will be `map` at `path`, in the format of its extension.
 ///
 /// Coordinates are those of the projection where the format can name it, in a GeoTIFF, or it is one of EPSG's, and
 /// metres of the run otherwise. Fails if the map has too few or infinite heights, if the format cannot hold it, and if
 /// the disk is full.
-pub fn write(map: &HeightMap, path: &Path) -> Result<()> {
+pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
     let format = Format::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
-    write_file(path, |out| match format {
+    files.write(path, |out| match format {
         Format::Png => write_png(map, out),
         Format::Ascii => write_ascii(map, out),
         Format::GeoTiff => write_tiff(map, out),
@@ -152,7 +151,7 @@ impl HeightMap {
 }
 
 #[allow(clippy::cast_sign_loss, reason = "the levels are clamped")]
-fn write_png(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
+fn write_png(map: &HeightMap, out: &mut Out) -> io::Result<()> {
     let low = map.heights.iter().copied().fold(f64::INFINITY, f64::min);
     let mut high = map.heights.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     if high <= low {
@@ -173,7 +172,7 @@ fn write_png(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
     Ok(())
 }
 
-fn write_ascii(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
+fn write_ascii(map: &HeightMap, out: &mut Out) -> io::Result<()> {
     let corner = map.corner_as(map.epsg().is_some());
     writeln!(out, "ncols {}\nnrows {}", map.columns, map.rows)?;
     writeln!(out, "xllcorner {}\nyllcorner {}\ncellsize {}", corner.x, corner.y, map.step)?;
@@ -192,7 +191,7 @@ fn write_ascii(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
     Ok(())
 }
 
-fn write_tiff(map: &HeightMap, out: &mut BufWriter<File>) -> io::Result<()> {
+fn write_tiff(map: &HeightMap, out: &mut Out) -> io::Result<()> {
     let heights: Vec<f32> = map.heights.iter().copied().map(narrow).collect();
     let middle = map.frame.as_ref().and_then(|frame| frame.middle);
     let corner = map.corner_as(map.epsg().or(middle.map(|_| tiff_key::OWN)).is_some());
@@ -252,6 +251,12 @@ fn geokeys(epsg: Option<u16>, middle: Option<[f64; 2]>) -> (Vec<u16>, Vec<f64>) 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn write_alone(map: &HeightMap, path: &Path) -> Result<()> {
+        let mut files = Files::default();
+        write(map, path, &mut files)?;
+        files.publish()
+    }
     use crate::sources::Crs;
     use crate::sources::elevation::{Raster, Wanted};
 
@@ -271,7 +276,7 @@ mod tests {
     fn again(map: &HeightMap, name: &str, wanted: &Wanted) -> Raster {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
-        write(map, &path).unwrap();
+        write_alone(map, &path).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
         Raster::open(&path, name, wanted).unwrap()
     }
@@ -336,7 +341,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let told = |map: &HeightMap, name: &str| {
             let path = folder.path().join(name);
-            let error = write(map, &path).unwrap_err();
+            let error = write_alone(map, &path).unwrap_err();
             assert!(error.remedy().is_some() && !path.exists(), "{error}");
             error.message().replace(&folder.path().display().to_string(), "FOLDER")
         };

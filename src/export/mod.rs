@@ -2,7 +2,7 @@
 //!
 //! Comes in: a [`Scene`] in metres, z up. Goes out: one file, or several that belong together, picked by the
 //! path's extension ([`Format`]). It never changes the scene, and it never leaves half a file: everything is
-//! written beside the path under temporary names (`file`) and appears when all of it is there. The same
+//! written beside the path under temporary names ([`Files`]) and appears when all of it is there. The same
 //! scene gives the same bytes.
 //!
 //! Heights of the ground are written by [`heights`], from a grid and not from a scene.
@@ -17,85 +17,86 @@
 
 mod check;
 mod color;
-mod file;
+mod files;
 mod format;
 pub mod gltf;
 pub mod heights;
 pub mod obj;
 pub mod svg;
+mod target;
+mod temporary;
 mod texture;
 
 #[cfg(test)]
 mod samples;
 
+pub use files::{Files, Out, Stoppable};
 pub use format::Format;
+pub use temporary::abandon;
 
 use crate::error::Result;
 use crate::picture::{self, Picture};
 use crate::scene::Scene;
-use file::Files;
-use std::fs::File;
-use std::io::{self, BufWriter, Cursor, Write};
+use crate::stop::Stop;
+use std::io::{self, Cursor, Write};
 use std::path::Path;
 
 /// Writes `scene` to `path` in the format of its extension; `picture` matters to `.png` alone.
 ///
 /// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. On failure everything is as
-/// it was before. Fails as [`check_writable`] does, if the scene is not sound, if a texture cannot be read,
-/// and if the disk is full.
+/// it was before. Fails as [`Files::scene`] does.
 pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
-    let format = Format::of(path)?;
-    let mut files = Files::beside(path)?;
-    match format {
-        Format::Glb => gltf::write_glb(scene, &mut files)?,
-        Format::Gltf => gltf::write_gltf(scene, &mut files)?,
-        Format::Obj => obj::write(scene, &mut files)?,
-        Format::Png => {
-            let png = png(scene, picture)?;
-            files.write(path, |out| out.write_all(&png))?;
-        }
-        Format::Svg => {
-            let drawing = svg::svg(scene)?;
-            files.write(path, |out| out.write_all(drawing.as_bytes()))?;
-        }
-    }
+    let mut files = Files::default();
+    files.scene(scene, path, picture)?;
     files.publish()
 }
 
-/// Whether [`write()`] could write to `path`: to be asked before a long run. It leaves nothing behind.
-///
-/// Fails if the extension is not a format, the folder is not there or takes no files, or `path` is a folder.
-pub fn check_writable(path: &Path) -> Result<()> {
-    Format::of(path)?;
-    check_file(path)
-}
-
-/// Whether [`write_file()`] could write to `path`: to be asked before a long run. It leaves nothing behind.
-///
-/// Fails if the folder is not there or takes no files, or `path` is a folder.
-pub fn check_file(path: &Path) -> Result<()> {
-    let mut files = Files::beside(path)?;
-    files.write(path, |_| Ok(()))
-}
-
-/// Writes one file whole or not at all; what is no regular file, such as a pipe, is written as it comes.
-pub fn write_file(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>) -> Result<()> {
-    if path.metadata().is_ok_and(|known| !known.is_file() && !known.is_dir()) {
-        let written = File::options().write(true).open(path).and_then(|file| {
-            let mut out = BufWriter::new(file);
-            content(&mut out).and_then(|()| out.flush())
-        });
-        return written
-            .map_err(|error| crate::error::Error::new(format!("cannot write {}: {error}", path.display())));
+impl Files {
+    /// Writes what will be `scene` at `path`, in the format of its extension; `picture` matters to `.png` alone.
+    ///
+    /// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
+    /// does, if the extension is no format, if the scene is not sound and if a texture cannot be read.
+    pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
+        match Format::of(path)? {
+            Format::Glb => gltf::write_glb(scene, path, self),
+            Format::Gltf => gltf::write_gltf(scene, path, self),
+            Format::Obj => obj::write(scene, path, self),
+            Format::Png => {
+                let png = png(scene, picture, &self.stop())?;
+                self.write(path, |out| out.write_all(&png))
+            }
+            Format::Svg => {
+                let drawing = svg::svg(scene, &self.stop())?;
+                self.write(path, |out| out.write_all(drawing.as_bytes()))
+            }
+        }
     }
-    let mut files = Files::beside(path)?;
+}
+
+/// Writes one file whole or not at all; what is no regular file, such as a pipe, is given all of it at once.
+pub fn write_file(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
+    let mut files = Files::default();
     files.write(path, content)?;
     files.publish()
 }
 
+/// Whether [`Files::publish`] could give all of these files their names: to be asked before a long run. It leaves
+/// nothing behind.
+///
+/// Fails if two of them are the same file, a folder is not there or takes no files, or one of them is a folder.
+pub fn check_files<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<()> {
+    let mut files = Files::default();
+    paths.into_iter().try_for_each(|path| files.write(path, |_| Ok(())))
+}
+
+/// The name of `path` without its extension.
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
 /// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.
-pub fn png(scene: &Scene, picture: &Picture) -> Result<Vec<u8>> {
-    encode_png(&picture::render(scene, picture)?)
+pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
+    encode_png(&picture::render_within(scene, None, picture, stop)?)
 }
 
 /// `image` as a PNG file.
@@ -121,7 +122,7 @@ mod tests {
         for (name, scene) in &samples {
             for format in Format::ALL.into_iter().filter(|format| *format != Format::Png) {
                 let path = folder.join(format!("{name}.{}", format.extension()));
-                check_writable(&path).unwrap();
+                check_files([path.as_path()]).unwrap();
                 write(scene, &path, &Picture::default()).unwrap();
                 assert!(path.metadata().unwrap().len() > 20, "{}", path.display());
             }

@@ -6,24 +6,27 @@
 
 use super::check::{Checked, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
-use super::file::Files;
+use super::files::Files;
+use super::stem;
 use super::texture::Images;
 use crate::error::Result;
 use crate::scene::{Instance, Material, Part, Scene};
 use glam::{DMat3, DVec3};
 use std::io::{self, Write};
+use std::path::Path;
 
-/// Writes an `.obj` file, its `.mtl` file and copies of the textures.
-pub(super) fn write(scene: &Scene, files: &mut Files) -> Result<()> {
+/// Writes an `.obj` file to `path`, and its `.mtl` file and copies of the textures beside it.
+pub(super) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let copies: Vec<String> = images.copy_names(files).iter().map(|name| word(name, "texture")).collect();
+    let copies: Vec<String> =
+        images.copy_names(path, files).iter().map(|name| word(name, "texture")).collect();
     for (name, file) in copies.iter().zip(&images.files) {
-        files.write(&files.sibling(name), |out| out.write_all(&file.bytes))?;
+        files.copy(&path.with_file_name(name), &file.bytes)?;
     }
     let names = material_names(&scene.materials);
-    let library = word(&format!("{}.mtl", files.stem()), "materials.mtl");
-    files.write(&files.sibling(&library), |out| {
+    let library = word(&format!("{}.mtl", stem(path)), "materials.mtl");
+    files.write(&path.with_file_name(&library), |out| {
         writeln!(out, "{}", heading())?;
         for (i, material) in scene.materials.iter().enumerate().filter(|(i, _)| checked.materials[*i]) {
             let texture = images.of_material[i].map(|file| copies[file].as_str());
@@ -31,8 +34,7 @@ pub(super) fn write(scene: &Scene, files: &mut Files) -> Result<()> {
         }
         Ok(())
     })?;
-    let path = files.main().to_owned();
-    files.write(&path, |out| write_objects(&checked, &names, &library, out))
+    files.write(path, |out| write_objects(&checked, &names, &library, out))
 }
 
 fn heading() -> String {

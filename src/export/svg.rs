@@ -15,6 +15,7 @@ use super::check::{Checked, check};
 use super::texture::Images;
 use crate::error::{Error, Result};
 use crate::scene::Scene;
+use crate::stop::Stop;
 use faces::{Faces, Palette};
 use glam::DVec3;
 use std::fmt::Write;
@@ -25,8 +26,9 @@ const LIMIT: usize = 2_000_000;
 
 /// `scene` as an SVG document.
 ///
-/// Fails if the scene is not sound, if a texture cannot be read, and beyond 2 million triangles.
-pub fn svg(scene: &Scene) -> Result<String> {
+/// Fails if the scene is not sound, if a texture cannot be read, beyond 2 million triangles, and if a `stop` was asked
+/// for.
+pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     let checked = check(scene)?;
     let count = scene.triangles();
     if count > LIMIT {
@@ -35,9 +37,11 @@ pub fn svg(scene: &Scene) -> Result<String> {
     }
     let images = Images::load(&checked)?;
     let view = View::of(&checked);
+    stop.check()?;
     let faces = Faces::collect(&checked, view);
+    stop.check()?;
     let palette = Palette::new(&scene.materials, &images);
-    Ok(document(&checked, view, &faces, &palette))
+    document(&checked, view, &faces, &palette, stop)
 }
 
 /// The paper: what is shown on it, and its size, in metres of the drawing's coordinates with y downwards.
@@ -69,14 +73,20 @@ impl Paper {
     }
 }
 
-fn document(checked: &Checked<'_>, view: View, faces: &Faces, palette: &Palette) -> String {
+fn document(
+    checked: &Checked<'_>,
+    view: View,
+    faces: &Faces,
+    palette: &Palette,
+    stop: &Stop,
+) -> Result<String> {
     let mut out = String::new();
     let title = view.title();
     let Some(paper) = Paper::around(faces) else {
-        return format!(
+        return Ok(format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10 10\">\n<title>{title}</title>\n\
              <desc>Nothing is seen from here.</desc>\n</svg>\n"
-        );
+        ));
     };
     let Paper { left, top, width, height, size, .. } = paper;
     let [left, top, width, height] = [left, top, width, height].map(decimals);
@@ -100,7 +110,8 @@ fn document(checked: &Checked<'_>, view: View, faces: &Faces, palette: &Palette)
     // The same on paper for a shed and a city.
     let pen = size / 1000.0;
     line(format_args!("<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">"));
-    for sheet in sheets::stack(faces, pen) {
+    for sheet in sheets::stack(faces, pen, stop)? {
+        stop.check()?;
         let fill = outline::filled(faces, &sheet.faces);
         let (color, opacity) = palette.fill(sheet.ink);
         let opacity =
@@ -127,7 +138,7 @@ fn document(checked: &Checked<'_>, view: View, faces: &Faces, palette: &Palette)
         line(format_args!("{}", north_arrow(&paper)));
     }
     line(format_args!("</svg>"));
-    out
+    Ok(out)
 }
 
 /// A bar of a round length, half black and half white, and how long it is.
@@ -186,6 +197,10 @@ fn decimals(number: f64) -> String {
 
 #[cfg(test)]
 mod tests {
+    fn svg(scene: &Scene) -> Result<String> {
+        super::svg(scene, &Stop::default())
+    }
+
     use super::super::samples;
     use super::*;
 

@@ -2,7 +2,8 @@
 
 use super::check::{Checked, named};
 use super::color::linear;
-use super::file::Files;
+use super::files::Files;
+use super::stem;
 use crate::error::{Error, Result};
 use crate::scene::Texture;
 use image::{ImageDecoder, ImageFormat, ImageReader};
@@ -56,21 +57,26 @@ impl Images {
         Ok(images)
     }
 
-    /// A file name for a copy of each image beside the export, such as `city_brick.png`.
+    /// A file name for a copy of each image beside the export at `main`, such as `city_brick.png`.
     ///
-    /// They begin with the stem of the export, differ from each other, and no source is overwritten.
-    pub(super) fn copy_names(&self, files: &Files) -> Vec<String> {
+    /// They begin with the stem of the export, differ from each other and from what else is among the `files`, and no
+    /// source is overwritten.
+    pub(super) fn copy_names(&self, main: &Path, files: &Files) -> Vec<String> {
         let place = |path: &Path| fs::canonicalize(path).ok();
         let sources: Vec<_> = self.files.iter().filter_map(|file| place(&file.path)).collect();
         let mut names: Vec<String> = Vec::new();
         for file in &self.files {
             let own = if file.content.is_some() { plain(&file.stem()) } else { file.stem() };
-            let stem = format!("{}_{own}", files.stem());
+            let stem = format!("{}_{own}", stem(main));
             let mut name = format!("{stem}.{}", file.extension());
             let mut count = 1;
-            while names.contains(&name)
-                || place(&files.sibling(&name)).is_some_and(|it| sources.contains(&it))
-            {
+            let is_taken = |name: &String| {
+                let path = main.with_file_name(name);
+                names.contains(name)
+                    || place(&path).is_some_and(|it| sources.contains(&it))
+                    || files.has(&path, &file.bytes) == Some(false)
+            };
+            while is_taken(&name) {
                 count += 1;
                 name = format!("{stem}_{count}.{}", file.extension());
             }
@@ -183,8 +189,8 @@ mod tests {
             texture.path = own;
         }
         let images = Images::load(&check(&scene).unwrap()).unwrap();
-        let files = Files::beside(&folder.path().join("out.gltf")).unwrap();
-        assert_eq!(images.copy_names(&files), ["out_brick_2.png", "out_out_brick.png"]);
+        let main = folder.path().join("out.gltf");
+        assert_eq!(images.copy_names(&main, &Files::default()), ["out_brick_2.png", "out_out_brick.png"]);
     }
 
     #[test]
@@ -201,9 +207,8 @@ mod tests {
             }
         }
         let images = Images::load(&check(&scene).unwrap()).unwrap();
-        let files = Files::beside(&folder.path().join("out.gltf")).unwrap();
         let long = format!("out_{}.png", "ä".repeat(LONGEST));
-        let names = images.copy_names(&files);
+        let names = images.copy_names(&folder.path().join("out.gltf"), &Files::default());
         assert_eq!(names[..2], ["out_land_1_0_0_0.png", "out_a_b_________.png"]);
         assert!(names[2..].iter().all(|name| *name == long) && long.len() < 120, "{names:?}");
         crate::export::write(&scene, &folder.path().join("out.obj"), &Default::default()).unwrap();

@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
 use crate::rules::Symbol;
-use crate::warning::{Warning, WarningKind};
+use crate::warning::Warning;
 
 /// A warning of an object, and what gave rise to it.
 pub(crate) struct Notice {
@@ -69,12 +69,11 @@ impl Notices {
         known.insert(key, new);
     }
 
-    /// All of them, by symbol; `of_symbol` counts the modules with a symbol. That a module draws nothing is told only
-    /// where none of its kind does: sizes may well be 0 here and there.
+    /// All of them, by symbol; `of_symbol` counts the modules with a symbol.
     pub(super) fn into_list(self, of_symbol: impl Fn(Symbol) -> usize) -> impl Iterator<Item = Warning> {
         let known = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
         known.into_iter().filter_map(move |((symbol, _), known)| {
-            let some = known.warning.kind() == WarningKind::DrawsNothing && known.modules < of_symbol(symbol);
+            let some = known.warning.is_of_all() && known.modules < of_symbol(symbol);
             (!some).then_some(known.warning)
         })
     }
@@ -83,6 +82,7 @@ impl Notices {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::warning::WarningKind;
 
     #[test]
     fn the_first_module_counts_whichever_comes_first_and_all_have_to_draw_nothing() {
@@ -90,7 +90,7 @@ mod tests {
             for all in [3, 4] {
                 let notices = Notices::default();
                 for module in order {
-                    let warning = Warning::new(WarningKind::DrawsNothing, "nothing is drawn");
+                    let warning = Warning::new(WarningKind::DrawsNothing, "nothing is drawn").of_all();
                     notices.add((7, module), true, warning, |warning| warning.rule(format!("A{module}")));
                 }
                 let texts: Vec<String> = notices.into_list(|_| all).map(|it| it.to_string()).collect();

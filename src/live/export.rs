@@ -2,15 +2,16 @@
 
 use std::fs::{self, File};
 use std::io::{BufReader, Cursor};
+use std::sync::Arc;
 
 use zip::write::SimpleFileOptions;
 use zip::{CompressionMethod, ZipWriter};
 
 use crate::error::{Error, Result};
-use crate::export::{self, Format};
+use crate::export::{Files, Format};
 use crate::picture::Picture;
 use crate::scene::Scene;
-use crate::script::Stop;
+use crate::stop::Stop;
 
 /// The largest width and height (pixels) of a picture.
 const LARGEST: u32 = 8192;
@@ -34,7 +35,7 @@ pub(super) fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
 
 /// `scene` as a file called `name`, whose extension picks the format. What comes as several files is one archive. Fails
 /// soon after a stop was asked for.
-pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Stop) -> Result<Download> {
+pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<Stop>) -> Result<Download> {
     stop.check()?;
     let format = Format::of(name.as_ref())?;
     let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
@@ -46,8 +47,9 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Stop
     let name = format!("{stem}.{}", format.extension());
     let failed = |error: std::io::Error| Error::new(format!("cannot write a temporary file: {error}"));
     let folder = tempfile::tempdir().map_err(failed)?;
-    export::write(scene, &folder.path().join(&name), picture)?;
-    stop.check()?;
+    let mut written = Files::new(stop);
+    written.scene(scene, &folder.path().join(&name), picture)?;
+    written.publish()?;
     let mut files = Vec::new();
     for entry in fs::read_dir(folder.path()).map_err(failed)? {
         let entry = entry.map_err(failed)?;
@@ -155,7 +157,7 @@ mod tests {
     fn names_lose_what_has_a_meaning_in_paths_and_formats_of_several_files_become_archives() {
         let scene = Scene::default();
         let name =
-            |name: &str| download(&scene, name, &Picture::default(), &Stop::default()).map(|it| it.name);
+            |name: &str| download(&scene, name, &Picture::default(), &Arc::default()).map(|it| it.name);
         assert_eq!(name("to wer-2.glb").unwrap(), "to wer-2.glb");
         assert_eq!(name("../../etc/\"x\r\n.GLB").unwrap(), "_.._etc__x__.glb");
         assert_eq!(name("..glb").unwrap(), "model.glb");

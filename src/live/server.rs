@@ -17,7 +17,7 @@ use super::socket;
 use super::state::State;
 use crate::error::Error;
 use crate::export::gltf;
-use crate::script::Stop;
+use crate::stop::Stop;
 
 const INDEX: &[u8] = include_bytes!("../../viewer/dist/index.html");
 const SCRIPT: &[u8] = include_bytes!("../../viewer/dist/viewer.js");
@@ -52,7 +52,10 @@ impl Drop for Waiting {
 
 impl Site {
     /// What `make` gives, in its turn and apart from runs; it ends early when the page goes. `None` if it panicked.
-    async fn export<T: Send + 'static>(&self, make: impl FnOnce(&Stop) -> T + Send + 'static) -> Option<T> {
+    async fn export<T: Send + 'static>(
+        &self,
+        make: impl FnOnce(&Arc<Stop>) -> T + Send + 'static,
+    ) -> Option<T> {
         let turn = Arc::clone(&self.exports).acquire_owned().await.ok()?;
         let waiting = Waiting(Arc::default());
         let stop = Arc::clone(&waiting.0);
@@ -170,7 +173,7 @@ async fn measured(site: &Arc<Site>, name: &str) -> Response {
     let shown = site.state.lock().shown.clone();
     let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
     let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
-    match site.export(move |_| gltf::glb_with_texture_coordinates(&shown.run.scene)).await {
+    match site.export(move |stop| gltf::glb_with_texture_coordinates(&shown.run.scene, stop)).await {
         Some(Ok(bytes)) => {
             let kind = "model/gltf-binary";
             ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()

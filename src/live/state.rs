@@ -19,7 +19,8 @@ use crate::export::Format;
 use crate::export::gltf::Layout;
 use crate::presets::Presets;
 use crate::run::Run;
-use crate::script::{Options, Param, Session, Stop};
+use crate::script::{Options, Param, Session};
+use crate::stop::Stop;
 use crate::warning::Warning;
 use crate::watch::Change;
 

@@ -326,7 +326,7 @@ impl Extruder {
         if state.scale == DVec2::ZERO && state.taper == DVec2::ZERO {
             let text = "extruder:extrude draws nothing where the scale is 0";
             let help = "give a scale above 0, or go on without drawing: this:advance(length)";
-            self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help));
+            self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help).of_all());
         }
         let section = if state.around > 0 {
             Arc::new(state.section.resampled(state.around as usize)?)

@@ -4,11 +4,17 @@ use super::{Color, Parameter, Table, Value};
 use crate::error::{Error, Result};
 use crate::scene::{Material, Texture};
 
+/// What a texture is multiplied with.
+const WHITE: Color = Color([1.0; 4]);
+
+/// What has neither a colour nor a texture.
+const GREY: Color = Color([0.6, 0.6, 0.6, 1.0]);
+
 fields! {
     /// What `material { ... }` takes.
     pub struct Surface for "material" {
-        /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1.
-        pub color: Color = Color([0.6, 0.6, 0.6, 1.0]),
+        /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1; if left out, white under a texture, and grey.
+        pub color: Option<Color> = None,
         /// 0 for wood, stone and plaster, 1 for bare metal.
         pub metallic: f64 = 0.0,
         /// 0 like a mirror, 1 like chalk.
@@ -70,12 +76,26 @@ impl Surface {
         let narrow = |factor: f64| factor as f32;
         Ok(Material {
             name: self.name.clone(),
-            base_color: self.color.0,
+            base_color: self.color.unwrap_or(if texture.is_some() { WHITE } else { GREY }).0,
             metallic: narrow(self.metallic),
             roughness: narrow(self.roughness),
             emissive: [red, green, blue],
             texture,
             double_sided: self.double_sided,
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_without_a_colour_is_shown_as_it_is() {
+        let textured = Surface { texture: Some("brick.png".into()), ..Surface::default() };
+        assert_eq!(textured.material().unwrap().base_color, [1.0; 4]);
+        let tinted = Surface { color: Some(Color([0.5, 0.4, 0.3, 1.0])), ..textured };
+        assert_eq!(tinted.material().unwrap().base_color, [0.5, 0.4, 0.3, 1.0]);
+        assert_eq!(Surface::default().material().unwrap(), Material::default());
     }
 }

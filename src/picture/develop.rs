@@ -1,6 +1,6 @@
 //! From samples to pixels: finds what each pixel sees, has it lit, and mixes the colours.
 
-use super::light_map::noise;
+use super::coverage::noise;
 use super::settings::{Background, Detail, Picture};
 use super::shade::{Fragment, Light};
 use super::sky::smooth;
@@ -38,6 +38,9 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Rgba
         rows.par_chunks_mut(TILE[1] * width * 4).enumerate().for_each(|(index, rows)| {
             let top = first + index * TILE[1];
             for left in (0..width).step_by(TILE[0]) {
+                if light.stage.stop.is_stopped() {
+                    return;
+                }
                 let size = [TILE[0].min(width - left), rows.len() / (width * 4)];
                 let tile = tile(light, picture, &visible, [left, top], size);
                 for (y, line) in tile.chunks(size[0]).enumerate() {

@@ -54,6 +54,7 @@ impl Extent {
 mod tests {
     use super::*;
     use crate::picture::{Picture, Quality, render, render_within, samples};
+    use crate::stop::Stop;
 
     fn picture() -> Picture {
         let (azimuth, elevation) = (Some(150.0), Some(15.0));
@@ -71,7 +72,9 @@ mod tests {
     fn a_scene_within_its_own_extent_looks_as_it_does_alone() {
         let scene = samples::twisted_tower(12);
         let alone = seen(&render(&scene, &picture()).unwrap());
-        let within = seen(&render_within(&scene, &Extent::of(&scene).unwrap(), &picture()).unwrap());
+        let within = seen(
+            &render_within(&scene, Some(&Extent::of(&scene).unwrap()), &picture(), &Stop::new()).unwrap(),
+        );
         assert!(alone.abs_diff(within) * 50 < alone, "{alone} {within}");
     }
 
@@ -80,8 +83,8 @@ mod tests {
         let (small, large) = (samples::twisted_tower(6), samples::twisted_tower(12));
         let mut extent = Extent::of(&small).unwrap();
         extent.join(&Extent::of(&large).unwrap());
-        let [few, many] =
-            [small, large].map(|scene| seen(&render_within(&scene, &extent, &picture()).unwrap()));
+        let [few, many] = [small, large]
+            .map(|scene| seen(&render_within(&scene, Some(&extent), &picture(), &Stop::new()).unwrap()));
         assert!(few * 3 < many * 2 && few * 5 > many * 2, "{few} {many}");
     }
 
@@ -89,7 +92,7 @@ mod tests {
     fn an_empty_scene_has_a_picture_within_any_extent() {
         let empty = Scene::default();
         for extent in [Extent::default(), Extent::of(&samples::twisted_tower(2)).unwrap()] {
-            render_within(&empty, &extent, &picture()).unwrap();
+            render_within(&empty, Some(&extent), &picture(), &Stop::new()).unwrap();
         }
     }
 }

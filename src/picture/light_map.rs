@@ -1,6 +1,5 @@
 //! The frame of a depth map: parallel projection along the light, fitted to the model.
 
-use super::stage::Draw;
 use glam::{Affine3A, Mat3A, Vec3A};
 
 /// A parallel projection of the stage onto a grid of texels.
@@ -55,53 +54,6 @@ impl Frame {
     }
 }
 
-/// Which samples a translucent surface covers: as many of a hundred as its opacity says, and for each surface
-/// others.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Coverage {
-    opacity: f32,
-    seed: u32,
-    /// Samples across and down a block, in each of which as many are covered, give or take one.
-    block: [usize; 2],
-}
-
-impl Coverage {
-    /// The coverage of `draw` in blocks of so many samples across and down.
-    pub(super) fn of(draw: &Draw, block: [usize; 2]) -> Self {
-        Self { opacity: draw.opacity, seed: draw.first.wrapping_mul(0x9e37_79b9), block }
-    }
-
-    /// Whether the surface covers all samples.
-    pub(super) fn is_full(self) -> bool {
-        self.opacity >= 1.0
-    }
-
-    /// Whether the surface covers sample `x`, `y`.
-    #[inline]
-    pub(super) fn covers(self, x: usize, y: usize) -> bool {
-        self.is_full() || self.threshold(x, y) < self.opacity
-    }
-
-    fn threshold(self, x: usize, y: usize) -> f32 {
-        let [columns, rows] = self.block;
-        let count = columns * rows;
-        let place = y % rows * columns + x % columns;
-        // Odd steps visit all of a power of two; other surfaces use other steps, so that they do not line up.
-        let step = 2 * (self.seed as usize >> 16) + 5;
-        let turn = place.wrapping_mul(step) % count;
-        let start = noise((x / columns) as u32, (y / rows) as u32, self.seed);
-        (turn as f32 / count as f32 + start).fract()
-    }
-}
-
-/// A number from 0 to 1 that looks random.
-pub(super) fn noise(x: u32, y: u32, seed: u32) -> f32 {
-    let mut bits = x.wrapping_mul(0x8da6_b343) ^ y.wrapping_mul(0xd816_3841) ^ seed.wrapping_mul(0xcb1a_b31f);
-    bits = (bits ^ (bits >> 16)).wrapping_mul(0x7feb_352d);
-    bits = (bits ^ (bits >> 15)).wrapping_mul(0x846c_a68b);
-    ((bits ^ (bits >> 16)) >> 8) as f32 / 16_777_216.0
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -123,12 +75,5 @@ mod tests {
                 );
             }
         }
-    }
-
-    #[test]
-    fn noise_covers_as_much_as_the_opacity_says() {
-        let coverage = Coverage { opacity: 0.3, seed: 5, block: [4, 4] };
-        let covered = (0..10_000).filter(|i| coverage.covers(i % 100, i / 100)).count();
-        assert!((2850..3150).contains(&covered), "{covered} of 10000");
     }
 }

@@ -6,7 +6,7 @@
 //! In order: the scene is checked and moved to the origin (`stage`), a viewpoint is chosen (`view`) and the
 //! camera fitted (`camera`); depth maps are drawn from the sun (`sun`) and from many directions of the sky
 //! (`sky`), and from them how the ground is lit (`floor`); the camera's samples learn which triangle they see
-//! (`visible`); each pixel's triangles become points on a surface (`surface`), are lit (`shade`) and mixed
+//! (`visible`), as far as it is neither translucent nor cut out there (`coverage`); each pixel's triangles become points on a surface (`surface`), are lit (`shade`) and mixed
 //! into a colour (`develop`).
 
 #![allow(
@@ -15,6 +15,7 @@
 )]
 
 mod camera;
+mod coverage;
 mod develop;
 mod extent;
 mod floor;
@@ -42,6 +43,7 @@ pub use settings::{Background, Look, Picture, Quality};
 
 use crate::error::Result;
 use crate::scene::Scene;
+use crate::stop::Stop;
 use glam::DVec3;
 use image::RgbaImage;
 
@@ -50,22 +52,24 @@ use image::RgbaImage;
 /// Corners with a coordinate that is not finite hide their triangles. Fails if the size is zero or beyond
 /// 16384, a texture cannot be read, or the scene names a mesh, material or corner that it does not have.
 pub fn render(scene: &Scene, picture: &Picture) -> Result<RgbaImage> {
-    photograph(scene, None, picture)
+    render_within(scene, None, picture, &Stop::default())
 }
 
-/// The picture of `scene` by a camera that sees all of `extent`, as large as it stands there.
+/// The picture of `scene` by a camera that sees all of `extent`, as large as it stands there, unless `stop` asks for
+/// an end; without an extent the camera is fitted to the scene.
 ///
 /// Pictures of several scenes within one extent, with the same `picture`, have the same camera, so that what is
 /// larger looks larger. Where `picture` names no direction, the shape of the extent decides. Fails as [`render`]
-/// does.
-pub fn render_within(scene: &Scene, extent: &Extent, picture: &Picture) -> Result<RgbaImage> {
-    photograph(scene, Some(extent), picture)
-}
-
-fn photograph(scene: &Scene, extent: Option<&Extent>, picture: &Picture) -> Result<RgbaImage> {
+/// does, and with the reason of a stop.
+pub fn render_within(
+    scene: &Scene,
+    extent: Option<&Extent>,
+    picture: &Picture,
+    stop: &Stop,
+) -> Result<RgbaImage> {
     picture.check()?;
-    let stage = stage::Stage::within(scene, extent)?;
     let textures = texture::load(&scene.materials)?;
+    let stage = stage::Stage::within(scene, &textures, extent, stop)?;
     let detail = settings::Detail::of(picture.quality, stage.triangles());
     let size = [picture.width, picture.height];
     let (eye, camera) = match (extent, picture.look) {
@@ -99,5 +103,7 @@ fn photograph(scene: &Scene, extent: Option<&Extent>, picture: &Picture) -> Resu
         sky: &sky,
         floor: floor.as_ref(),
     };
-    Ok(develop::develop(&light, picture, &detail))
+    let image = develop::develop(&light, picture, &detail);
+    // What was stopped has left everything out that was still to be done.
+    stop.check().map(|()| image)
 }

@@ -3,7 +3,8 @@
 //! Depth maps are drawn from directions spread over the sphere. A point sees the light of a direction if it
 //! is not behind what the map shows there; the sum over the maps is the light with its soft shadows.
 
-use super::light_map::{Coverage, Frame};
+use super::coverage::Coverage;
+use super::light_map::Frame;
 use super::raster::Grid;
 use super::settings::Detail;
 use super::stage::Stage;
@@ -130,8 +131,8 @@ impl Map {
             all,
             &frame.to_texels,
             |p| p,
-            |_, draw, triangle| {
-                let coverage = Coverage::of(draw, [4, 4]);
+            |number, draw, triangle| {
+                let coverage = Coverage::of(draw, number, &triangle, [4, 4], false);
                 grid.cover(triangle, |y, xs, z, growth| {
                     let texels = &mut depths[y * width + xs.start..y * width + xs.end];
                     let depth = |i: usize| (z + growth * (i as i32 as f32)) as i32 as u16;
@@ -139,8 +140,9 @@ impl Map {
                         texels.iter_mut().enumerate().for_each(|(i, texel)| *texel = depth(i).min(*texel));
                     } else {
                         for (i, texel) in texels.iter_mut().enumerate() {
-                            *texel =
-                                if coverage.covers(xs.start + i, y) { depth(i).min(*texel) } else { *texel };
+                            if coverage.covers(xs.start + i, y, 128.0) {
+                                *texel = depth(i).min(*texel);
+                            }
                         }
                     }
                 });

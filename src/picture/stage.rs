@@ -5,8 +5,10 @@
 
 use super::extent::Extent;
 use super::points;
+use super::texture::Texture;
 use crate::error::{Error, Result};
 use crate::scene::{Material, Part, Scene};
+use crate::stop::Stop;
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3A};
 use std::ops::Range;
 
@@ -25,6 +27,8 @@ pub(super) struct Stage<'a> {
     count: u32,
     outlines: Vec<Vec<glam::Vec3>>,
     places: Vec<(usize, Affine3A)>,
+    /// Asks for an end: from then on nothing is drawn any more.
+    pub stop: &'a Stop,
 }
 
 /// One part of one instance.
@@ -41,20 +45,29 @@ pub(super) struct Draw<'a> {
     pub mirrored: bool,
     /// The material's opacity, 0 to 1.
     pub opacity: f32,
+    /// The material's texture, if it does not cover all of a surface.
+    pub cutout: Option<&'a Texture>,
     /// Whether both sides are seen.
     pub double_sided: bool,
 }
 
 impl<'a> Stage<'a> {
-    /// Checks `scene` and finds its size. Fails if an index is out of range or triangles are too many to
-    /// number.
+    /// Checks `scene` and finds its size. Fails if an index is out of range or triangles are too many to number.
     pub(super) fn new(scene: &'a Scene) -> Result<Self> {
-        Self::within(scene, None)
+        static NEVER: Stop = Stop::new();
+        Self::within(scene, &[], None, &NEVER)
     }
 
-    /// As [`new`](Self::new), around the middle of `extent` and in units of its radius.
-    pub(super) fn within(scene: &'a Scene, extent: Option<&Extent>) -> Result<Self> {
+    /// As [`new`](Self::new), with the `textures` of the materials, and around the middle of `extent` and in units of
+    /// its radius.
+    pub(super) fn within(
+        scene: &'a Scene,
+        textures: &'a [Option<Texture>],
+        extent: Option<&Extent>,
+        stop: &'a Stop,
+    ) -> Result<Self> {
         check(scene)?;
+        stop.check()?;
         let outlines = points::outlines(scene);
         let corners = |instance: &'a crate::scene::Instance| {
             let transform = instance.transform;
@@ -81,7 +94,18 @@ impl<'a> Stage<'a> {
             for part in &scene.meshes[instance.mesh].parts {
                 let material = &scene.materials[part.material];
                 let (opacity, double_sided) = (material.base_color[3], material.double_sided);
-                draws.push(Draw { part, place, exact, first: count, mirrored, opacity, double_sided });
+                let texture = textures.get(part.material).and_then(Option::as_ref);
+                let cutout = texture.filter(|texture| texture.has_holes());
+                draws.push(Draw {
+                    part,
+                    place,
+                    exact,
+                    first: count,
+                    mirrored,
+                    opacity,
+                    cutout,
+                    double_sided,
+                });
                 let length = u32::try_from(part.triangles.len()).ok();
                 count = length
                     .and_then(|length| count.checked_add(length))
@@ -95,7 +119,8 @@ impl<'a> Stage<'a> {
         draws.retain(|draw| !draw.part.triangles.is_empty());
         let bounds = (((low - center) / radius).as_vec3a(), ((high - center) / radius).as_vec3a());
         let materials = &scene.materials;
-        let mut stage = Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, places };
+        let mut stage =
+            Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, places, stop };
         stage.hull = points::hull(stage.points(), bounds);
         Ok(stage)
     }
@@ -143,7 +168,7 @@ impl<'a> Stage<'a> {
         let mut corners: Vec<Vec3A> = Vec::new();
         let start = self.draws.partition_point(|draw| draw.first <= numbers.start) - 1;
         for draw in &self.draws[start..] {
-            if draw.first >= numbers.end {
+            if draw.first >= numbers.end || self.stop.is_stopped() {
                 break;
             }
             let from = (numbers.start.max(draw.first) - draw.first) as usize;

@@ -1,6 +1,7 @@
 //! The sun: where it stands, and how much of it is seen from a point.
 
-use super::light_map::{Coverage, Frame};
+use super::coverage::Coverage;
+use super::light_map::Frame;
 use super::raster::Grid;
 use super::settings::Detail;
 use super::stage::Stage;
@@ -46,14 +47,14 @@ impl Sun {
                 numbers,
                 &frame.to_texels,
                 |p| p,
-                |_, draw, triangle| {
-                    let coverage = Coverage::of(draw, [4, 4]);
+                |number, draw, triangle| {
+                    let coverage = Coverage::of(draw, number, &triangle, [4, 4], false);
                     grid.cover(triangle, |y, xs, z, growth| {
                         for (i, x) in xs.enumerate() {
                             // The bits of numbers that are not negative are ordered as they are.
                             let depth = (z + growth * i as f32).max(0.0).to_bits();
                             let texel = &texels[y * width + x];
-                            if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y) {
+                            if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y, 128.0) {
                                 texel.fetch_min(depth, Ordering::Relaxed);
                             }
                         }

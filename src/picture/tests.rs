@@ -1,8 +1,9 @@
 //! What a picture must show, checked on small ones.
 
 use super::samples::{boxes, instance, prism, quad, ring, scene_of, twisted_tower};
-use super::{Background, Picture, Quality, render};
+use super::{Background, Picture, Quality, render, render_within};
 use crate::scene::{Material, Part, Scene, Texture};
+use crate::stop::Stop;
 use glam::{DAffine3, DVec3, Vec3};
 use image::RgbaImage;
 
@@ -194,4 +195,76 @@ fn a_missing_texture_is_an_error_that_names_the_file() {
     let texture = Some(Texture { path: "no/such/brick.png".into(), size: [1.0, 1.0], content: None });
     let error = render(&wall(Material { texture, ..Material::default() }), &small()).unwrap_err();
     assert!(error.to_string().contains("no/such/brick.png"), "{error}");
+}
+
+/// From in front.
+fn front() -> Picture {
+    Picture { azimuth: Some(180.0), elevation: Some(0.0), ..small() }
+}
+
+/// A picture of the wall with a texture of one repetition over all of it.
+fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> RgbaImage {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("leaf.png");
+    image::RgbaImage::from_fn(64, 64, |x, y| image::Rgba(pixel(x, y))).save(&path).unwrap();
+    let texture = Some(Texture { path, size: [4.0, 2.0], content: None });
+    let scene = wall(Material { base_color, texture, ..Material::default() });
+    render(&scene, picture).unwrap()
+}
+
+#[test]
+fn what_a_texture_leaves_out_is_not_there() {
+    // The left half is there; what is not seen is black, as programs for painting leave it.
+    let half = |x: u32, _| if x < 32 { [230, 230, 230, 255] } else { [0; 4] };
+    let image = papered(half, [1.0; 4], &front());
+    let whole = papered(|_, _| [230, 230, 230, 255], [1.0; 4], &front());
+    let (some, all) = (covered(&image), covered(&whole));
+    assert!((some * 2).abs_diff(all) < all / 20, "{some} of {all}");
+    // No dark seam where it ends.
+    let row = |image: &RgbaImage| {
+        let middle = image.height() / 2;
+        let row = (0..image.width()).map(|x| *image.get_pixel(x, middle));
+        row.filter(|pixel| pixel[3] > 250).map(|pixel| pixel[0]).collect::<Vec<_>>()
+    };
+    let (least, lit) = (*row(&image).iter().min().unwrap(), *row(&whole).iter().min().unwrap());
+    assert!(least + 12 > lit, "{least} where a whole wall has {lit}");
+}
+
+#[test]
+fn fine_holes_let_through_as_much_as_they_are() {
+    let dots = |x: u32, y: u32| if (x / 2 + y / 2) % 4 == 0 { [90, 140, 60, 255] } else { [0; 4] };
+    let picture = front();
+    let (image, whole) =
+        (papered(dots, [1.0; 4], &picture), papered(|_, _| [90, 140, 60, 255], [1.0; 4], &picture));
+    let opacity = |image: &RgbaImage| image.pixels().map(|pixel| f64::from(pixel[3])).sum::<f64>();
+    let part = opacity(&image) / opacity(&whole);
+    assert!((0.2..0.3).contains(&part), "{part}");
+    // A translucent material with holes lets through more.
+    let part = opacity(&papered(dots, [1.0, 1.0, 1.0, 0.5], &picture)) / opacity(&whole);
+    assert!((0.09..0.16).contains(&part), "{part}");
+}
+
+#[test]
+fn the_shadow_of_what_is_cut_out_has_its_holes() {
+    let picture = Picture { ground: true, elevation: Some(30.0), ..front() };
+    let bars = |x: u32, _| if x / 8 % 2 == 0 { [200, 200, 200, 255] } else { [0; 4] };
+    let (barred, whole) =
+        (papered(bars, [1.0; 4], &picture), papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture));
+    // The sun stands on the left, so the shadow goes on to the right of the wall.
+    let edge =
+        whole.enumerate_pixels().filter(|(_, _, pixel)| pixel[3] == 255).map(|(x, ..)| x).max().unwrap();
+    let shadow = |image: &RgbaImage| {
+        let beside = image.enumerate_pixels().filter(|(x, ..)| *x > edge + 2);
+        beside.map(|(_, _, pixel)| f64::from(pixel[3])).sum::<f64>()
+    };
+    let part = shadow(&barred) / shadow(&whole);
+    assert!((0.3..0.75).contains(&part), "{part}");
+}
+
+#[test]
+fn a_picture_that_nobody_waits_for_is_given_up() {
+    let stop = Stop::default();
+    stop.stop(crate::Error::new("the page has gone"));
+    let error = render_within(&boxes(&[DVec3::ZERO]), None, &small(), &stop).unwrap_err();
+    assert_eq!(error.message(), "the page has gone");
 }

@@ -1,7 +1,7 @@
 //! Which triangle each sample of the camera sees.
 
 use super::camera::Camera;
-use super::light_map::Coverage;
+use super::coverage::Coverage;
 use super::raster::Grid;
 use super::settings::Detail;
 use super::stage::Stage;
@@ -54,13 +54,14 @@ impl Visible {
                 if ((turn > 0.0) != draw.mirrored) && !draw.double_sided {
                     return;
                 }
-                let coverage = Coverage::of(draw, [columns, rows]);
+                let coverage = Coverage::of(draw, number, &triangle, [columns, rows], true);
                 grid.cover(triangle, |y, xs, z, growth| {
+                    let shift = shifts[y & (rows - 1)];
                     for (i, x) in xs.enumerate() {
                         let depth = (z + growth * i as f32).max(0.0);
                         let key = u64::from(depth.to_bits()) << 32 | u64::from(number);
                         let sample = &samples[y * stride + x];
-                        if key < sample.load(Ordering::Relaxed) && coverage.covers(x, y) {
+                        if key < sample.load(Ordering::Relaxed) && coverage.covers(x, y, shift) {
                             sample.fetch_min(key, Ordering::Relaxed);
                         }
                     }

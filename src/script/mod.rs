@@ -25,5 +25,5 @@ pub use machine::{Machine, Watchdog, make_ready};
 pub use options::{Limits, Options};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
-pub use session::{Progress, Session, Stop};
+pub use session::{Progress, Session};
 pub(crate) use system::{Declared, Interpretations, returns_modules};

@@ -4,10 +4,11 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
-use super::{Preset, Stop};
+use super::Preset;
 use crate::derive::Traced;
 use crate::objects::Kind;
 use crate::sources::Cache;
+use crate::stop::Stop;
 
 /// How much a run may use.
 #[derive(Debug, Clone)]

@@ -16,49 +16,11 @@ use super::param::Param;
 use crate::derive::Trace;
 use crate::error::{Error, Result};
 use crate::rules::Values;
+use crate::stop::Stop;
 use crate::warning::{Warning, Warnings};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
-
-/// Tells everything that works on a run to stop, and why.
-#[derive(Debug, Default)]
-pub struct Stop {
-    parent: Option<Arc<Stop>>,
-    stopped: AtomicBool,
-    reason: Mutex<Option<Error>>,
-}
-
-impl Stop {
-    /// Stops whenever `parent` does, too.
-    fn under(parent: Option<Arc<Self>>) -> Self {
-        Self { parent, ..Self::default() }
-    }
-
-    /// Asks for a stop; the first reason is kept.
-    pub fn stop(&self, reason: Error) {
-        self.reason.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(reason);
-        self.stopped.store(true, Ordering::Release);
-    }
-
-    /// Whether a stop was asked for.
-    #[inline]
-    pub fn is_stopped(&self) -> bool {
-        self.stopped.load(Ordering::Acquire) || self.parent.as_ref().is_some_and(|parent| parent.is_stopped())
-    }
-
-    /// The reason as an error, if a stop was asked for.
-    pub fn check(&self) -> Result<()> {
-        if !self.is_stopped() {
-            return Ok(());
-        }
-        if let Some(parent) = self.parent.as_ref().filter(|_| !self.stopped.load(Ordering::Acquire)) {
-            return parent.check();
-        }
-        let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        Err(reason.unwrap_or_else(|| Error::new("stopped")))
-    }
-}
 
 /// How far a run has come, for those who wait.
 #[derive(Debug, Default)]
@@ -414,16 +376,5 @@ mod tests {
         let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
         assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");
         assert_eq!(after(4.0), "step 5 of 20, 1000000 modules, 0.2 M modules/s, at least 12 s left");
-    }
-
-    #[test]
-    fn a_stop_under_another_stops_with_its_reason() {
-        let parent = Arc::new(Stop::default());
-        let (child, other) = (Stop::under(Some(Arc::clone(&parent))), Stop::under(Some(Arc::clone(&parent))));
-        other.stop(Error::new("mine"));
-        assert!(!child.is_stopped() && !parent.is_stopped());
-        parent.stop(Error::new("all"));
-        assert_eq!(child.check().unwrap_err().message(), "all");
-        assert_eq!(other.check().unwrap_err().message(), "mine");
     }
 }

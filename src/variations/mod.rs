@@ -23,7 +23,8 @@ use crate::error::{Error, Result};
 use crate::picture::{Extent, Picture, Quality, render_within};
 use crate::run::{declare, no_such, run_session};
 use crate::scene::Scene;
-use crate::script::{Control, Options, Param, Session, Setting, Stop};
+use crate::script::{Control, Options, Param, Session, Setting};
+use crate::stop::Stop;
 use crate::warning::Warning;
 
 /// What finished scenes may take (bytes) while they wait for a common camera; further ones are made anew.
@@ -215,7 +216,7 @@ impl Variations {
             Some(scene) => scene,
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
-        let picture = thumbnail(&scene, extent, picture)?;
+        let picture = thumbnail(&scene, extent, picture, &self.stop)?;
         let Ran { params, modules, triangles, warnings, .. } = ran;
         Ok(Made { picture, params, modules, triangles, warnings })
     }
@@ -263,13 +264,13 @@ impl Variations {
     }
 }
 
-fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture) -> Result<RgbaImage> {
+fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<RgbaImage> {
     let (width, height) = (picture.width, picture.height);
     if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
-        return render_within(scene, extent, picture);
+        return render_within(scene, Some(extent), picture, stop);
     }
     let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
-    let large = render_within(scene, extent, &large)?;
+    let large = render_within(scene, Some(extent), &large, stop)?;
     Ok(RgbaImage::from_fn(width, height, |x, y| {
         let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| *large.get_pixel(2 * x + i, 2 * y + j));
         mean(four)

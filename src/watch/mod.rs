@@ -36,6 +36,9 @@ const SAVE: Duration = Duration::from_secs(1);
 /// Whether the system tells when a file that was written is closed.
 const TELLS_ENDS: bool = cfg!(any(target_os = "linux", target_os = "android"));
 
+/// How many events are taken before files are compared that should have been by now.
+const AT_ONCE: usize = 1000;
+
 /// How often files are compared without an event: some disks, such as those of other machines, tell of none.
 const ROUND: Duration = Duration::from_secs(1);
 
@@ -67,10 +70,13 @@ pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Durati
 pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
     let begin = Instant::now();
     loop {
-        match read() {
-            Err(_) if begin.elapsed() < SAVE && unsettled([path]).is_some() => std::thread::sleep(QUIET),
-            result => return result,
+        let before = files::stamp_of(path);
+        let result = read();
+        let young = || files::stamp_of(path) != before || unsettled([path]).is_some();
+        if result.is_ok() || begin.elapsed() > SAVE || !young() {
+            return result;
         }
+        std::thread::sleep(QUIET);
     }
 }
 
@@ -85,6 +91,8 @@ enum Signal {
     /// Something happened to these paths; none if the system lost count.
     Event(Vec<PathBuf>, Instant, Sign),
     Follow(Vec<(PathBuf, bool)>, SystemTime),
+    /// Someone waits until all that has changed by now has been told.
+    CatchUp(Sender<()>),
     Over,
 }
 
@@ -150,6 +158,15 @@ impl Watch {
         // The thread ends only when this is dropped.
         let _ = self.signals.send(Signal::Follow(files, since));
     }
+
+    /// Waits until all that has changed by now has been told, but not for ever.
+    pub fn catch_up(&self) {
+        let (done, all) = channel();
+        if self.signals.send(Signal::CatchUp(done)).is_ok() {
+            // Whether it was in time or not, nothing more can be known.
+            let _ = all.recv_timeout(SAVE * 2);
+        }
+    }
 }
 
 impl Drop for Watch {
@@ -174,11 +191,21 @@ impl Watcher {
     }
 
     fn work(mut self, inbox: &Receiver<Signal>, changed: &dyn Fn(Change)) {
-        let mut due: Option<Instant> = None;
+        // Before the folders were watched nothing was told of them.
+        let mut due = Some(Instant::now());
+        let mut looked = Instant::now();
+        let mut asked: Vec<Sender<()>> = Vec::new();
+        let mut overdue = 0;
         loop {
-            let round = if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
-            let wait = due.map_or(round, |due| due.saturating_duration_since(Instant::now()));
-            match inbox.recv_timeout(wait) {
+            // Events of other files, of which there may be many, put off no round.
+            let round = looked + if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
+            let wait = due.unwrap_or(round).saturating_duration_since(Instant::now());
+            overdue = if wait.is_zero() { overdue + 1 } else { 0 };
+            let signal = match overdue {
+                ..AT_ONCE => inbox.recv_timeout(wait),
+                _ => Err(RecvTimeoutError::Timeout),
+            };
+            match signal {
                 Ok(Signal::Event(paths, at, sign)) => {
                     if self.files.concerned_by(&paths) {
                         let first = *self.first.get_or_insert(at);
@@ -194,14 +221,26 @@ impl Watcher {
                 Ok(Signal::Follow(files, since)) => {
                     if self.files.follow(files, Some(since)) {
                         self.first.get_or_insert_with(Instant::now);
-                        due = Some(Instant::now());
                     }
                     self.cover();
+                    // What has changed before its folder was watched was not told.
+                    due = Some(Instant::now());
+                }
+                Ok(Signal::CatchUp(done)) => {
+                    asked.push(done);
+                    due.get_or_insert_with(Instant::now);
                 }
                 Err(RecvTimeoutError::Timeout) => {
                     // Events that come while files are read lead to another look.
                     self.cover();
                     due = self.look(changed);
+                    (looked, overdue) = (Instant::now(), 0);
+                    if due.is_none() {
+                        // Who asked may have given up.
+                        for done in asked.drain(..) {
+                            let _ = done.send(());
+                        }
+                    }
                 }
                 Ok(Signal::Over) | Err(RecvTimeoutError::Disconnected) => return,
             }

@@ -1,9 +1,11 @@
 //! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
 
 use super::super::check::shown;
+use super::corners::Corners;
 use super::weld::Welded;
 use crate::error::{Error, Result};
 use crate::scene::{Normal, Part};
+use crate::stop::Stop;
 use glam::Vec3;
 use gltf_json as json;
 use json::buffer::{Stride, Target, View};
@@ -19,6 +21,9 @@ compile_error!("glTF is little-endian and its arrays are written as they lie in 
 
 /// Items (vertices, triangles, numbers) that are put together at a time: what stays in a processor's own memory.
 const STRETCH: usize = 1 << 14;
+
+/// Corners of a batch of meshes, about.
+const BATCH: usize = 1 << 18;
 
 /// Stretches that are put together while those before them are written.
 const AHEAD: usize = 16;
@@ -57,6 +62,15 @@ pub(super) enum Block<'a> {
     /// The indices of a welded part whose vertices begin with this number, as u16.
     ShortCorners(Arc<Welded>, u16),
     LongCorners(Arc<Welded>),
+    /// The positions of corners.
+    CornerPlaces(Arc<Corners<'a>>),
+    /// The texture coordinates of corners.
+    CornerTexCoords(Arc<Corners<'a>>),
+    /// The normals of corners.
+    CornerNormals(Arc<Corners<'a>>),
+    /// The indices of faces among corners, by their number, with this many triangles to be written, as u16.
+    ShortFaces(Arc<Corners<'a>>, usize, usize),
+    LongFaces(Arc<Corners<'a>>, usize, usize),
     Floats(Vec<f32>),
     Bytes(&'a [u8]),
 }
@@ -65,11 +79,16 @@ pub(super) enum Block<'a> {
 #[derive(Default)]
 pub(super) struct Body<'a> {
     sections: Vec<Section<'a>>,
+    /// The corners that the sections of each batch show, and how many there are in the last one.
+    batches: Vec<Vec<Arc<Corners<'a>>>>,
+    corners: usize,
 }
 
 /// What one buffer view shows.
 struct Section<'a> {
     shared: Option<Shared>,
+    /// The number of its batch.
+    batch: usize,
     blocks: Vec<Block<'a>>,
     length: u64,
 }
@@ -81,13 +100,17 @@ struct Stretch<'a> {
     items: Range<usize>,
     /// Zeros behind it (bytes).
     padding: usize,
+    /// The number of its batch.
+    batch: usize,
 }
 
 impl<'a> Body<'a> {
     /// Adds `block` to the view of its kind. Returns the view and the offset in it (bytes).
     pub(super) fn share(&mut self, kind: Shared, block: Block<'a>) -> (u32, u64) {
-        let index = match self.sections.iter().position(|section| section.shared == Some(kind)) {
-            Some(index) => index,
+        let batch = self.batches.len();
+        let mut sections = self.sections.iter().enumerate().rev().take_while(|(_, it)| it.batch == batch);
+        let index = match sections.find(|(_, section)| section.shared == Some(kind)) {
+            Some((index, _)) => index,
             None => self.section(Some(kind)),
         };
         let section = &mut self.sections[index];
@@ -105,8 +128,29 @@ impl<'a> Body<'a> {
         index as u32
     }
 
+    /// From now on views are those of another batch if the present one has many corners: they are found once more when
+    /// they are written, and are in memory for as long as their batch is.
+    pub(super) fn begin_mesh(&mut self) {
+        if self.corners > BATCH {
+            self.batches.push(Vec::new());
+            self.corners = 0;
+        }
+    }
+
+    /// Takes notice of corners that blocks of this batch will show.
+    pub(super) fn show(&mut self, corners: &Arc<Corners<'a>>) {
+        if self.batches.is_empty() {
+            self.batches.push(Vec::new());
+        }
+        self.corners += corners.range(false).count;
+        if let Some(batch) = self.batches.last_mut() {
+            batch.push(Arc::clone(corners));
+        }
+    }
+
     fn section(&mut self, shared: Option<Shared>) -> usize {
-        self.sections.push(Section { shared, blocks: Vec::new(), length: 0 });
+        let batch = self.batches.len();
+        self.sections.push(Section { shared, batch, blocks: Vec::new(), length: 0 });
         self.sections.len() - 1
     }
 
@@ -147,11 +191,26 @@ impl<'a> Body<'a> {
     }
 
     /// Writes `head` and exactly [`length`](Self::length) bytes. While something is written, what comes next is put
-    /// together.
-    pub(super) fn write(&self, head: Vec<Vec<u8>>, out: &mut (impl Write + Send)) -> io::Result<()> {
+    /// together. Ends early if a `stop` was asked for.
+    pub(super) fn write(
+        &self,
+        head: Vec<Vec<u8>>,
+        out: &mut (impl Write + Send),
+        stop: &Stop,
+    ) -> io::Result<()> {
         let mut ready = head;
         let mut spare: Vec<Vec<u8>> = Vec::new();
+        let mut released = 0;
         for next in self.stretches().chunks(AHEAD) {
+            if stop.is_stopped() {
+                return Ok(());
+            }
+            let present = next.first().map_or(0, |stretch| stretch.batch);
+            // Sections count batches from 1, for what comes before them is of none.
+            while released + 1 < present {
+                self.batches[released].iter().for_each(|corners| corners.release());
+                released += 1;
+            }
             spare.resize_with(next.len(), Vec::new);
             let write = || ready.iter().try_for_each(|bytes| out.write_all(bytes));
             let put = || next.par_iter().zip(&mut spare).for_each(|(stretch, bytes)| stretch.put(bytes));
@@ -167,11 +226,13 @@ impl<'a> Body<'a> {
     fn stretches(&self) -> Vec<Stretch<'_>> {
         let mut stretches = Vec::new();
         for section in &self.sections {
+            let batch = section.batch;
             let mut rest = section.blocks.as_slice();
             while let Some(first) = rest.first() {
                 if first.items() > STRETCH {
                     let parts = (0..first.items()).step_by(STRETCH).map(|from| from..from + STRETCH);
-                    stretches.extend(parts.map(|items| Stretch { blocks: &rest[..1], items, padding: 0 }));
+                    let blocks = &rest[..1];
+                    stretches.extend(parts.map(|items| Stretch { blocks, items, padding: 0, batch }));
                     rest = &rest[1..];
                     continue;
                 }
@@ -181,7 +242,7 @@ impl<'a> Body<'a> {
                     sum <= STRETCH
                 };
                 let (blocks, others) = rest.split_at(rest.iter().take_while(fits).count());
-                stretches.push(Stretch { blocks, items: 0..usize::MAX, padding: 0 });
+                stretches.push(Stretch { blocks, items: 0..usize::MAX, padding: 0, batch });
                 rest = others;
             }
             let padding = section.length.next_multiple_of(4) - section.length;
@@ -235,6 +296,10 @@ impl Block<'_> {
             Self::FaceNormals(welded) => welded.normals.len() * 4,
             Self::ShortCorners(welded, _) => welded.triangles.len() * 6,
             Self::LongCorners(welded) => welded.triangles.len() * 12,
+            Self::CornerPlaces(corners) | Self::CornerNormals(corners) => corners.range(false).count * 12,
+            Self::CornerTexCoords(corners) => corners.range(true).count * 8,
+            Self::ShortFaces(_, _, triangles) => triangles * 6,
+            Self::LongFaces(_, _, triangles) => triangles * 12,
             Self::Floats(floats) => floats.len() * 4,
             Self::Bytes(bytes) => bytes.len(),
         };
@@ -252,6 +317,11 @@ impl Block<'_> {
             Self::Short(part, ..) | Self::Long(part, _) => part.triangles.len(),
             Self::Places(welded) | Self::FaceNormals(welded) => welded.positions.len(),
             Self::ShortCorners(welded, _) | Self::LongCorners(welded) => welded.triangles.len(),
+            Self::CornerPlaces(corners) | Self::CornerNormals(corners) => corners.range(false).count,
+            Self::CornerTexCoords(corners) => corners.range(true).count,
+            Self::ShortFaces(corners, faces, _) | Self::LongFaces(corners, faces, _) => {
+                corners.faces(*faces).part.triangles.len()
+            }
             Self::Floats(floats) => floats.len(),
             Self::Bytes(bytes) => bytes.len(),
         }
@@ -281,6 +351,23 @@ impl Block<'_> {
             }
             Self::LongCorners(welded) => {
                 out.extend_from_slice(bytemuck::cast_slice(&welded.triangles[range]))
+            }
+            Self::CornerPlaces(corners) => {
+                out.extend_from_slice(bytemuck::cast_slice(&corners.list().positions[range]))
+            }
+            Self::CornerTexCoords(corners) => {
+                out.extend_from_slice(bytemuck::cast_slice(&corners.list().tex_coords[range]))
+            }
+            Self::CornerNormals(corners) => {
+                put(out, corners.list().normals[range].iter().map(|it| y_up(it.vector()).to_array()))
+            }
+            Self::ShortFaces(corners, faces, _) => {
+                let (list, shown) = (corners.list(), corners.faces(*faces).triangles(range));
+                put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize] as u16)));
+            }
+            Self::LongFaces(corners, faces, _) => {
+                let (list, shown) = (corners.list(), corners.faces(*faces).triangles(range));
+                put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize])));
             }
             Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
             Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),
@@ -326,7 +413,7 @@ fn short_normal(normal: Normal) -> [i16; 4] {
 }
 
 /// Texture coordinates in metres, v upwards, as parts of the image, v downwards.
-fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
+pub(super) fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
     [(f64::from(uv.x) / size[0]) as f32, (1.0 - f64::from(uv.y) / size[1]) as f32]
 }
 

@@ -75,8 +75,9 @@ pub(super) struct Shading {
 pub(super) struct Attributes {
     #[serde(rename = "POSITION")]
     pub(super) positions: usize,
-    #[serde(rename = "NORMAL")]
-    pub(super) normals: usize,
+    /// Without them faces are flat.
+    #[serde(rename = "NORMAL", skip_serializing_if = "Option::is_none")]
+    pub(super) normals: Option<usize>,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
     pub(super) tex_coords: Option<usize>,
 }

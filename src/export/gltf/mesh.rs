@@ -2,9 +2,11 @@
 
 use super::super::check::{Checked, Measured};
 use super::body::{Block, Body, Shared, y_up};
+use super::corners::{self, CornerRange, Corners, Faces, Which, flat_faces};
 use super::description::{Accessor, Attributes, Description, Mesh, Primitive, Shading};
 use super::weld::Welded;
 use crate::scene::Part;
+use crate::stop::Stop;
 use glam::Vec3;
 use gltf_json as json;
 use json::accessor::{ComponentType, Type};
@@ -20,19 +22,21 @@ pub(super) fn write<'a>(
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
     body: &mut Body<'a>,
+    stop: &Stop,
 ) -> Vec<Option<usize>> {
     let scene = checked.scene;
     let measure = |(part, measured): (&'a Part, &Measured)| {
         let texture = scene.materials[part.material].texture.as_ref();
         let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
         let welded = (arrays.small && size.is_none()).then(|| Welded::of(part)).flatten().map(Arc::new);
-        Shown { part, texture: size, measured: *measured, welded }
+        Shown { part, texture: size, measured: *measured, welded, which: None, corners: None }
     };
     let shown = scene.meshes.par_iter().zip(&checked.parts).map(|(mesh, parts)| {
         let is_shown = |(_, measured): &(&Part, &Measured)| measured.triangles > 0;
         match arrays.small {
+            _ if stop.is_stopped() => Vec::new(),
             true => mesh.parts.par_iter().zip(parts).filter(is_shown).map(measure).collect(),
-            false => mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect(),
+            false => divide(mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect()),
         }
     });
     let shown: Vec<Vec<Shown<'a>>> = shown.collect();
@@ -41,6 +45,7 @@ pub(super) fn write<'a>(
     description.meshes.reserve(scene.meshes.len());
     let mut written = Vec::with_capacity(scene.meshes.len());
     for (mesh, parts) in scene.meshes.iter().zip(&shown) {
+        body.begin_mesh();
         written.push((!parts.is_empty()).then(|| {
             let vertices = Vertices::of(parts, arrays, description, body);
             let primitives = parts.iter().zip(&vertices);
@@ -73,6 +78,60 @@ struct Shown<'a> {
     measured: Measured,
     /// What is written in the part's place.
     welded: Option<Arc<Welded>>,
+    /// Which of the part's faces are meant, if they have corners.
+    which: Option<Which>,
+    /// Where their corners are, and their number among the faces that share them.
+    corners: Option<(Arc<Corners<'a>>, usize)>,
+}
+
+/// The parts of a mesh; one with mostly flat faces is divided into these and the others, if there are any.
+fn divide(parts: Vec<Shown<'_>>) -> Vec<Shown<'_>> {
+    let mut divided = Vec::with_capacity(parts.len());
+    for shown in parts {
+        let (part, all) = (shown.part, shown.measured.triangles);
+        let flat = if part.positions.len() <= corners::MOST { flat_faces(part) } else { 0 };
+        if 2 * flat < all {
+            divided.push(shown);
+            continue;
+        }
+        let some = |which: Which, triangles: usize| {
+            let measured = Measured { triangles, ..shown.measured };
+            Shown { part, texture: shown.texture, measured, welded: None, which: Some(which), corners: None }
+        };
+        divided.push(some(if flat == all { Which::All } else { Which::Flat }, flat));
+        if flat < all {
+            divided.push(some(Which::Shaded, all - flat));
+        }
+    }
+    for shaded in [false, true] {
+        let alike =
+            |shown: &&mut Shown<'_>| shown.which.is_some_and(|which| (which == Which::Shaded) == shaded);
+        share_corners(divided.iter_mut().filter(alike).collect());
+    }
+    divided
+}
+
+/// Lets parts of a mesh share their corners, or each its own if they are too many for short indices.
+fn share_corners(mut parts: Vec<&mut Shown<'_>>) {
+    if parts.is_empty() {
+        return;
+    }
+    parts.sort_by_key(|shown| shown.texture.is_none());
+    let vertices: usize = parts.iter().map(|shown| shown.part.positions.len()).sum();
+    let faces = parts.iter().filter_map(|shown| shown.faces()).collect();
+    let together = (vertices <= corners::MOST).then(|| Corners::of(faces));
+    match together.filter(|together| together.range(false).count <= SHORT).map(Arc::new) {
+        Some(together) => {
+            for (number, shown) in parts.into_iter().enumerate() {
+                shown.corners = Some((Arc::clone(&together), number));
+            }
+        }
+        None => {
+            for shown in parts {
+                shown.corners = shown.faces().map(|faces| (Arc::new(Corners::of(vec![faces])), 0));
+            }
+        }
+    }
 }
 
 /// Where the vertices of a part are.
@@ -98,8 +157,20 @@ impl Vertices {
         body: &mut Body<'a>,
     ) -> Vec<Self> {
         let mut found: Vec<Option<Self>> = vec![None; parts.len()];
+        let mut known: Vec<(&Arc<Corners<'a>>, [Option<Self>; 2])> = Vec::new();
+        for (shown, found) in parts.iter().zip(&mut found) {
+            let Some((corners, _)) = &shown.corners else { continue };
+            let place = known.iter().position(|(known, _)| Arc::ptr_eq(known, corners));
+            let place = place.unwrap_or_else(|| {
+                known.push((corners, Self::at_corners(corners, description, body)));
+                known.len() - 1
+            });
+            *found = known[place].1[usize::from(shown.texture.is_some())];
+        }
         for kind in [(false, false), (false, true), (true, false)] {
-            let is_alike = |shown: &Shown<'_>| (shown.texture.is_some(), shown.welded.is_some()) == kind;
+            let is_alike = |shown: &Shown<'_>| {
+                shown.corners.is_none() && (shown.texture.is_some(), shown.welded.is_some()) == kind
+            };
             let alike: Vec<usize> = (0..parts.len()).filter(|index| is_alike(&parts[*index])).collect();
             let sum: usize = alike.iter().map(|index| parts[*index].vertices()).sum();
             let groups: Vec<&[usize]> =
@@ -114,6 +185,38 @@ impl Vertices {
             }
         }
         found.into_iter().flatten().collect()
+    }
+
+    /// Adds corners: for parts without and with texture coordinates, as far as there are such. Parts without refer to
+    /// those of the others, too.
+    fn at_corners<'a>(
+        corners: &Arc<Corners<'a>>,
+        description: &mut Description<'a>,
+        body: &mut Body<'a>,
+    ) -> [Option<Self>; 2] {
+        body.show(corners);
+        let places = body.share(Shared::Positions, Block::CornerPlaces(Arc::clone(corners)));
+        let normals = corners
+            .are_shaded()
+            .then(|| body.share(Shared::Normals, Block::CornerNormals(Arc::clone(corners))));
+        [false, true].map(|textured| {
+            let CornerRange { count, low, high } = corners.range(textured);
+            corners.has_parts(textured).then(|| {
+                let positions = accessor(places, ComponentType::F32, Type::Vec3, count);
+                let positions =
+                    Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
+                let positions = description.accessor(positions);
+                let normals = normals.map(|place| {
+                    description.accessor(accessor(place, ComponentType::F32, Type::Vec3, count))
+                });
+                let tex_coords = textured.then(|| {
+                    let place = body.share(Shared::TexCoords, Block::CornerTexCoords(Arc::clone(corners)));
+                    description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
+                });
+                let accessors = Attributes { positions, normals, tex_coords };
+                Self { accessors, first: 0, count }
+            })
+        })
     }
 
     /// Adds the vertices of `parts`, one after another.
@@ -168,7 +271,7 @@ impl Vertices {
         let positions = Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
         let accessors = Attributes {
             positions: description.accessor(positions),
-            normals: description.accessor(normals),
+            normals: Some(description.accessor(normals)),
             tex_coords: tex_coords.map(|accessor| description.accessor(accessor)),
         };
         Self { accessors, first: 0, count }
@@ -179,6 +282,11 @@ impl<'a> Shown<'a> {
     /// How many vertices are written.
     fn vertices(&self) -> usize {
         self.welded.as_ref().map_or(self.part.positions.len(), |welded| welded.positions.len())
+    }
+
+    /// Those of its faces that have corners.
+    fn faces(&self) -> Option<Faces<'a>> {
+        self.which.map(|which| Faces { part: self.part, texture: self.texture, which })
     }
 
     fn primitive(
@@ -192,11 +300,13 @@ impl<'a> Shown<'a> {
         let short = vertices.count <= SHORT;
         let (shared, kind) =
             if short { (Shared::Short, ComponentType::U16) } else { (Shared::Long, ComponentType::U32) };
-        let block = match &self.welded {
-            Some(welded) if short => Block::ShortCorners(Arc::clone(welded), first),
-            Some(welded) => Block::LongCorners(Arc::clone(welded)),
-            None if short => Block::Short(self.part, triangles, first),
-            None => Block::Long(self.part, triangles),
+        let block = match (&self.welded, &self.corners) {
+            (_, Some((corners, part))) if short => Block::ShortFaces(Arc::clone(corners), *part, triangles),
+            (_, Some((corners, part))) => Block::LongFaces(Arc::clone(corners), *part, triangles),
+            (Some(welded), _) if short => Block::ShortCorners(Arc::clone(welded), first),
+            (Some(welded), _) => Block::LongCorners(Arc::clone(welded)),
+            (None, _) if short => Block::Short(self.part, triangles, first),
+            (None, _) => Block::Long(self.part, triangles),
         };
         let indices = accessor(body.share(shared, block), kind, Type::Scalar, triangles * 3);
         let shading = self.welded.is_some().then_some(Shading { flat: true });

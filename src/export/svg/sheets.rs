@@ -1,6 +1,8 @@
 //! Faces of one colour, gathered so that few sheets laid on each other show what is in front.
 
 use super::faces::{Face, Faces, Ink, LineKind, Point};
+use crate::error::Result;
+use crate::stop::Stop;
 use rustc_hash::FxHashMap;
 
 /// Most cells that all faces may touch together; it bounds the time.
@@ -33,15 +35,16 @@ impl Sheet {
 ///
 /// Faces are laid down from the back, each on the lowest sheet of its ink that is not below a face that it
 /// overlaps. So faces of one ink that nothing separates share a sheet, and what is in front comes later.
-/// Shapes narrower than three times the `pen` (m) are thin.
-pub(super) fn stack(faces: &Faces, pen: f64) -> Vec<Sheet> {
-    let Some(mut grid) = Grid::around(faces) else { return Vec::new() };
+/// Shapes narrower than three times the `pen` (m) are thin. Fails if a `stop` was asked for.
+pub(super) fn stack(faces: &Faces, pen: f64, stop: &Stop) -> Result<Vec<Sheet>> {
+    let Some(mut grid) = Grid::around(faces) else { return Ok(Vec::new()) };
     let mut order: Vec<u32> = (0..faces.faces.len() as u32).collect();
     order.sort_by(|a, b| faces.faces[*a as usize].depth.total_cmp(&faces.faces[*b as usize].depth));
     let mut sheets: Vec<Sheet> = Vec::new();
     let mut of_ink: FxHashMap<Ink, Vec<u32>> = FxHashMap::default();
     let mut sheet_of = vec![0; faces.faces.len()];
     for index in order {
+        stop.check()?;
         let face = &faces.faces[index as usize];
         let lowest = grid.highest(face, &faces.faces);
         let candidates = of_ink.entry(face.ink).or_default();
@@ -68,7 +71,7 @@ pub(super) fn stack(faces: &Faces, pen: f64) -> Vec<Sheet> {
             LineKind::Seam => sheet.seams.push(line.ends),
         }
     }
-    sheets
+    Ok(sheets)
 }
 
 /// Squares of the paper and what has been laid on them.
@@ -184,7 +187,7 @@ mod tests {
     fn houses_of_one_colour_share_sheets_above_the_ground() {
         let scene = samples::town(6);
         let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
-        let sheets = stack(&faces, 0.01);
+        let sheets = stack(&faces, 0.01, &Stop::default()).unwrap();
         assert_eq!(sheets.iter().map(|sheet| sheet.faces.len()).sum::<usize>(), faces.faces.len());
         assert_eq!(sheets[0].faces.len(), 2, "the ground is the lowest");
         assert!(sheets.len() < 40, "{} sheets for 36 houses", sheets.len());
@@ -194,7 +197,7 @@ mod tests {
     fn a_hill_needs_one_sheet_for_each_shade() {
         let faces = Faces::collect(&check(&samples::hill(60)).unwrap(), View::Plan);
         let inks: std::collections::BTreeSet<_> = faces.faces.iter().map(|face| face.ink).collect();
-        assert_eq!(stack(&faces, 0.01).len(), inks.len());
+        assert_eq!(stack(&faces, 0.01, &Stop::default()).unwrap().len(), inks.len());
     }
 
     #[test]
@@ -214,7 +217,8 @@ mod tests {
         for (i, height) in [4.0, 0.0, 2.0].into_iter().enumerate() {
             scene.instances[i].transform = glam::DAffine3::from_translation(glam::DVec3::Z * height);
         }
-        let sheets = stack(&Faces::collect(&check(&scene).unwrap(), View::Plan), 0.01);
+        let sheets =
+            stack(&Faces::collect(&check(&scene).unwrap(), View::Plan), 0.01, &Stop::default()).unwrap();
         let materials: Vec<_> = sheets.iter().map(|sheet| (sheet.ink / 24, sheet.faces.len())).collect();
         assert_eq!(materials, [(1, 2), (0, 4)]);
     }

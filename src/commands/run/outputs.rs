@@ -1,0 +1,170 @@
+//! What `burgeon run` writes: checked before the run, written in one act after it.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use burgeon::derive::{Derived, Report};
+use burgeon::export::{self, Files, Format, heights::HeightMap};
+use burgeon::objects::Terrain;
+use burgeon::picture::Picture;
+use burgeon::script::Session;
+use burgeon::terrain::{Map, Place};
+use burgeon::{Error, Result};
+
+use super::super::report;
+use super::Run;
+
+/// Standard output.
+const STANDARD: &str = "-";
+
+impl Run {
+    /// Refuses, before any work, files that could not be written when it is done.
+    pub(super) fn check_files(&self) -> Result<()> {
+        self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
+        self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
+        self.check_text(self.heights.as_deref(), "heights", "the heights", "heights.tif")?;
+        self.check_text(self.edits.as_deref(), "edits", "the edits", "ground.json")?;
+        self.heights.as_deref().map_or(Ok(()), export::heights::check_name)?;
+        if self.script.json && self.report.as_deref() == Some(Path::new(STANDARD)) {
+            return Err(Error::new("standard output cannot take both a report and the JSON document")
+                .help("name a file: --report report.json; the document has the counts"));
+        }
+        let beside = self.output.iter().filter_map(|output| match Format::of(output) {
+            Ok(Format::Gltf) => Some(output.with_extension("bin")),
+            Ok(Format::Obj) => Some(output.with_extension("mtl")),
+            _ => None,
+        });
+        let beside: Vec<_> = beside.collect();
+        let tile = self.tiles.as_ref().map(|folder| folder.join("0_0_0.glb"));
+        let mut files = Files::default();
+        self.tiles.as_deref().map_or(Ok(()), |folder| files.folder(folder))?;
+        let all = self.output.iter().chain(&beside).chain(&tile).map(|path| path.as_path());
+        all.chain(self.named()).try_for_each(|path| files.write(path, |_| Ok(())))
+    }
+
+    /// The files besides models that are named.
+    fn named(&self) -> impl Iterator<Item = &Path> {
+        let texts = [&self.chain, &self.report, &self.heights, &self.edits];
+        texts.into_iter().flatten().map(|path| path.as_path()).filter(|path| *path != Path::new(STANDARD))
+    }
+
+    /// Refuses a file that text could not be written to; - is standard output.
+    fn check_text(&self, path: Option<&Path>, flag: &str, what: &str, example: &str) -> Result<()> {
+        let Some(path) = path.filter(|path| *path != Path::new(STANDARD)) else { return Ok(()) };
+        let same =
+            |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+        let shown = path.display();
+        if same(path, &self.script.script) {
+            return Err(Error::new(format!("{what} would overwrite the script {shown}"))
+                .help(format!("name another file: --{flag} {example}, or - for standard output")));
+        }
+        if path.is_dir() {
+            return Err(Error::new(format!("cannot write {shown}: it is a folder"))
+                .help(format!("name a file in it, such as {}", path.join(example).display())));
+        }
+        Ok(())
+    }
+
+    /// Refuses to write over what the run has read. The changes of the ground may come from where they go to.
+    fn check_inputs(&self, session: &Session) -> Result<()> {
+        let read = session.sought().into_iter().filter(|(path, there)| *there && path.is_file());
+        let read: Vec<_> = read.filter_map(|(path, _)| path.canonicalize().ok()).collect();
+        let is_read = |path: &&Path| path.canonicalize().is_ok_and(|path| read.contains(&path));
+        let written = self.output.iter().map(|path| path.as_path()).chain(self.named());
+        match written.filter(|path| Some(*path) != self.edits.as_deref()).find(is_read) {
+            Some(path) => {
+                Err(Error::new(format!("{} would be overwritten, and the script reads it", path.display()))
+                    .help("name another file"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Writes everything that a run of `session` is to leave. All files appear together, or none does.
+    pub(super) fn write(&self, run: &burgeon::Run, session: &Session) -> Result<()> {
+        if run.systems.is_empty() && !self.output.is_empty() {
+            let script = self.script.script.display();
+            return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
+                .help("end it with system:derive()"));
+        }
+        self.check_inputs(session)?;
+        let mut files = Files::new(&session.stop);
+        if let Some(path) = &self.heights {
+            let Map { columns, rows, corner, step, heights } = terrain(run)?.map()?;
+            let map = HeightMap { columns, rows, corner, step, heights, frame: run.frame.clone() };
+            export::heights::write(&map, path, &mut files)?;
+        }
+        if let Some(path) = &self.edits {
+            let text = terrain(run)?.edits_json();
+            files.write(path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
+        }
+        let picture = self.picture.picture(self.size);
+        // Copies of textures find names that nothing else has if they come last.
+        let has_copies =
+            |output: &&std::path::PathBuf| matches!(Format::of(output), Ok(Format::Gltf | Format::Obj));
+        let (last, first): (Vec<_>, Vec<_>) = self.output.iter().partition(has_copies);
+        for output in first.into_iter().chain(last) {
+            files.scene(&run.scene, output, &picture)?;
+        }
+        if let Some(folder) = &self.tiles {
+            write_tiles(run, folder, &mut files)?;
+        }
+        if let Some(path) = &self.report {
+            write_report(path, &run.report(), &mut files)?;
+        }
+        if let Some(path) = self.chain.as_ref().filter(|_| !self.chain_in_json()) {
+            write_chains(path, &run.systems, &mut files)?;
+        }
+        files.publish()
+    }
+
+    /// Whether the chains go to standard output as a part of the JSON document.
+    pub(super) fn chain_in_json(&self) -> bool {
+        self.script.json && self.chain.as_deref() == Some(Path::new(STANDARD))
+    }
+}
+
+/// Writes each tile of the terrain as a file of its own, called by level, column and row.
+fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<()> {
+    let tiles = terrain(run)?.ground().tiles();
+    files.folder(folder)?;
+    for tile in tiles {
+        let Place { level, x, y } = tile.place;
+        let name = format!("{level}/{x}/{y}");
+        let scene = run.scene.only(|instance| instance.name.rsplit(' ').next() == Some(name.as_str()));
+        files.scene(&scene, &folder.join(format!("{level}_{x}_{y}.glb")), &Picture::default())?;
+    }
+    Ok(())
+}
+
+/// The terrain of a run; there has to be one.
+fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
+    let objects = run.systems.iter().flat_map(|system| &system.objects);
+    let mut terrains = objects.filter_map(|object| {
+        let any: &dyn std::any::Any = &**object;
+        any.downcast_ref::<Terrain>()
+    });
+    match (terrains.next(), terrains.next()) {
+        (Some(terrain), None) => Ok(terrain),
+        (None, _) => Err(Error::new("there is no terrain to write the heights or the edits of")
+            .help("write lsystem({ object = terrain({ ... }) }):derive()")),
+        _ => Err(Error::new("there are several terrains to write the heights or the edits of")
+            .help("keep one of them in the script")),
+    }
+}
+
+/// Writes what was skipped or simplified.
+fn write_report(path: &Path, report: &Report, files: &mut Files) -> Result<()> {
+    if path == Path::new(STANDARD) {
+        return report::print_all(|out| report.write_json(out));
+    }
+    files.write(path, |out| report.write_json(out))
+}
+
+/// Writes the chains of all systems, in the order in which they were derived.
+fn write_chains(path: &Path, systems: &[Arc<Derived>], files: &mut Files) -> Result<()> {
+    if path == Path::new(STANDARD) {
+        return report::print_all(|out| systems.iter().try_for_each(|system| system.write_chains(out)));
+    }
+    files.write(path, |out| systems.iter().try_for_each(|system| system.write_chains(out)))
+}
