@@ -197,6 +197,22 @@ fn the_readme_names_every_object_its_fields_and_its_methods() {
     }
 }
 
+#[path = "terrain/landscapes.rs"]
+mod landscapes;
+
+#[test]
+fn landscapes_of_all_kinds_and_sizes_come_out_and_no_tree_stands_in_the_sea() {
+    let mut trees = 0;
+    for seed in 1..=4 {
+        for (kind, _) in landscapes::KINDS {
+            for size in landscapes::SIZES {
+                trees += landscapes::check(kind, size, seed).unwrap_or_else(|what| panic!("{what}"));
+            }
+        }
+    }
+    assert!(trees > 10_000, "{trees} trees");
+}
+
 #[test]
 fn the_village_of_the_examples_stands() {
     let run = run(&root().join("examples/village.lua"), 2);
