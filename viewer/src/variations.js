@@ -154,7 +154,7 @@ export class Variations {
     const id = (this.#id = this.socket.ask(message, (answer) => {
       if (id !== this.#id) return;
       if (answer.type === 'refused') return say(state, answer.text);
-      if (answer.type === 'variations') return say(state, `${answer.ran} of ${answer.of} have run`);
+      if (answer.type === 'variations') return made ? null : say(state, `${answer.ran} of ${answer.of} have run`);
       this.#fill(list.children[answer.index], answer);
       say(state, ++made < answer.of ? `${made} of ${answer.of}` : '');
     }));
