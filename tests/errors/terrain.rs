@@ -374,7 +374,7 @@ fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
         text += &folder.warned(&["run", name]);
     }
     insta::assert_snapshot!(text, @r##"
-    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) lies 475.0 m under water, so there is no river
+    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) lies 475.0 m under water, so there is no river (2 times)
       | this:river({ 10, 20 }, 5)
       module: Do, step 0
       help: give a place above the water: this:height({ x, y }) tells how high the ground is
