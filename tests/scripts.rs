@@ -76,6 +76,7 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
         let shown = script.display();
         let run = run(&script, 2);
         assert!(run.scene.triangles() > 0, "{shown} draws nothing");
+        assert!(run.warnings.is_empty(), "{shown}: {}", run.warnings[0]);
         for part in run.scene.meshes.iter().flat_map(|mesh| &mesh.parts) {
             assert!(part.positions.iter().all(|position| position.is_finite()), "{shown}");
             assert!(part.normals.iter().all(|normal| normal.vector().is_finite()), "{shown}");

@@ -9,7 +9,7 @@
 mod files;
 mod folders;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
@@ -106,8 +106,9 @@ struct Watcher {
     complain: Option<Box<Complain>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
-    /// What someone has written into and not closed yet, where the system tells of that.
-    open: BTreeSet<PathBuf>,
+    /// What someone has written into since the last look, and whether it has not been closed yet, where the system tells
+    /// of that.
+    open: BTreeMap<PathBuf, bool>,
 }
 
 impl Watch {
@@ -138,7 +139,7 @@ impl Watch {
             folders: Folders::new(make, seen),
             complain: Some(Box::new(complain)),
             first: None,
-            open: BTreeSet::new(),
+            open: BTreeMap::new(),
         };
         watcher.files.follow(files.into_iter().map(|path| (path, true)).collect(), None);
         let watch = move || {
@@ -211,10 +212,8 @@ impl Watcher {
                         let first = *self.first.get_or_insert(at);
                         let quiet = if sign == Sign::End { Duration::ZERO } else { QUIET };
                         due = Some((Instant::now() + quiet).min(first + LONGEST));
-                        match sign {
-                            Sign::Write if TELLS_ENDS => self.open.extend(paths),
-                            Sign::End => self.open.retain(|open| !paths.contains(open)),
-                            _ => {}
+                        if sign != Sign::Other {
+                            self.open.extend(paths.into_iter().map(|path| (path, sign == Sign::Write)));
                         }
                     }
                 }
@@ -252,17 +251,25 @@ impl Watcher {
         let found = self.files.changed(self.first.is_none());
         if found.is_empty() {
             self.first = None;
+            self.open.clear();
             return None;
         }
         let first = *self.first.get_or_insert_with(Instant::now);
         if found.iter().any(files::Found::looks_unfinished) && first.elapsed() < PATIENCE {
             return Some(Instant::now() + QUIET);
         }
-        let open =
-            |found: &files::Found| files::hops(found.path()).iter().any(|path| self.open.contains(path));
-        if first.elapsed() < SAVE && !self.open.is_empty() && found.iter().any(open) {
-            // That it is closed comes as an event.
-            return Some(first + SAVE);
+        if TELLS_ENDS && first.elapsed() < SAVE {
+            let open = |it: &files::Found| {
+                files::hops(it.path()).iter().find_map(|path| self.open.get(path)).copied()
+            };
+            if found.iter().any(|it| open(it) == Some(true)) {
+                // That it is closed comes as an event.
+                return Some(first + SAVE);
+            }
+            // It was seen before its events have come.
+            if found.iter().any(|it| open(it).is_none() && unsettled([it.path()]).is_some()) {
+                return Some(Instant::now() + QUIET);
+            }
         }
         self.first = None;
         self.open.clear();

@@ -1,7 +1,8 @@
 //! Tests of roofs beside neighbours, in rows whose walls bend slightly or step, and of those over what stands out.
 
 use super::super::Plan;
-use super::super::skeleton::samples::{Random, plan};
+use super::super::skeleton::samples::{Random, mixed};
+use super::super::skeleton::tests::plan;
 use super::super::solid;
 use super::tests::{HEIGHT, area, building};
 use super::*;
@@ -116,7 +117,7 @@ fn roofs_over_random_plans_between_neighbours_never_meet_themselves() {
     let mut random = Random(31);
     let (mut count, mut juts_out, mut faults) = (0, 0, Vec::new());
     for round in 0..1200 {
-        let Some(walls) = plan(round, &mut random) else { continue };
+        let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let overhang = [0.3, 0.5, 0.8][round / 15 % 3];
         let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
@@ -192,7 +193,7 @@ fn a_roof_begins_where_the_outermost_storey_ends() {
     let mut random = Random(53);
     let (mut count, mut faults) = (0, Vec::new());
     for round in 0..900 {
-        let Some(walls) = plan(round, &mut random) else { continue };
+        let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let shape = Shape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
         let edges: usize = walls.iter().map(Vec::len).sum();

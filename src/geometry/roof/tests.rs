@@ -1,6 +1,7 @@
 //! Tests of roofs: over random plans, each closes its walls into a solid with the volume that it encloses.
 
-use super::super::skeleton::samples::{Random, plan};
+use super::super::skeleton::samples::{FAMILIES, Random, mixed};
+use super::super::skeleton::tests::plan;
 use super::super::skeleton::{Pace, Skeleton};
 use super::super::solid;
 use super::shape::Profile;
@@ -123,7 +124,7 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
     let mut random = Random(11);
     let (mut count, mut hipped, mut flush) = (0, 0, 0);
     for round in 0..6000 {
-        let Some(walls) = plan(round, &mut random) else { continue };
+        let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, overhang) = (surfaces[round % 8], [0.0, 0.3, 0.8][round / 8 % 3]);
         let (eaves, slab) = eaves[round / 24 % 3];
         let thin = matches!(surface, Surface::Flat(_)) && overhang > 0.0;
@@ -153,6 +154,33 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
     }
     assert!(count > 5000 && flush > 1600, "{count}, {flush} without an overhang");
     assert!(hipped < 20, "{hipped}");
+}
+
+#[test]
+fn hip_roofs_over_regular_plans_with_noise_are_closed_and_no_edge_has_four_faces() {
+    for family in &FAMILIES {
+        let mut random = Random(29);
+        let plans: Vec<_> = (0..100).filter_map(|_| plan(&(family.make)(&mut random))).collect();
+        assert!(plans.len() > 80, "{}", family.name);
+        for walls in plans {
+            let roof = shape(Surface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
+            let cover = roof.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{}: {error}", family.name));
+            let part = building(&walls, &cover);
+            let check = solid::check([&part]);
+            assert!(check.is_solid(), "{}: {check:?} {walls:?}", family.name);
+            let key = |corner: u32| {
+                (part.positions[corner as usize] + glam::Vec3::ZERO).to_array().map(f32::to_bits)
+            };
+            let mut uses = std::collections::BTreeMap::new();
+            for triangle in part.triangles.iter() {
+                for side in 0..3 {
+                    let [a, b] = [triangle[side], triangle[(side + 1) % 3]].map(key);
+                    *uses.entry([a.min(b), a.max(b)]).or_insert(0) += 1;
+                }
+            }
+            assert!(uses.values().all(|uses| *uses == 2), "{}: {walls:?}", family.name);
+        }
+    }
 }
 
 #[test]
@@ -295,7 +323,7 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
     let mut random = Random(5);
     let (mut count, mut gables) = (0, 0);
     for round in 0..2000 {
-        let Some(walls) = plan(round, &mut random) else { continue };
+        let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let ends: Vec<[DVec2; 2]> = walls.iter().flat_map(|ring| edges(ring)).collect();
         let party: Vec<usize> = (0..ends.len()).filter(|_| random.next() < 0.25).collect();
         let kind = [Ends::Hips, Ends::Gables][round / 2 % 2];
@@ -306,8 +334,8 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
         assert!(check.is_solid(), "{round}: {party:?} {check:?} {walls:?}");
         let (below, covered) = integral(&cover);
         let (volume, whole) = (solid::volume([&part]), area(&walls));
-        // A plan is moved by up to 5 mm for its skeleton.
-        let slack = 5e-3 * ends.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
+        // Short borders of its skeleton are left out.
+        let slack = 1e-3 * ends.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
         assert!((covered - whole).abs() < slack, "{round}: {covered} of {whole} m²");
         assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
         for patch in cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable) {
