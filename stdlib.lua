@@ -1,40 +1,138 @@
 --!strict
 -- Burgeon's standard library: what every script has besides Luau itself. It returns the names it gives.
 
+local describe_plain: (value: any) -> string, refuse_plain: (message: string) -> never = __describe, __refuse
+
+-- Tells of a mistake in the line of the script that made it; the data may be at fault.
+local function refuse(message: string, remedy: string?)
+  refuse_plain(`{message}\1{remedy or ""}\2`)
+end
+
+local Vec = {}
+local AXES = { "x", "y", "z" }
+
+local function is_vector(value)
+  return getmetatable(value) == Vec
+end
+
+local function describe(value: any): string
+  return if is_vector(value) then "a vector" else describe_plain(value)
+end
+
+--- Refuses what is no number among what a function takes.
+local function check_numbers(name: string, ...: any)
+  for index = 1, select("#", ...) do
+    local value = (select(index, ...))
+    if type(value) ~= "number" then
+      refuse(`{name} takes numbers, but argument {index} is {describe(value)}`)
+    end
+  end
+end
+
 -- Vectors.
 -- Immutable, three numbers x, y and z in metres; they may travel in modules.
 
-local Vec = {}
-Vec.__index = Vec
+-- A vector is read like a list, too: 1, 2 and 3 are x, y and z.
+function Vec.__index(vector, key)
+  return if type(key) == "number" then rawget(vector, AXES[key]) else Vec[key]
+end
 
---- A vector.
-local function vec(x: number?, y: number?, z: number?)
-  return setmetatable({ x = x or 0, y = y or 0, z = z or 0 }, Vec)
+function Vec.__len()
+  return 3
+end
+
+local function is_list(value)
+  return type(value) == "table" and type(value[1]) == "number" and type(value[2]) == "number"
+end
+
+local function made(x, y, z)
+  return setmetatable({ x = x, y = y, z = z }, Vec)
+end
+
+-- What is not just three numbers: a list, or fewer numbers.
+local function from_others(...: any)
+  local count = select("#", ...)
+  local first = (...)
+  if count == 1 and type(first) == "table" then
+    local x, y, z = first[1], first[2], first[3]
+    if type(x) ~= "number" or type(y) ~= "number" or (z ~= nil and type(z) ~= "number") then
+      refuse("vec takes a list of two or three numbers, but this table is none", "write vec({ 1, 2, 3 }) or vec(1, 2, 3)")
+    end
+    return made(x, y, z or 0)
+  elseif count > 3 then
+    refuse(`vec takes three numbers, not {count}`, "write vec(x, y, z)")
+  end
+  local last = count
+  while last > 1 and (select(last, ...)) == nil do
+    last -= 1
+  end
+  for index = 1, last do
+    local value = (select(index, ...))
+    if type(value) ~= "number" then
+      refuse(`{AXES[index]} of vec is {describe(value)}`, "write vec(x, y, z); what is left out at the end is 0")
+    end
+  end
+  local x, y, z = ...
+  return made(x or 0, y or 0, z or 0)
+end
+
+--- A vector of three numbers, or of a list of them; what is left out at the end is 0.
+local function vec(...: any)
+  local x, y, z, more = ...
+  if type(x) == "number" and type(y) == "number" and type(z) == "number" and more == nil then
+    return made(x, y, z)
+  end
+  return from_others(...)
+end
+
+--- Both sides of an operator as vectors; a list is taken for one.
+local function vectors(a, b, operator: string)
+  local function one(value)
+    if is_vector(value) then
+      return value
+    elseif not is_list(value) then
+      local remedy = if operator == "+" or operator == "-" then "write vec(x, y, z); * and / also take numbers" else nil
+      refuse(`{operator} takes two vectors, but one side is {describe(value)}`, remedy)
+    end
+    return vec(value)
+  end
+  return one(a), one(b)
 end
 
 function Vec.__add(a, b)
-  return vec(a.x + b.x, a.y + b.y, a.z + b.z)
+  if not is_vector(a) or not is_vector(b) then
+    a, b = vectors(a, b, "+")
+  end
+  return made(a.x + b.x, a.y + b.y, a.z + b.z)
 end
 
 function Vec.__sub(a, b)
-  return vec(a.x - b.x, a.y - b.y, a.z - b.z)
+  if not is_vector(a) or not is_vector(b) then
+    a, b = vectors(a, b, "-")
+  end
+  return made(a.x - b.x, a.y - b.y, a.z - b.z)
 end
 
 function Vec.__unm(a)
-  return vec(-a.x, -a.y, -a.z)
+  return made(-a.x, -a.y, -a.z)
 end
 
 function Vec.__mul(a, b)
   if type(a) == "number" then
-    return vec(a * b.x, a * b.y, a * b.z)
+    return made(a * b.x, a * b.y, a * b.z)
   elseif type(b) == "number" then
-    return vec(a.x * b, a.y * b, a.z * b)
+    return made(a.x * b, a.y * b, a.z * b)
+  elseif not is_vector(a) or not is_vector(b) then
+    a, b = vectors(a, b, "*")
   end
-  return vec(a.x * b.x, a.y * b.y, a.z * b.z)
+  return made(a.x * b.x, a.y * b.y, a.z * b.z)
 end
 
 function Vec.__div(a, b)
-  return vec(a.x / b, a.y / b, a.z / b)
+  if type(b) ~= "number" or not is_vector(a) then
+    refuse(`a vector is divided by a number: {describe(a)} cannot be divided by {describe(b)}`)
+  end
+  return made(a.x / b, a.y / b, a.z / b)
 end
 
 function Vec.__eq(a, b)
@@ -45,29 +143,48 @@ function Vec.__tostring(a)
   return `vec({a.x}, {a.y}, {a.z})`
 end
 
+--- Refuses what a method of vectors is called with, if it is no vector.
+local function check_vectors(name: string, a, b)
+  if not is_vector(a) then
+    refuse(`{name} is called with a colon, on a vector: v:{name}(...), not on {describe(a)}`)
+  elseif not is_vector(b) and not is_list(b) then
+    refuse(`{name} takes a vector, not {describe(b)}`)
+  end
+  return a, if is_vector(b) then b else vec(b)
+end
+
 function Vec.dot(a, b)
+  a, b = check_vectors("dot", a, b)
   return a.x * b.x + a.y * b.y + a.z * b.z
 end
 
 function Vec.cross(a, b)
-  return vec(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
+  a, b = check_vectors("cross", a, b)
+  return made(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 end
 
 function Vec.length(a)
+  check_vectors("length", a, a)
   return math.sqrt(a.x * a.x + a.y * a.y + a.z * a.z)
 end
 
 --- The vector with length 1; a zero vector stays.
 function Vec.unit(a)
+  check_vectors("unit", a, a)
   local length = Vec.length(a)
   return if length > 0 then a / length else a
 end
 
 function Vec.distance(a, b)
+  a, b = check_vectors("distance", a, b)
   return Vec.length(a - b)
 end
 
 function Vec.lerp(a, b, t: number)
+  a, b = check_vectors("lerp", a, b)
+  if type(t) ~= "number" then
+    refuse(`lerp takes a vector and a number, not {describe(t)}`)
+  end
   return a + (b - a) * t
 end
 
@@ -75,36 +192,55 @@ __class("vec", Vec)
 
 -- Numbers.
 
---- From `a` to `b` as `t` goes from 0 to 1.
+--- From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
 local function lerp(a: number, b: number, t: number): number
+  if type(a) ~= "number" or type(b) ~= "number" or type(t) ~= "number" then
+    if is_vector(a) then
+      return Vec.lerp(a, b, t)
+    end
+    check_numbers("lerp", a, b, t)
+  end
   return a + (b - a) * t
 end
 
 --- Maps `x` from one range to another.
 local function remap(x: number, from: number, to: number, low: number, high: number): number
+  check_numbers("remap", x, from, to, low, high)
   return low + (high - low) * (x - from) / (to - from)
+end
+
+local function smooth(t: number): number
+  return t * t * (3 - 2 * t)
+end
+
+--- A curve from 0 to 1 that refuses what is no number.
+local function curve(name: string, curved: (t: number) -> number)
+  return function(t: number): number
+    if type(t) ~= "number" then
+      check_numbers(`ease.{name}`, t)
+    end
+    return curved(t)
+  end
 end
 
 --- Easing: each maps 0..1 to 0..1.
 local ease = {
-  ["in"] = function(t: number): number
+  ["in"] = curve("in", function(t)
     return t * t
-  end,
-  out = function(t: number): number
+  end),
+  out = curve("out", function(t)
     return 1 - (1 - t) * (1 - t)
-  end,
-  inout = function(t: number): number
+  end),
+  inout = curve("inout", function(t)
     return if t < 0.5 then 2 * t * t else 1 - 2 * (1 - t) * (1 - t)
-  end,
-  smooth = function(t: number): number
-    return t * t * (3 - 2 * t)
-  end,
-  sine = function(t: number): number
+  end),
+  smooth = curve("smooth", smooth),
+  sine = curve("sine", function(t)
     return (1 - math.cos(math.pi * t)) / 2
-  end,
-  back = function(t: number): number
+  end),
+  back = curve("back", function(t)
     return t * t * (2.70158 * t - 1.70158)
-  end,
+  end),
 }
 
 -- Noise.
@@ -125,8 +261,11 @@ end
 --- Value noise, smooth, from -1 to 1, with features of size 1; `seed` gives another field.
 local function noise(x: number, y: number?, z: number?, seed: number?): number
   local py, pz, s = y or 0, z or 0, seed or 0
+  if type(x) ~= "number" or type(py) ~= "number" or type(pz) ~= "number" or type(s) ~= "number" then
+    check_numbers("noise", x, py, pz, s)
+  end
   local ix, iy, iz = math.floor(x), math.floor(py), math.floor(pz)
-  local fx, fy, fz = ease.smooth(x - ix), ease.smooth(py - iy), ease.smooth(pz - iz)
+  local fx, fy, fz = smooth(x - ix), smooth(py - iy), smooth(pz - iz)
   local function row(dy: number, dz: number): number
     return lerp(hash(ix, iy + dy, iz + dz, s), hash(ix + 1, iy + dy, iz + dz, s), fx)
   end
@@ -140,6 +279,7 @@ end
 
 --- A colour from hue (degrees), saturation and value (0 to 1).
 local function hsv(hue: number, saturation: number, value: number): { number }
+  check_numbers("hsv", hue, saturation, value)
   local function channel(n: number): number
     local k = (n + hue / 60) % 6
     return value - value * saturation * math.clamp(math.min(k, 4 - k), 0, 1)
@@ -149,9 +289,9 @@ end
 
 --- A colour from "#rrggbb".
 local function rgb(hex: string): { number }
-  local digits = string.match(hex, "^#(%x%x%x%x%x%x)$")
+  local digits = if type(hex) == "string" then string.match(hex, "^#(%x%x%x%x%x%x)$") else nil
   if not digits then
-    error(`rgb takes a colour such as "#336699", not "{hex}"`, 2)
+    refuse(`rgb takes a colour such as "#336699", not {describe(hex)}`)
   end
   local number = tonumber(digits, 16) :: number
   return { (number // 65536) / 255, (number // 256 % 256) / 255, (number % 256) / 255 }
@@ -159,8 +299,14 @@ end
 
 --- Mixes two colours, each "#rrggbb" or a list.
 local function mix(a: any, b: any, t: number): { number }
-  local from = if type(a) == "string" then rgb(a) else a
-  local to = if type(b) == "string" then rgb(b) else b
+  local function color(value: any): { number }
+    if type(value) == "table" then
+      check_numbers("mix of colours", value[1], value[2], value[3])
+      return value
+    end
+    return rgb(value)
+  end
+  local from, to = color(a), color(b)
   return { lerp(from[1], to[1], t), lerp(from[2], to[2], t), lerp(from[3], to[3], t) }
 end
 

@@ -4,6 +4,13 @@
 //! some rounds, and in brackets that of all processors.
 
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    clippy::unwrap_used,
+    reason = "numbers of cases are small, and a bench stops at what is wrong"
+)]
 
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -106,6 +113,62 @@ fn main() {
     if is_wanted("system") {
         system();
     }
+    if is_wanted("measured") {
+        measure();
+    }
+    if is_wanted("landscapes") {
+        landscape();
+    }
+}
+
+#[path = "../tests/terrain/measured.rs"]
+mod measured;
+
+/// Thousands of grounds over measured heights, of which the tests check some.
+fn measure() {
+    let begin = Instant::now();
+    let (mut worst, mut wrong) = (measured::Worst::default(), 0);
+    for seed in 0..20_000 {
+        match measured::check(seed) {
+            Ok(case) => {
+                worst.ground = worst.ground.max(case.ground);
+                worst.triangles = worst.triangles.max(case.triangles);
+                worst.samples += case.samples;
+            }
+            Err(what) => {
+                println!("{what}");
+                wrong += 1;
+            }
+        }
+    }
+    println!(
+        "{:<58} {wrong} wrong, {} samples, off by {:.2e} m, triangles by {:.2e} m; {:.1} s",
+        "20,000 grounds over measured heights",
+        worst.samples,
+        worst.ground,
+        worst.triangles,
+        begin.elapsed().as_secs_f64()
+    );
+}
+
+#[path = "../tests/terrain/landscapes.rs"]
+mod landscapes;
+
+/// Landscapes of all kinds and sizes for 100 seeds, of which the tests check some.
+fn landscape() {
+    let (mut count, mut wrong) = (0, 0);
+    for (kind, _) in landscapes::KINDS {
+        for size in landscapes::SIZES {
+            for seed in 1..=100 {
+                count += 1;
+                if let Err(what) = landscapes::check(kind, size, seed) {
+                    println!("{what}");
+                    wrong += 1;
+                }
+            }
+        }
+    }
+    println!("{:<58} {wrong} of {count} wrong", "landscapes of all kinds and sizes, seeds 1 to 100");
 }
 
 fn view() {
@@ -195,9 +258,9 @@ fn mesh() {
         let time = least(3, || {
             let mesh = Mesh::new(&ground, error);
             triangles = 0;
-            for tile in ground.tiles() {
+            for number in 0..ground.tiles().len() {
                 let mut part = burgeon::scene::Part::default();
-                mesh.write(tile, glam::DVec3::ZERO, 0.0, &mut part);
+                mesh.write(number, glam::DVec3::ZERO, 0.0, &mut part);
                 triangles += part.triangles.len();
             }
         });

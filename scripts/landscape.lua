@@ -56,6 +56,8 @@ local shapes: { [string]: Kind } = {
     end,
     noise = 0.075,
     decay = 0.535,
+    -- Valleys are filled up, so that none is below the base.
+    remap = { { -0.2, -0.046 }, { -0.05, -0.04 }, { -0.025, -0.025 }, { 0.3, 0.3 } },
     snow = 0.11,
     rivers = 4,
   },
@@ -67,6 +69,7 @@ local shapes: { [string]: Kind } = {
     end,
     noise = 0.05,
     decay = 0.53,
+    remap = { { -0.2, -0.055 }, { -0.035, -0.035 }, { 0.3, 0.3 } },
     water = -0.03,
     rivers = 3,
   },
@@ -120,16 +123,19 @@ local function conifer(height: number, color: string)
   return tree:derive()
 end
 
+local snow, shore = (shape.snow or 1) * size, (shape.water or -1) * size
 local plants = {}
 if trees then
   local line = if shape.snow then size * 0.085 else size
   plants = {
     {
       models = { conifer(13, "#2f4526"), conifer(17, "#37502b"), conifer(10, "#425a30") },
-      density = 60,
+      -- Of a very large square one sees no single tree.
+      density = math.min(60, 1.2e10 / (size * size)),
       on = {
         slope = { 32, 20 },
-        height = { line, line * 0.6 },
+        -- Up to the line of trees, or from the shore on.
+        height = if shape.water then { shore + size / 700, shore + size / 350 } else { line, line * 0.6 },
         noise = 0.5,
         patches = 0.92,
         scale = size / 9,
@@ -140,7 +146,6 @@ if trees then
   }
 end
 
-local snow, shore = (shape.snow or 1) * size, (shape.water or -1) * size
 local land = lsystem({
   object = terrain({
     size = size,
@@ -173,6 +178,9 @@ for index = 1, shape.rivers or 0 do
 end
 land:axiom(table.unpack(springs))
 land:interpret("Spring(x, y)", function(this, x, y)
-  this:river({ x, y }, size / 170)
+  -- None rises in the water or at its shore.
+  if this:height({ x, y }) > shore + size / 200 then
+    this:river({ x, y }, size / 170)
+  end
 end)
 land:derive()

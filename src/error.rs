@@ -5,6 +5,11 @@ use std::fmt;
 
 use crate::text::escaped_lines;
 
+/// The characters of a message or a remedy that are told at most; more are left out in the middle.
+const LONGEST: usize = 2000;
+/// The same for the name of a rule and for a module.
+const LONGEST_NAME: usize = 500;
+
 /// The crate's result.
 pub type Result<T, E = Error> = std::result::Result<T, E>;
 
@@ -86,7 +91,8 @@ enum Fault {
 impl Error {
     /// An error that says `message`, a clause without a full stop.
     pub fn new(message: impl fmt::Display) -> Self {
-        Self(Box::new(Parts { message: message.to_string(), ..Parts::default() }))
+        let message = shortened(&message.to_string(), LONGEST).into_owned();
+        Self(Box::new(Parts { message, ..Parts::default() }))
     }
 
     /// Several problems found in one go; `problems` is not empty.
@@ -111,7 +117,7 @@ impl Error {
     #[must_use]
     pub(crate) fn about(mut self, what: &str) -> Self {
         if !self.0.message.contains(what) {
-            self.0.message = format!("{what}: {}", self.0.message);
+            self.0.message = format!("{}: {}", shortened(what, LONGEST_NAME), self.0.message);
         }
         self
     }
@@ -153,7 +159,7 @@ impl Error {
     /// Says what to do about it.
     #[must_use]
     pub fn help(mut self, help: impl fmt::Display) -> Self {
-        self.0.help.get_or_insert_with(|| help.to_string());
+        self.0.help.get_or_insert_with(|| shortened(&help.to_string(), LONGEST).into_owned());
         self
     }
 
@@ -178,7 +184,7 @@ impl Error {
     /// Names the rule, unless it is named already.
     #[must_use]
     pub fn rule(mut self, rule: impl fmt::Display) -> Self {
-        self.0.rule.get_or_insert_with(|| rule.to_string());
+        self.0.rule.get_or_insert_with(|| shortened(&rule.to_string(), LONGEST_NAME).into_owned());
         self
     }
 
@@ -186,7 +192,7 @@ impl Error {
     #[must_use]
     pub fn module(mut self, module: impl fmt::Display, step: usize) -> Self {
         if self.0.module.is_none() {
-            self.0.module = Some(module.to_string());
+            self.0.module = Some(shortened(&module.to_string(), LONGEST_NAME).into_owned());
             self.0.step = Some(step);
         }
         self
@@ -283,8 +289,32 @@ impl fmt::Display for Error {
 
 impl std::error::Error for Error {}
 
+/// `text`, without its middle where it has more than `most` characters: how long it is stands in its place.
+pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
+    // A text has at least as many bytes as characters.
+    if text.len() <= most {
+        return Cow::Borrowed(text);
+    }
+    let count = text.chars().count();
+    let half = most / 2;
+    let begin = text.char_indices().nth(half).map(|(at, _)| at);
+    let end = text.char_indices().nth_back(half.saturating_sub(1)).map(|(at, _)| at);
+    match (begin, end) {
+        (Some(begin), Some(end)) if count > most => {
+            Cow::Owned(format!("{}... ({count} characters in all) ...{}", &text[..begin], &text[end..]))
+        }
+        _ => Cow::Borrowed(text),
+    }
+}
+
+/// Characters that a misspelt name may have: a longer one is no name at all, and comparing it takes long.
+const LONGEST_NEAR: usize = 100;
+
 /// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_NEAR {
+        return None;
+    }
     let lower = name.to_lowercase();
     // Every name of one letter is one letter away from every other.
     let limit = match name.chars().count() {
@@ -337,6 +367,18 @@ mod tests {
           module: Slab(NaN), step 2
           help: give a finite length
         ");
+    }
+
+    #[test]
+    fn a_long_text_is_told_without_its_middle() {
+        assert_eq!(shortened("0123456789", 10), "0123456789");
+        assert_eq!(shortened("0123456789a", 10), "01234... (11 characters in all) ...6789a");
+        assert_eq!(shortened("äöüäöü", 6), "äöüäöü");
+        assert_eq!(shortened("äöüßéñø", 4), "äö... (7 characters in all) ...ñø");
+        let long = "ä".repeat(20_000_000);
+        let error = Error::new(&long).help(&long).rule(&long).module(&long, 1).feature(&long).about(&long);
+        assert!(error.to_string().len() < 20_000 && error.to_json().to_string().len() < 20_000);
+        assert!(error.message().contains("20000000 characters in all"), "{error}");
     }
 
     #[test]

@@ -1,6 +1,12 @@
 //! Real data files, where they are beside the repository, against numbers that were computed with other programs.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+#![allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_precision_loss,
+    clippy::cast_sign_loss,
+    reason = "numbers of cases are small"
+)]
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -10,6 +16,18 @@ use burgeon::objects::Elevation;
 use burgeon::sources::elevation::{Raster, Relief};
 use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
 use glam::{DVec2, DVec3};
+
+#[path = "terrain/measured.rs"]
+mod measured;
+
+#[test]
+fn measured_ground_is_exact_at_every_sample_at_any_level_and_so_are_its_triangles() {
+    let found: Vec<_> = (0..400).map(measured::check).collect();
+    let wrong: Vec<&String> = found.iter().filter_map(|case| case.as_ref().err()).collect();
+    assert!(wrong.is_empty(), "{} are wrong: {:#?}", wrong.len(), &wrong[..wrong.len().min(12)]);
+    let cases: Vec<measured::Worst> = found.into_iter().flatten().collect();
+    assert!(cases.iter().map(|case| case.samples).sum::<usize>() > 50_000);
+}
 
 /// The file in the folder of shared data; tells that the test is skipped where there is none.
 fn shared(name: &str) -> Option<PathBuf> {
@@ -102,7 +120,9 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
         let wanted = Wanted { layer: layer.map(str::to_owned), ..Wanted::default() };
         Layer::new(Source::open(path, "file").unwrap().read("file", &wanted).unwrap(), frame).unwrap()
     };
-    let raster = Arc::new(Raster::open(&heights, "N43E007.hgt.zip", &Default::default()).unwrap());
+    let raster = Arc::new(
+        Raster::open(&heights, "N43E007.hgt.zip", &Default::default(), &Default::default()).unwrap(),
+    );
     assert_eq!((raster.columns, raster.rows, raster.filled), (1201, 1201, 1595));
     // Whichever comes first decides the frame.
     for heights_first in [true, false] {

@@ -76,6 +76,7 @@ fn every_script_gives_a_finite_model_that_reads_back_whole() {
         let shown = script.display();
         let run = run(&script, 2);
         assert!(run.scene.triangles() > 0, "{shown} draws nothing");
+        assert!(run.warnings.is_empty(), "{shown}: {}", run.warnings[0]);
         for part in run.scene.meshes.iter().flat_map(|mesh| &mesh.parts) {
             assert!(part.positions.iter().all(|position| position.is_finite()), "{shown}");
             assert!(part.normals.iter().all(|normal| normal.vector().is_finite()), "{shown}");
@@ -194,6 +195,22 @@ fn the_readme_names_every_object_its_fields_and_its_methods() {
             assert!(words.contains(name), "{}: {name} is not in README.md", kind.name);
         }
     }
+}
+
+#[path = "terrain/landscapes.rs"]
+mod landscapes;
+
+#[test]
+fn landscapes_of_all_kinds_and_sizes_come_out_and_no_tree_stands_in_the_sea() {
+    let mut trees = 0;
+    for seed in 1..=4 {
+        for (kind, _) in landscapes::KINDS {
+            for size in landscapes::SIZES {
+                trees += landscapes::check(kind, size, seed).unwrap_or_else(|what| panic!("{what}"));
+            }
+        }
+    }
+    assert!(trees > 10_000, "{trees} trees");
 }
 
 #[test]

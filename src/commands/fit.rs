@@ -12,7 +12,7 @@ use burgeon::derive::grouped;
 use burgeon::export;
 use burgeon::sources::elevation::{Raster, Wanted};
 use burgeon::terrain::fit::{Fitted, Search, Target};
-use burgeon::{Error, Result};
+use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;
 
@@ -218,7 +218,7 @@ fn target(name: &str) -> Result<Target> {
         bounds: placeless.then_some([0.0, 0.0, 1.0, 1.0]),
         ..Wanted::default()
     };
-    let raster = Raster::open(path, name, &wanted)?;
+    let raster = Raster::open(path, name, &wanted, &Budget::default())?;
     let heights: Vec<f64> = raster.heights.iter().map(|height| f64::from(*height)).collect();
     Target::resample(raster.columns, raster.rows, &heights, ACROSS)
 }

@@ -7,7 +7,7 @@ use super::Plan;
 use super::group::{Arranged, Group};
 use super::output::Output;
 use crate::error::{Error, Result};
-use crate::rules::{Around, Bindings, Chain, Links, Mark, module_text};
+use crate::rules::{Around, Bindings, Chain, Links, Mark, module_brief};
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.
@@ -164,7 +164,7 @@ impl Batch<'_> {
         let current = &self.machine.current;
         current.drawn.set(0);
         let (modules, bytes): (usize, usize) =
-            match self.declared.drivers[usize::from(rule)].call(members.len()) {
+            match self.machine.call(&self.declared.drivers[usize::from(rule)], members.len()) {
                 Ok(made) => made,
                 Err(error) => return Err(self.blame(error, rule, members, scratch)),
             };
@@ -239,7 +239,7 @@ impl Batch<'_> {
         let symbol = self.chain.symbols[active.module as usize];
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[active.param as usize..][..arity];
-        let module = module_text(grammar.symbols(), &self.machine.session.values, symbol, params);
+        let module = module_brief(grammar.symbols(), &self.machine.session.values, symbol, params);
         let error = self
             .machine
             .translate(error)

@@ -10,7 +10,7 @@ use super::Plan;
 use super::batch::NONE;
 use super::step::{Outcome, Stepper};
 use crate::error::{Error, Result};
-use crate::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_text};
+use crate::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_brief};
 use crate::script::{Declared, Interpretations, Machine};
 use crate::terrain::{Area, Begin, Block, Divide};
 
@@ -206,7 +206,7 @@ impl System {
                 let height = params[at];
                 let form = self.forms[usize::from(symbol)].map_or(0.0, |form| params[form]);
                 if !(height + form).is_finite() {
-                    let module = module_text(grammar.symbols(), &machine.session.values, symbol, params);
+                    let module = module_brief(grammar.symbols(), &machine.session.values, symbol, params);
                     let error = Error::new(format!("the height of {module} is no finite number"))
                         .help("give each quadrant a height in metres");
                     return Err(self.blame(error, *rule));
@@ -254,7 +254,7 @@ impl System {
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let mut params = cells.rest[from * cells.stride..][..arity - 1].to_vec();
         params.insert(self.heights[usize::from(symbol)].unwrap_or(0), cells.heights[from]);
-        let module = module_text(grammar.symbols(), &machine.session.values, symbol, &params);
+        let module = module_brief(grammar.symbols(), &machine.session.values, symbol, &params);
         let count = match count {
             0 => "nothing".to_owned(),
             1 => "one module or a branch".to_owned(),

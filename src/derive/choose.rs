@@ -123,7 +123,7 @@ impl Batch<'_> {
         let (counts, failed) = loop {
             self.fill(rule, asked, scratch)?;
             let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
-            let Err(error) = guard.call::<()>(asked.len()) else { break (counts, None) };
+            let Err(error) = self.machine.call::<()>(guard, asked.len()) else { break (counts, None) };
             let (index, error) = self.blame(error, rule, asked, scratch);
             match self.forgive(index, error, asked, scratch) {
                 Err(error) => break (counts, Some((index, error))),

@@ -7,9 +7,12 @@ use std::sync::Arc;
 
 use super::Plan;
 use super::batch::NONE;
-use crate::error::Place;
+use crate::error::{Place, shortened};
 use crate::objects::Makers;
-use crate::rules::{Chain, END, Symbol, Symbols, Values, module_text};
+use crate::rules::{Chain, END, Symbol, Symbols, Values, module_brief};
+
+/// Characters of a parameter that people are shown.
+const SHOWN: usize = 2000;
 
 /// The chains that a run is to trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -145,13 +148,15 @@ impl Trace {
         let params = &chain.params[begin..begin + arity(&symbol)];
         let signature = self.symbols.signature(symbol);
         Some(Module {
-            text: module_text(&self.symbols, &self.values, symbol, params),
+            text: module_brief(&self.symbols, &self.values, symbol, params),
             symbol: signature.name.clone(),
             params: signature
                 .parameters
                 .iter()
                 .zip(params)
-                .map(|(name, value)| (name.clone(), self.values.unpack(*value).to_string()))
+                .map(|(name, value)| {
+                    (name.clone(), shortened(&self.values.unpack(*value).to_string(), SHOWN).into_owned())
+                })
                 .collect(),
         })
     }
@@ -286,7 +291,7 @@ pub(crate) fn around(
     let mut param: usize = chain.symbols[..from.min(to)].iter().map(|symbol| arity(*symbol)).sum();
     for at in from..to {
         let symbol = chain.symbols[at];
-        let text = module_text(symbols, values, symbol, &chain.params[param..param + arity(symbol)]);
+        let text = module_brief(symbols, values, symbol, &chain.params[param..param + arity(symbol)]);
         param += arity(symbol);
         let side = &mut texts[(at >= index) as usize + (at > index) as usize];
         if !side.is_empty() && !text.is_empty() {

@@ -278,7 +278,7 @@ mod tests {
         let path = folder.path().join(name);
         write_alone(map, &path).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
-        Raster::open(&path, name, wanted).unwrap()
+        Raster::open(&path, name, wanted, &crate::Budget::default()).unwrap()
     }
 
     fn assert_same(raster: &Raster, map: &HeightMap, tolerance: f64) {

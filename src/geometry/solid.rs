@@ -90,6 +90,105 @@ pub(super) fn is_flat([a, b, c]: [DVec3; 3]) -> bool {
     (b - a).cross(c - a).length() <= longest * 1e-9
 }
 
+/// What is wrong with a surface beyond its edges: what [`clashes`] found.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Clashes {
+    /// Edges (m) that more than two triangles share, in the order of their first use.
+    pub crowded: Vec<[Vec3; 2]>,
+    /// Pairs of triangles, by their numbers over all parts, that lie on one another.
+    pub on: Vec<[usize; 2]>,
+    /// Pairs of triangles of which one passes through the other.
+    pub through: Vec<[usize; 2]>,
+}
+
+impl Clashes {
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.crowded.is_empty() && self.on.is_empty() && self.through.is_empty()
+    }
+}
+
+/// Where the surface that `parts` form together meets itself though it should not, by more than `slack` (m).
+///
+/// Compares triangles whose boxes meet, from left to right; not for large meshes.
+pub fn clashes<'a>(parts: impl IntoIterator<Item = &'a Part>, slack: f64) -> Clashes {
+    let all: Vec<[DVec3; 3]> = parts.into_iter().flat_map(triangles).collect();
+    let mut found = Clashes::default();
+    let mut uses: FxHashMap<[[u32; 3]; 2], usize> = FxHashMap::default();
+    for [a, b] in all.iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]) {
+        let ends = [a, b].map(|at| (at.as_vec3() + Vec3::ZERO).to_array().map(f32::to_bits));
+        let count = uses.entry([ends[0].min(ends[1]), ends[0].max(ends[1])]).or_default();
+        *count += 1;
+        if *count == 3 {
+            found.crowded.push([a.as_vec3(), b.as_vec3()]);
+        }
+    }
+    let low = |triangle: &[DVec3; 3]| triangle[0].min(triangle[1]).min(triangle[2]);
+    let high = |triangle: &[DVec3; 3]| triangle[0].max(triangle[1]).max(triangle[2]);
+    let mut order: Vec<usize> = (0..all.len()).collect();
+    order.sort_by(|&a, &b| low(&all[a]).x.total_cmp(&low(&all[b]).x));
+    for (rank, &a) in order.iter().enumerate() {
+        let (least, most) = (low(&all[a]), high(&all[a]));
+        for &b in order[rank + 1..].iter().take_while(|&&b| low(&all[b]).x <= most.x) {
+            if low(&all[b]).cmpgt(most).any() || high(&all[b]).cmplt(least).any() {
+                continue;
+            }
+            let pair = [a.min(b), a.max(b)];
+            if lie_on(all[a], all[b], slack) {
+                found.on.push(pair);
+            } else if passes(all[a], all[b], slack) || passes(all[b], all[a], slack) {
+                found.through.push(pair);
+            }
+        }
+    }
+    found
+}
+
+/// Whether two triangles in one plane have an area in common that is wider than `slack` (m).
+fn lie_on(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
+    let normal = (one[1] - one[0]).cross(one[2] - one[0]).normalize_or_zero();
+    if normal == DVec3::ZERO || other.iter().any(|at| normal.dot(*at - one[0]).abs() > slack / 2.0) {
+        return false;
+    }
+    let mut ring = other.to_vec();
+    for (index, &from) in one.iter().enumerate() {
+        let inward = normal.cross(one[(index + 1) % 3] - from).normalize_or_zero();
+        let inside = |at: DVec3| inward.dot(at - from) - slack;
+        let mut kept = Vec::with_capacity(ring.len() + 1);
+        for (index, &a) in ring.iter().enumerate() {
+            let b = ring[(index + 1) % ring.len()];
+            let [begin, end] = [a, b].map(inside);
+            if begin > 0.0 {
+                kept.push(a);
+            }
+            if (begin > 0.0) != (end > 0.0) {
+                kept.push(a.lerp(b, begin / (begin - end)));
+            }
+        }
+        ring = kept;
+    }
+    let area =
+        ring.windows(2).map(|pair| (pair[0] - ring[0]).cross(pair[1] - ring[0])).sum::<DVec3>().length();
+    area > slack * slack
+}
+
+/// Whether an edge of `one` passes through `other`, by more than `slack` (m).
+fn passes(one: [DVec3; 3], other: [DVec3; 3], slack: f64) -> bool {
+    let normal = (other[1] - other[0]).cross(other[2] - other[0]).normalize_or_zero();
+    (0..3).any(|side| {
+        let (a, b) = (one[side], one[(side + 1) % 3]);
+        let [from, to] = [a, b].map(|at| normal.dot(at - other[0]));
+        if from.min(to) > -slack || from.max(to) < slack {
+            return false;
+        }
+        let at = a.lerp(b, from / (from - to));
+        (0..3).all(|side| {
+            let (begin, end) = (other[side], other[(side + 1) % 3]);
+            normal.cross(end - begin).normalize_or_zero().dot(at - begin) > slack
+        })
+    })
+}
+
 /// The volume (m³) that `parts` enclose together; negative if they face inwards, meaningless if they are open.
 ///
 /// Method: the divergence theorem, as a sum of the signed tetrahedra between each triangle and one point.
@@ -139,6 +238,24 @@ mod tests {
         let found = check([&solid]);
         assert_eq!(found.open.len(), 3);
         assert!(found.inconsistent.is_empty() && !found.is_closed());
+    }
+
+    #[test]
+    fn triangles_that_lie_on_or_pass_through_others_are_found() {
+        assert!(clashes([&tetrahedron()], 1e-3).is_empty());
+        let moved = |by: Vec3| {
+            let mut solid = tetrahedron();
+            solid.positions.iter_mut().for_each(|at| *at += by);
+            solid
+        };
+        let through = clashes([&tetrahedron(), &moved(Vec3::splat(0.1))], 1e-3);
+        assert!(through.on.is_empty() && !through.through.is_empty() && through.crowded.is_empty());
+        // Three of its faces lie on those of the other.
+        let twice = clashes([&tetrahedron(), &moved(Vec3::ZERO)], 1e-3);
+        assert_eq!((twice.on.len(), twice.crowded.len()), (4, 6));
+        let beside = clashes([&tetrahedron(), &moved(Vec3::X * 0.5)], 1e-3);
+        assert_eq!(beside.on.len(), 2);
+        assert!(clashes([&tetrahedron(), &moved(Vec3::X * 2.0)], 1e-3).is_empty());
     }
 
     #[test]

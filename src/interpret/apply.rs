@@ -9,7 +9,7 @@ use super::Interpreting;
 use super::notices::Notice;
 use crate::error::{Error, Result};
 use crate::objects::{Call, Method, Object, Value};
-use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_text};
+use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
 use crate::script::{Flusher, Machine, Objects, read_column, returns_modules};
 use crate::warning::Warning;
 
@@ -330,7 +330,7 @@ impl Applier {
         }
         let arity = usize::from(plan.grammar.arities()[usize::from(symbol)]);
         let params = &self.pass.chain.params[param..param + arity];
-        let text = module_text(plan.grammar.symbols(), &self.values, symbol, params);
+        let text = module_brief(plan.grammar.symbols(), &self.values, symbol, params);
         let interpretations = &plan.interpretations;
         match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
             Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),

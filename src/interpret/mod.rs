@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use crate::derive::{Job, Plan, Use};
 use crate::error::{Error, Place, Result};
-use crate::rules::{Chain, END, Mark, Symbol, module_text};
+use crate::rules::{Chain, END, Mark, Symbol, module_brief};
 use crate::script::{Flusher, Machine, write_column};
 use crate::warning::Warning;
 pub(crate) use apply::Applier;
@@ -202,7 +202,7 @@ impl Interpreting {
             applier.begin_entries(entries, buffers.clone());
             Ok(())
         })?;
-        let called: usize = match prelude.interpret.call::<(usize, usize)>(ids.len()) {
+        let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
             Ok((called, _)) => called,
             Err(error) => {
                 let (at, _, called): (usize, f64, usize) = prelude.at.call(()).unwrap_or((0, 0.0, 0));
@@ -268,7 +268,7 @@ impl Interpreting {
             if symbol <= END {
                 return warning;
             }
-            let warning = warning.module(self.module_text(machine, module, param), self.step);
+            let warning = warning.module(self.module_brief(machine, module, param), self.step);
             match self.interpretation_of(symbol) {
                 Some((name, place)) => warning.at(place.clone()).rule(name),
                 None => warning,
@@ -323,15 +323,15 @@ impl Interpreting {
             Some((name, place)) => error.at(place.clone()).rule(name),
             None => error,
         };
-        error.module(self.module_text(machine, module, param), self.step)
+        error.module(self.module_brief(machine, module, param), self.step)
     }
 
     /// A module of the chain with its parameters, which begin at `param`.
-    fn module_text(&self, machine: &Machine, module: usize, param: usize) -> String {
+    fn module_brief(&self, machine: &Machine, module: usize, param: usize) -> String {
         let (grammar, symbol) = (&self.plan.grammar, self.chain.symbols[module]);
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[param..param + arity];
-        module_text(grammar.symbols(), &machine.session.values, symbol, params)
+        module_brief(grammar.symbols(), &machine.session.values, symbol, params)
     }
 
     /// The name and the place of the interpretation rule of modules with this symbol.

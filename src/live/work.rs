@@ -94,7 +94,7 @@ pub(super) fn work(state: &State, watch: &Watch) {
         }
         watch.follow(followed.clone(), since);
         let failed = matches!(outcome, Outcome::Failed(_) | Outcome::Missing);
-        let outcome = match failed && superseded(state, &job, &followed) {
+        let outcome = match failed && superseded(state, &job, &followed, watch) {
             true => Outcome::Cancelled,
             false => outcome,
         };
@@ -112,10 +112,10 @@ pub(super) fn work(state: &State, watch: &Watch) {
 
 /// Waits until `files`, on which a run has failed, have been as they are for a while. Returns whether something newer is
 /// to be made: what was read may have been the half of what was being written.
-fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)]) -> bool {
+fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
     let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
     let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
-    let Some(wait) = young.max(gone.then_some(MISSING)) else { return false };
+    let wait = young.max(gone.then_some(MISSING)).unwrap_or_default();
     let mut inner = state.lock();
     // A file that is written all the time is not waited for.
     if inner.doubts.is_some_and(|since| since.elapsed() > DOUBT) {
@@ -124,7 +124,11 @@ fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)]) -> bool {
     inner.doubts.get_or_insert_with(Instant::now);
     let end = Instant::now() + wait;
     while inner.due.is_none() && !inner.over {
-        let Some(left) = end.checked_duration_since(Instant::now()) else { return false };
+        let Some(left) = end.checked_duration_since(Instant::now()) else {
+            drop(inner);
+            watch.catch_up();
+            return state.lock().due.is_some();
+        };
         inner = state.wake.wait_timeout(inner, left).unwrap_or_else(std::sync::PoisonError::into_inner).0;
     }
     true

@@ -129,12 +129,20 @@ impl Elevation {
 }
 
 impl Measured for Elevation {
-    fn height(&self, place: DVec2) -> Option<f64> {
-        self.relief.height(place)
+    fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)> {
+        self.relief.ground(place, smooth)
     }
 
     fn freedom(&self, place: DVec2) -> f64 {
         self.relief.between(place)
+    }
+
+    fn step(&self) -> f64 {
+        self.relief.step()
+    }
+
+    fn samples(&self, low: DVec2, high: DVec2) -> Vec<DVec2> {
+        self.relief.samples(low, high)
     }
 }
 

@@ -121,18 +121,34 @@ impl fmt::Display for Value {
             Self::Text(value) => write!(f, "{value:?}"),
             Self::Object(value) => f.write_str(value.kind().name),
             Self::Table(table) => {
+                f.write_str(table.class.as_deref().unwrap_or_default())?;
                 f.write_str("{")?;
+                let mut listed = 0;
                 for (i, (key, value)) in table.entries.iter().enumerate() {
                     f.write_str(if i > 0 { "," } else { "" })?;
                     match key {
-                        Key::Index(_) => write!(f, "{value}")?,
-                        Key::Name(name) => write!(f, "{name}={value}")?,
+                        Key::Index(index) if *index == listed + 1 => listed += 1,
+                        Key::Index(index) => write!(f, "[{index}]=")?,
+                        Key::Name(name) if is_field(name) => write!(f, "{name}=")?,
+                        Key::Name(name) => write!(f, "[{name:?}]=")?,
                     }
+                    write!(f, "{value}")?;
                 }
                 f.write_str("}")
             }
         }
     }
+}
+
+/// Whether Lua takes `name` for the name of a field without quotation marks.
+fn is_field(name: &str) -> bool {
+    const KEYWORDS: [&str; 21] = [
+        "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",
+        "nil", "not", "or", "repeat", "return", "then", "true", "until", "while",
+    ];
+    name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+        && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+        && !KEYWORDS.contains(&name)
 }
 
 /// Writes the shortest decimal that reads back as the same number.
@@ -151,6 +167,31 @@ fn write_number(value: f64, f: &mut fmt::Formatter<'_>) -> fmt::Result {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn tables_that_differ_are_written_differently() {
+        let text = |text: &str| Value::Text(text.into());
+        let table = |class: Option<&str>, entries: Vec<(Key, Value)>| {
+            Value::Table(Arc::new(Table { class: class.map(Into::into), entries })).to_string()
+        };
+        let index = |index: i64, value: &str| (Key::Index(index), text(value));
+        let name = |name: &str, value: &str| (Key::Name(name.into()), text(value));
+        for (written, expected) in [
+            (table(None, vec![index(1, "b")]), r#"{"b"}"#),
+            (table(None, vec![index(2, "b")]), r#"{[2]="b"}"#),
+            (table(None, vec![index(0, "a"), index(1, "b"), index(2, "c")]), r#"{[0]="a","b","c"}"#),
+            (table(None, vec![index(1, "a"), index(3, "c")]), r#"{"a",[3]="c"}"#),
+            (table(None, vec![index(-1, "a")]), r#"{[-1]="a"}"#),
+            (table(None, vec![name("1", "a")]), r#"{["1"]="a"}"#),
+            (table(None, vec![name("end", "a"), name("of", "b")]), r#"{["end"]="a",of="b"}"#),
+            (table(None, vec![name("a=1,b", "a")]), r#"{["a=1,b"]="a"}"#),
+            (table(None, vec![name("x", "1")]), r#"{x="1"}"#),
+            (table(Some("vec"), vec![name("x", "1")]), r#"vec{x="1"}"#),
+            (table(None, Vec::new()), "{}"),
+        ] {
+            assert_eq!(written, expected);
+        }
+    }
 
     #[test]
     fn numbers_are_written_as_the_shortest_decimal() {

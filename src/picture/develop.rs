@@ -32,6 +32,10 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Rgba
     let mut pixels = vec![0_u8; width * height * 4];
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
     for (index, rows) in pixels.chunks_mut(band * width * 4).enumerate() {
+        // What is seen of a band takes its time and its memory, also where nothing is drawn any more.
+        if light.stage.stop.is_stopped() {
+            break;
+        }
         let first = index * band;
         let last = (first + band).min(height);
         let visible = Visible::new(light.stage, light.camera, detail, width, first..last);

@@ -22,7 +22,7 @@ pub use links::Links;
 pub use matching::{Around, Bindings};
 pub use pattern::{Context, Item, Pattern};
 pub use symbols::{FIRST_SYMBOL, Signature, Symbols};
-pub use text::{chain_text, module_text, write_chains};
+pub use text::{chain_text, module_brief, module_text, write_chains};
 pub use values::Values;
 
 pub use crate::objects::Boxed;

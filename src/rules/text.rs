@@ -5,9 +5,28 @@ use std::io::{self, Write};
 use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
 use super::symbols::Symbols;
 use super::values::Values;
+use crate::error::shortened;
+
+/// Characters of a parameter that people are shown.
+const SHOWN: usize = 200;
 
 /// A module as `Name(p1,p2)`, or `Name` without parameters; optional ones left out at the end are not shown.
 pub fn module_text(symbols: &Symbols, values: &Values, symbol: Symbol, params: &[f64]) -> String {
+    write_module(symbols, values, symbol, params, |text| text)
+}
+
+/// The same for people: of a long parameter the middle is left out.
+pub fn module_brief(symbols: &Symbols, values: &Values, symbol: Symbol, params: &[f64]) -> String {
+    write_module(symbols, values, symbol, params, |text| shortened(&text, SHOWN).into_owned())
+}
+
+fn write_module(
+    symbols: &Symbols,
+    values: &Values,
+    symbol: Symbol,
+    params: &[f64],
+    write: impl Fn(String) -> String,
+) -> String {
     match symbol {
         OPEN => return "[".to_owned(),
         CLOSE => return "]".to_owned(),
@@ -15,7 +34,8 @@ pub fn module_text(symbols: &Symbols, values: &Values, symbol: Symbol, params: &
         _ => {}
     }
     let signature = symbols.signature(symbol);
-    let mut shown: Vec<String> = params.iter().map(|stored| values.unpack(*stored).to_string()).collect();
+    let mut shown: Vec<String> =
+        params.iter().map(|stored| write(values.unpack(*stored).to_string())).collect();
     while shown.len() > signature.required && shown.last().is_some_and(|last| last == "nil") {
         shown.pop();
     }

@@ -141,10 +141,16 @@ fn read_heights(
     wanted: &WantedHeights,
     known: &mut Known,
 ) -> Result<Elevation> {
+    let budget = known.budget(session);
+    let before = budget.taken();
     let raster = match session.options.cache.as_deref() {
-        Some(cache) => cache.raster(path, name, wanted)?,
-        None => Arc::new(Raster::open(path, name, wanted)?),
+        Some(cache) => cache.raster(path, name, wanted, &budget),
+        None => Raster::open(path, name, wanted, &budget).map(Arc::new),
     };
+    // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
+    let kept = raster.as_ref().map_or(0, |raster| raster.heights.len() * size_of::<f32>());
+    budget.settle(before, kept);
+    let raster = raster?;
     if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
         let all = raster.columns * raster.rows;
         eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);

@@ -130,7 +130,7 @@ impl Library {
         self.install_names(machine).map_err(|error| machine.translate(error))?;
         self.note_names(machine.lua());
         let (name, chunk) = match machine.session.stdlib() {
-            None => ("stdlib.lua", machine.load_compiled("stdlib.lua", &STANDARD_COMPILED)?),
+            None => ("stdlib.lua", machine.load_compiled(&STANDARD_COMPILED)?),
             Some((name, text)) => (name, machine.load(name, text)?),
         };
         let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
@@ -150,7 +150,7 @@ impl Library {
             globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
         }
         self.standard_chunk.replace(Some(chunk));
-        for name in ["__interpretation", "__class"] {
+        for name in ["__interpretation", "__class", "__refuse", "__describe"] {
             globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
         }
         self.note_names(machine.lua());

@@ -40,7 +40,7 @@ pub(super) fn require(library: &Library, session: &Session, name: &str) -> Resul
     library.loading.borrow_mut().push(path.clone());
     let value = machine
         .load(&source.name, &source.analysis.text)
-        .and_then(|chunk| chunk.call::<LuaValue>(()).map_err(|error| machine.translate(error)));
+        .and_then(|chunk| machine.call::<LuaValue>(&chunk, ()).map_err(|error| machine.translate(error)));
     library.loading.borrow_mut().pop();
     let value = value?;
     library.loaded.borrow_mut().insert(path, value.clone());

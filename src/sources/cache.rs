@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::elevation::{Raster, Wanted as WantedHeights};
 use super::{Frame, Layer, Wanted};
+use crate::budget::Budget;
 use crate::error::Result;
 
 /// How many layers are kept.
@@ -58,9 +59,15 @@ impl Cache {
         kept.push((key, Arc::clone(layer), frame.clone()));
     }
     /// The raster in the file at `path`, called `name`; read, unless it is kept. The oldest goes when there are many.
-    pub(crate) fn raster(&self, path: &Path, name: &str, wanted: &WantedHeights) -> Result<Arc<Raster>> {
+    pub(crate) fn raster(
+        &self,
+        path: &Path,
+        name: &str,
+        wanted: &WantedHeights,
+        budget: &Budget,
+    ) -> Result<Arc<Raster>> {
         // What is no file is left to the reader, which says so.
-        let Ok(content) = hash(path) else { return Raster::open(path, name, wanted).map(Arc::new) };
+        let Ok(content) = hash(path) else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
         let key = format!("{} {name} {wanted:?}", content.to_hex());
         let mut kept = self.rasters.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
@@ -69,7 +76,7 @@ impl Cache {
         if kept.len() >= MOST_RASTERS {
             kept.remove(0);
         }
-        let raster = Arc::new(Raster::open(path, name, wanted)?);
+        let raster = Arc::new(Raster::open(path, name, wanted, budget)?);
         kept.push((key, Arc::clone(&raster)));
         Ok(raster)
     }
@@ -95,13 +102,15 @@ mod tests {
         let read = |height: f32, east: f64| {
             std::fs::write(&path, [height.to_le_bytes(); 4].concat()).unwrap();
             let bounds = Some([0.0, 0.0, east, 1.0]);
-            cache.raster(&path, "a.r32", &WantedHeights { bounds, ..WantedHeights::default() }).unwrap()
+            let wanted = WantedHeights { bounds, ..WantedHeights::default() };
+            cache.raster(&path, "a.r32", &wanted, &Budget::default()).unwrap()
         };
         let first = read(1.0, 1.0);
         assert!(Arc::ptr_eq(&first, &read(1.0, 1.0)));
         assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
         assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
-        let error = cache.raster(folder.path(), "a", &WantedHeights::default()).unwrap_err();
+        let error =
+            cache.raster(folder.path(), "a", &WantedHeights::default(), &Budget::default()).unwrap_err();
         assert_eq!(error.message(), "a is a folder");
     }
 }

@@ -108,7 +108,7 @@ impl Reader<'_> {
                 return Ok(());
             }
             match self.text(rest) {
-                // Only a document that stands alone may name the layer and its coordinate system.
+                // Only a document that stands alone may name the layer.
                 Ok((head, after)) if first && after.trim().is_empty() => return self.alone(head),
                 Ok((head, after)) => {
                     self.member(head)?;
@@ -140,9 +140,12 @@ impl Reader<'_> {
         self.take(head, true)
     }
 
-    /// Takes a text of a sequence.
+    /// Takes a text of a sequence, which may name the coordinate system of all.
     fn member(&mut self, head: Head<'_>) -> Result<()> {
         self.stop()?;
+        if head.crs.is_some() {
+            self.table.crs = system(head.crs.as_ref());
+        }
         self.take(head, false)
     }
 

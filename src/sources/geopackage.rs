@@ -366,3 +366,6 @@ fn refused(shown: &str, wanted: &Wanted, error: &rusqlite::Error) -> Error {
         _ => broken(shown, error),
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -66,6 +66,12 @@ impl Edit {
         (low - reach, high + reach)
     }
 
+    /// The height (m) at `place` (m), where it was `height` (m); the same outside of what it reaches.
+    pub(super) fn at(&self, place: DVec2, height: f64) -> f64 {
+        let (low, high) = self.bounds();
+        if place.cmpge(low).all() && place.cmple(high).all() { self.change(place, height) } else { height }
+    }
+
     /// The height (m) at `place` (m), where it was `height` (m).
     fn change(&self, place: DVec2, height: f64) -> f64 {
         match self {
@@ -206,6 +212,11 @@ impl Edits {
                 }
             }
         }
+    }
+
+    /// What changes the cells of `area` at `level`, in order.
+    pub(super) fn reaching(&self, world: &World, level: u32, area: Area) -> Vec<Edit> {
+        self.met(world, level, area).into_iter().map(|kept| kept.edit.clone()).collect()
     }
 
     /// A number for all that changes the cells of `area` at `level`; 0 where nothing does.

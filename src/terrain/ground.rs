@@ -1,7 +1,8 @@
 //! The part of a world that is expanded: tiles around a place, and the surface over them.
 //!
 //! The surface runs through the corners of cells, whose heights are the means of the cells around them, and is flat
-//! over the two halves of each cell. Where tiles of different detail meet, the finer one follows the coarser one, so
+//! over the two halves of each cell. Measured ground is exact at its samples in cells of any size, and what these add
+//! to it lies in between. Where tiles of different detail meet, the finer one follows the coarser one, so
 //! there is no gap. Corners are numbered in the grid of the smallest cells of any tile, from the north-west.
 
 use std::sync::Arc;
@@ -13,7 +14,7 @@ use super::block::{Area, Block};
 use super::edits::Edits;
 use super::tile::{Place, Tile};
 use super::view::{Fit, MOST_HEIGHTS, View, too_many};
-use super::world::{Divide, Measured, Tables, World};
+use super::world::{Divide, Tables, World};
 use crate::error::Result;
 
 /// A world and the tiles of it that are expanded.
@@ -125,32 +126,16 @@ impl Ground {
             heights.push(height + cells.forms.get(from).copied().unwrap_or(0.0));
         }
         let level = place.level + detail;
-        if let Some(measured) = &self.world.measured {
-            self.add_measured(&**measured, level, wanted, &mut heights);
+        let mut tile;
+        if self.world.measured.is_some() {
+            tile = Tile::new(place, detail, &cells, wanted, heights);
+            tile.lay(&self.world, self.edits.reaching(&self.world, level, wanted));
+        } else {
+            self.edits.apply(&self.world, level, wanted, &mut heights);
+            tile = Tile::new(place, detail, &cells, wanted, heights);
         }
-        self.edits.apply(&self.world, level, wanted, &mut heights);
-        let mark = self.edits.mark(&self.world, level, wanted);
-        let mut tile = Tile::new(place, detail, &cells, wanted, heights);
-        tile.mark = mark;
+        tile.mark = self.edits.mark(&self.world, level, wanted);
         Ok((index, tile))
-    }
-
-    /// Adds measured heights (m) to those of the cells of `area`, which stay as they are only between the samples, and
-    /// where the ground is not level.
-    fn add_measured(&self, measured: &dyn Measured, level: u32, area: Area, heights: &mut [f64]) {
-        let middle = |x: i64, y: i64| self.world.middle(level, x, y);
-        let known: Vec<f64> =
-            area.cells().map(|(x, y)| measured.height(middle(x, y)).unwrap_or(0.0)).collect();
-        let cell = self.world.cell(level);
-        let rough = heights.iter().any(|height| *height != 0.0);
-        for (index, (x, y)) in area.cells().enumerate() {
-            if rough {
-                let at = |right: i64, down: i64| known[area.index(x + right, y + down)];
-                let slope = DVec2::new(at(1, 0) - at(-1, 0), at(0, 1) - at(0, -1)).length() / (2.0 * cell);
-                heights[index] *= measured.freedom(middle(x, y)) * eased(slope / STEEP);
-            }
-            heights[index] += known[index];
-        }
     }
 
     /// The heights of the surface in the middle of the smallest cells of all that is expanded. Where tiles have larger
@@ -162,9 +147,10 @@ impl Ground {
         if area.len() as u64 > MOST_HEIGHTS {
             return Err(too_many(area.len() as u64));
         }
+        let is_measured = self.world.measured.is_some();
         let height = |(x, y): (i64, i64)| -> f64 {
             let tile = self.holder(x, y).map(|tile| &self.tiles[tile]);
-            match tile.filter(|tile| tile.level() == self.finest) {
+            match tile.filter(|tile| tile.level() == self.finest && !is_measured) {
                 Some(tile) => tile.cell(x, y),
                 None => self.height(self.world.middle(self.finest, x, y)).unwrap_or(f64::NAN),
             }
@@ -225,8 +211,20 @@ impl Ground {
         tiles.min_by_key(|tile| tile.detail)
     }
 
-    /// The height (m) of the surface at a corner of the smallest cells; `None` where nothing is expanded.
+    /// The height (m) of the ground at a corner of the smallest cells; `None` where nothing is expanded.
     pub(super) fn corner(&self, x: i64, y: i64) -> Option<f64> {
+        if self.world.measured.is_none() {
+            return self.laid(x, y);
+        }
+        let tile = self.coarsest(x, y)?;
+        match tile.on_grid(self.finest, x, y) {
+            Some((x, y)) => Some(tile.ground(x, y)),
+            None => self.height(self.place(x, y)),
+        }
+    }
+
+    /// The height (m) of the surface of the cells at a corner of the smallest; `None` where nothing is expanded.
+    fn laid(&self, x: i64, y: i64) -> Option<f64> {
         let tile = self.coarsest(x, y)?;
         if let Some((x, y)) = tile.on_grid(self.finest, x, y) {
             return Some(tile.corner(x, y));
@@ -235,13 +233,21 @@ impl Ground {
         let shift = self.finest - tile.level();
         let mask = (1i64 << shift) - 1;
         let part = |at: i64| fraction(at & mask, shift);
-        self.between(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)))
+        let laid = |x: i64, y: i64| self.laid(x, y);
+        self.between(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)), laid)
     }
 
-    /// The height (m) of the surface within a cell of `tile`, at `part` of the way to the east and to the south.
-    fn between(&self, tile: &Tile, (x, y): (i64, i64), part: DVec2) -> Option<f64> {
+    /// The height (m) within a cell of `tile`, at `part` of the way to the east and to the south, of the surface that
+    /// has the heights (m) `corner` at corners of the smallest cells.
+    fn between(
+        &self,
+        tile: &Tile,
+        (x, y): (i64, i64),
+        part: DVec2,
+        corner: impl Fn(i64, i64) -> Option<f64>,
+    ) -> Option<f64> {
         let shift = self.finest - tile.level();
-        let at = |right: i64, down: i64| self.corner((x + right) << shift, (y + down) << shift);
+        let at = |right: i64, down: i64| corner((x + right) << shift, (y + down) << shift);
         let (east, south) = (part.x, part.y);
         // Along an edge of the cell, its ends alone count.
         if east == 0.0 {
@@ -271,10 +277,19 @@ impl Ground {
         })
     }
 
-    /// The height (m) of the surface at `place` (m); `None` where nothing is expanded.
+    /// The height (m) of the ground at `place` (m), exactly as it was measured at each sample; `None` where nothing is
+    /// expanded.
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let (tile, cell, part) = self.find(place)?;
-        self.between(tile, cell, part)
+        let laid = self.between(tile, cell, part, |x, y| self.laid(x, y))?;
+        Some(if self.world.measured.is_some() { tile.changed(place, &self.world, laid) } else { laid })
+    }
+
+    /// The height (m) at `place` (m) of the surface that the cells show: of measured ground only the corners of cells are
+    /// on it. `None` where nothing is expanded.
+    pub fn shown(&self, place: DVec2) -> Option<f64> {
+        let (tile, cell, part) = self.find(place)?;
+        self.between(tile, cell, part, |x, y| self.corner(x, y))
     }
 
     /// The tile at `place` (m), the cell of it, and how far (0 to 1) to the east and to the south in that cell.
@@ -282,9 +297,12 @@ impl Ground {
     fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
         let world = &self.world;
         let along = DVec2::new(place.x - world.corner.x, world.corner.y + world.size - place.y);
-        if !along.cmpge(DVec2::ZERO).all() || !along.cmple(DVec2::splat(world.size)).all() {
+        // A place on the rim may be outside by what its coordinates are rounded.
+        let slack = (world.corner.abs().max_element() + world.size) * 4.0 * f64::EPSILON;
+        if !along.cmpge(DVec2::splat(-slack)).all() || !along.cmple(DVec2::splat(world.size + slack)).all() {
             return None;
         }
+        let along = along.clamp(DVec2::ZERO, DVec2::splat(world.size));
         let size = world.cell(self.level);
         let window = self.window;
         let of = |at: f64, first: i64, count: usize| {
@@ -348,20 +366,9 @@ impl Ground {
     }
 
     /// Where a corner of the smallest cells is (m).
-    #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
     pub(super) fn place(&self, x: i64, y: i64) -> DVec2 {
-        let cell = self.world.cell(self.finest);
-        let north = self.world.corner.y + self.world.size;
-        DVec2::new(self.world.corner.x + x as f64 * cell, north - y as f64 * cell)
+        self.world.corner_of(self.finest, x, y)
     }
-}
-
-/// The slope (m/m) from which on detail is added in full to measured heights.
-const STEEP: f64 = 0.3;
-
-fn eased(along: f64) -> f64 {
-    let along = along.clamp(0.0, 1.0);
-    along * along * (3.0 - 2.0 * along)
 }
 
 #[inline]

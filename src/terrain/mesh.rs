@@ -11,6 +11,7 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ground::Ground;
+use super::samples::{Samples, Vertex};
 use super::tile::{Place, Tile};
 use crate::scene::Part;
 
@@ -58,7 +59,7 @@ impl Grid {
             for x in (own.x..).take(across) {
                 let rim = x == own.x || y == own.y || !own.contains(x, y);
                 let height =
-                    if rim { ground.corner(x << shift, y << shift) } else { Some(tile.corner(x, y)) };
+                    if rim { ground.corner(x << shift, y << shift) } else { Some(tile.ground(x, y)) };
                 heights.push(height.unwrap_or(0.0));
             }
         }
@@ -124,6 +125,8 @@ pub struct Mesh<'a> {
     ground: &'a Ground,
     /// One for each tile.
     grids: Vec<Grid>,
+    /// What was measured on each tile.
+    samples: Vec<Samples>,
     /// The corners where triangles are halved.
     halved: FxHashSet<u64>,
     error: f64,
@@ -134,10 +137,12 @@ fn key([x, y]: Corner) -> u64 {
 }
 
 impl<'a> Mesh<'a> {
-    /// The fewest triangles from which the ground is nowhere farther than `error` (m).
+    /// The fewest triangles from which the ground is nowhere farther than `error` (m) at a corner of its cells, nor at a
+    /// sample of measured ground where its cells are not larger than the distance of these.
     pub fn new(ground: &'a Ground, error: f64) -> Self {
         let grids = ground.tiles().par_iter().map(|tile| Grid::new(ground, tile)).collect();
-        let mut mesh = Self { ground, grids, halved: FxHashSet::default(), error };
+        let samples = ground.tiles().par_iter().map(|tile| Samples::new(ground, tile)).collect();
+        let mut mesh = Self { ground, grids, samples, halved: FxHashSet::default(), error };
         let mut wanted = Vec::new();
         for tile in ground.tiles() {
             wanted.extend(corners(tile.place, ground.finest()));
@@ -168,7 +173,17 @@ impl<'a> Mesh<'a> {
         {
             return None;
         }
-        grid.is_far(triangle, self.error).then_some(middle)
+        let samples = &self.samples[holder];
+        let passes = || {
+            let triangle = turned(*triangle);
+            samples.is_far(&triangle, self.heights(&triangle), self.error)
+        };
+        (grid.is_far(triangle, self.error) || !samples.is_empty() && passes()).then_some(middle)
+    }
+
+    /// The heights (m) at the corners of a triangle.
+    fn heights(&self, triangle: &Triangle) -> [f64; 3] {
+        [triangle.a, triangle.b, triangle.apex].map(|[x, y]| self.ground.corner(x, y).unwrap_or(0.0))
     }
 
     /// Halves the triangles at `corner`; adds to `wanted` where others have to be halved for it, or because of it.
@@ -186,40 +201,66 @@ impl<'a> Mesh<'a> {
         }
     }
 
-    /// The triangles over a tile, as numbers of its corners.
-    fn triangles(&self, tile: &Tile) -> (Vec<Corner>, Vec<[u32; 3]>) {
-        let mut corners = Vec::new();
-        let mut known: FxHashMap<u64, u32> = FxHashMap::default();
+    /// The triangles over a tile with this number, as numbers of its vertices.
+    fn triangles(&self, number: usize) -> (Vec<Vertex>, Vec<[u32; 3]>) {
+        let tile = &self.ground.tiles()[number];
+        let mut vertices = Vec::new();
+        let mut known: FxHashMap<Vertex, u32> = FxHashMap::default();
         let mut triangles = Vec::new();
+        let mut add = |piece: [Vertex; 3]| {
+            triangles.push(piece.map(|vertex| {
+                *known.entry(vertex).or_insert_with(|| {
+                    vertices.push(vertex);
+                    u32::try_from(vertices.len() - 1).unwrap_or(u32::MAX)
+                })
+            }));
+        };
+        let samples = &self.samples[number];
         let mut open: Vec<Triangle> = roots(tile.place, self.ground.finest()).into_iter().rev().collect();
         while let Some(triangle) = open.pop() {
             match triangle.middle().filter(|middle| self.halved.contains(&key(*middle))) {
                 Some(middle) => open.extend(triangle.halves(middle).into_iter().rev()),
                 None => {
-                    triangles.push([triangle.a, triangle.b, triangle.apex].map(|corner| {
-                        *known.entry(key(corner)).or_insert_with(|| {
-                            corners.push(corner);
-                            u32::try_from(corners.len() - 1).unwrap_or(u32::MAX)
-                        })
-                    }));
+                    let pieces = match samples.is_empty() {
+                        true => Vec::new(),
+                        false => samples.divide(&triangle, self.heights(&triangle), self.error),
+                    };
+                    if pieces.is_empty() {
+                        add([triangle.a, triangle.b, triangle.apex].map(Vertex::Corner));
+                    }
+                    pieces.into_iter().for_each(&mut add);
                 }
             }
         }
-        (corners, triangles)
+        (vertices, triangles)
     }
 
-    /// Adds the triangles over `tile` to `part`, with points told from `origin` (m). The tile's south-west corner gets
-    /// the texture coordinates `begin` (m), from where they count.
-    pub fn write(&self, tile: &Tile, origin: DVec3, begin: f64, part: &mut Part) {
-        let (corners, triangles) = self.triangles(tile);
+    /// Where a vertex over a tile with this number is (m).
+    fn point(&self, number: usize, vertex: Vertex) -> DVec3 {
+        match vertex {
+            Vertex::Corner([x, y]) => self.ground.place(x, y).extend(self.ground.corner(x, y).unwrap_or(0.0)),
+            Vertex::Sample(index) => {
+                let sample = self.samples[number].get(index);
+                sample.place.extend(sample.height)
+            }
+        }
+    }
+
+    /// Adds the triangles over the tile with this number to `part`, with points told from `origin` (m). The tile's
+    /// south-west corner gets the texture coordinates `begin` (m), from where they count.
+    pub fn write(&self, number: usize, origin: DVec3, begin: f64, part: &mut Part) {
+        let (vertices, triangles) = self.triangles(number);
         let base = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
-        part.make_room(corners.len(), triangles.len());
-        let (south_west, _) = tile.bounds(self.ground.world());
-        for [x, y] in corners {
-            let place = self.ground.place(x, y);
-            let height = self.ground.corner(x, y).unwrap_or(0.0);
-            part.positions.push((place.extend(height) - origin).as_vec3());
-            part.normals.push(self.ground.normal(x, y).into());
+        part.make_room(vertices.len(), triangles.len());
+        let (south_west, _) = self.ground.tiles()[number].bounds(self.ground.world());
+        for vertex in vertices {
+            let point = self.point(number, vertex);
+            let place = point.truncate();
+            part.positions.push((point - origin).as_vec3());
+            part.normals.push(match vertex {
+                Vertex::Corner([x, y]) => self.ground.normal(x, y).into(),
+                Vertex::Sample(_) => self.ground.way_up(place).unwrap_or(DVec3::Z).into(),
+            });
             let [u, v] = (place - south_west + begin).to_array();
             #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
             part.uvs.push(Vec2::new(u as f32, v as f32));
@@ -231,18 +272,19 @@ impl<'a> Mesh<'a> {
     pub fn rim(&self) -> Vec<[DVec3; 2]> {
         let [low, high] = self.ground.rim();
         let mut edges = Vec::new();
-        for tile in self.ground.tiles() {
-            let (corners, triangles) = self.triangles(tile);
+        for number in 0..self.ground.tiles().len() {
+            let samples = &self.samples[number];
+            let on = |axis: usize, rim: i64, vertex: Vertex| match vertex {
+                Vertex::Corner(corner) => corner[axis] == rim,
+                Vertex::Sample(index) => samples.is_on(index, axis, rim),
+            };
+            let (vertices, triangles) = self.triangles(number);
             for triangle in triangles {
-                let [a, b, c] = triangle.map(|corner| corners[corner as usize]);
-                for [from, to] in [[a, b], [b, c], [c, a]] {
-                    let on = |axis: usize| {
-                        from[axis] == to[axis] && (from[axis] == low[axis] || from[axis] == high[axis])
-                    };
-                    if on(0) || on(1) {
-                        edges.push([from, to].map(|[x, y]| {
-                            self.ground.place(x, y).extend(self.ground.corner(x, y).unwrap_or(0.0))
-                        }));
+                let [a, b, c] = triangle.map(|corner| vertices[corner as usize]);
+                for edge in [[a, b], [b, c], [c, a]] {
+                    let along = |axis: usize, rim: i64| edge.iter().all(|end| on(axis, rim, *end));
+                    if (0..2).any(|axis| along(axis, low[axis]) || along(axis, high[axis])) {
+                        edges.push(edge.map(|end| self.point(number, end)));
                     }
                 }
             }

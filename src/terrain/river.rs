@@ -24,6 +24,15 @@ pub struct Drainage {
     wet: Vec<bool>,
 }
 
+/// Why no river runs from a place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Dry {
+    /// It is at the rim, at the shore or in standing water, or outside.
+    Outlet,
+    /// It is in an earlier river, or beside one: water runs there already.
+    River,
+}
+
 /// The most cells along a side that are looked at.
 const MOST: usize = 1024;
 
@@ -91,32 +100,37 @@ impl Drainage {
         }
     }
 
-    /// The way (m) of a river from `source` (m) to an outlet or into an earlier river, never rising; `None` outside, or
-    /// where the way is shorter than two cells.
-    pub fn river(&mut self, source: DVec2) -> Option<Vec<DVec3>> {
+    /// The way (m) of a river from `source` (m) to an outlet or into an earlier river, never rising. Fails where the way
+    /// is shorter than two cells.
+    pub fn river(&mut self, source: DVec2) -> Result<Vec<DVec3>, Dry> {
         let along = DVec2::new(source.x - self.corner.x, self.corner.y - source.y) / self.step;
         if along.min_element() < 0.0 {
-            return None;
+            return Err(Dry::Outlet);
         }
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "not below 0")]
         let (column, row) = (along.x as usize, along.y as usize);
         if column >= self.columns || row >= self.rows {
-            return None;
+            return Err(Dry::Outlet);
         }
         let mut cell = row * self.columns + column;
         let mut level = f64::INFINITY;
-        let mut way = Vec::new();
-        loop {
+        let (mut way, mut cells) = (Vec::new(), Vec::new());
+        let why = loop {
             level = level.min(self.heights[cell]);
             way.push(self.middle(cell).extend(level));
-            let met = std::mem::replace(&mut self.wet[cell], true);
+            let met = self.wet[cell];
+            cells.push(cell);
             let next = self.next[cell] as usize;
             if met || next == cell || next >= self.heights.len() {
-                break;
+                break if met { Dry::River } else { Dry::Outlet };
             }
             cell = next;
+        };
+        if way.len() <= 2 {
+            return Err(why);
         }
-        (way.len() > 2).then(|| rounded(rounded(way)))
+        cells.into_iter().for_each(|cell| self.wet[cell] = true);
+        Ok(rounded(rounded(way)))
     }
 
     #[allow(clippy::cast_precision_loss, reason = "few cells")]

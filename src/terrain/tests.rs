@@ -191,8 +191,8 @@ fn triangles_leave_no_gap_and_stay_within_the_error() {
             });
         let origin = low.extend(0.0);
         let mut part = Part::default();
-        for tile in ground.tiles() {
-            mesh.write(tile, origin, 0.0, &mut part);
+        for number in 0..ground.tiles().len() {
+            mesh.write(number, origin, 0.0, &mut part);
         }
         sizes.push(part.triangles.len());
         let span = high - low;
@@ -257,7 +257,7 @@ fn rivers_never_rise_and_end_at_the_rim_in_water_or_in_another() {
         let mut ways: Vec<Vec<DVec3>> = Vec::new();
         for _ in 0..12 {
             let source = world.corner + DVec2::new(stream.uniform(), stream.uniform()) * world.size;
-            let Some(way) = drainage.river(source) else { continue };
+            let Ok(way) = drainage.river(source) else { continue };
             assert!(way.windows(2).all(|pair| pair[1].z <= pair[0].z + 1e-9), "{seed}");
             assert!(way[0].truncate().distance(source) < 64.0);
             let end = way[way.len() - 1];

@@ -6,18 +6,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
+use super::measured::Measured;
 use super::table::RuleTable;
 use crate::error::{Error, Result};
 use crate::rules::{Key, Symbol};
-
-/// Heights (m) that were measured, or come from elsewhere.
-pub trait Measured: Send + Sync {
-    /// The height (m) at a place (m); `None` outside.
-    fn height(&self, place: DVec2) -> Option<f64>;
-
-    /// How much (0 to 1) detail may add at a place (m): nothing where it was measured.
-    fn freedom(&self, place: DVec2) -> f64;
-}
 
 /// What divides cells.
 #[derive(Clone)]
@@ -122,6 +114,13 @@ impl World {
         let cell = self.cell(level);
         let north = self.corner.y + self.size;
         DVec2::new(self.corner.x + (x as f64 + 0.5) * cell, north - (y as f64 + 0.5) * cell)
+    }
+
+    /// The north-west corner (m) of a cell.
+    #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+    pub(super) fn corner_of(&self, level: u32, x: i64, y: i64) -> DVec2 {
+        let cell = self.cell(level);
+        DVec2::new(self.corner.x + x as f64 * cell, self.corner.y + self.size - y as f64 * cell)
     }
 
     /// Whether the rules of a script divide any of its cells.

@@ -42,7 +42,7 @@ enum Content {
 
 /// What tells most changes of a file without reading it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Stamp {
+pub(super) struct Stamp {
     length: u64,
     modified: Option<SystemTime>,
     file: u64,
@@ -222,7 +222,7 @@ fn place(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }
 
-fn stamp_of(path: &Path) -> Option<Stamp> {
+pub(super) fn stamp_of(path: &Path) -> Option<Stamp> {
     fs::metadata(path).ok().map(|metadata| stamp(&metadata))
 }
 

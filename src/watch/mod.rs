@@ -9,7 +9,7 @@
 mod files;
 mod folders;
 
-use std::collections::BTreeSet;
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
@@ -35,6 +35,9 @@ const SAVE: Duration = Duration::from_secs(1);
 
 /// Whether the system tells when a file that was written is closed.
 const TELLS_ENDS: bool = cfg!(any(target_os = "linux", target_os = "android"));
+
+/// How many events are taken before files are compared that should have been by now.
+const AT_ONCE: usize = 1000;
 
 /// How often files are compared without an event: some disks, such as those of other machines, tell of none.
 const ROUND: Duration = Duration::from_secs(1);
@@ -67,10 +70,13 @@ pub fn unsettled<'a>(files: impl IntoIterator<Item = &'a Path>) -> Option<Durati
 pub fn settled<T>(path: &Path, read: impl Fn() -> Result<T>) -> Result<T> {
     let begin = Instant::now();
     loop {
-        match read() {
-            Err(_) if begin.elapsed() < SAVE && unsettled([path]).is_some() => std::thread::sleep(QUIET),
-            result => return result,
+        let before = files::stamp_of(path);
+        let result = read();
+        let young = || files::stamp_of(path) != before || unsettled([path]).is_some();
+        if result.is_ok() || begin.elapsed() > SAVE || !young() {
+            return result;
         }
+        std::thread::sleep(QUIET);
     }
 }
 
@@ -85,6 +91,8 @@ enum Signal {
     /// Something happened to these paths; none if the system lost count.
     Event(Vec<PathBuf>, Instant, Sign),
     Follow(Vec<(PathBuf, bool)>, SystemTime),
+    /// Someone waits until all that has changed by now has been told.
+    CatchUp(Sender<()>),
     Over,
 }
 
@@ -98,8 +106,9 @@ struct Watcher {
     complain: Option<Box<Complain>>,
     /// When the first sign of a change was seen that has not been looked into.
     first: Option<Instant>,
-    /// What someone has written into and not closed yet, where the system tells of that.
-    open: BTreeSet<PathBuf>,
+    /// What someone has written into since the last look, and whether it has not been closed yet, where the system tells
+    /// of that.
+    open: BTreeMap<PathBuf, bool>,
 }
 
 impl Watch {
@@ -130,7 +139,7 @@ impl Watch {
             folders: Folders::new(make, seen),
             complain: Some(Box::new(complain)),
             first: None,
-            open: BTreeSet::new(),
+            open: BTreeMap::new(),
         };
         watcher.files.follow(files.into_iter().map(|path| (path, true)).collect(), None);
         let watch = move || {
@@ -149,6 +158,15 @@ impl Watch {
     pub fn follow(&self, files: Vec<(PathBuf, bool)>, since: SystemTime) {
         // The thread ends only when this is dropped.
         let _ = self.signals.send(Signal::Follow(files, since));
+    }
+
+    /// Waits until all that has changed by now has been told, but not for ever.
+    pub fn catch_up(&self) {
+        let (done, all) = channel();
+        if self.signals.send(Signal::CatchUp(done)).is_ok() {
+            // Whether it was in time or not, nothing more can be known.
+            let _ = all.recv_timeout(SAVE * 2);
+        }
     }
 }
 
@@ -174,34 +192,54 @@ impl Watcher {
     }
 
     fn work(mut self, inbox: &Receiver<Signal>, changed: &dyn Fn(Change)) {
-        let mut due: Option<Instant> = None;
+        // Before the folders were watched nothing was told of them.
+        let mut due = Some(Instant::now());
+        let mut looked = Instant::now();
+        let mut asked: Vec<Sender<()>> = Vec::new();
+        let mut overdue = 0;
         loop {
-            let round = if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
-            let wait = due.map_or(round, |due| due.saturating_duration_since(Instant::now()));
-            match inbox.recv_timeout(wait) {
+            // Events of other files, of which there may be many, put off no round.
+            let round = looked + if self.folders.failure().is_some() { SHORT_ROUND } else { ROUND };
+            let wait = due.unwrap_or(round).saturating_duration_since(Instant::now());
+            overdue = if wait.is_zero() { overdue + 1 } else { 0 };
+            let signal = match overdue {
+                ..AT_ONCE => inbox.recv_timeout(wait),
+                _ => Err(RecvTimeoutError::Timeout),
+            };
+            match signal {
                 Ok(Signal::Event(paths, at, sign)) => {
                     if self.files.concerned_by(&paths) {
                         let first = *self.first.get_or_insert(at);
                         let quiet = if sign == Sign::End { Duration::ZERO } else { QUIET };
                         due = Some((Instant::now() + quiet).min(first + LONGEST));
-                        match sign {
-                            Sign::Write if TELLS_ENDS => self.open.extend(paths),
-                            Sign::End => self.open.retain(|open| !paths.contains(open)),
-                            _ => {}
+                        if sign != Sign::Other {
+                            self.open.extend(paths.into_iter().map(|path| (path, sign == Sign::Write)));
                         }
                     }
                 }
                 Ok(Signal::Follow(files, since)) => {
                     if self.files.follow(files, Some(since)) {
                         self.first.get_or_insert_with(Instant::now);
-                        due = Some(Instant::now());
                     }
                     self.cover();
+                    // What has changed before its folder was watched was not told.
+                    due = Some(Instant::now());
+                }
+                Ok(Signal::CatchUp(done)) => {
+                    asked.push(done);
+                    due.get_or_insert_with(Instant::now);
                 }
                 Err(RecvTimeoutError::Timeout) => {
                     // Events that come while files are read lead to another look.
                     self.cover();
                     due = self.look(changed);
+                    (looked, overdue) = (Instant::now(), 0);
+                    if due.is_none() {
+                        // Who asked may have given up.
+                        for done in asked.drain(..) {
+                            let _ = done.send(());
+                        }
+                    }
                 }
                 Ok(Signal::Over) | Err(RecvTimeoutError::Disconnected) => return,
             }
@@ -213,17 +251,25 @@ impl Watcher {
         let found = self.files.changed(self.first.is_none());
         if found.is_empty() {
             self.first = None;
+            self.open.clear();
             return None;
         }
         let first = *self.first.get_or_insert_with(Instant::now);
         if found.iter().any(files::Found::looks_unfinished) && first.elapsed() < PATIENCE {
             return Some(Instant::now() + QUIET);
         }
-        let open =
-            |found: &files::Found| files::hops(found.path()).iter().any(|path| self.open.contains(path));
-        if first.elapsed() < SAVE && !self.open.is_empty() && found.iter().any(open) {
-            // That it is closed comes as an event.
-            return Some(first + SAVE);
+        if TELLS_ENDS && first.elapsed() < SAVE {
+            let open = |it: &files::Found| {
+                files::hops(it.path()).iter().find_map(|path| self.open.get(path)).copied()
+            };
+            if found.iter().any(|it| open(it) == Some(true)) {
+                // That it is closed comes as an event.
+                return Some(first + SAVE);
+            }
+            // It was seen before its events have come.
+            if found.iter().any(|it| open(it).is_none() && unsettled([it.path()]).is_some()) {
+                return Some(Instant::now() + QUIET);
+            }
         }
         self.first = None;
         self.open.clear();

@@ -167,3 +167,71 @@ fn changes_without_an_event_are_found_in_time() {
     }
     trial.tells_nothing();
 }
+
+#[test]
+fn events_of_other_files_do_not_put_off_the_look_at_one_without_an_event() {
+    let noisy = |mut handler: Handler| {
+        std::thread::spawn(move || {
+            for _ in 0..600 {
+                let kind = notify::EventKind::Create(notify::event::CreateKind::File);
+                handler(Ok(notify::Event::new(kind).add_path("/elsewhere/x".into())));
+                std::thread::sleep(Duration::from_millis(5));
+            }
+        });
+        Ok(Box::new(notify::NullWatcher) as AnyWatcher)
+    };
+    let trial = Trial::by(noisy, |why| panic!("{why}"));
+    trial.write("sub/a.lua", "two");
+    assert!(trial.tells("sub/a.lua") < ROUND * 2);
+}
+
+#[test]
+fn who_catches_up_has_been_told_of_all_that_has_changed_before() {
+    let trial = Trial::new();
+    for round in 0..20 {
+        trial.write("sub/a.lua", &format!("round {round}"));
+        trial.watch.catch_up();
+        assert_eq!(trial.told.try_iter().flat_map(|change| change.files).last(), Some(trial.at("sub/a.lua")));
+        trial.watch.catch_up();
+        assert!(trial.told.try_recv().is_err());
+    }
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_file_that_someone_still_writes_into_is_told_when_it_is_closed_but_not_waited_for_for_ever() {
+    use std::io::Write;
+    let trial = Trial::new();
+    for pause in [PATIENCE * 2, SAVE * 2] {
+        let mut file = fs::File::create(trial.at("sub/a.lua")).unwrap();
+        let begin = Instant::now();
+        writeln!(file, "half, {pause:?}").unwrap();
+        while begin.elapsed() < pause {
+            let told = trial.told.recv_timeout(QUIET).is_ok();
+            assert!(!told || begin.elapsed() > SAVE - QUIET * 2, "{:?}", begin.elapsed());
+        }
+        writeln!(file, "whole").unwrap();
+        drop(file);
+        trial.tells("sub/a.lua");
+    }
+}
+
+#[test]
+fn what_was_just_written_in_part_is_read_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.json");
+    fs::write(&path, "{").unwrap();
+    let rest = path.clone();
+    let writer = std::thread::spawn(move || {
+        std::thread::sleep(PATIENCE / 3);
+        fs::write(rest, "{}").unwrap();
+    });
+    let read = || match fs::read_to_string(&path).unwrap() {
+        text if text == "{}" => Ok(text),
+        text => Err(Error::new(text)),
+    };
+    assert_eq!(settled(&path, read).unwrap(), "{}");
+    writer.join().unwrap();
+    fs::write(&path, "[").unwrap();
+    assert_eq!(settled(&path, read).unwrap_err().message(), "[");
+}

@@ -17,9 +17,9 @@ fn picture(color: png::ColorType, depth: png::BitDepth, content: &[u8]) -> Vec<u
 }
 
 /// The beginning of a PNG that says it is very large.
-fn large() -> Vec<u8> {
+fn large(side: u32) -> Vec<u8> {
     let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, 65536, 65536);
+    let mut encoder = png::Encoder::new(&mut bytes, side, side);
     encoder.set_color(png::ColorType::Grayscale);
     encoder.set_depth(png::BitDepth::Sixteen);
     drop(encoder.write_header().unwrap());
@@ -63,8 +63,8 @@ fn folder() -> Folder {
     Folder::new()
         .with("in/N43E007.hgt", tile(25))
         .with("in/cut/N43E007.hgt", tile(24))
-        .with("in/nowhere.hgt", tile(25))
-        .with("in/sea/N43E006.hgt", [0x80, 0].repeat(9))
+        .with("in/nowhere.hgt", vec![0; 1201 * 1201 * 2])
+        .with("in/sea/N43E006.hgt", [0x80, 0].repeat(1201 * 1201))
         .with("in/empty.hgt", "")
         .with("in/one.r32", [0; 4])
         .with("in/cut.r32", [0; 20])
@@ -72,7 +72,8 @@ fn folder() -> Folder {
         .with("in/colours.png", picture(ColorType::Rgb, BitDepth::Eight, &[0; 12]))
         .with("in/grey.png", grey.as_slice())
         .with("in/cut.png", &grey[..grey.len() - 30])
-        .with("in/big.png", large())
+        .with("in/big.png", large(65536))
+        .with("in/bomb.png", large(14000))
         .with("in/whole.tif", whole.as_slice())
         .with("in/text.tif", "no picture at all")
         .with("in/cut.tif", &gdal[..4000])
@@ -143,9 +144,9 @@ fn a_file_that_is_not_whole_is_told() {
       | elevation("cut.r32")
       help: it is cut short, or no square of floats; a GeoTIFF may have any shape
     "#);
-    assert_snapshot!(told(r#"elevation("cut.png")"#), @r#"
+    assert_snapshot!(told(r#"elevation("cut.png", { bounds = { 0, 0, 1, 1 } })"#), @r#"
     error: in/s.lua:2: cut.png is cut short: it ends after 42 bytes, where more should follow
-      | elevation("cut.png")
+      | elevation("cut.png", { bounds = { 0, 0, 1, 1 } })
       help: get it again
     "#);
     assert_snapshot!(told(r#"elevation("cut.tif")"#), @r#"
@@ -226,6 +227,16 @@ fn a_file_that_is_no_raster_of_heights_is_told() {
 
 #[test]
 fn sizes_and_heights_that_cannot_be_are_told() {
+    assert_snapshot!(told(r#"elevation("N43E007.hgt")"#), @r#"
+    error: in/s.lua:2: N43E007.hgt has 5 x 5 heights, which no tile of a degree has
+      | elevation("N43E007.hgt")
+      help: tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs
+    "#);
+    assert_snapshot!(told(r#"elevation("bomb.png", { low = 0, high = 1, bounds = { 0, 0, 1, 1 } })"#), @r#"
+    error: in/s.lua:2: bomb.png is cut short: its 45 bytes cannot hold 14000 x 14000 heights
+      | elevation("bomb.png", { low = 0, high = 1, bounds = { 0, 0, 1, 1 } })
+      help: get it again
+    "#);
     assert_snapshot!(told(r#"elevation("huge.asc")"#), @r#"
     error: in/s.lua:2: huge.asc has 100000 x 100000 heights, more than 200 million
       | elevation("huge.asc")
@@ -260,9 +271,9 @@ fn what_a_file_does_not_tell_is_asked_for() {
       | elevation("nowhere.hgt")
       help: name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs
     "#);
-    assert_snapshot!(told(r#"elevation("grey.png")"#), @r#"
+    assert_snapshot!(told(r#"elevation("grey.png", { bounds = { 0, 0, 1, 1 } })"#), @r#"
     error: in/s.lua:2: grey.png does not tell the heights of black and white
-      | elevation("grey.png")
+      | elevation("grey.png", { bounds = { 0, 0, 1, 1 } })
       help: name them (m): elevation(file, { low = 0, high = 1200, ... })
     "#);
     assert_snapshot!(told(r#"elevation("grey.png", { low = 0, high = 100 })"#), @r#"
@@ -339,9 +350,9 @@ fn options_that_cannot_be_are_told() {
       | elevation("grey.png", { encoding = "terrain-rgb" })
       help: leave encoding out, if it is grey; get the tile as .pngraw, if it has a palette
     "#);
-    assert_snapshot!(told(r#"elevation("grey.png", { low = 9, high = 1 })"#), @r#"
+    assert_snapshot!(told(r#"elevation("grey.png", { low = 9, high = 1, bounds = { 0, 0, 1, 1 } })"#), @r#"
     error: in/s.lua:2: grey.png cannot lie between low = 9 and high = 1
-      | elevation("grey.png", { low = 9, high = 1 })
+      | elevation("grey.png", { low = 9, high = 1, bounds = { 0, 0, 1, 1 } })
       help: low is the height (m) of black, high the greater one of white
     "#);
     assert_snapshot!(told(r#"elevation("whole.tif", 4326)"#), @r#"

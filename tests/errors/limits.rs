@@ -164,8 +164,8 @@ fn the_time_limit_is_kept_with_helpers_too() {
 #[test]
 fn a_table_that_grows_is_stopped_at_the_memory_limit() {
     assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = {}\n  while true do\n    table.insert(t, {})\n  end\nend)"), @r#"
-    error: s.lua:3: rule A(x): the script needs more than 64 MB of memory
-      | s:rule("A(x)", function(this, x)
+    error: s.lua:6: rule A(x): the script needs more than 64 MB of memory
+      | table.insert(t, {})
       module: A(1), step 1
       help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
     "#);
@@ -174,8 +174,8 @@ fn a_table_that_grows_is_stopped_at_the_memory_limit() {
 #[test]
 fn a_string_that_doubles_is_stopped_at_the_memory_limit() {
     assert_snapshot!(greedy("s:rule(\"A(x)\", function(this, x)\n  local t = \"a\"\n  while true do t = t .. t end\nend)"), @r#"
-    error: s.lua:3: rule A(x): the script needs more than 64 MB of memory
-      | s:rule("A(x)", function(this, x)
+    error: s.lua:5: rule A(x): the script needs more than 64 MB of memory
+      | while true do t = t .. t end
       module: A(1), step 1
       help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
     "#);
@@ -183,19 +183,26 @@ fn a_string_that_doubles_is_stopped_at_the_memory_limit() {
 
 #[test]
 fn the_memory_limit_is_kept_everywhere() {
+    // Each in line 4.
     let places = [
-        "local t = \"a\" while true do t = t .. t end".to_owned(),
-        "local t = {} while true do table.insert(t, buffer.create(1000000)) end".to_owned(),
-        "s:rule(\"A(x)\", function(this, x) return A(string.rep(\"a\", 1000000000)) end)".to_owned(),
-        "s:rule(\"A(x)\", function(this, x) return A(buffer.len(buffer.create(1000000000))) end)".to_owned(),
-        "s:rule(\"A(x)\", { when = function(this, x) local t = {} while true do table.insert(t, {}) end end }, function() return B() end)".to_owned(),
-        "s:interpret(\"A(x)\", function(this, x) local t = {} while true do table.insert(t, {}) end end)".to_owned(),
-        "s:rule(\"A(x)\", function(this, x) local t = {} while true do table.insert(t, coroutine.create(function() end)) end end)".to_owned(),
+        "local t = \"a\" while true do\n t = t .. t end",
+        "local t = {} while true do\n table.insert(t, buffer.create(1000000)) end",
+        "local t = table.create(1000000, \"aaaaaaaaaaaaaaaaaaaaaaa\")\nlocal x = table.concat(t) .. table.concat(t) .. table.concat(t)",
+        "s:axiom(source({ {} }), function() local t = {}\n while true do table.insert(t, { 1 }) end end)",
+        "s:rule(\"A(x)\", function(this, x)\n return A(string.rep(\"a\", 1000000000)) end)",
+        "s:rule(\"A(x)\", function(this, x)\n return A(buffer.len(buffer.create(1000000000))) end)",
+        "s:rule(\"A(x)\", { when = function(this, x) local t = {}\n while true do table.insert(t, {}) end end }, function() return B() end)",
+        "s:interpret(\"A(x)\", function(this, x) local t = {}\n while true do table.insert(t, {}) end end)",
+        "s:rule(\"A(x)\", function(this, x) local t = {}\n while true do table.insert(t, coroutine.create(function() end)) end end)",
+        "s:rule(\"A(x)\", function(this, x)\n coroutine.wrap(function() local t = {} while true do table.insert(t, {}) end end)() end)",
+        "s:rule(\"A(x)\", function(this, x)\n for i = 1, 100 do A(string.rep(\"a\", 10000000) .. i) end return B() end)",
     ];
     for place in places {
-        let said = greedy(&place);
+        let said = greedy(place);
         assert!(
-            said.contains("more than 64 MB of memory") && said.contains("--memory-limit"),
+            said.starts_with("error: s.lua:4: ")
+                && said.contains("more than 64 MB of memory")
+                && said.contains("--memory-limit"),
             "{place}: {said}"
         );
     }
@@ -252,4 +259,57 @@ fn a_script_that_is_too_large_is_refused_before_it_is_read() {
     ");
     let said = folder.refuses(&["run", "t.lua"]);
     assert!(said.starts_with("error: t.lua:1: ") && said.contains("s.lua is larger than 4 MB"), "{said}");
+}
+
+#[test]
+fn a_run_whose_time_is_over_tells_how_far_it_came() {
+    let said = endless("s:rule(\"A(x)\", function(this, x) return B(), A(x + 1) end)\ns:derive()");
+    assert!(said.contains("the run took longer than 1 s\n"), "{said}");
+    assert!(said.contains(" is done, with ") && said.contains(" modules: derive fewer steps, "), "{said}");
+}
+
+#[test]
+fn branches_of_a_context_are_not_nested_without_end() {
+    for depth in [201, 40_000] {
+        let pattern = format!("A > {}B{}", "[".repeat(depth), "]".repeat(depth));
+        let folder = Folder::new()
+            .with("s.lua", &format!("{HEAD}s:rule(\"{pattern}\", function() return B() end)\ns:derive(1)\n"));
+        for command in ["run", "check"] {
+            let said = folder.burgeon(&[command, "s.lua"]).failed();
+            assert!(
+                said.starts_with("error: s.lua:3: malformed pattern: unexpected '[' at character 205\n"),
+                "{said}"
+            );
+            assert!(
+                said.contains("help: branches are nested at most 200 deep") && said.len() < 1000,
+                "{said}"
+            );
+        }
+    }
+    let pattern = format!("A > {}B{}", "[".repeat(200), "]".repeat(200));
+    let axiom = format!("s:axiom(A(1), {}B(){})", "{ ".repeat(200), "}".repeat(200));
+    let folder = Folder::new().with(
+        "s.lua",
+        &format!("{HEAD}{axiom}\ns:rule(\"{pattern}\", function() return nil end)\ns:derive(1)\n"),
+    );
+    let said = folder.burgeon(&["run", "s.lua", "--chain", "-"]).done();
+    assert_eq!(said.stdout.replace(' ', ""), format!("{}B{}\n", "[".repeat(200), "]".repeat(200)));
+}
+
+#[test]
+fn a_system_has_no_more_rules_than_can_be_numbered() {
+    let script = |count: usize| {
+        format!(
+            "{HEAD}for i = 1, {count} do\n  s:rule(\"A(x)\", {{ when = function(this, x) return x == -i end }}, function() return B() end)\nend\ns:derive(1)\n"
+        )
+    };
+    assert_snapshot!(refused_with(&script(65_100), &[]), @r#"
+    error: s.lua:4: a system has at most 65,000 rules
+      | s:rule("A(x)", { when = function(this, x) return x == -i end }, function() return B() end)
+      help: let one rule stand for many: carry what tells them apart in a parameter
+    "#);
+    let mut last = script(64_999);
+    last = last.replace("s:derive(1)", "s:rule(\"A(x)\", function() return B(), B() end)\ns:derive(1)");
+    let folder = Folder::new().with("s.lua", &last);
+    assert_eq!(folder.burgeon(&["run", "s.lua", "--chain", "-"]).done().stdout, "B B\n");
 }

@@ -16,6 +16,7 @@ mod neighbors;
 mod outputs;
 mod params;
 mod patterns;
+mod places;
 mod planets;
 mod presets;
 mod reports;

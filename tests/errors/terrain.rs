@@ -299,6 +299,100 @@ fn a_decay_that_does_not_converge_is_warned_of() {
     "##);
 }
 
+/// A grid of 33 by 33 samples, 10 m apart, the first of which is in the middle of its square.
+fn grid() -> String {
+    let height =
+        |index: usize| 50.0 + ((index % 33) as f64 * 0.7).sin() * 20.0 + (index / 33 % 4) as f64 * 3.0;
+    let heights: String = (0..33 * 33).map(|index| format!("{:.3}\n", height(index))).collect();
+    format!("ncols 33\nnrows 33\nxllcorner -165\nyllcorner -165\ncellsize 10\n{heights}")
+}
+
+#[test]
+fn cells_that_cannot_show_measured_samples_are_warned_of_and_the_ground_keeps_them_all() {
+    let script = |levels: u32, more: &str| {
+        format!(
+            "local heights = elevation(\"a.asc\")\n\
+             local land = lsystem({{ object = terrain({{ size = 300, levels = {levels}, elevation = heights{more} }}) }})\n\
+             local ground = land:derive().objects[1]\n\
+             for x = -140, 140, 10 do\n  for y = -140, 140, 10 do\n\
+             assert(math.abs(ground:height({{ x, y }}) - heights:height({{ x, y }})) < 1e-3)\n  end\nend\n\
+             if {levels} == 6 then\n  print(ground:height({{ 3, 4 }}))\nend\n"
+        )
+    };
+    let rules =
+        ", decay = 200, rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { { -1, 1 }, 1, -1, 0.5 } } }";
+    let folder = Folder::new()
+        .with("a.asc", grid())
+        .with("coarse.lua", script(3, ""))
+        .with("rough.lua", script(7, rules))
+        .with("smooth.lua", script(6, ""))
+        .with("straight.lua", script(6, ", smooth = false"));
+    insta::assert_snapshot!(folder.warned(&["run", "coarse.lua"]), @r##"
+    warning: coarse.lua:2: terrain: cells of 37.5 m cannot show samples that are 10 m apart: only height() keeps to each of them
+      | local land = lsystem({ object = terrain({ size = 300, levels = 3, elevation = heights }) })
+      help: write levels = 5 to show all of them
+    "##);
+    let told = |name: &str| folder.burgeon(&["run", name, "--strict"]).done().stderr;
+    let height = |name: &str| told(name).lines().next().and_then(|line| line.parse::<f64>().ok()).unwrap();
+    assert!(!told("rough.lua").contains("warning"));
+    // Three tenths and four tenths of the way between four samples.
+    let sample = |column: i32, row: i32| {
+        grid().lines().nth((5 + row * 33 + column) as usize).unwrap().parse::<f64>().unwrap()
+    };
+    let (north, south) = ([sample(16, 15), sample(17, 15)], [sample(16, 16), sample(17, 16)]);
+    let along = |[west, east]: [f64; 2]| west * 0.7 + east * 0.3;
+    let straight = along(south) * 0.6 + along(north) * 0.4;
+    assert!((height("straight.lua") - straight).abs() < 1e-4, "{} {straight}", height("straight.lua"));
+    assert!((height("smooth.lua") - straight).abs() > 0.05);
+}
+
+#[test]
+fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
+    let script = |options: &str, body: &str| {
+        format!(
+            "local Do = module(\"Do\")\n\
+             local land = lsystem({{ object = terrain({{ {options}, rules = {{ A = {{ \"A\", \"A\", \"A\", \"A\", change = {{ 1, -1, 0, 0.5 }} }} }} }}) }})\n\
+             land:axiom(Do())\nland:interpret(\"Do()\", function(this)\n{body}\nend)\nland:derive(0)\n"
+        )
+    };
+    let view = "{ cell = 128, rings = { { 2, 3 } } }";
+    let twice =
+        format!("  this:focus(0, 0, {view})\n  this:focus(0, 0, {view})\n  this:focus(64, 0, {view})");
+    let planet = "local Do = module(\"Do\")\n\
+        local land = lsystem({ object = planet({ radius = 1000, levels = 6, rules = { A = { \"A\", \"A\", \"A\", \"A\" } } }) })\n\
+        land:axiom(Do())\nland:interpret(\"Do()\", function(this)\n  this:focus(0, 0, 3000)\n  this:focus(0, 0, 2000)\nend)\nland:derive(0)\n";
+    let folder = Folder::new()
+        .with(
+            "sea.lua",
+            script("levels = 5, water = 500", "  this:river({ 10, 20 }, 5)\n  this:river({ 10, 20 }, 5)"),
+        )
+        .with("rim.lua", script("levels = 5", "  this:river({ 511, 20 }, 5)"))
+        .with("focus.lua", script("size = 1024", &twice))
+        .with("planet.lua", planet);
+    let mut text = String::new();
+    for name in ["sea.lua", "rim.lua", "focus.lua", "planet.lua"] {
+        text += &folder.warned(&["run", name]);
+    }
+    insta::assert_snapshot!(text, @r##"
+    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) lies 475.0 m under water, so there is no river (2 times)
+      | this:river({ 10, 20 }, 5)
+      module: Do, step 0
+      help: give a place above the water: this:height({ x, y }) tells how high the ground is
+    warning: rim.lua:5: rule Do() (interpretation): terrain:river: the source (511.0, 20.0) lies at the rim or at the shore, so there is no river
+      | this:river({ 511, 20 }, 5)
+      module: Do, step 0
+      help: give a place farther up
+    warning: focus.lua:7: rule Do() (interpretation): terrain:focus: this takes the place of the focus on (0, 0) in the same pass
+      | this:focus(64, 0, { cell = 128, rings = { { 2, 3 } } })
+      module: Do, step 0
+      help: the last focus of a pass counts: focus once
+    warning: planet.lua:6: rule Do() (interpretation): planet:focus: this takes the place of the focus on (0, 0, 3000) in the same pass
+      | this:focus(0, 0, 2000)
+      module: Do, step 0
+      help: the last focus of a pass counts: focus once
+    "##);
+}
+
 const CUT: &str = "local Do = module(\"Do\")\n\
     local land = lsystem({ object = terrain({ size = SIZE, levels = 6, EDITS rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 3, -2, 1, 0 } } } }) })\n\
     land:axiom(Do())\nland:interpret(\"Do()\", function(this) BODY end)\nlocal made = land:derive(0)\n\

@@ -4,7 +4,7 @@ use std::io::{Read, Write};
 use std::net::TcpStream;
 use std::time::{Duration, Instant};
 
-use crate::support::{Server, script};
+use crate::support::{PATIENCE, Server, script};
 
 #[cfg(target_os = "linux")]
 #[test]
@@ -84,4 +84,21 @@ fn the_next_server_of_a_port_has_the_same_address_and_proves_that_it_knows_it() 
     assert_eq!(third.request(&bare).status, 403);
     let any = Server::new(None);
     assert_ne!(Server::start(any.end(), &[]).token, third.token);
+}
+
+#[test]
+fn an_export_that_its_page_gave_up_ends_and_the_next_one_has_its_turn() {
+    let server = Server::new(Some(&script(300)));
+    server.page().next("model");
+    let begin = Instant::now();
+    let mut page = TcpStream::connect(("127.0.0.1", server.port)).unwrap();
+    let path = format!("/{}/export/a.png?width=8192&height=8192", server.token);
+    write!(page, "GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n").unwrap();
+    std::thread::sleep(Duration::from_millis(500));
+    // It takes many times as long.
+    page.set_read_timeout(Some(Duration::from_millis(1))).unwrap();
+    assert!(page.read(&mut [0; 1]).is_err());
+    drop(page);
+    assert_eq!(server.get("export/a.glb").status, 200);
+    assert!(begin.elapsed() < PATIENCE / 2, "{:?}", begin.elapsed());
 }

@@ -228,6 +228,7 @@ impl Page {
                 return message;
             }
             let news = ["working", "progress", "variations"].iter().any(|news| message["type"] == **news);
+            let news = news || (message["type"] == "cancelled" && message["stale"] == false);
             assert!(news, "{kind}: {message}");
         }
     }

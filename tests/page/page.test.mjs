@@ -229,13 +229,13 @@ test("exports are downloaded, and a screenshot is", () =>
   open(BLOCKS, async ({ page }) => {
     await drawn(page);
     for (const [format, begins] of [["glb", "glTF"], ["png", "\x89PNG"], ["obj", "PK"], ["svg", "<"]]) {
-      const download = page.waitForEvent("download");
+      const download = page.waitForEvent("download", { timeout: 120_000 });
       await seen(page, "export").click();
       await seen(page, `export-${format}`).click();
       const bytes = await readFile(await (await download).path());
       assert.equal(bytes.subarray(0, begins.length).toString("latin1"), begins, format);
     }
-    const download = page.waitForEvent("download");
+    const download = page.waitForEvent("download", { timeout: 120_000 });
     await seen(page, "screenshot").click();
     const bytes = await readFile(await (await download).path());
     assert.equal(bytes.subarray(1, 4).toString("latin1"), "PNG");

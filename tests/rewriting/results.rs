@@ -1,6 +1,6 @@
 //! What a successor may return, and what becomes of it: the design's law 3.
 
-use super::scripts::{chain, error, run};
+use super::scripts::{chain, divided, error, lines, run, run_with};
 
 const HEAD: &str = r#"
     local A = module("A"); local B = module("B", "x"); local C = module("C"); local D = module("D", "length?", "width?")
@@ -356,4 +356,32 @@ fn large_successors_come_out_whole() {
 fn a_branch_that_contains_itself_is_refused() {
     let told = error(&script("s:rule(\"A\", function() local t = {} t[1] = t return t end)"));
     assert!(told.contains("nested") && told.contains("rule A"), "{told}");
+}
+
+#[test]
+fn modules_of_one_application_keep_their_order_whatever_others_of_its_batch_make() {
+    // Each application returns its modules in another order than it made them.
+    let script = r#"
+        local A = module("A", "n"); local B = module("B", "n", "i")
+        local s = lsystem {}
+        local row = {}
+        for n = 1, 50 do row[n] = A(n) end
+        s:axiom(table.unpack(row))
+        s:rule("A(n)", function(this, n)
+          local first, second = B(n, 1), B(n, 2)
+          local rest = {}
+          for i = 3, n do rest[i - 2] = B(n, i) end
+          return second, rest, first
+        end)
+        s:derive(1)
+    "#;
+    let expected: Vec<String> = (1..=50)
+        .map(|n| {
+            let rest: String = (3..=n).map(|i| format!("B({n},{i}) ")).collect();
+            format!("B({n},2) [ {rest}] B({n},1)")
+        })
+        .collect();
+    for batch in [1, 7, 4096] {
+        assert_eq!(lines(&run_with(script, divided(2, batch))), [expected.join(" ")]);
+    }
 }

@@ -92,8 +92,15 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
         {
             // It may have read the half of what was being written.
             let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
-            let newer = young.filter(|_| doubts.get_or_insert_with(Instant::now).elapsed() < DOUBT);
-            if newer.is_some_and(|wait| changes.recv_timeout(wait).is_ok()) {
+            let patient = doubts.get_or_insert_with(Instant::now).elapsed() < DOUBT;
+            let newer = patient && {
+                let soon = changes.recv_timeout(young.unwrap_or_default()).is_ok();
+                soon || {
+                    watch.catch_up();
+                    changes.try_recv().is_ok()
+                }
+            };
+            if newer {
                 if now.over.load(Ordering::Acquire) {
                     return Ok(());
                 }

@@ -2,13 +2,14 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::plan::{outset, room};
 use super::super::skeleton::{Pace, Skeleton};
-use super::overhang::{Rake, Rim};
+use super::outset::Outset;
+use super::overhang::{Faces, Rake, Rim};
 use super::patches::{leveled, patches};
+use super::plate::at_walls;
 use super::shape::Profile;
 use super::shed::Fall;
-use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Surface};
+use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Support, Surface, edges};
 use crate::error::Result;
 
 /// A finished roof.
@@ -16,8 +17,10 @@ use crate::error::Result;
 pub struct Cover {
     /// Its faces. Together with walls up to the same height they close a building.
     pub patches: Vec<Patch>,
-    /// How far (m) it juts out.
-    pub overhang: f64,
+    /// How far (m) it juts out over each edge, beyond what stands out below.
+    pub overhangs: Vec<f64>,
+    /// The edges over which it juts out less than it was to, for want of room beside other parts of the building.
+    pub tight: Vec<usize>,
     /// Whether it was to have gables, other than along neighbours, that it could not get.
     pub hipped: bool,
 }
@@ -32,10 +35,6 @@ enum Over {
     Flush,
 }
 
-/// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
-const KEPT: f64 = 0.9;
-/// Parts of the overhang that are tried where the outline would meet itself otherwise.
-const FACTORS: [f64; 4] = [1.0, 0.5, 0.25, 0.0];
 /// Corners of gables turn by more than this (radians).
 const SHARP: f64 = 65.0 * std::f64::consts::PI / 180.0;
 /// A gable may go on by this (m) beyond the ends of its wall.
@@ -48,76 +47,101 @@ impl Shape {
     ///
     /// The first ring is counter-clockwise, the holes are clockwise. Fails if there is no skeleton for it.
     pub fn cover(&self, walls: &[Vec<DVec2>], base: f64) -> Result<Cover> {
-        self.cover_in_row(walls, base, &[])
+        self.cover_on(&Support::new(walls, base))
     }
 
-    /// As [`Shape::cover`], with gables where possible over `party`, the edges along neighbours.
-    pub fn cover_in_row(&self, walls: &[Vec<DVec2>], base: f64, party: &[usize]) -> Result<Cover> {
+    /// The roof over what stands below it. Fails if there is no skeleton for it.
+    pub fn cover_on(&self, support: &Support<'_>) -> Result<Cover> {
+        let Some(outermost) = support.outermost() else { return self.cover_walls(support) };
+        let pairs = support.within_reach(f64::INFINITY).into_iter().zip(&outermost.distances);
+        let reach: Vec<f64> = pairs.map(|(reach, jut)| reach - jut).collect();
+        let mut cover =
+            self.cover_walls(&Support { walls: &outermost.rings, juts: &[], reach: &reach, ..*support })?;
+        support.add_soffit(&outermost, &mut cover.patches);
+        Ok(cover)
+    }
+
+    /// The roof over walls that nothing stands out of.
+    fn cover_walls(&self, support: &Support<'_>) -> Result<Cover> {
         match self.surface {
-            Surface::Shed => Ok(self.shed(walls, base)),
-            Surface::Flat(None) => Ok(self.plate(walls, base)),
-            Surface::Flat(_) => self.sloped(walls, base, Ends::Hips, &[]),
-            Surface::Sloped(ends, _) => self.sloped(walls, base, ends, party),
+            Surface::Shed => Ok(self.shed(support)),
+            Surface::Flat(None) => Ok(self.level(support)),
+            Surface::Flat(_) => self.sloped(&Support { party: &[], ..*support }, Ends::Hips),
+            Surface::Sloped(ends, _) => self.sloped(support, ends),
         }
     }
 
-    /// The outline moved outwards where there is room, and how far, in whole centimetres where that is less than all;
-    /// not over flush gables.
-    fn outline(&self, walls: &[Vec<DVec2>], over: &[Over]) -> (Vec<Vec<DVec2>>, f64) {
-        let distances = |distance: f64| -> Vec<f64> {
-            over.iter().map(|over| if *over == Over::Flush { 0.0 } else { distance }).collect()
-        };
-        if self.overhang > 0.0 {
-            let room = room(walls, &distances(self.overhang));
-            let most = if room < 1.0 { KEPT * room } else { 1.0 };
-            for factor in FACTORS {
-                let mut distance = self.overhang * most * factor;
-                if distance < self.overhang {
-                    distance = (distance * 100.0 + 1e-6).floor() / 100.0;
-                }
-                if let Some(rings) = outset(walls, &distances(distance)) {
-                    return (rings, distance);
-                }
-            }
-        }
-        (walls.to_vec(), 0.0)
+    /// How far it is to jut out over each edge: not over flush gables.
+    fn wanted(&self, most: &[f64], over: &[Over]) -> Vec<f64> {
+        let wanted = |(over, most): (&Over, &f64)| if *over == Over::Flush { 0.0 } else { *most };
+        over.iter().zip(most).map(wanted).collect()
+    }
+
+    /// The cover with these patches and this outline.
+    fn finished(
+        &self,
+        patches: Vec<Patch>,
+        support: &Support<'_>,
+        over: &[Over],
+        outset: Outset,
+        hipped: bool,
+    ) -> Cover {
+        let wanted = self.wanted(&support.within_reach(self.overhang), over);
+        let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
+        Cover { patches, overhangs: outset.distances, tight, hipped }
     }
 
     /// A level roof.
-    fn plate(&self, walls: &[Vec<DVec2>], base: f64) -> Cover {
-        let count = walls.iter().map(Vec::len).sum();
-        let (outer, overhang) = self.outline(walls, &vec![Over::Slope; count]);
+    fn level(&self, support: &Support<'_>) -> Cover {
+        let &Support { walls, base, .. } = support;
+        let over = vec![Over::Slope; support.edges()];
+        let outset = Outset::new(walls, support.within_reach(self.overhang), |_| false);
         let high = |ring: &Vec<DVec2>| ring.iter().map(|at| at.extend(base + self.slab)).collect();
         let top = Patch {
             kind: PatchKind::Slope,
             edge: 0,
             flap: 0,
             along: DVec2::X,
-            rings: outer.iter().map(high).collect(),
+            rings: outset.rings.iter().map(high).collect(),
         };
         let mut patches = vec![top];
-        let profile = Profile::new(self, 1.0, overhang);
-        Rim { walls, outer: &outer, profile: &profile, base, overhang, slab: self.slab }
-            .close(&mut patches, &vec![None; count]);
-        Cover { patches, overhang, hipped: false }
+        let profile = Profile::new(self, 1.0, outset.most());
+        self.rim(support, &outset, &profile).close(&mut patches, &vec![None; over.len()], None);
+        self.finished(patches, support, &over, outset, false)
+    }
+
+    fn rim<'a>(&self, support: &Support<'a>, outset: &'a Outset, profile: &'a Profile) -> Rim<'a> {
+        Rim {
+            walls: support.walls,
+            outer: &outset.rings,
+            profile,
+            base: support.base,
+            overhang: outset.most(),
+            distances: &outset.distances,
+            slab: self.slab,
+        }
     }
 
     /// A roof with a slope over each edge, but for gables.
     ///
-    /// Where a gable would go on beyond its wall, over other parts of the roof, there is a slope as well.
-    fn sloped(&self, walls: &[Vec<DVec2>], base: f64, ends: Ends, party: &[usize]) -> Result<Cover> {
-        let even = vec![Pace::default(); walls.iter().map(Vec::len).sum()];
+    /// Where a gable would go on beyond its wall, over other parts of the roof, there is a slope as well. Slopes that run
+    /// on beyond the walls are at the top of all walls at once: where they jut out less, they begin later.
+    fn sloped(&self, support: &Support<'_>, ends: Ends) -> Result<Cover> {
+        let &Support { walls, base, .. } = support;
+        let even = vec![Pace::default(); support.edges()];
         let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::new(walls, &even)?) };
-        let mut party = party.to_vec();
+        let mut party = support.party.to_vec();
         let mut over = self.over(walls, hip.as_ref(), ends, &party);
+        let mut most = support.within_reach(self.overhang);
         let mut hipped = false;
         loop {
-            let (outer, overhang) = self.outline(walls, &over);
-            let paces = self.paces(&outer, &over, ends, overhang);
+            let outset = Outset::new(walls, self.wanted(&most, &over), |_| false);
+            let overhang = outset.most();
+            let paces = self.paces(walls, &outset, &over, ends);
             let hips = overhang == 0.0 && over.iter().all(|over| *over == Over::Slope);
             // Without a gable and an overhang, the roof is the one that the gables were looked for in.
             let known = if hips { hip.take() } else { None };
-            let skeleton = match known.map_or_else(|| Skeleton::new(&outer, &paces), Ok) {
+            let skeleton = match known.map_or_else(|| Skeleton::new(&outset.rings, &paces), Ok) {
                 Ok(skeleton) => skeleton,
                 Err(_) if !party.is_empty() => {
                     party.clear();
@@ -129,9 +153,8 @@ impl Shape {
                     if overhang == 0.0 {
                         return Err(error);
                     }
-                    let mut flush = Self { overhang: 0.0, ..*self }.sloped(walls, base, ends, &party)?;
-                    flush.hipped |= hipped;
-                    return Ok(flush);
+                    most.fill(0.0);
+                    continue;
                 }
                 Err(_) => {
                     over.fill(Over::Slope);
@@ -139,8 +162,9 @@ impl Shape {
                     continue;
                 }
             };
+            let gable = |edge: &usize| over[*edge] != Over::Slope;
             let astray: Vec<usize> =
-                (0..over.len()).filter(|&edge| strays(&skeleton, edge, paces[edge])).collect();
+                (0..over.len()).filter(gable).filter(|&edge| strays(&skeleton, edge, paces[edge])).collect();
             if !astray.is_empty() {
                 let rows = party.len();
                 party.retain(|edge| !astray.contains(edge));
@@ -153,14 +177,26 @@ impl Shape {
                 continue;
             }
             let profile = Profile::new(self, skeleton.duration(), overhang);
-            let rim = Rim { walls, outer: &outer, profile: &profile, base, overhang, slab: self.slab };
-            let points = leveled(&skeleton, &paces, &profile);
-            let rakes: Vec<Option<Rake>> = over
-                .iter()
-                .enumerate()
-                .map(|(edge, over)| {
-                    (*over == Over::Raked).then(|| rim.rake(edge, &skeleton, &points)).flatten()
-                })
+            let rim = self.rim(support, &outset, &profile);
+            let mut points = leveled(&skeleton, &paces, &profile);
+            let is_plate = profile.beyond() > 0.0;
+            let mut rings = skeleton.faces;
+            if is_plate {
+                let ends: Vec<[DVec2; 2]> = walls.iter().flat_map(|ring| edges(ring)).collect();
+                let raked: Vec<bool> = over.iter().map(|over| *over == Over::Raked).collect();
+                let rest = |pace: &Pace| if pace.speed > 0.0 { pace.rest } else { f64::INFINITY };
+                let rests: Vec<f64> = paces.iter().map(rest).collect();
+                match at_walls(&rings, &mut points, overhang, &ends, &raked, &rests) {
+                    Ok(faces) => rings = faces,
+                    Err(astray) => {
+                        give_way(&astray, walls, &outset.distances, &mut most);
+                        continue;
+                    }
+                }
+            }
+            let faces = Faces { rings: &rings, points: &points };
+            let rakes: Vec<Option<Rake>> = (0..over.len())
+                .map(|edge| if over[edge] == Over::Raked { rim.rake(edge, faces) } else { None })
                 .collect();
             let mut failed = false;
             for (over, rake) in over.iter_mut().zip(&rakes) {
@@ -172,10 +208,10 @@ impl Shape {
             if failed {
                 continue;
             }
-            let mut patches = patches(&skeleton, &paces, &profile, base, points);
+            let mut patches = patches(&rings, &paces, &profile, base, points.clone());
             patches.retain(|patch| patch.kind != PatchKind::Gable || rakes[patch.edge].is_none());
-            rim.close(&mut patches, &rakes);
-            return Ok(Cover { patches, overhang, hipped });
+            rim.close(&mut patches, &rakes, is_plate.then_some(faces));
+            return Ok(self.finished(patches, support, &over, outset, hipped));
         }
     }
 
@@ -193,24 +229,27 @@ impl Shape {
         over
     }
 
-    /// How the edges move.
-    fn paces(&self, outer: &[Vec<DVec2>], over: &[Over], ends: Ends, overhang: f64) -> Vec<Pace> {
+    /// How the edges of the outline move.
+    fn paces(&self, walls: &[Vec<DVec2>], outset: &Outset, over: &[Over], ends: Ends) -> Vec<Pace> {
         let mut paces = Vec::with_capacity(over.len());
-        let beyond = if self.eaves == Eaves::Open { overhang } else { 0.0 };
-        for ring in outer {
+        let is_plate = self.eaves == Eaves::Open && matches!(self.surface, Surface::Sloped(..));
+        let beyond = if is_plate { outset.most() } else { 0.0 };
+        for ring in if is_plate { walls } else { &outset.rings } {
             let count = ring.len();
             for index in 0..count {
                 let at = |offset: usize| ring[(index + count + offset - 1) % count];
                 let [before, along, after] = [at(1) - at(0), at(2) - at(1), at(3) - at(2)];
-                paces.push(match over[paces.len()] {
+                let edge = paces.len();
+                paces.push(match over[edge] {
+                    Over::Slope if is_plate => Pace { speed: 1.0, rest: beyond - outset.distances[edge] },
                     Over::Slope => Pace::default(),
                     _ if ends == Ends::DutchHips => {
                         // How much of the edge both neighbours use up while they move 1 m.
                         let used = |side: DVec2| side.length() * along.length() / side.perp_dot(along).abs();
                         let top = along.length() / (used(before) + used(after));
-                        let rest = beyond + BELOW_HIP * (top - beyond).max(0.0);
+                        let rest = beyond + BELOW_HIP * top;
                         // So that hips that begin nearly at once do so at once.
-                        Pace { speed: 1.0, rest: (rest * 64.0).round() / 64.0 }
+                        Pace { speed: 1.0, rest: ((rest * 64.0).round() / 64.0).max(beyond) }
                     }
                     _ => Pace::STILL,
                 });
@@ -220,14 +259,17 @@ impl Shape {
     }
 
     /// A roof of one slope, highest over the longest edge and lowest at the place furthest from it.
-    fn shed(&self, walls: &[Vec<DVec2>], base: f64) -> Cover {
+    fn shed(&self, support: &Support<'_>) -> Cover {
+        let &Support { walls, base, .. } = support;
         let fall = Fall::new(walls);
-        let over: Vec<Over> = if self.eaves == Eaves::Open {
-            vec![Over::Slope; walls.iter().map(Vec::len).sum()]
+        let open = self.eaves == Eaves::Open;
+        let over: Vec<Over> = if open {
+            vec![Over::Slope; support.edges()]
         } else {
             fall.eaves(walls).into_iter().map(|eaves| if eaves { Over::Slope } else { Over::Flush }).collect()
         };
-        let (outer, overhang) = self.outline(walls, &over);
+        let wanted = self.wanted(&support.within_reach(self.overhang), &over);
+        let outset = Outset::new(walls, wanted, |edge| over[edge] == Over::Flush);
         let high = match self.rise {
             Rise::Height(height) => height,
             // As high as a gable roof of this slope would be.
@@ -237,8 +279,29 @@ impl Shape {
                 slope * hip.map_or(half, |hip| hip.duration()).min(half)
             }
         };
-        let patches = super::shed::patches(self, &fall, walls, &outer, base, overhang, high);
-        Cover { patches, overhang, hipped: false }
+        let patches = super::shed::patches(self, &fall, walls, &outset.rings, base, outset.most(), high);
+        self.finished(patches, support, &over, outset, false)
+    }
+}
+
+/// Lets the roof jut out less over edges that go `astray`, and over those beside them; at last nowhere.
+fn give_way(astray: &[usize], walls: &[Vec<DVec2>], distances: &[f64], most: &mut [f64]) {
+    let mut changed = false;
+    let mut first = 0;
+    for count in walls.iter().map(Vec::len) {
+        for index in
+            astray.iter().filter(|edge| (first..first + count).contains(*edge)).map(|edge| edge - first)
+        {
+            for edge in [index + count - 1, index, index + 1].map(|index| first + index % count) {
+                changed |= distances[edge] > 0.0;
+                let half = (distances[edge] * 50.0).floor() / 100.0;
+                most[edge] = most[edge].min(half);
+            }
+        }
+        first += count;
+    }
+    if !changed {
+        most.fill(0.0);
     }
 }
 

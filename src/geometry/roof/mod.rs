@@ -1,14 +1,19 @@
 //! Roofs: over every polygon with holes, as patches that close the building below.
 //!
-//! Comes in: the outline of the walls and a [`Shape`]. Goes out: flat patches. Nothing is drawn here.
+//! Comes in: the walls as a [`Support`], and a [`Shape`]. Goes out: flat patches. Nothing is drawn here.
 
 mod build;
 mod fill;
 mod lines;
+mod outset;
 mod overhang;
 mod patches;
+mod plate;
+#[cfg(test)]
+mod row_tests;
 mod shape;
 mod shed;
+mod support;
 #[cfg(test)]
 mod tests;
 
@@ -18,7 +23,8 @@ pub use build::Cover;
 pub(crate) use build::floor;
 pub(crate) use fill::fill;
 pub use lines::{Line, LineKind, lines, normal};
-pub use shape::{Border, Eaves, Ends, Rise, Shape, Surface};
+pub use shape::{Border, Eaves, Ends, Rise, STEEPEST_EAVES, Shape, Surface};
+pub use support::Support;
 
 /// What a patch is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -2,10 +2,11 @@
 
 use glam::{DVec2, DVec3};
 
-use super::super::skeleton::Skeleton;
 use super::patches::at_level;
+use super::plate::{border, part};
 use super::shape::Profile;
 use super::shed::without_repeats;
+use super::support::divide_feet;
 use super::{Patch, PatchKind};
 
 /// Places of a roof nearer than this (m) to the wall are not beyond it.
@@ -19,10 +20,20 @@ pub(super) struct Rim<'a> {
     pub profile: &'a Profile,
     /// Where the walls end (m).
     pub base: f64,
-    /// How far (m) the outline is from the walls, but for flush gables.
+    /// How far (m) the outline is from the walls where it is furthest.
     pub overhang: f64,
+    /// How far (m) it is over each edge.
+    pub distances: &'a [f64],
     /// How high (m) the faces along the outline are.
     pub slab: f64,
+}
+
+/// The faces of a skeleton with corners where they reach the walls, as [`super::plate::at_walls`] finds them.
+#[derive(Clone, Copy)]
+pub(super) struct Faces<'a> {
+    pub rings: &'a [Vec<usize>],
+    /// Their corners (m), with the distances from the outline as heights.
+    pub points: &'a [DVec3],
 }
 
 /// The ends of two slopes that jut out over a gable: first the one on the left as seen from outside.
@@ -90,19 +101,25 @@ impl Rim<'_> {
     }
 
     /// How the slopes beside the gable over `edge` jut out over it; none if they are not simply two.
-    pub(super) fn rake(&self, edge: usize, skeleton: &Skeleton, points: &[DVec3]) -> Option<Rake> {
-        if self.overhang == 0.0 {
+    pub(super) fn rake(&self, edge: usize, faces: Faces<'_>) -> Option<Rake> {
+        if self.distances[edge] == 0.0 {
             return None;
         }
-        let &[a, b, apex] = skeleton.faces[edge].as_slice() else { return None };
+        let border = border(&faces.rings[edge], faces.points, f64::INFINITY);
+        let highest = (0..border.len()).max_by(|&a, &b| border[a].z.total_cmp(&border[b].z))?;
+        let apex = border[highest];
+        let ends = [border[..highest].to_vec(), border[highest + 1..].iter().rev().copied().collect()];
+        // Each goes from the eaves to the top of the walls and on to the ridge, in one line.
+        let [Some(from_right), Some(from_left)] = ends.map(|side| self.side(&side)) else { return None };
         let place = self.place(edge);
         let [left, right] = place.ends(self.walls);
         let along = (right - left).normalize_or_zero();
         let neighbours = [place.before(), place.after()];
-        let beyond = |peak: &&usize| (points[**peak].truncate() - left).dot(along.perp()) < CLEAR;
+        let beyond = |point: &DVec3| (point.truncate() - left).dot(along.perp()) < CLEAR;
         for neighbour in neighbours {
-            let face = &skeleton.faces[neighbour];
-            if face.iter().filter(|peak| ![a, b, apex].contains(peak)).any(|peak| beyond(&peak)) {
+            let face = faces.rings[neighbour].iter().map(|&index| faces.points[index]);
+            let within = |point: &DVec3| point.z > self.overhang && *point != apex;
+            if face.filter(within).any(|point| beyond(&point)) {
                 return None;
             }
         }
@@ -115,33 +132,46 @@ impl Rim<'_> {
         let speeds = neighbours.map(speed);
         let mut ridge = self.overhang + left.distance(right) / (speeds[0] + speeds[1]);
         let top = left + along * (speeds[0] * (ridge - self.overhang));
-        if (ridge - points[apex].z).abs() < CLEAR {
-            ridge = points[apex].z;
+        if (ridge - apex.z).abs() < CLEAR {
+            ridge = apex.z;
         }
-        let (low, high) = (ridge.min(points[apex].z), ridge.max(points[apex].z));
+        let (low, high) = (ridge.min(apex.z), ridge.max(apex.z));
         let levels: Vec<f64> = self.profile.corners.iter().map(|corner| corner.x).collect();
         if low < self.overhang + CLEAR || levels.iter().any(|level| (low..high).contains(level)) {
             return None;
         }
-        let side = |corner: usize, from: DVec2, way: DVec2| {
-            let mut side = Side { outer: vec![points[corner]], wall: Vec::new() };
-            for &level in levels.iter().filter(|level| **level > 0.0 && **level < low) {
+        let side = |outer: Vec<DVec3>, from: DVec2, way: DVec2| {
+            let mut side = Side { outer, wall: Vec::new() };
+            for &level in levels.iter().filter(|level| (self.overhang..low).contains(*level)) {
                 let last = side.outer[side.outer.len() - 1];
-                side.outer.push(at_level(last, points[apex], level));
+                if last.z < level {
+                    side.outer.push(at_level(last, apex, level));
+                }
                 side.wall.push((from + way * (level - self.overhang)).extend(level));
             }
-            side.outer.push(points[apex]);
+            side.outer.push(apex);
             side.wall.push(top.extend(ridge));
             side
         };
-        Some(Rake([side(a, left, along * speeds[0]), side(b, right, -along * speeds[1])]))
+        Some(Rake([side(from_left, left, along * speeds[0]), side(from_right, right, -along * speeds[1])]))
     }
 
-    /// Adds all that is below the slopes; gables that are in `patches` get their lower edges.
-    pub(super) fn close(&self, patches: &mut Vec<Patch>, rakes: &[Option<Rake>]) {
+    /// The end of a slope from the eaves to the top of the walls, if nothing else happens up to the ridge.
+    fn side(&self, points: &[DVec3]) -> Option<Vec<DVec3>> {
+        let at_walls = points.last().is_some_and(|last| self.is_at_wall(*last));
+        (at_walls && points.len() <= 2).then(|| points.to_vec())
+    }
+
+    /// Adds all that is below the slopes; gables that are in `patches` get their lower edges. `plate` has the faces of a
+    /// roof whose slopes run on beyond the walls.
+    pub(super) fn close(&self, patches: &mut Vec<Patch>, rakes: &[Option<Rake>], plate: Option<Faces<'_>>) {
         let mut has_gable = vec![false; rakes.len()];
         for patch in patches.iter_mut().filter(|patch| patch.kind == PatchKind::Gable) {
             if std::mem::replace(&mut has_gable[patch.edge], true) {
+                continue;
+            }
+            if let Some(faces) = plate {
+                patch.rings[0] = self.strip(patch.edge, self.overhang, faces, []);
                 continue;
             }
             let place = self.place(patch.edge);
@@ -158,12 +188,40 @@ impl Rim<'_> {
             if let Some(rake) = &rakes[edge] {
                 self.add_rake(patches, edge, &place, rake);
             } else if !has_gable[edge] {
-                self.add_eaves(patches, edge, &place, rakes);
+                match plate {
+                    Some(faces) => self.add_plate(patches, edge, &place, faces, rakes),
+                    None => self.add_eaves(patches, edge, &place),
+                }
             }
+        }
+        if plate.is_none() && self.overhang > 0.0 && self.distances.contains(&0.0) {
+            divide_feet(patches, self.walls, self.outer, self.base);
         }
     }
 
-    fn add_eaves(&self, patches: &mut Vec<Patch>, edge: usize, place: &Place, rakes: &[Option<Rake>]) {
+    /// What is upright of the plate's rim over an edge, up to a level: all that is between the top and the underside.
+    /// Where the underside is at the top of the wall, it passes these corners.
+    fn strip(
+        &self,
+        edge: usize,
+        level: f64,
+        faces: Faces<'_>,
+        corners: impl IntoIterator<Item = DVec3>,
+    ) -> Vec<DVec3> {
+        // Not with_z: rustc 1.95 lets it change the caller's point where it is not inlined.
+        let under = |point: &DVec3| point.truncate().extend(self.under(point.z));
+        let top = |point: &DVec3| point.truncate().extend(self.top(point.z));
+        let border = border(&faces.rings[edge], faces.points, level);
+        let mut ring: Vec<DVec3> = border.iter().rev().map(under).collect();
+        if let Some(first) = border.iter().position(|point| self.is_at_wall(*point)) {
+            let last = border.len() - 1 - first;
+            ring.splice(last..last, corners);
+        }
+        ring.extend(border.iter().map(top));
+        without_repeats(ring)
+    }
+
+    fn add_eaves(&self, patches: &mut Vec<Patch>, edge: usize, place: &Place) {
         let ([a, b], [left, right]) = (place.ends(self.outer), place.ends(self.walls));
         let along = (right - left).normalize_or_zero();
         let mut push = |kind, ring: Vec<DVec3>| {
@@ -174,17 +232,48 @@ impl Rim<'_> {
         };
         let (low, high) = (self.under(0.0), self.base + self.profile.corners[0].y);
         push(PatchKind::Fascia, vec![a.extend(low), b.extend(low), b.extend(high), a.extend(high)]);
-        if self.overhang > 0.0 {
-            // Beside a gable that the roof juts out over, the underside goes on to the outline.
-            let corner = |edge: usize, side: usize| {
-                rakes[edge].as_ref().map(|rake| rake.0[side].outer[1].with_z(self.base))
-            };
-            let mut ring = vec![b.extend(low), a.extend(low)];
-            ring.extend(corner(place.before(), 1));
-            ring.extend([left.extend(self.base), right.extend(self.base)]);
-            ring.extend(corner(place.after(), 0));
-            push(PatchKind::Underside, ring);
+        if self.distances[edge] > 0.0 {
+            let ring = [b.extend(low), a.extend(low), left.extend(self.base), right.extend(self.base)];
+            push(PatchKind::Underside, ring.to_vec());
         }
+    }
+
+    /// Adds the rim and the underside of the plate over an edge.
+    fn add_plate(
+        &self,
+        patches: &mut Vec<Patch>,
+        edge: usize,
+        place: &Place,
+        faces: Faces<'_>,
+        rakes: &[Option<Rake>],
+    ) {
+        let [left, right] = place.ends(self.walls);
+        let along = (right - left).normalize_or_zero();
+        let patch = |kind, ring| Patch { kind, edge, flap: 0, along, rings: vec![ring] };
+        let from = self.overhang - self.distances[edge];
+        let beside = |edge: usize| rakes[edge].is_some();
+        // Beside a gable that the roof juts out over, the top of the wall ends before the roof does.
+        let corners = [(left, beside(place.before())), (right, beside(place.after()))];
+        let corners = corners.into_iter().filter(|(_, beside)| *beside).map(|(at, _)| at.extend(self.base));
+        let rim = self.strip(edge, from, faces, corners.clone());
+        if rim.len() > 2 {
+            patches.push(patch(PatchKind::Fascia, rim));
+        }
+        if self.distances[edge] > 0.0 {
+            let mut ring = part(&faces.rings[edge], faces.points, [from, self.overhang]);
+            ring.reverse();
+            ring.rotate_right(2);
+            let last = ring.iter().rposition(|point| self.is_at_wall(*point)).unwrap_or(ring.len() - 1);
+            let under = |point: DVec3| point.truncate().extend(self.under(point.z));
+            let mut ring: Vec<DVec3> = ring.into_iter().map(under).collect();
+            ring.splice(last..last, corners);
+            patches.push(patch(PatchKind::Underside, ring));
+        }
+    }
+
+    #[allow(clippy::float_cmp, reason = "levels are copies")]
+    fn is_at_wall(&self, point: DVec3) -> bool {
+        point.z == self.overhang
     }
 
     fn add_rake(&self, patches: &mut Vec<Patch>, edge: usize, place: &Place, rake: &Rake) {
@@ -208,7 +297,9 @@ impl Rim<'_> {
                 push(PatchKind::Fascia, flap, along, turned(ring));
             }
             let inward = if number == 0 { along.perp() } else { -along.perp() };
-            for (flap, (outer, wall)) in side.outer[1..].windows(2).zip(side.wall.windows(2)).enumerate() {
+            let above = side.outer.iter().position(|point| self.is_at_wall(*point)).unwrap_or(0);
+            for (flap, (outer, wall)) in side.outer[above..].windows(2).zip(side.wall.windows(2)).enumerate()
+            {
                 let ring = vec![under(wall[0]), under(wall[1]), under(outer[1]), under(outer[0])];
                 push(PatchKind::Underside, flap, inward, turned(ring));
             }

@@ -29,22 +29,23 @@ pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) ->
 
 /// The slopes, gables and steps of a roof over `skeleton` with the top of the walls at `base` (m).
 ///
-/// They join without gaps: corners of neighbours are equal to the last bit. `points` are those of [`leveled`].
+/// They join without gaps: corners of neighbours are equal to the last bit. `points` are those of [`leveled`]. What is
+/// upright below a slope beyond the walls is left out.
 pub(super) fn patches(
-    skeleton: &Skeleton,
+    faces: &[Vec<usize>],
     paces: &[Pace],
     profile: &Profile,
     base: f64,
     mut points: Vec<DVec3>,
 ) -> Vec<Patch> {
-    let mut patches = Vec::with_capacity(skeleton.faces.len() * profile.corners.len());
-    for (edge, (face, pace)) in skeleton.faces.iter().zip(paces).enumerate() {
+    let mut patches = Vec::with_capacity(faces.len() * profile.corners.len());
+    for (edge, (face, pace)) in faces.iter().zip(paces).enumerate() {
         let along = (points[face[1]] - points[face[0]]).truncate().normalize_or_zero();
-        let corners = with_rest(profile, pace);
+        let spans = spans(profile, pace);
+        let first = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
         let mut pieces = vec![face.clone()];
-        for (number, pair) in corners.windows(2).enumerate() {
-            let flap = number.saturating_sub(profile.first);
-            let [from, to] = [pair[0], pair[1]];
+        for (number, &Span { line: [from, to], low, high }) in spans.iter().enumerate() {
+            let flap = number.saturating_sub(first);
             let patch = |kind, ring| Patch { kind, edge, flap, along, rings: vec![ring] };
             if from.x >= to.x {
                 for piece in &pieces {
@@ -58,18 +59,19 @@ pub(super) fn patches(
             let kind = match number {
                 // The top of a border.
                 0 if profile.first > 1 => PatchKind::Fascia,
-                _ if pace.moves_at(from.x) => PatchKind::Slope,
+                _ if pace.moves_at(low) => PatchKind::Slope,
                 _ => PatchKind::Gable,
             };
-            let last = number + 2 == corners.len();
+            let last = number + 1 == spans.len();
+            let is_eaves = kind == PatchKind::Gable && pace.moves_at(profile.beyond());
             let mut above = Vec::new();
             for piece in pieces {
-                let below = if last { piece } else { divide(&piece, to.x, &mut points, &mut above) };
+                let below = if last { piece } else { divide(&piece, high, &mut points, &mut above) };
                 let raise = |&index: &usize| {
                     let point = points[index];
                     point.truncate().extend(base + between(from, to, point.z))
                 };
-                if below.len() > 2 {
+                if below.len() > 2 && !is_eaves {
                     patches.push(patch(kind, below.iter().map(raise).collect()));
                 }
             }
@@ -79,16 +81,27 @@ pub(super) fn patches(
     patches
 }
 
-/// The corners of the profile, and one where the edge begins to move.
-fn with_rest(profile: &Profile, pace: &Pace) -> Vec<DVec2> {
-    let mut corners = profile.corners.clone();
-    if pace.speed > 0.0 && pace.rest > 0.0 {
-        let rank = corners.partition_point(|corner| corner.x < pace.rest);
-        if corners.get(rank).is_some_and(|corner| corner.x > pace.rest) {
-            corners.insert(rank, DVec2::new(pace.rest, profile.height(pace.rest)));
+/// A part of a profile's interval.
+struct Span {
+    /// The ends of the interval.
+    line: [DVec2; 2],
+    /// From where to where (m from the outline) the part goes.
+    low: f64,
+    high: f64,
+}
+
+/// The intervals of the profile, divided where the edge begins to move.
+fn spans(profile: &Profile, pace: &Pace) -> Vec<Span> {
+    let mut spans = Vec::with_capacity(profile.corners.len());
+    for pair in profile.corners.windows(2) {
+        let (line, low, high) = ([pair[0], pair[1]], pair[0].x, pair[1].x);
+        if pace.speed > 0.0 && low < pace.rest && pace.rest < high {
+            spans.extend([[low, pace.rest], [pace.rest, high]].map(|[low, high]| Span { line, low, high }));
+        } else {
+            spans.push(Span { line, low, high });
         }
     }
-    corners
+    spans
 }
 
 /// The place between `low` and `high` at `level`, which is between theirs.

@@ -68,8 +68,8 @@ pub struct Shape {
     pub slab: f64,
 }
 
-/// The steepest slope of a plate beyond the walls, so that the eaves of steep flaps stay high.
-const STEEPEST_EAVES: f64 = 0.7;
+/// The steepest slope (a tangent) of a plate beyond the walls, so that the eaves of steep flaps stay high.
+pub const STEEPEST_EAVES: f64 = 0.7;
 
 /// The height of a roof (m) above the top of the walls over the distance (m) from the outline.
 #[derive(Debug, Clone)]
@@ -123,6 +123,11 @@ impl Profile {
             }
         }
         Self { corners, bottom, first }
+    }
+
+    /// How far (m) the slopes run on beyond the walls, as a plate.
+    pub(super) fn beyond(&self) -> f64 {
+        if self.first == 1 { self.corners[self.first].x } else { 0.0 }
     }
 
     /// The height (m) at a distance (m) from the outline, on the higher side of a step.

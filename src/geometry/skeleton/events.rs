@@ -2,37 +2,45 @@
 
 use std::cmp::{Ordering, Reverse};
 
-use glam::DVec2;
+use super::lines::When;
+use super::wavefront::{Front, Kind, Wavefront};
 
-use super::wavefront::{Kind, NEAR, TOGETHER, Wavefront};
-
-/// How far (m) from its line an edge is no longer where it was expected.
-const ASTRAY: f64 = 1e-3;
+/// Times that may be off by more than this (m) are made exact before they are compared.
+const COARSE: f64 = 1e-6;
+/// Lines that near each other at this rate do so far faster than rounding could make them.
+const FAST: f64 = 1e-6;
 /// How many edges that a reflex corner may reach are foreseen at once.
 const FORESEEN: usize = 8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum What {
     /// The edge between two corners shrinks to a point.
-    Collapse(usize, usize),
+    Collapse(u32, u32),
     /// A reflex corner reaches the line of an edge.
-    Split(usize, usize),
-    /// A closing corner goes to the nearer end.
-    Close(usize),
+    Split(u32, u32),
     /// An edge that stood still begins to move.
-    Start(usize),
+    Start(u32),
 }
 
-#[derive(Debug, Clone, Copy, PartialEq)]
+/// The number of a corner or edge, of which there are fewer than 2^32.
+#[allow(clippy::cast_possible_truncation, reason = "there is no memory for more")]
+pub(super) fn short(number: usize) -> u32 {
+    number as u32
+}
+
+#[derive(Debug, Clone, Copy)]
 pub(super) struct Event {
-    pub time: f64,
-    pub what: What,
+    /// It does not take place before this time.
+    low: f64,
+    when: When,
+    what: What,
+    /// Whether what the corner may reach after it is still to be expected.
+    leads: bool,
 }
 
 impl Event {
-    fn rank(&self) -> (u8, usize, usize) {
+    fn rank(&self) -> (u8, u32, u32) {
         match self.what {
-            What::Close(corner) => (0, corner, 0),
             What::Collapse(a, b) => (1, a, b),
             What::Split(corner, edge) => (2, corner, edge),
             What::Start(edge) => (3, edge, 0),
@@ -40,11 +48,17 @@ impl Event {
     }
 }
 
+impl PartialEq for Event {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
 impl Eq for Event {}
 
 impl Ord for Event {
     fn cmp(&self, other: &Self) -> Ordering {
-        self.time.total_cmp(&other.time).then_with(|| self.rank().cmp(&other.rank()))
+        self.low.total_cmp(&other.low).then_with(|| self.rank().cmp(&other.rank()))
     }
 }
 
@@ -54,40 +68,23 @@ impl PartialOrd for Event {
     }
 }
 
-/// What becomes of an event.
-#[derive(Debug, Clone, Copy, PartialEq)]
-enum Outcome {
-    /// It takes place.
-    Now,
-    /// Another one comes before it.
-    Later,
-    /// It does not take place any more.
-    Void,
-}
-
-/// What the wavefront has to do next.
-pub(super) enum Next {
-    /// To resolve what the noted spots meet at this time.
-    Meet(f64),
-    /// To let this edge begin to move at this time.
-    Start(usize, f64),
-    /// Nothing.
-    End,
-}
-
 impl Wavefront {
-    pub(super) fn expect(&mut self, time: f64, what: What) {
-        self.events.push(Reverse(Event { time, what }));
+    pub(super) fn expect(&mut self, when: When, what: What) {
+        self.events.push(Reverse(Event { low: when.low(), when, what, leads: false }));
     }
 
-    pub(super) fn expect_collapse(&mut self, a: usize, b: usize, now: f64) {
+    /// Foresees when the edge between two neighbours shrinks to a point.
+    pub(super) fn expect_collapse(&mut self, a: usize, b: usize) {
         let (from, to) = (&self.corners[a], &self.corners[b]);
-        let along = self.traced.edges[from.edges[1]].along;
-        let length = (to.place(now) - from.place(now)).dot(along);
-        let shrinks = (from.velocity - to.velocity).dot(along);
-        if from.kind != Kind::Closing && to.kind != Kind::Closing && shrinks > 1e-12 {
-            let time = now + (length / shrinks).max(0.0);
-            self.expect(time, What::Collapse(a, b));
+        if from.kind == Kind::Rushing || to.kind == Kind::Rushing {
+            return;
+        }
+        let lines = [from.pin.unwrap_or(from.lines[0]), from.lines[1], to.pin.unwrap_or(to.lines[1])];
+        // A line across a straight corner turns off the edge to the right.
+        let out = from.pin.is_none() && from.kind == Kind::Reflex;
+        let off = to.kind == Kind::Reflex;
+        if let Some(when) = self.lines.nearing(lines, out != off) {
+            self.expect(when, What::Collapse(short(a), short(b)));
         }
     }
 
@@ -99,20 +96,48 @@ impl Wavefront {
         if corner.kind != Kind::Reflex {
             return;
         }
-        let now = corner.time.max(self.started);
-        let at = corner.place(now);
+        let [a, b] = corner.pair();
+        let pair = if self.lines.turn(a, b) == Ordering::Less { [b, a] } else { [a, b] };
+        let [l, m] = pair.map(|line| *self.lines.line(line));
+        // What the sums over three lines, by which they meet, have of two.
+        let cross = l.normal.perp_dot(m.normal);
+        let levels = l.normal * m.level - m.normal * l.level;
+        let speeds = l.normal * m.speed - m.normal * l.speed;
+        let noise = self.lines.noise();
+        let slack = noise[0] + l.slack + m.slack;
         let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
-        for (number, edge) in self.traced.edges.iter().enumerate() {
-            let nears = edge.speed - edge.inward().dot(corner.velocity);
-            if nears <= 1e-12 {
+        for &Front { line: edge, edge: number } in &self.current {
+            let rate = edge.speed * cross + edge.normal.perp_dot(speeds);
+            if rate < -noise[1] {
                 continue;
             }
-            let ahead = edge.ahead(at, now);
-            let candidate = (now + (ahead / nears).max(0.0), number);
-            if ahead < -NEAR || candidate >= found[FORESEEN - 1] || candidate <= last {
+            let sum = edge.level * cross + edge.normal.perp_dot(levels);
+            let slack = slack + edge.slack;
+            // Most lines are reached too late to be divided for it.
+            if rate > FAST && -sum * (1.0 - 1e-6) - 3.0 * slack > found[FORESEEN - 1].0 * rate {
                 continue;
             }
-            if !corner.edges.contains(&number) {
+            let low = if rate > 2.0 * noise[1] {
+                let time = -sum / rate;
+                let slack = (slack + time.abs() * noise[1]) / (rate - noise[1]) * (1.0 + 1e-9);
+                if time + slack < self.now {
+                    continue;
+                }
+                time - slack
+            } else {
+                let line = self.traced.edges[number].line;
+                if pair.iter().any(|&own| self.lines.are_alike(own, line)) || corner.edges.contains(&number) {
+                    continue;
+                }
+                let Some(mut when) = self.lines.nearing([pair[0], pair[1], line], false) else { continue };
+                self.lines.refine(&mut when);
+                if when.high() < self.now {
+                    continue;
+                }
+                when.low()
+            };
+            let candidate = (low, number);
+            if candidate < found[FORESEEN - 1] && candidate > last && !corner.edges.contains(&number) {
                 let rank = found.partition_point(|known| *known < candidate);
                 found[rank..].rotate_right(1);
                 found[rank] = candidate;
@@ -125,133 +150,147 @@ impl Wavefront {
     }
 
     fn expect_next_split(&mut self, index: usize) {
-        if let Some(last) = self.corners[index].foreseen.next_back() {
-            let (time, edge) = self.foreseen[last];
-            self.expect(time, What::Split(index, edge));
+        let corner = &mut self.corners[index];
+        if let Some(last) = corner.foreseen.next_back() {
+            let (low, edge) = self.foreseen[last];
+            let [a, b] = corner.pair();
+            let when = self.lines.when([a, b, self.traced.edges[edge].line]);
+            let what = What::Split(short(index), short(edge));
+            self.events.push(Reverse(Event { low, when, what, leads: true }));
         }
     }
 
-    /// Collects what the next simultaneous events move.
-    pub(super) fn gather(&mut self) -> Next {
-        self.spots.clear();
-        let mut begin: Option<f64> = None;
-        let mut later = Vec::new();
-        while let Some(&Reverse(event)) = self.events.peek() {
-            if begin.is_some_and(|begin| event.time > begin + TOGETHER) {
-                break;
-            }
-            if let What::Start(edge) = event.what {
-                if begin.is_some() {
+    /// Collects what meets next, and when.
+    ///
+    /// All that happens at exactly the same time is taken together.
+    pub(super) fn gather(&mut self) -> Option<When> {
+        let (mut ties, mut later) = (std::mem::take(&mut self.ties), Vec::new());
+        let next = loop {
+            ties.clear();
+            let mut first: Option<When> = None;
+            while let Some(&Reverse(mut event)) = self.events.peek() {
+                if first.is_some_and(|first| event.low > first.high()) {
                     break;
                 }
                 self.events.pop();
-                self.events.extend(later.into_iter().map(Reverse));
-                return Next::Start(edge, event.time);
+                if !self.stands(&event) {
+                    continue;
+                }
+                if let (What::Split(corner, edge), true) = (event.what, event.leads) {
+                    event.leads = false;
+                    let (corner, edge) = (corner as usize, edge as usize);
+                    if self.corners[corner].foreseen.is_empty() {
+                        self.expect_split(corner, (event.low, edge));
+                    } else {
+                        self.expect_next_split(corner);
+                    }
+                }
+                if self.lines.settle(&mut event.when, COARSE) || event.low < event.when.low() {
+                    event.low = event.when.low();
+                    self.events.push(Reverse(event));
+                    continue;
+                }
+                let order = match &mut first {
+                    None => Ordering::Less,
+                    Some(first) => self.lines.compare(&mut event.when, first),
+                };
+                match order {
+                    Ordering::Less => {
+                        later.append(&mut ties);
+                        first = Some(event.when);
+                        ties.push(event);
+                    }
+                    Ordering::Equal => ties.push(event),
+                    Ordering::Greater => later.push(event),
+                }
             }
-            self.events.pop();
-            match self.happens(event) {
-                Outcome::Void => {}
-                Outcome::Later => later.push(event),
-                Outcome::Now => begin = begin.or(Some(event.time)),
+            self.events.extend(later.drain(..).map(Reverse));
+            let Some(mut when) = first else { break None };
+            self.spots.clear();
+            // What was foreseen twice is over.
+            if self.last.as_mut().is_some_and(|last| self.lines.compare(&mut when, last) != Ordering::Greater)
+            {
+                continue;
             }
-        }
-        self.events.extend(later.into_iter().map(Reverse));
-        begin.map_or(Next::End, Next::Meet)
+            for event in &ties {
+                self.note(event.what, &mut when);
+            }
+            if !self.spots.is_empty() {
+                break Some(when);
+            }
+        };
+        self.ties = ties;
+        next
     }
 
-    /// Notes what `event` moves.
-    fn happens(&mut self, event: Event) -> Outcome {
+    /// Whether an event may still take place.
+    fn stands(&self, event: &Event) -> bool {
         match event.what {
-            What::Start(_) => Outcome::Void,
+            What::Start(_) => true,
             What::Collapse(a, b) => {
-                let (from, to) = (&self.corners[a], &self.corners[b]);
-                if !from.alive || !to.alive || from.after != b {
-                    return Outcome::Void;
-                }
-                // The slower one knows the place better.
-                let slower =
-                    if from.velocity.length_squared() < to.velocity.length_squared() { from } else { to };
-                self.meet([a, b], slower.place(event.time))
+                let from = &self.corners[a as usize];
+                from.alive && self.corners[b as usize].alive && from.after == b as usize
             }
-            What::Close(index) => {
-                let corner = &self.corners[index];
-                if !corner.alive {
-                    return Outcome::Void;
-                }
-                let ends =
-                    [corner.before, corner.after].map(|end| (end, self.corners[end].place(event.time)));
-                let [one, two] = ends.map(|(_, place)| place.distance(corner.at));
-                let (end, place) = if one < two { ends[0] } else { ends[1] };
-                self.meet([index, end], place)
-            }
-            What::Split(index, edge) => {
-                let corner = &self.corners[index];
-                let line = &self.traced.edges[edge];
-                // An edge that has begun to move is not where it was expected.
-                let missed = line.ahead(corner.place(event.time), event.time).abs() > ASTRAY;
-                if !corner.alive || missed {
-                    return Outcome::Void;
-                }
-                let outcome = self.hit(index, edge, event.time);
-                if outcome == Outcome::Void && self.corners[index].foreseen.is_empty() {
-                    self.expect_split(index, (event.time, edge));
-                } else if outcome == Outcome::Void {
-                    self.expect_next_split(index);
-                }
-                outcome
+            What::Split(corner, edge) => {
+                let line = self.traced.edges[edge as usize].line;
+                self.corners[corner as usize].alive && event.when.is_by(line)
             }
         }
     }
 
-    /// Notes that two corners meet.
-    fn meet(&mut self, corners: [usize; 2], place: DVec2) -> Outcome {
-        if !corners.iter().all(|&corner| self.may_be_at(corner, place)) {
-            return Outcome::Later;
+    /// Notes what meets where an event takes place.
+    fn note(&mut self, what: What, when: &mut When) {
+        match what {
+            What::Start(edge) => self.start(edge as usize, when),
+            What::Collapse(a, b) => {
+                let [a, b] = [a as usize, b as usize];
+                let (from, to) = (&self.corners[a], &self.corners[b]);
+                let [one, two] = [from.pair(), to.pair()];
+                let third = if two.contains(&one[0]) { one[1] } else { one[0] };
+                let place = self.lines.meeting([two[0], two[1], third], when);
+                let [a, b] = [a, b].map(|corner| self.spot(corner, place));
+                self.join(a, b);
+            }
+            What::Split(corner, edge) => self.hit(corner as usize, edge as usize, when),
         }
-        let [a, b] = corners.map(|corner| self.spot(corner, place));
-        self.join(a, b);
-        Outcome::Now
     }
 
     /// Notes that a reflex corner reaches a piece of `edge`, if there is one where it does.
-    fn hit(&mut self, index: usize, edge: usize, time: f64) -> Outcome {
-        let corner = &self.corners[index];
-        let (place, peak, fresh) = (corner.place(time), corner.peak, time - corner.time < TOGETHER);
-        let along = self.traced.edges[edge].along;
+    fn hit(&mut self, index: usize, edge: usize, when: &mut When) {
+        let corner = &mut self.corners[index];
+        // What met where it began has been resolved there.
+        if self.lines.compare(&mut corner.born, when) != Ordering::Less {
+            return;
+        }
+        let ([a, b], before, after) = (corner.pair(), corner.before, corner.after);
+        let line = self.traced.edges[edge].line;
+        let place = self.lines.meeting([a, b, line], when);
         for number in 0..self.pieces[edge].len() {
             let from = self.pieces[edge][number];
-            let a = &self.corners[from];
-            if !a.alive {
+            let to = self.corners[from].after;
+            // At its neighbours' other edges it is only if its own have collapsed.
+            if !self.corners[from].alive || from == after || to == before {
                 continue;
             }
-            let b = &self.corners[a.after];
-            let born_together = (a.peak == peak || b.peak == peak) && fresh;
-            if from == index || a.after == index || born_together {
+            let low = self.lines.place(self.corners[from].pair(), when);
+            let behind_low = self.lines.compare_along(line, &low, &place, when);
+            if behind_low == Ordering::Greater {
                 continue;
             }
-            let [before, behind] = [a, b].map(|end| (place - end.place(time)).dot(along));
-            let [near_a, near_b] = [a, b].map(|end| (NEAR + TOGETHER * end.velocity.length()).min(1e-3));
-            if before < -near_a || behind > near_b {
+            let high = self.lines.place(self.corners[to].pair(), when);
+            let before_high = self.lines.compare_along(line, &place, &high, when);
+            if before_high == Ordering::Greater {
                 continue;
             }
-            let to = a.after;
-            let end = if before <= near_a {
-                Some(from)
-            } else if behind >= -near_b {
-                Some(to)
+            let own = self.spot(index, place);
+            let other = if behind_low == Ordering::Equal {
+                self.spot(from, place)
+            } else if before_high == Ordering::Equal {
+                self.spot(to, place)
             } else {
-                None
+                self.spot_between(from, place)
             };
-            if let Some(end) = end {
-                return self.meet([index, end], place);
-            }
-            if !self.may_be_at(index, place) {
-                return Outcome::Later;
-            }
-            let (own, other) = (self.spot(index, place), self.spot_between(from, place));
             self.join(own, other);
-            return Outcome::Now;
         }
-        Outcome::Void
     }
 }

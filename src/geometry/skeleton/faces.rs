@@ -1,14 +1,15 @@
 //! The faces of a skeleton: put together from their borders, and verified.
 
-use glam::DVec2;
+use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
 
-use super::edge::Edge;
+use super::coarse::{coarsen, widen};
+use super::edge::{Edge, metres};
 use super::wavefront::Traced;
 use super::{Peak, Skeleton};
 use crate::error::{Error, Result};
 
-/// Peaks nearer to each other than this (m) are one.
+/// How far (m) borders may be off each other.
 const MERGED: f64 = 1e-3;
 /// How far (m) a corner may be off the plane of its face.
 const OFF_PLANE: f64 = 5e-3;
@@ -17,9 +18,8 @@ const OFF_PLANE: f64 = 5e-3;
 type Borders = SmallVec<[[usize; 2]; 8]>;
 
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
-pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton> {
-    let Traced { edges, peaks, arcs } = traced;
-    let merged = merge(&peaks, edges.len());
+pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleton> {
+    let Traced { edges, mut peaks, arcs } = traced;
     let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
     let mut first = 0;
     for ring in rings {
@@ -28,43 +28,17 @@ pub(super) fn assemble(rings: &[Vec<DVec2>], traced: Traced) -> Result<Skeleton>
         first += ring.len();
     }
     for arc in &arcs {
-        let [from, to] = arc.ends.map(|peak| merged[peak]);
-        if from != to && arc.edges[0] != arc.edges[1] {
+        let [from, to] = arc.ends;
+        if arc.edges[0] != arc.edges[1] {
             borders[arc.edges[0]].push([from, to]);
             borders[arc.edges[1]].push([to, from]);
         }
     }
-    let faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
+    let mut faces: Vec<Vec<usize>> = borders.into_iter().map(chain).collect::<Result<_>>()?;
+    coarsen(&peaks, edges.len(), &mut faces);
+    widen(&mut peaks, edges.len(), &edges, &faces);
     verify(rings, &edges, &peaks, &faces)?;
-    Ok(Skeleton { peaks, faces, moved: false })
-}
-
-/// For each peak the one that stands for it; the first `fixed` stand for themselves.
-fn merge(peaks: &[Peak], fixed: usize) -> SmallVec<[usize; 64]> {
-    let mut merged: SmallVec<[usize; 64]> = (0..peaks.len()).collect();
-    let mut order = merged.clone();
-    order.sort_by(|&a, &b| peaks[a].at.x.total_cmp(&peaks[b].at.x));
-    for (rank, &a) in order.iter().enumerate() {
-        for &b in &order[rank + 1..] {
-            if peaks[b].at.x - peaks[a].at.x > MERGED {
-                break;
-            }
-            let near = peaks[a].at.distance(peaks[b].at) <= MERGED
-                && (peaks[a].time - peaks[b].time).abs() <= MERGED;
-            let [a, b] = [a, b].map(|peak| leader(&merged, peak));
-            if near && a.max(b) >= fixed {
-                merged[a.max(b)] = a.min(b);
-            }
-        }
-    }
-    (0..peaks.len()).map(|peak| leader(&merged, peak)).collect()
-}
-
-fn leader(merged: &[usize], mut peak: usize) -> usize {
-    while merged[peak] != peak {
-        peak = merged[peak];
-    }
-    peak
+    Ok(Skeleton { peaks, faces })
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.
@@ -105,8 +79,8 @@ fn chain(mut borders: Borders) -> Result<Vec<usize>> {
 ///
 /// Where all edges move alike, faces are monotone along their edges; otherwise they need not be (T. Biedl et al., "Weighted
 /// straight skeletons in the plane", 2015), and must not cross themselves.
-fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
-    let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().copied())).sum();
+fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
+    let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().map(|&at| metres(at)))).sum();
     let even = edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
     let mut sum = 0.0;
     for (edge, face) in edges.iter().zip(faces) {
@@ -117,7 +91,11 @@ fn verify(rings: &[Vec<DVec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usi
             return Err(Error::new("a face of the roof is not flat"));
         }
         let area = twice_area(face.iter().map(|&peak| peaks[peak].at));
-        if area < -1e-9 * whole - OFF_PLANE * 1e-3 || (edge.pace.moves() && area <= 0.0) {
+        // What stands upright may be off its plane by as much as borders are short.
+        let along = face.iter().map(|&peak| peaks[peak].at.dot(edge.along));
+        let (low, high) =
+            along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        if area < -MERGED * (high - low) || (edge.pace.moves() && area <= 0.0) {
             return Err(Error::new("a face of the roof is turned over"));
         }
         sum += area;

@@ -1,25 +1,19 @@
 //! What meets in a place is cut there and paired anew.
 
-use glam::DVec2;
-use smallvec::SmallVec;
+use std::cmp::Ordering;
 
 use super::Peak;
 use super::edge::Direction;
-use super::wavefront::{ALIGNED, NEAR, Wavefront};
+use super::lines::{FINE, Few, Place, When};
+use super::wavefront::Wavefront;
 use crate::error::{Error, Result};
-
-/// Places further (m) from each other than this are not one, even where a corner is at both almost at once.
-const APART: f64 = 1e-4;
-
-/// A list that is short almost always.
-type Few<T> = SmallVec<[T; 12]>;
 
 /// A corner, or a point of an edge (by the corner where the piece of the edge begins), that an event moves.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spot {
     corner: usize,
     cut: bool,
-    place: DVec2,
+    place: Place,
     /// The spot that stands for all at its place.
     leader: usize,
     /// The number of the meeting that it takes part in, once it is known.
@@ -44,14 +38,13 @@ struct Piece {
 struct Ray {
     meeting: usize,
     direction: Direction,
-    along: DVec2,
     leaves: bool,
     piece: usize,
 }
 
 impl Wavefront {
     /// The spot of a corner.
-    pub(super) fn spot(&mut self, corner: usize, place: DVec2) -> usize {
+    pub(super) fn spot(&mut self, corner: usize, place: Place) -> usize {
         if let Some(known) = self.spot_of(corner) {
             return known;
         }
@@ -64,17 +57,12 @@ impl Wavefront {
         self.spots.get(known).filter(|spot| spot.corner == corner && !spot.cut).map(|_| known)
     }
 
-    /// Whether a corner is at `place` as far as is known: fast corners come by several places almost at once.
-    pub(super) fn may_be_at(&self, corner: usize, place: DVec2) -> bool {
-        self.spot_of(corner).is_none_or(|spot| self.spots[spot].place.distance(place) <= APART)
-    }
-
     /// A new spot on the piece of an edge that begins at a corner.
-    pub(super) fn spot_between(&mut self, corner: usize, place: DVec2) -> usize {
+    pub(super) fn spot_between(&mut self, corner: usize, place: Place) -> usize {
         self.add_spot(corner, true, place)
     }
 
-    fn add_spot(&mut self, corner: usize, cut: bool, place: DVec2) -> usize {
+    fn add_spot(&mut self, corner: usize, cut: bool, place: Place) -> usize {
         let leader = self.spots.len();
         self.spots.push(Spot { corner, cut, place, leader, meeting: 0 });
         leader
@@ -92,12 +80,32 @@ impl Wavefront {
         self.spots[a.max(b)].leader = a.min(b);
     }
 
-    /// Makes the new wavefront of what the spots' corners and edges meet.
-    pub(super) fn resolve(&mut self, time: f64) -> Result<()> {
-        self.join_near();
+    /// Makes the new wavefront of what the spots' corners and edges meet, until nothing more happens at this time.
+    pub(super) fn resolve(&mut self, when: &mut When) -> Result<()> {
+        self.lines.settle(when, FINE);
+        self.last = Some(*when);
+        self.now = when.low();
+        for _ in 0..=self.corners.len() {
+            let fresh = self.pair_anew(when)?;
+            self.close(&fresh, when);
+            self.rush(&fresh, when);
+            self.go_on(&fresh);
+            if self.spots.is_empty() {
+                if std::mem::take(&mut self.restarted) {
+                    self.look_again();
+                }
+                return Ok(());
+            }
+        }
+        Err(Error::new("edges in one line do not come to rest"))
+    }
+
+    /// Cuts what meets and pairs it anew: the new corners.
+    fn pair_anew(&mut self, when: &mut When) -> Result<Few<usize>> {
+        self.join_same(when);
         let first_peak = self.traced.peaks.len();
-        self.number_meetings(time);
-        let mut pieces = self.cut();
+        let places = self.number_meetings(when);
+        let mut pieces = self.cut(when);
         for index in 0..self.spots.len() {
             let spot = self.spots[index];
             if !spot.cut {
@@ -106,24 +114,30 @@ impl Wavefront {
         }
         let mut rays: Few<Ray> = Few::new();
         for (index, piece) in pieces.iter().enumerate() {
-            let (along, direction) = (self.traced.edges[piece.edge].along, self.directions[piece.edge]);
+            let direction = self.lines.direction(piece.edge);
             if let End::Meeting(meeting) = piece.ends[0] {
-                rays.push(Ray { meeting, direction, along, leaves: true, piece: index });
+                rays.push(Ray { meeting, direction, leaves: true, piece: index });
             }
             if let End::Meeting(meeting) = piece.ends[1] {
-                let direction = direction.reversed();
-                rays.push(Ray { meeting, direction, along: -along, leaves: false, piece: index });
+                rays.push(Ray { meeting, direction: direction.reversed(), leaves: false, piece: index });
             }
         }
-        rays.sort_by(|a, b| a.meeting.cmp(&b.meeting).then_with(|| a.direction.compare(b.direction)));
+        // Between two edges that lie on each other is what they have swept, never what is outside.
+        rays.sort_by(|a, b| {
+            let angle = || a.direction.compare(b.direction);
+            a.meeting.cmp(&b.meeting).then_with(angle).then(b.leaves.cmp(&a.leaves))
+        });
         let mut fresh: Few<usize> = Few::new();
-        for rays in rays.chunk_by_mut(|a, b| a.meeting == b.meeting) {
-            pair(rays)?;
+        for rays in rays.chunk_by(|a, b| a.meeting == b.meeting) {
+            let next = |index: usize| &rays[(index + 1) % rays.len()];
+            if (0..rays.len()).any(|index| rays[index].leaves == next(index).leaves) {
+                return Err(Error::new("the edges that meet in a place do not enclose areas"));
+            }
+            // Each that leaves is followed by the one that arrives across the area between them, counter-clockwise.
             for (number, ray) in rays.iter().enumerate().filter(|(_, ray)| ray.leaves) {
-                let arriving = rays[(number + 1) % rays.len()].piece;
+                let arriving = next(number).piece;
                 let edges = [pieces[arriving].edge, pieces[ray.piece].edge];
-                let peak = first_peak + ray.meeting;
-                let corner = self.corner(edges, peak, self.traced.peaks[peak].at, time)?;
+                let corner = self.corner(edges, first_peak + ray.meeting, &places[ray.meeting], when);
                 pieces[arriving].ends[1] = End::Corner(corner);
                 pieces[ray.piece].ends[0] = End::Corner(corner);
                 fresh.push(corner);
@@ -135,61 +149,75 @@ impl Wavefront {
                 self.corners[b].before = a;
             }
         }
-        self.go_on(&fresh, time);
-        Ok(())
+        Ok(fresh)
     }
 
     /// Joins the spots whose places are one.
-    fn join_near(&mut self) {
+    fn join_same(&mut self, when: &mut When) {
         let mut order: Few<usize> = (0..self.spots.len()).collect();
-        order.sort_by(|&a, &b| self.spots[a].place.x.total_cmp(&self.spots[b].place.x));
+        let low = |spot: &Spot| spot.place.at.x - spot.place.slack;
+        order.sort_by(|&a, &b| low(&self.spots[a]).total_cmp(&low(&self.spots[b])));
         for (rank, &a) in order.iter().enumerate() {
+            let place = self.spots[a].place;
             for &b in &order[rank + 1..] {
-                if self.spots[b].place.x - self.spots[a].place.x > NEAR {
+                let other = self.spots[b].place;
+                if other.at.x - other.slack > place.at.x + place.slack {
                     break;
                 }
-                if self.spots[a].place.distance(self.spots[b].place) <= NEAR {
+                if self.leader(a) != self.leader(b) && self.lines.is_one(&place, &other, when) {
                     self.join(a, b);
                 }
             }
         }
     }
 
-    /// Numbers the meetings, from 0, and adds a peak for each, in their order.
-    fn number_meetings(&mut self, time: f64) {
-        let mut count = 0;
+    /// Numbers the meetings, from 0, and adds a peak for each, in their order; their places.
+    fn number_meetings(&mut self, when: &mut When) -> Few<Place> {
+        let mut places = Few::new();
         for index in 0..self.spots.len() {
             let leader = self.leader(index);
             if leader == index {
-                self.spots[index].meeting = count;
-                self.traced.peaks.push(Peak { at: self.spots[index].place, time });
-                count += 1;
+                let mut place = self.spots[index].place;
+                self.lines.settle_place(&mut place, when);
+                self.spots[index].meeting = places.len();
+                self.traced.peaks.push(Peak { at: place.at, time: when.time });
+                places.push(place);
             } else {
                 self.spots[index].meeting = self.spots[leader].meeting;
             }
         }
+        places
     }
 
     /// The pieces of edges that the spots touch, cut there.
-    fn cut(&self) -> Few<Piece> {
-        // Where pieces begin, and the meetings on them by their distance along.
+    fn cut(&mut self, when: &mut When) -> Few<Piece> {
+        // Where pieces begin, and the meetings on them in their order.
         let mut begins: Few<usize> = Few::new();
         let mut whole: Few<(usize, usize)> = Few::new();
-        let mut cuts: Few<(usize, f64, usize)> = Few::new();
-        for spot in &self.spots {
-            begins.push(spot.corner);
-            if spot.cut {
-                let along = self.traced.edges[self.corners[spot.corner].edges[1]].along;
-                cuts.push((spot.corner, spot.place.dot(along), spot.meeting));
-            } else {
-                begins.push(self.corners[spot.corner].before);
-                whole.push((spot.corner, spot.meeting));
+        let mut cuts: Few<(usize, Place, usize)> = Few::new();
+        for index in 0..self.spots.len() {
+            let Spot { corner, cut, place, meeting, .. } = self.spots[index];
+            begins.push(corner);
+            if !cut {
+                begins.push(self.corners[corner].before);
+                whole.push((corner, meeting));
+                continue;
             }
+            let line = self.traced.edges[self.corners[corner].edges[1]].line;
+            let mut rank = cuts.len();
+            while rank > 0 {
+                let (other, there, _) = &cuts[rank - 1];
+                let mut follows = || self.lines.compare_along(line, there, &place, when) != Ordering::Greater;
+                if *other < corner || (*other == corner && follows()) {
+                    break;
+                }
+                rank -= 1;
+            }
+            cuts.insert(rank, (corner, place, meeting));
         }
         begins.sort_unstable();
         begins.dedup();
         whole.sort_unstable();
-        cuts.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
         let end = |corner: usize| match whole.binary_search_by_key(&corner, |entry| entry.0) {
             Ok(found) => End::Meeting(whole[found].1),
             Err(_) => End::Corner(corner),
@@ -209,22 +237,4 @@ impl Wavefront {
         }
         pieces
     }
-}
-
-/// Orders the rays around a place, which are sorted by their angle, so that each that leaves is followed by the
-/// one that arrives across the area between them, counter-clockwise.
-fn pair(rays: &mut [Ray]) -> Result<()> {
-    let count = rays.len();
-    for index in 0..count {
-        let [before, next, behind] = [index, (index + 1) % count, (index + 2) % count];
-        // Which of two edges that lie on each other comes first is settled by those around them.
-        let (a, b) = (rays[next].along, rays[behind].along);
-        let aligned = a.dot(b) > 0.0 && a.perp_dot(b).abs() < ALIGNED;
-        let odd = rays[before].leaves == rays[next].leaves && rays[next].leaves != rays[behind].leaves;
-        if aligned && odd {
-            rays.swap(next, behind);
-        }
-    }
-    let alternate = (0..count).all(|index| rays[index].leaves != rays[(index + 1) % count].leaves);
-    if alternate { Ok(()) } else { Err(Error::new("the edges that meet in a place do not enclose areas")) }
 }

@@ -2,19 +2,22 @@
 //!
 //! Comes in: rings and the pace of each edge. Goes out: one face for each edge. Every result is verified.
 
+mod coarse;
 mod edge;
 mod events;
+mod exact;
 mod faces;
+mod lines;
 mod meeting;
 #[cfg(test)]
-pub(super) mod samples;
+pub(crate) mod samples;
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;
 mod wavefront;
 
 use glam::DVec2;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 
 /// A place where faces meet: on the plan (m), and when the wavefront reached it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -68,12 +71,7 @@ pub struct Skeleton {
     pub peaks: Vec<Peak>,
     /// Indices into `peaks`, counter-clockwise; each begins with the edge itself.
     pub faces: Vec<Vec<usize>>,
-    /// Whether the polygon had to be moved a little (at most 5 mm) for it.
-    pub moved: bool,
 }
-
-/// How far (m) the corners are moved, in turn, where the skeleton fails its checks.
-const MOVES: [f64; 11] = [0.0, 1e-5, 1e-4, 5e-4, 1e-3, 1e-3, 2e-3, 2e-3, 3e-3, 5e-3, 5e-3];
 
 impl Skeleton {
     /// The weighted straight skeleton of the area inside the first of `rings` and outside the others.
@@ -82,52 +80,33 @@ impl Skeleton {
     /// of each edge of all rings how it moves.
     ///
     /// Method: wavefront propagation (O. Aichholzer and F. Aurenhammer, "Straight skeletons for general
-    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m, on which turns and the order
-    /// of directions are exact. What happens at one time and place is resolved at once: the edges that meet there
-    /// are sorted around it and paired anew, whatever the kind of the events. Fails if no result passes the
-    /// checks: one closed face for each edge, every corner in the plane of its faces, no negative area, areas that
-    /// add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do not cross themselves where
-    /// paces differ.
+    /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m. All decisions are exact: its
+    /// edges lie on lines of whole numbers, of which only the speed is rounded, alike for parallel ones, so that times
+    /// and places are fractions. Rounded numbers with a bound on their error tell most of them apart, the fractions
+    /// the rest. Ties: what happens at exactly one time and place is resolved at once, the edges that meet there are
+    /// sorted around it and paired anew, whatever the kind of the events; at other places of that time it changes
+    /// nothing. Between edges in one line that move alike the border runs straight on from where they met; at
+    /// different speeds the faster one sweeps what the slower one has left.
+    ///
+    /// Afterwards borders and spikes of less than 1 mm are closed where the faces stay a map of the plane. Fails if
+    /// the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no
+    /// negative area, areas that add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do
+    /// not cross themselves where paces differ.
     pub fn new(rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<Self> {
-        let (rings_there, middle) = edge::snapped(rings);
-        let mut failure = None;
-        for (attempt, by) in MOVES.into_iter().enumerate() {
-            let shaken = (by > 0.0).then(|| edge::snapped(&shaken(&rings_there, by, attempt)));
-            let (moved, offset) =
-                shaken.as_ref().map_or((&rings_there, DVec2::ZERO), |(moved, offset)| (moved, *offset));
-            match wavefront::propagate(moved, paces).and_then(|traced| faces::assemble(moved, traced)) {
-                Ok(mut skeleton) => {
-                    for peak in &mut skeleton.peaks {
-                        peak.at += middle + offset;
-                    }
-                    for (peak, &at) in skeleton.peaks.iter_mut().zip(rings.iter().flatten()) {
-                        peak.at = at;
-                    }
-                    skeleton.moved = by > 0.0;
-                    return Ok(skeleton);
-                }
-                Err(error) => failure = Some(error),
-            }
+        let (lattice, middle) = edge::snapped(rings)?;
+        let traced = wavefront::propagate(&lattice, paces)?;
+        let mut skeleton = faces::assemble(&lattice, traced)?;
+        for peak in &mut skeleton.peaks {
+            peak.at += middle;
         }
-        Err(failure.unwrap_or_else(|| Error::new("the roof has no faces")))
+        for (peak, &at) in skeleton.peaks.iter_mut().zip(rings.iter().flatten()) {
+            peak.at = at;
+        }
+        Ok(skeleton)
     }
 
     /// The greatest time: the height of the highest ridge at a slope of 1.
     pub fn duration(&self) -> f64 {
         self.peaks.iter().map(|peak| peak.time).fold(0.0, f64::max)
     }
-}
-
-/// The rings with each corner moved by up to `by` (m) in each direction, always the same.
-fn shaken(rings: &[Vec<DVec2>], by: f64, attempt: usize) -> Vec<Vec<DVec2>> {
-    let mut state = 0x9e37_79b9_7f4a_7c15_u64.wrapping_mul(attempt as u64 + 1);
-    let mut next = || {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        #[allow(clippy::cast_precision_loss, reason = "a random number needs no more")]
-        let fraction = (state >> 11) as f64 / (1u64 << 53) as f64;
-        (fraction * 2.0 - 1.0) * by
-    };
-    rings.iter().map(|ring| ring.iter().map(|&at| at + DVec2::new(next(), next())).collect()).collect()
 }

@@ -1,18 +1,16 @@
-//! Random plans of the sorts that buildings come in, and of sorts that are hard.
+//! Random plans of the sorts that buildings come in, and of sorts that are hard. Tests and benches share them.
 
-use std::f64::consts::TAU;
+use std::f64::consts::{PI, TAU};
 
-use glam::{DVec2, DVec3};
-
-use super::super::Plan;
+use glam::DVec2;
 
 /// Random numbers, always the same.
-pub(in crate::geometry) struct Random(pub u64);
+pub(crate) struct Random(pub u64);
 
 impl Random {
     /// From 0 to 1.
     #[allow(clippy::cast_precision_loss, reason = "a random number needs no more")]
-    pub(in crate::geometry) fn next(&mut self) -> f64 {
+    pub(crate) fn next(&mut self) -> f64 {
         self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (self.0 >> 33) as f64 / (1u64 << 31) as f64
     }
@@ -94,8 +92,8 @@ fn worn(ring: &Ring, random: &mut Random) -> Ring {
     worn
 }
 
-/// A plan of the sort that `round` asks for; none where chance has made one that crosses itself.
-pub(in crate::geometry) fn plan(round: usize, random: &mut Random) -> Option<Vec<Ring>> {
+/// Rings of the sort that `round` asks for; chance makes some that cross themselves.
+pub(crate) fn mixed(round: usize, random: &mut Random) -> Vec<Ring> {
     let mut outer = match round % 5 {
         0 | 1 => row(random),
         2 => star(random),
@@ -111,8 +109,214 @@ pub(in crate::geometry) fn plan(round: usize, random: &mut Random) -> Option<Vec
         let corners = [(-half, -half), (-half, half), (half, half), (half, -half)];
         rings.push(corners.iter().map(|&corner| middle + DVec2::from(corner) * 0.5).collect());
     }
-    let turn = DVec2::from_angle(if round.is_multiple_of(2) { 0.0 } else { random.between(0.0, TAU) });
-    let turned = |ring: &Ring| -> Vec<DVec3> { ring.iter().map(|&at| turn.rotate(at).extend(0.0)).collect() };
-    let rings: Vec<Vec<DVec3>> = rings.iter().map(turned).collect();
-    Plan::new(&rings).ok().map(|plan| plan.flat())
+    if round.is_multiple_of(2) { rings } else { turned(&rings, random.between(0.0, TAU)) }
+}
+
+/// A sort of regular plans, on which much happens at once, or all but at once.
+pub(crate) struct Family {
+    /// What they are.
+    pub name: &'static str,
+    /// Makes one of them.
+    pub make: fn(&mut Random) -> Vec<Ring>,
+}
+
+/// All sorts of regular plans.
+pub(crate) const FAMILIES: [Family; 17] = [
+    Family { name: "double combs, noise of 0.5 mm", make: |random| noisy(double_comb(random), 5e-4, random) },
+    Family { name: "double combs, noise of 1 mm", make: |random| noisy(double_comb(random), 1e-3, random) },
+    Family { name: "double combs, noise of 3 mm", make: |random| noisy(double_comb(random), 3e-3, random) },
+    Family { name: "double combs, noise of 10 mm", make: |random| noisy(double_comb(random), 1e-2, random) },
+    Family { name: "double combs, exact or nearly so", make: |random| anyhow(double_comb(random), random) },
+    Family { name: "courtyards, noise of 1 mm", make: |random| noisy(courtyards(random), 1e-3, random) },
+    Family { name: "courtyards, noise of 5 mm", make: |random| noisy(courtyards(random), 5e-3, random) },
+    Family { name: "courtyards, noise of 20 mm", make: |random| noisy(courtyards(random), 2e-2, random) },
+    Family { name: "grids of courtyards, exact", make: grid },
+    Family { name: "grids of courtyards, noise of 1 mm", make: |random| noisy(grid(random), 1e-3, random) },
+    Family {
+        name: "grids of courtyards, turned or nearly exact",
+        make: |random| anyhow(grid(random), random),
+    },
+    Family { name: "lattice plans, exact", make: lattice },
+    Family { name: "lattice plans, nearly exact", make: |random| anyhow(lattice(random), random) },
+    Family { name: "regular polygons", make: |random| anyhow(regular(random), random) },
+    Family { name: "wheels", make: |random| anyhow(vec![wheel(random)], random) },
+    Family { name: "combs of narrow gaps", make: |random| anyhow(vec![comb(random)], random) },
+    Family { name: "rows of houses", make: |random| anyhow(vec![row(random)], random) },
+];
+
+/// The rings as they might come: as they are, turned, or with noise of up to 20 mm.
+fn anyhow(rings: Vec<Ring>, random: &mut Random) -> Vec<Ring> {
+    let noise = [0.0, 0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 2e-2][random.whole(0, 7) as usize];
+    let rings = noisy(rings, noise, random);
+    let turn = [0.0, PI / 4.0, random.between(0.0, TAU)][random.whole(0, 2) as usize];
+    if turn == 0.0 { rings } else { turned(&rings, turn) }
+}
+
+fn turned(rings: &[Ring], angle: f64) -> Vec<Ring> {
+    let turn = DVec2::from_angle(angle);
+    rings.iter().map(|ring| ring.iter().map(|&at| turn.rotate(at)).collect()).collect()
+}
+
+/// The rings with every coordinate off by up to `most` (m).
+pub(crate) fn noisy(mut rings: Vec<Ring>, most: f64, random: &mut Random) -> Vec<Ring> {
+    for at in rings.iter_mut().flatten() {
+        *at += DVec2::new(random.between(-most, most), random.between(-most, most));
+    }
+    rings
+}
+
+fn rectangle(low: DVec2, high: DVec2) -> Ring {
+    vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
+}
+
+/// Equal pavilions on both sides of a corridor.
+fn double_comb(random: &mut Random) -> Vec<Ring> {
+    let half = |random: &mut Random, from: u32, to: u32| random.whole(2 * from, 2 * to) / 2.0;
+    let (count, width, gap) = (random.whole(2, 10) as u32, half(random, 4, 10), half(random, 3, 10));
+    let (deep, corridor) = (half(random, 4, 14), half(random, 2, 6));
+    let (up, down) = (deep, if random.next() < 0.7 { deep } else { half(random, 4, 14) });
+    let shift = if random.next() < 0.7 { 0.0 } else { random.whole(0, 3) / 2.0 };
+    let right = (width + gap) * f64::from(count) - gap;
+    let (mut low, mut high) = (Ring::new(), Ring::new());
+    for tooth in 0..count {
+        let x = (width + gap) * f64::from(tooth);
+        low.extend([(x, 0.0), (x, -down), (x + width, -down), (x + width, 0.0)].map(DVec2::from));
+        let (from, to) = (x + shift, x + width + shift);
+        let y = corridor;
+        high.extend([(from, y), (from, y + up), (to, y + up), (to, y)].map(DVec2::from));
+    }
+    // The ends of the corridor and of the pavilions there are one edge.
+    low.remove(0);
+    high.pop();
+    if shift == 0.0 {
+        low.pop();
+        high.remove(0);
+    } else {
+        low.push(DVec2::new(right + shift, 0.0));
+        high.insert(0, DVec2::new(0.0, corridor));
+    }
+    low.extend(high.into_iter().rev());
+    vec![low]
+}
+
+/// From 1 to 20 equal courtyards with wings of 6 to 8 m around and between them.
+fn courtyards(random: &mut Random) -> Vec<Ring> {
+    let count = random.whole(1, 20) as u32;
+    let columns = random.whole(1, count.min(7)) as u32;
+    let (wing, wide, deep) =
+        (random.whole(12, 16) / 2.0, random.whole(6, 24) / 2.0, random.whole(6, 24) / 2.0);
+    yards(count.div_ceil(columns), columns, wing, DVec2::new(wide, deep))
+}
+
+/// A grid of equal courtyards on whole metres, many of them square.
+fn grid(random: &mut Random) -> Vec<Ring> {
+    let (rows, columns) = (random.whole(1, 5) as u32, random.whole(1, 5) as u32);
+    let (wing, wide) = (random.whole(4, 10), random.whole(4, 12));
+    let deep = if random.next() < 0.5 { wide } else { random.whole(4, 12) };
+    yards(rows, columns, wing, DVec2::new(wide, deep))
+}
+
+fn yards(rows: u32, columns: u32, wing: f64, yard: DVec2) -> Vec<Ring> {
+    let step = yard + DVec2::splat(wing);
+    let size = step * DVec2::new(f64::from(columns), f64::from(rows)) + DVec2::splat(wing);
+    let mut rings = vec![rectangle(DVec2::ZERO, size)];
+    for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))) {
+        let low = step * DVec2::new(f64::from(column), f64::from(row)) + DVec2::splat(wing);
+        rings.push(rectangle(low, low + yard).into_iter().rev().collect());
+    }
+    rings
+}
+
+/// Random plans on whole metres, with holes: unions of squares of a lattice, some with their corners cut off.
+fn lattice(random: &mut Random) -> Vec<Ring> {
+    const SIZE: usize = 9;
+    let mut filled = [[false; SIZE + 2]; SIZE + 2];
+    let (wide, deep) = (random.whole(2, SIZE as u32) as usize, random.whole(2, SIZE as u32) as usize);
+    let (mut x, mut y) = (1 + wide / 2, 1 + deep / 2);
+    for _ in 0..random.whole(2, 60) as usize {
+        filled[y][x] = true;
+        match random.whole(0, 3) as u32 {
+            0 if x > 1 => x -= 1,
+            1 if x < wide => x += 1,
+            2 if y > 1 => y -= 1,
+            3 if y < deep => y += 1,
+            _ => {}
+        }
+    }
+    // Squares that touch at a corner alone are joined by a third.
+    let touches = |filled: &[[bool; SIZE + 2]; SIZE + 2], x: usize, y: usize| {
+        let [a, b, c, d] = [filled[y][x], filled[y][x + 1], filled[y + 1][x + 1], filled[y + 1][x]];
+        a == c && b == d && a != b
+    };
+    let places = || (0..=SIZE).flat_map(|y| (0..=SIZE).map(move |x| (x, y)));
+    while let Some((x, y)) = places().find(|&(x, y)| touches(&filled, x, y)) {
+        (filled[y][x.max(1)], filled[y + 1][x.max(1)]) = (true, true);
+    }
+    let step = DVec2::new(random.whole(1, 6), random.whole(1, 6));
+    let cut = if random.next() < 0.3 { step.min_element() / 2.0 } else { 0.0 };
+    let mut rings = outlines(|x, y| filled[y][x], SIZE + 2);
+    for ring in &mut rings {
+        ring.iter_mut().for_each(|at| *at *= step);
+        if cut > 0.0 {
+            let count = ring.len();
+            let chance: Vec<bool> = (0..count).map(|_| random.next() < 0.4).collect();
+            let corner = |index: usize| {
+                let (at, before) = (ring[index], ring[(index + count - 1) % count]);
+                let after = ring[(index + 1) % count];
+                let near = |other: DVec2| at + (other - at).normalize_or_zero() * (cut * 0.75);
+                if chance[index] { vec![near(before), near(after)] } else { vec![at] }
+            };
+            *ring = (0..count).flat_map(corner).collect();
+        }
+    }
+    rings
+}
+
+/// The corners of the rings around squares; the outer ring is the first one.
+fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Ring> {
+    let mut ways: Vec<[(usize, usize); 2]> = Vec::new();
+    for (x, y) in (1..size).flat_map(|y| (1..size).map(move |x| (x, y))) {
+        let here = filled(x, y);
+        if here != filled(x, y - 1) {
+            ways.push(if here { [(x, y), (x + 1, y)] } else { [(x + 1, y), (x, y)] });
+        }
+        if here != filled(x - 1, y) {
+            ways.push(if here { [(x, y + 1), (x, y)] } else { [(x, y), (x, y + 1)] });
+        }
+    }
+    let mut rings: Vec<Ring> = Vec::new();
+    while let Some([first, mut at]) = ways.pop() {
+        let mut ring = vec![first];
+        while at != first {
+            ring.push(at);
+            let Some(next) = ways.iter().position(|way| way[0] == at) else { break };
+            at = ways.swap_remove(next)[1];
+        }
+        #[allow(clippy::cast_precision_loss, reason = "they are few")]
+        let ring: Ring = ring.into_iter().map(|(x, y)| DVec2::new(x as f64, y as f64)).collect();
+        let count = ring.len();
+        let turns = |index: usize| {
+            let (before, at) = (ring[(index + count - 1) % count], ring[index]);
+            (at - before).perp_dot(ring[(index + 1) % count] - at) != 0.0
+        };
+        rings.push((0..count).filter(|&index| turns(index)).map(|index| ring[index]).collect());
+    }
+    let left = |ring: &Ring| ring.iter().map(|at| at.x).fold(f64::INFINITY, f64::min);
+    rings.sort_by(|a, b| left(a).total_cmp(&left(b)));
+    rings
+}
+
+/// A regular polygon of 3 to 60 corners, some with a courtyard of the same shape.
+fn regular(random: &mut Random) -> Vec<Ring> {
+    let count = random.whole(3, 60) as u32;
+    let ring = |radius: f64| -> Ring {
+        (0..count)
+            .map(|index| DVec2::from_angle(TAU * f64::from(index) / f64::from(count)) * radius)
+            .collect()
+    };
+    let mut rings = vec![ring(12.0)];
+    if random.next() < 0.3 {
+        rings.push(ring(random.between(3.0, 5.0)).into_iter().rev().collect());
+    }
+    rings
 }

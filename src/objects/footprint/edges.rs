@@ -18,6 +18,8 @@ const STREET: &str = "street";
 const ENTRY: &str = "entry door";
 /// The cosine of the angle to the street's edge from which on a wall runs along the street.
 const ALONG_STREET: f64 = 0.7;
+/// How much lower (m) the walls of a neighbour are than eaves that jut out over it.
+const LOWER: f64 = 1.0;
 /// How much nearer (m) to a street an edge must be to be preferred to a longer one.
 const NEARER: f64 = 2.0;
 
@@ -146,6 +148,14 @@ impl Footprint {
         let Some(street) = self.known_edges().street.map(|street| all[street]) else { return Vec::new() };
         let blind = |edge: &usize| self.edge_keywords(*edge).iter().any(|word| word == BLIND);
         (0..all.len()).filter(blind).filter(|edge| all[*edge].dot(street).abs() < ALONG_STREET).collect()
+    }
+
+    /// How far (m) over each edge there may be a roof that is to go `furthest`, whose eaves fall by `drop` (m): not over
+    /// edges where a neighbour stands that is as high, or lower by so little that its roof would be in the way.
+    pub(super) fn reach(&self, furthest: f64, drop: f64) -> Vec<f64> {
+        let Some((all, own)) = &self.place else { return Vec::new() };
+        let height = self.origin.z + self.shell.top - drop - LOWER;
+        all.reach(*own, furthest, height)
     }
 
     /// Checks the number, from 1, of an edge of the rings that were given; counted from 0.

@@ -1,10 +1,13 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 
 mod ahead;
+#[cfg(test)]
+mod eaves_tests;
 mod edges;
 mod neighbors;
 mod roof;
 mod shell;
+mod sides;
 #[cfg(test)]
 mod tests;
 mod walls;
@@ -29,6 +32,7 @@ use edges::Edges;
 use neighbors::Neighborhood;
 pub use roof::{Detail, Roof};
 use shell::Shell;
+use sides::Side;
 use walls::Plain;
 pub use walls::Walls;
 
@@ -150,6 +154,8 @@ pub struct Footprint {
     /// The footprints of its system, and its number among them.
     place: Option<(Arc<Neighborhood>, usize)>,
     shell: Shell,
+    /// The walls over each edge, once there are some.
+    sides: Vec<Side>,
     drawing: Drawing,
     /// Where random choices come from.
     seed: u64,
@@ -308,6 +314,7 @@ impl Footprint {
             edges: Arc::default(),
             place: None,
             shell,
+            sides: Vec::new(),
             drawing: Drawing::default(),
             seed: 0,
             detail: 3,
@@ -393,6 +400,7 @@ impl Object for Footprint {
 
     fn begin(&mut self) {
         self.shell = Shell::new(&self.plan);
+        self.sides.clear();
         self.drawing.clear();
         self.raised = 0;
         self.plain = None;

@@ -17,12 +17,16 @@ const APART: f64 = 0.3;
 const OPPOSITE: f64 = 0.990_27;
 /// The least length (m) along which buildings touch.
 const LEAST: f64 = 0.1;
+/// What is in front of an edge along less than this (m) is beside it.
+const NARROW: f64 = 0.01;
 
 type Boxed = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
 /// All footprints of a system. What is made for all of them together is made when the first one asks.
 pub(super) struct Neighborhood {
     plans: Vec<(Arc<Plan>, DVec2)>,
+    /// Where the walls of each end (m), as far as it is known before they are built.
+    tops: Vec<Option<f64>>,
     map: OnceLock<Map>,
 }
 
@@ -84,7 +88,11 @@ pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
         })
         .collect();
     let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin.truncate()));
-    let all = Arc::new(Neighborhood { plans: plans.collect(), map: OnceLock::new() });
+    let top = |footprint: &&mut Footprint| {
+        footprint.options.height.map(|height| footprint.origin.z + footprint.plan.ground().1 + height.0)
+    };
+    let (plans, tops) = (plans.collect(), found.iter().map(top).collect());
+    let all = Arc::new(Neighborhood { plans, tops, map: OnceLock::new() });
     for (index, footprint) in found.iter_mut().enumerate() {
         footprint.place = Some((Arc::clone(&all), index));
         footprint.edges = Arc::default();
@@ -136,6 +144,92 @@ impl Neighborhood {
             if length > 0.0 { (union(parts) / length).min(1.0) } else { 0.0 }
         });
         Touch { shared: shared.collect(), neighbors }
+    }
+
+    /// How far (m) each edge of footprint `own` is from others in front of it, halved so that theirs have room as well,
+    /// up to `furthest`; 0 where they touch. Only what ends above `height` (m), or may do so, is in the way.
+    pub(super) fn reach(&self, own: usize, furthest: f64, height: f64) -> Vec<f64> {
+        let map = self.map();
+        let walls = map.walls_of(own);
+        let mut reach = vec![f64::INFINITY; walls.len()];
+        let (Some([low, high]), Some((plan, _))) = (bounds(walls), self.plans.get(own)) else { return reach };
+        let search = 2.0 * furthest + APART;
+        let (low, high) = (low - search, high + search);
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let is_near = |[a, b]: &&Wall| a.max(*b).cmpge(low).all() && a.min(*b).cmple(high).all();
+        let others = map.boxes.locate_in_envelope_intersecting(&around).map(|found| found.data as usize);
+        let in_the_way =
+            others.filter(|&other| other != own && self.tops[other].is_none_or(|top| top > height));
+        let theirs: Vec<Wall> =
+            in_the_way.flat_map(|other| map.walls_of(other).iter().filter(is_near)).copied().collect();
+        for (wall, reach) in walls.iter().zip(&mut reach) {
+            let mut parts = theirs.iter().filter_map(|their| overlap(*wall, *their));
+            if parts.any(|[begin, end]| end - begin > APART) {
+                *reach = 0.0;
+            }
+        }
+        for (edge, front) in fronts(walls, plan.rings().iter().map(Vec::len), &reach).iter().enumerate() {
+            let distances = theirs.iter().filter_map(|their| front.distance(*their, search));
+            let free = distances.map(|distance| if distance <= APART { 0.0 } else { distance / 2.0 });
+            reach[edge] = free.fold(reach[edge], f64::min);
+        }
+        reach
+    }
+}
+
+/// What is in front of an edge: up to the mitres at its ends, or beside the lines of edges that others touch.
+struct Front {
+    from: DVec2,
+    out: DVec2,
+    /// Points and the ways from there into it.
+    sides: [[DVec2; 2]; 2],
+}
+
+/// The front of each edge of rings of these sizes; what others touch has no `reach`.
+fn fronts(walls: &[Wall], sizes: impl Iterator<Item = usize>, reach: &[f64]) -> Vec<Front> {
+    let mut fronts = Vec::with_capacity(walls.len());
+    for count in sizes {
+        let first = fronts.len();
+        for index in 0..count {
+            let [a, b] = walls[first + index];
+            let along = (b - a).normalize_or_zero();
+            let side = |neighbour: usize, end: DVec2, way: DVec2| {
+                let neighbour = first + neighbour % count;
+                let [c, d] = walls[neighbour];
+                let turned = (d - c).normalize_or_zero();
+                let inward = turned.perp();
+                // Walls that touch may overlap by so much.
+                if reach[neighbour] == 0.0 && inward.dot(way) > 0.0 {
+                    [end + inward * APART, inward]
+                } else {
+                    [end, way]
+                }
+            };
+            let sides = [side(index + count - 1, a, along), side(index + 1, b, -along)];
+            fronts.push(Front { from: a, out: -along.perp(), sides });
+        }
+    }
+    fronts
+}
+
+impl Front {
+    /// The distance (m) of the nearest place of a wall that is in front, up to `most`.
+    fn distance(&self, [mut a, mut b]: Wall, most: f64) -> Option<f64> {
+        let near = [self.from + self.out * most, -self.out];
+        let behind = [self.from - self.out * APART, self.out];
+        for [at, way] in [near, behind, self.sides[0], self.sides[1]] {
+            let [from, to] = [a, b].map(|point| way.dot(point - at));
+            if from.max(to) <= 0.0 {
+                return None;
+            }
+            if from.min(to) < 0.0 {
+                let crossing = a.lerp(b, from / (from - to));
+                *(if from < 0.0 { &mut a } else { &mut b }) = crossing;
+            }
+        }
+        let along = self.out.perp();
+        let wide = along.dot(b - a).abs() > NARROW;
+        wide.then(|| self.out.dot(a - self.from).min(self.out.dot(b - self.from)))
     }
 }
 
@@ -190,7 +284,8 @@ mod tests {
             let ring = ring.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect();
             (Arc::new(Plan::new(&[ring]).unwrap()), DVec2::ZERO)
         };
-        Neighborhood { plans: rings.iter().map(plan).collect(), map: OnceLock::new() }
+        let tops = vec![None; rings.len()];
+        Neighborhood { plans: rings.iter().map(plan).collect(), tops, map: OnceLock::new() }
     }
 
     fn rectangle(x: f64, y: f64, width: f64, depth: f64) -> Vec<[f64; 2]> {

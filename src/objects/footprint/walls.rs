@@ -2,6 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
+use super::sides::material_of;
 use super::{Footprint, Height, along, check_height, edges};
 use crate::error::{Error, Result};
 use crate::geometry::{SAME, fill};
@@ -80,6 +81,7 @@ impl Footprint {
             (None, None, Some(template)) => self.drawing.material(template.material()),
             (material, color, _) => self.part(color, material.as_ref())?,
         };
+        (0..self.plan.edges()).for_each(|edge| self.note_part(edge, plain));
         if self.detail < 3 {
             if self.plain.is_none_or(|known| known.part != plain) {
                 self.finish_walls_up_to(from)?;
@@ -147,7 +149,7 @@ impl Footprint {
         let mut without: Vec<DVec2> = Vec::new();
         let mut frontages = self.frontages(from, to);
         let chosen = self.choose(templates, &mut frontages);
-        for (frontage, (chosen, blind)) in frontages.iter().zip(chosen) {
+        for (edge, (frontage, (chosen, blind))) in frontages.iter().zip(chosen).enumerate() {
             laid.clear();
             let over = Rectangle { at: DVec2::ZERO, size: frontage.size };
             let Some(template) = chosen.filter(|template| laid.lay(template.wall(), over, 0.0)) else {
@@ -164,6 +166,11 @@ impl Footprint {
                 continue;
             };
             self.draw_laid(&laid, template, frontage, &mut parts);
+            let material: *const Material = material_of(&laid, template.material());
+            if let Some((_, part)) = parts.iter().find(|(known, _)| *known == material) {
+                self.note_part(edge, *part);
+            }
+            self.note_storey(edge, &laid, frontage.size, from);
             for (fixture, at, scale) in laid.models() {
                 // Models look towards -y.
                 let DMat3 { x_axis, y_axis, z_axis } = frontage.axes;

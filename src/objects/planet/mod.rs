@@ -7,7 +7,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-use super::terrain::{Cover, RuleLayers, Water, rules};
+use super::terrain::{Cover, RuleLayers, Water, lost_focus, rules};
 use super::{Color, Kind, Object, Seed, Table, Vector};
 use crate::error::{Error, Result};
 use crate::rules::Key;
@@ -74,7 +74,8 @@ pub struct Planet {
 
 methods! {
     Planet = "planet" {
-        /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further.
+        /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further. The last focus of a
+        /// pass counts.
         pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
             let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
             if eye.length() < radius * (1.0 - DEEP) {
@@ -83,6 +84,10 @@ methods! {
                     eye.length()
                 ))
                 .help(format!("its ground is about {radius} m from its middle: look from farther out")));
+            }
+            if let Some(earlier) = self.wanted.filter(|earlier| *earlier != eye) {
+                let at = earlier + self.options.position.0;
+                self.warnings.push(lost_focus("planet", &format!("({}, {}, {})", at.x, at.y, at.z)));
             }
             self.wanted = Some(eye);
             Ok(())

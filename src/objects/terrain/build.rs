@@ -71,11 +71,18 @@ fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
     Ok(pairs)
 }
 
+/// In how many pieces a side of a terrain is looked at for heights.
+const PIECES: u32 = 64;
+
 /// The first level whose cells are smaller than the distance of the samples of `elevation`. Fails unless it has heights
 /// for all of the square of `size` (m) from `corner` (m) on.
 fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
-    for (x, y) in [(0.0, 0.0), (1.0, 0.0), (0.0, 1.0), (1.0, 1.0)] {
-        let at = corner + DVec2::new(x, y) * size;
+    // A raster that is projected may be missing in the middle of a side.
+    let sides = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    let along =
+        (0..4).flat_map(|side| (0..PIECES).map(move |part| (side, f64::from(part) / f64::from(PIECES))));
+    for (side, part) in along {
+        let at = corner + sides[side].lerp(sides[(side + 1) % 4], part) * size;
         if elevation.height_at(at).is_none() {
             let (low, high) = (elevation.low(), elevation.high());
             return Err(Error::new(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(

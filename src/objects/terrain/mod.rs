@@ -30,8 +30,8 @@ use super::{Color, Elevation, Expected, Kind, Object, Parameter, Table, Value, V
 use crate::error::{Error, Result};
 use crate::rules::Key;
 use crate::scene::Scene;
-use crate::terrain::{Divide, Drainage, Edit, Edits, Ground, Map, View, World};
-use crate::warning::Warning;
+use crate::terrain::{DEEPEST, Divide, Drainage, Dry, Edit, Edits, Ground, Map, View, World};
+use crate::warning::{Warning, WarningKind};
 
 fields! {
     /// What `terrain { ... }` takes.
@@ -48,7 +48,8 @@ fields! {
         pub height: f64 = 0.0,
         /// How much (m) the changes of a rule table are at first.
         pub decay: f64 = 100.0,
-        /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
+        /// Whether the surface runs smoothly through the cells and through measured samples, or each cell keeps its own
+        /// height, and the ground is straight from sample to sample.
         pub smooth: bool = true,
         /// What heights (m) are changed to: pairs { from, to } with straight lines in between.
         pub remap: Vec<Vec<f64>> = Vec::new(),
@@ -56,7 +57,8 @@ fields! {
         pub error: Option<f64> = None,
         /// The middle of its square (m); its z is added to all heights.
         pub position: Vector = Vector(DVec3::ZERO),
-        /// Measured heights, to which the rules add detail between the samples: elevation("N43E007.hgt").
+        /// Measured heights, which the ground has at each sample, and to which the rules add detail in between:
+        /// elevation("N43E007.hgt").
         pub elevation: Option<Elevation> = None,
         /// Changes of the ground that were kept: edits("ground.json").
         pub edits: Option<EditFile> = None,
@@ -99,17 +101,23 @@ pub struct Terrain {
     key: Key,
     /// Whether the script is only checked.
     sketched: bool,
+    /// Whether a pass has begun.
+    begun: bool,
     warnings: Vec<Warning>,
 }
 
 methods! {
     Terrain = "terrain" {
-        /// Expands what `view` shows from a place (m), and contracts everything else, when the pass ends. A view is the
-        /// size (m) of cells, and rings around the place: how many cells across, and how often each is divided.
+        /// Expands what `view` shows from a place (m), and contracts everything else, when the pass ends; until then the
+        /// ground answers as it was. The last focus of a pass counts. A view is the size (m) of cells, and rings around
+        /// the place: how many cells across, and how often each is divided.
         pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
             // What cannot be is told where it is asked for.
             view.check(self.ground.world(), DVec2::new(x, y))?;
-            self.wanted = Some((DVec2::new(x, y), view));
+            let wanted = (DVec2::new(x, y), view);
+            let earlier = self.wanted.as_ref().filter(|earlier| **earlier != wanted);
+            self.warnings.extend(earlier.map(|(at, _)| lost_focus("terrain", &format!("({}, {})", at.x, at.y))));
+            self.wanted = Some(wanted);
             Ok(())
         }
 
@@ -140,15 +148,23 @@ methods! {
         }
 
         /// Lets a river of `width` (m) run from a place downhill, to the standing water, the rim or an earlier river; its
-        /// bed is dug when the pass ends.
+        /// bed is dug when the pass ends. There is none from a place under water.
         pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
             if !(width > 0.0 && width <= self.options.size) {
                 return Err(Error::new(format!("terrain:river: width is {width} m")).help("give metres above 0"));
             }
             let at = source.0.truncate();
-            self.ground.height(at).ok_or_else(|| self.nothing(at))?;
-            let way = self.drainage()?.river(at);
-            let Some(way) = way else { return Ok(()) };
+            let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
+            let sunk = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
+            let way = match (self.drainage()?.river(at), sunk) {
+                (Ok(way), _) => way,
+                // Water runs there already.
+                (Err(Dry::River), None) => return Ok(()),
+                (Err(_), sunk) => {
+                    self.warnings.push(dry(at, sunk.map(|level| level - height)));
+                    return Ok(());
+                }
+            };
             let depth = width * SHALLOW;
             let path = way.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
             self.rivers.push(River { way, width });
@@ -220,6 +236,7 @@ impl Terrain {
             kept_read: false,
             key: Key::default(),
             sketched: false,
+            begun: false,
         })
     }
 
@@ -263,6 +280,27 @@ impl Terrain {
         ))
     }
 
+    /// What to tell where the cells are too large for the samples of measured ground.
+    fn coarse(&self) -> Option<Warning> {
+        let (world, elevation) = (self.ground.world(), self.options.elevation.as_ref()?);
+        let finest = self.ground.finest();
+        if self.ground.heights() == 0 || world.shows_samples(finest) {
+            return None;
+        }
+        let (cell, step) = (world.cell(finest), elevation.step());
+        let more = (finest..=DEEPEST).find(|level| world.shows_samples(*level))? - finest;
+        let help = match (&self.wanted, self.options.levels) {
+            (None, Some(levels)) => format!("write levels = {} to show all of them", levels + more),
+            _ => format!("divide the nearest cells of the view {more} times more to show all of them"),
+        };
+        let text = format!(
+            "terrain: cells of {} m cannot show samples that are {} m apart: only height() keeps to each of them",
+            rounded(cell),
+            rounded(step)
+        );
+        Some(Warning::new(WarningKind::Doubtful, text).help(help))
+    }
+
     fn drainage(&mut self) -> Result<&mut Drainage> {
         if self.drainage.is_none() {
             let water = self.options.water.as_ref().map(|water| water.level);
@@ -285,6 +323,31 @@ impl Terrain {
         }
         Ok(())
     }
+}
+
+/// What to tell of a river that ends where it begins, at a place (m) that may lie some metres under water.
+fn dry(at: DVec2, under: Option<f64>) -> Warning {
+    let place = format!("({:.1}, {:.1})", at.x, at.y);
+    let (text, help) = match under {
+        Some(under) => (
+            format!("the source {place} lies {under:.1} m under water"),
+            "give a place above the water: this:height({ x, y }) tells how high the ground is",
+        ),
+        None => (format!("the source {place} lies at the rim or at the shore"), "give a place farther up"),
+    };
+    Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river")).help(help)
+}
+
+/// What to tell of a focus of a `kind` of object that takes the place of an earlier one in the same pass.
+pub(super) fn lost_focus(kind: &str, earlier: &str) -> Warning {
+    let text = format!("{kind}:focus: this takes the place of the focus on {earlier} in the same pass");
+    Warning::new(WarningKind::NoEffect, text).help("the last focus of a pass counts: focus once")
+}
+
+/// A length (m) as people read it.
+fn rounded(length: f64) -> f64 {
+    let unit = 10f64.powf(2.0 - length.abs().max(1e-9).log10().floor());
+    (length * unit).round() / unit
 }
 
 /// How deep a river's bed is, as a multiple of its width.
@@ -334,6 +397,7 @@ impl Object for Terrain {
 
     fn begin(&mut self) {
         self.ground = self.plain.clone();
+        self.begun = true;
         self.wanted = None;
         self.drainage = None;
         self.rivers.clear();
@@ -376,6 +440,9 @@ impl Object for Terrain {
             self.ground.edit(&self.edits);
             self.ground.focus(eye, &view, divide)?;
         }
+        // What is shown before the first pass may be focused on in it.
+        let coarse = if self.begun { self.coarse() } else { None };
+        self.warnings.extend(coarse);
         Ok(())
     }
 

@@ -120,7 +120,8 @@ impl Plants {
             return None;
         }
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
-        ground.height(place)?;
+        // They stand on what one sees of the ground.
+        let shown = ground.shown(place)?;
         let spot = Spot::new(ground, place, reach, self.on.is_bent());
         if luck >= chance * self.on.at(&spot, key.0) {
             return None;
@@ -128,7 +129,7 @@ impl Plants {
         let model = stream.below(self.models.len());
         let turn = DQuat::from_rotation_z(stream.uniform() * std::f64::consts::TAU);
         let size = self.size[0] + (self.size[1] - self.size[0]) * stream.uniform();
-        let at = place.extend(spot.height - self.sink);
+        let at = place.extend(shown - self.sink);
         Some((model, DAffine3::from_scale_rotation_translation(DVec3::splat(size), turn, at)))
     }
 }

@@ -24,7 +24,7 @@ impl Terrain {
         for mask in masks.chain(self.options.plants.iter().map(|plants| &plants.on)) {
             mask.check("terrain", ground.world())?;
         }
-        for tile in ground.tiles() {
+        for (number, tile) in ground.tiles().iter().enumerate() {
             let (corner, size) = tile.bounds(ground.world());
             let origin = (corner + size / 2.0).extend(0.0);
             let place = tile.place;
@@ -32,13 +32,13 @@ impl Terrain {
             let mut parts = Vec::new();
             let mut part = Part::default();
             if self.options.covers.is_empty() {
-                mesh.write(tile, origin, 0.0, &mut part);
+                mesh.write(number, origin, 0.0, &mut part);
                 let material =
                     Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
                 part.material = scene.material(&material);
             } else {
                 let (bytes, across) = looks::paint(ground, tile, &self.options.covers);
-                mesh.write(tile, origin, looks::half_texel(size, across), &mut part);
+                mesh.write(number, origin, looks::half_texel(size, across), &mut part);
                 let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
                 part.material = scene.material(&material);
             }

@@ -8,7 +8,7 @@ use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 use super::current::Current;
 use crate::error::Error;
 use crate::objects::{Call, Value};
-use crate::rules::module_text;
+use crate::rules::{DEEPEST, module_text};
 use crate::script::convert::{to_lua, to_value};
 use crate::script::handles::ObjectHandle;
 use crate::script::library::Library;
@@ -20,6 +20,7 @@ const TOP: u8 = 0;
 
 pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
+    host.set("deepest", DEEPEST)?;
     let state = Rc::clone(current);
     host.set(
         "pack",

@@ -4,6 +4,7 @@ mod begun;
 mod current;
 mod host;
 mod prelude;
+mod protected;
 mod watchdog;
 
 pub use begun::make_ready;
@@ -34,6 +35,8 @@ const OWN: &str = "burgeon";
 
 /// What an error says until the limit is known.
 const OUT_OF_MEMORY: &str = "out of memory";
+/// What Luau says.
+const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
 
 /// A virtual machine that runs a script and the rules it declares.
 pub struct Machine {
@@ -48,6 +51,8 @@ pub struct Machine {
     /// Its part in the run.
     pub(crate) crew: Crew,
     prelude: Prelude,
+    /// Calls a function of the script.
+    protected: Function,
     epoch: Cell<usize>,
 }
 
@@ -62,6 +67,7 @@ impl Machine {
             let host = host::functions(&lua, &current, &library)?;
             let prelude = Prelude::new(&prelude.call(host)?)?;
             let session = Arc::clone(session);
+            let protected = protected::function(&lua)?;
             Ok(Rc::new(Self {
                 _guard: guard,
                 lua,
@@ -70,6 +76,7 @@ impl Machine {
                 library,
                 crew,
                 prelude,
+                protected,
                 epoch: Cell::new(0),
             }))
         };
@@ -99,7 +106,7 @@ impl Machine {
             return Err(Error::several(problems));
         }
         let chunk = self.load(&source.name, &source.analysis.text)?;
-        let value: Value = chunk.call(()).map_err(|error| self.translate(error))?;
+        let value: Value = self.call(&chunk, ()).map_err(|error| self.translate(error))?;
         tell_unseen(self, !value.is_nil());
         Ok(())
     }
@@ -153,10 +160,11 @@ impl Machine {
             .map_err(|error| self.translate(error))
     }
 
-    /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; errors name the file `name`.
-    pub(crate) fn load_compiled(&self, name: &str, code: &[u8]) -> Result<Function> {
+    /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; what goes wrong in it is told in
+    /// the line of the script that called it.
+    pub(crate) fn load_compiled(&self, code: &[u8]) -> Result<Function> {
         self.lua.enable_jit(false);
-        let chunk = self.lua.load(code).set_name(format!("@{name}")).set_mode(ChunkMode::Binary);
+        let chunk = self.lua.load(code).set_name(format!("={OWN}")).set_mode(ChunkMode::Binary);
         let function = chunk.into_function();
         self.lua.enable_jit(true);
         function.map_err(|error| self.translate(error))
@@ -181,11 +189,13 @@ impl Machine {
     /// What a Lua error means: the place and the remedy taken out of its text.
     pub(crate) fn translate(&self, error: mlua::Error) -> Error {
         let translated = translate(&error);
+        let exhausted = protected::exhausted();
         let limit = self.session.options.limits.memory / 1_000_000;
         match self.session.stop.check() {
             Err(reason) => translated.because(&reason),
             Ok(()) if translated.message() == OUT_OF_MEMORY => {
                 translated
+                    .at(exhausted)
                     .because(&Error::new(format!("the script needs more than {limit} MB of memory")).help(
                     "look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES",
                 ))
@@ -253,20 +263,24 @@ fn parse(text: &str) -> Error {
         Some((place, message)) => (place, message),
         None => (None, text),
     };
-    if message.contains("not enough memory") {
+    if message.contains(OUT_OF_MEMORY_IN_LUA) {
         return Error::new(OUT_OF_MEMORY).at(place);
     }
-    if message.starts_with("table: 0x") || message.starts_with("function: 0x") || message == "nil" {
+    if place.is_none() && is_no_text(message) {
         return Error::new("the script raised an error that is no text")
+            .at(place_in_traceback(traceback))
             .help("write error(\"what is wrong\")");
     }
     // What a function of Luau's library refuses has no place of its own.
     let error = Error::new(message).at(place).at(place_in_traceback(traceback));
     match help {
-        Some(help) => match help.strip_suffix('\u{2}') {
-            Some(help) => error.help(help).of_data(),
-            None => error.help(help),
-        },
+        Some(help) => {
+            let error = if help.ends_with('\u{2}') { error.of_data() } else { error };
+            match help.trim_end_matches('\u{2}') {
+                "" => error,
+                help => error.help(help),
+            }
+        }
         None if message.contains("modify a readonly table") => error.help(
             "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
         ),
@@ -274,6 +288,16 @@ fn parse(text: &str) -> Error {
         None if is_of_values(message) => error.of_data(),
         None => error,
     }
+}
+
+/// Whether `message` is how Lua writes a value that is neither a string nor a number.
+fn is_no_text(message: &str) -> bool {
+    let is_address = |kind: &str| {
+        let rest = message.strip_prefix(kind).and_then(|rest| rest.strip_prefix(": "));
+        rest.is_some_and(|rest| rest.starts_with("0x") || rest == "(nil)")
+    };
+    ["nil", "true", "false"].contains(&message)
+        || ["table", "function", "userdata", "thread", "buffer", "vector"].into_iter().any(is_address)
 }
 
 /// Whether a message of Luau's is about a value that is of another type than it should be, as what a feature has may be.

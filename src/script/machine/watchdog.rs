@@ -7,6 +7,7 @@ use std::time::{Duration, Instant};
 
 use mlua::{Lua, ffi};
 
+use crate::derive::grouped;
 use crate::error::Error;
 use crate::script::session::Session;
 
@@ -53,17 +54,13 @@ impl Watchdog {
     pub fn new(session: &Arc<Session>) -> Self {
         let shared = Arc::new(Shared::default());
         let (theirs, stop) = (Arc::clone(&shared), Arc::clone(&session.stop));
-        let limit = session.options.limits.time;
-        let deadline = Instant::now() + limit;
+        let deadline = Instant::now() + session.options.limits.time;
+        let watched = Arc::clone(session);
         let watch = move || {
             let mut inner = theirs.inner.lock().unwrap_or_else(PoisonError::into_inner);
             while !inner.over && !stop.is_stopped() {
                 if Instant::now() >= deadline {
-                    stop.stop(
-                        Error::new(format!("the run took longer than {} s", limit.as_secs_f64())).help(
-                            "look for a loop that never ends, or raise the limit: --time-limit SECONDS",
-                        ),
-                    );
+                    stop.stop(overdue(&watched));
                     break;
                 }
                 inner = theirs.wake.wait_timeout(inner, PERIOD).unwrap_or_else(PoisonError::into_inner).0;
@@ -89,6 +86,20 @@ impl Watchdog {
         }
         drop(inner);
         Registration { shared: Arc::clone(&self.shared), state }
+    }
+}
+
+/// What a run is told whose time is over.
+fn overdue(session: &Session) -> Error {
+    let error =
+        Error::new(format!("the run took longer than {} s", session.options.limits.time.as_secs_f64()));
+    match session.progress.counts() {
+        (0, ..) => error.help("look for a loop that never ends, or raise the limit: --time-limit SECONDS"),
+        (step, _, modules) => error.help(format!(
+            "step {} is done, with {} modules: derive fewer steps, look for a loop that never ends, or raise the limit: --time-limit SECONDS",
+            grouped(step),
+            grouped(modules)
+        )),
     }
 }
 

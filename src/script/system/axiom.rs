@@ -6,8 +6,8 @@ use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
 use crate::derive::{Axiom, Job, Remark};
 use crate::error::{Error, Result};
-use crate::objects::{Ahead, Footprint, Object};
-use crate::rules::{CLOSE, Chain, END, Key, OPEN, Symbol};
+use crate::objects::{Ahead, Footprint, Object, Value};
+use crate::rules::{CLOSE, Chain, DEEPEST, END, Key, OPEN, Symbol};
 use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
@@ -41,8 +41,13 @@ impl System {
         }
     }
 
-    /// Makes the first chains: one from modules, or one for each feature.
+    /// Makes the first chains: one from modules, or one for each feature. What is wrong with them is told where the
+    /// axiom was set.
     pub(crate) fn axiom(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
+        self.first_chains(machine, key, random).map_err(|error| error.at(self.axiom_place.clone()))
+    }
+
+    fn first_chains(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
         let mut axiom = Axiom::default();
         let mut builder = Builder { machine, chain: &mut axiom.chain, random };
         match &self.axiom {
@@ -106,7 +111,7 @@ impl System {
             };
             let key = key.feature(&id);
             axiom.given += 1;
-            let made: MultiValue = match function.call(feature) {
+            let made: MultiValue = match machine.call(function, feature) {
                 Ok(made) => made,
                 Err(error) => {
                     let error = machine.translate(error);
@@ -225,11 +230,15 @@ impl Builder<'_> {
     fn items(&mut self, items: &[LuaValue], key: Key, ordinal: &mut usize, depth: usize) -> Result<()> {
         for item in items {
             let LuaValue::Table(table) = item else {
-                return Err(Error::new(format!(
-                    "an axiom is made of modules, but one item is a {}",
-                    item.type_name()
-                ))
-                .help("write system:axiom(A(1), { B() })"));
+                let what = match to_value(item, false) {
+                    Ok(value @ (Value::Number(_) | Value::Boolean(_) | Value::Text(_))) => {
+                        format!("{} {value}", value.describe().replacen('a', "the", 1))
+                    }
+                    Ok(value) => value.describe().to_owned(),
+                    Err(_) => format!("a {}", item.type_name()),
+                };
+                return Err(Error::new(format!("an axiom is made of modules, but one item is {what}"))
+                    .help("write system:axiom(A(1), { B() })"));
             };
             let is_module = self
                 .machine
@@ -238,10 +247,11 @@ impl Builder<'_> {
                 .call::<bool>(table)
                 .map_err(|error| self.machine.translate(error))?;
             if !is_module {
-                if depth > 200 {
-                    return Err(Error::new(
-                        "branches are nested more than 200 deep, or a branch contains itself",
-                    ));
+                if depth == DEEPEST {
+                    return Err(Error::new(format!(
+                        "branches are nested more than {DEEPEST} deep, or a branch contains itself"
+                    ))
+                    .help("let a rule make the rest: each step adds to what is there"));
                 }
                 let inner: Vec<LuaValue> = table
                     .sequence_values()

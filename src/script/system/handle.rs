@@ -104,8 +104,15 @@ impl SystemHandle {
         if !system.derivations.get_mut().is_empty() {
             system.late.get_mut().push((what, place.clone()));
         }
-        if let Err(error) = declare(system) {
-            self.library.problems.borrow_mut().push(error.at(place));
+        let result = declare(system);
+        if let Err(error) = result {
+            let error = error.at(place);
+            let mut problems = self.library.problems.borrow_mut();
+            let same = |known: &Error| known.place() == error.place() && known.message() == error.message();
+            // What a loop declares again and again is wrong once.
+            if !problems.last().is_some_and(same) {
+                problems.push(error);
+            }
         }
         Ok(())
     }

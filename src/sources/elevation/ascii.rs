@@ -1,7 +1,8 @@
 //! ESRI ASCII grids (`.asc`): a header of names and numbers, then heights as text.
 
-use super::raster::{Found, Grid, count};
+use super::raster::{Found, Grid, check_size, count};
 use super::raw::narrow;
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 
 /// What to do about a text that is no grid.
@@ -48,7 +49,7 @@ impl Header {
 ///
 /// Fails if its header lacks something, if a height is no number, and if there are fewer than it says; those that are too
 /// many come last.
-pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
+pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::new(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
     })?;
@@ -76,7 +77,7 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
     let lacks = |what: &str| Error::new(format!("{name} has no {what} in its header")).help(REMEDY);
     let columns = whole(name, "ncols", header.columns.ok_or_else(|| lacks("ncols"))?)?;
     let rows = whole(name, "nrows", header.rows.ok_or_else(|| lacks("nrows"))?)?;
-    Found::check_size(name, columns, rows)?;
+    check_size(name, columns, rows)?;
     let grid = match (header.x, header.y, header.step) {
         (Some((x, x_centre)), Some((y, y_centre)), [Some(dx), Some(dy)]) => {
             let half = |is_centre: bool, step: f64| if is_centre { 0.0 } else { step / 2.0 };
@@ -87,30 +88,42 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
         // Where it lies may be given.
         _ => None,
     };
+    let (expected, length, missing) = (columns * rows, bytes.len(), header.missing);
+    let heights = move |budget: &Budget| heights(lines, name, (expected, length), missing, budget);
+    Ok(Found { columns, rows, grid, crs: Ok(None), heights: Box::new(heights) })
+}
+
+/// The heights in `lines`, numbered from 0, of a file of so many heights and bytes.
+fn heights<'a>(
+    lines: impl Iterator<Item = (usize, &'a str)>,
+    name: &str,
+    (expected, length): (usize, usize),
+    missing: Option<f64>,
+    budget: &Budget,
+) -> Result<Vec<f32>> {
     let mut heights = Vec::new();
     // A few too many are counted; of a file that is another than its header says, not all are read.
-    let most = columns * rows + SURPLUS;
+    let most = expected + SURPLUS;
     for (number, line) in lines {
         for word in line.split_whitespace() {
+            budget.tick()?;
             let value: f64 = word.parse().map_err(|_| {
                 let word = shorten(word);
                 Error::new(format!("{name} has {word:?} in line {}, which is no height", number + 1))
                     .help("write heights with a point, such as 12.5")
             })?;
-            heights.push(if Some(value) == header.missing { f32::NAN } else { narrow(value) });
+            heights.push(if Some(value) == missing { f32::NAN } else { narrow(value) });
         }
         if heights.len() > most {
             break;
         }
     }
-    let expected = columns * rows;
     match heights.len() {
         found if found < expected => Err(Error::new(format!(
-            "{name} is cut short: it has {found} of {expected} heights ({} bytes)",
-            bytes.len()
+            "{name} is cut short: it has {found} of {expected} heights ({length} bytes)"
         ))
         .help("get it again")),
-        _ => Ok(Found { columns, rows, heights, grid, crs: Ok(None) }),
+        _ => Ok(heights),
     }
 }
 
@@ -131,9 +144,10 @@ fn shorten(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::super::{Raster, Wanted};
+    use crate::budget::Budget;
 
     fn read(text: &str) -> Raster {
-        Raster::read(text.as_bytes(), "a.asc", &Wanted::default()).unwrap()
+        Raster::read(text.as_bytes(), "a.asc", &Wanted::default(), &Budget::default()).unwrap()
     }
 
     #[test]

@@ -1,6 +1,8 @@
 //! Fills holes in heights smoothly from their rims.
 
 use super::raster::count;
+use crate::budget::Budget;
+use crate::error::Result;
 
 /// How often the heights in a hole are relaxed on each level.
 const SWEEPS: usize = 6;
@@ -11,21 +13,28 @@ const SWEEPS: usize = 6;
 /// Each level of a pyramid of halves begins with what the level above it found, and relaxes it towards the mean of its
 /// neighbours: nearly the membrane over the rim, in linear time. Method: a cascade as in Bornemann and Deuflhard, "The
 /// cascadic multigrid method for elliptic problems", 1996.
-pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32]) -> usize {
+///
+/// Fails if it takes more than the `budget`.
+pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32], budget: &Budget) -> Result<usize> {
+    // In each of the levels the numbers of the holes, and the next level.
+    let missing = heights.iter().filter(|height| height.is_nan()).count();
+    if missing == 0 || missing == heights.len() {
+        return Ok(0);
+    }
+    budget.check()?;
+    let _held = budget.hold(missing * size_of::<u32>() + heights.len())?;
     // Half as large as usize, for there may be many.
     let holes: Vec<u32> =
         (0u32..).zip(&*heights).filter(|(_, height)| height.is_nan()).map(|(at, _)| at).collect();
-    if holes.is_empty() || holes.len() == heights.len() {
-        return 0;
-    }
     let (across, down) = (columns.div_ceil(2), rows.div_ceil(2));
     let mut above = halve(columns, rows, heights, across);
-    fill(across, down, &mut above);
+    fill(across, down, &mut above, budget)?;
     for hole in holes.iter().map(|hole| *hole as usize) {
         let (column, row) = (hole % columns, hole / columns);
         heights[hole] = between(&above, across, down, (count(column) - 0.5) / 2.0, (count(row) - 0.5) / 2.0);
     }
     for sweep in 0..SWEEPS {
+        budget.check()?;
         let mut relax = |hole: &u32| {
             let hole = *hole as usize;
             heights[hole] = mean_around(columns, rows, heights, hole);
@@ -37,7 +46,7 @@ pub(super) fn fill(columns: usize, rows: usize, heights: &mut [f32]) -> usize {
             holes.iter().rev().for_each(&mut relax);
         }
     }
-    holes.len()
+    Ok(holes.len())
 }
 
 /// The means of known heights, two by two; NaN where none of the four is known.
@@ -113,7 +122,7 @@ mod tests {
             }
         }
         heights[3] = f32::NAN;
-        assert_eq!(fill(200, 120, &mut heights), missing + 1);
+        assert_eq!(fill(200, 120, &mut heights, &Budget::default()).unwrap(), missing + 1);
         let worst = heights.iter().zip(&whole).map(|(a, b)| (a - b).abs()).fold(0.0, f32::max);
         // The slope falls by 65 m over the hole.
         assert!(worst < 2.0, "{worst}");
@@ -123,9 +132,9 @@ mod tests {
     fn a_hole_never_leaves_the_range_of_what_is_known() {
         let mut heights = vec![f32::NAN; 64 * 33];
         (heights[0], heights[64 * 33 - 1]) = (10.0, 20.0);
-        assert_eq!(fill(64, 33, &mut heights), 64 * 33 - 2);
+        assert_eq!(fill(64, 33, &mut heights, &Budget::default()).unwrap(), 64 * 33 - 2);
         assert!(heights.iter().all(|height| (10.0..=20.0).contains(height)));
         let mut none = vec![f32::NAN; 4];
-        assert_eq!(fill(2, 2, &mut none), 0);
+        assert_eq!(fill(2, 2, &mut none, &Budget::default()).unwrap(), 0);
     }
 }

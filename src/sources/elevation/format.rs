@@ -13,7 +13,7 @@ const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), E
 /// Reads `bytes`, the content of the file called `name`.
 ///
 /// What begins as a zip, a TIFF, a PNG or an ASCII grid is read as that; the extension tells the others.
-pub(super) fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
+pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
     if bytes.is_empty() {
         return Err(Error::new(format!("{name} is empty")).help("get it again"));
     }

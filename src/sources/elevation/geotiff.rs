@@ -3,13 +3,19 @@
 use std::io::Cursor;
 
 use tiff::TiffError;
-use tiff::decoder::{Decoder, DecodingResult, Limits};
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::super::Crs;
-use super::raster::{Found, Grid, count};
-use super::raw::narrow;
+use super::meaning::Meaning;
+use super::raster::{DEFLATED, Found, Grid, can_hold, cannot_hold, check_size, count};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
+
+/// The most bytes that one becomes which is packed by LZW: a code of 12 bits stands for less than 4,096; and by any
+/// other way.
+const LZW: usize = 2_800;
+const PACKED: usize = 100_000;
 
 /// The most room (bytes) for one strip or tile, and for the values of one tag.
 const LARGEST_PART: usize = 1_000_000_000;
@@ -47,17 +53,19 @@ pub(crate) mod keys {
     pub(crate) const METRE: u16 = 9001;
     /// The longitude and the latitude (degrees) of the middle, its coordinates, and the scale there.
     pub(crate) const MIDDLE: [u16; 5] = [3080, 3081, 3082, 3083, 3092];
+    /// The EPSG code of heights.
+    pub(crate) const VERTICAL: u16 = 4096;
     /// The unit of heights.
     pub(crate) const VERTICAL_UNIT: u16 = 4099;
 }
 
 /// A TIFF in memory that is being read.
-type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
+pub(super) type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// Reads a file called `name`.
 ///
 /// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
-pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
+pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     let damaged = |error: TiffError| damaged(name, &error);
     if !texts_fit(bytes) {
         return Err(damaged(TiffError::LimitsExceeded));
@@ -69,34 +77,31 @@ pub(super) fn read(bytes: &[u8], name: &str) -> Result<Found> {
     let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits);
     let (columns, rows) = tiff.dimensions().map_err(damaged)?;
     let [columns, rows] = [columns, rows].map(|side| side as usize);
-    Found::check_size(name, columns, rows)?;
+    check_size(name, columns, rows)?;
     let color = tiff.colortype().map_err(damaged)?;
     if color.num_samples() != 1 {
         return Err(Error::new(format!("{name} has {} bands, where heights are one", color.num_samples()))
             .help("take out the one of heights: gdal_translate -b 1 IN OUT.tif"));
     }
     check_whole(&mut tiff, bytes, name)?;
+    check_parts(&mut tiff, bytes, name, usize::from(color.bit_depth()).div_ceil(8))?;
     let keys = Keys::read(&mut tiff);
-    let scale = keys.metres(name)?;
-    let missing = tiff.get_tag_ascii_string(Tag::GdalNodata).ok();
-    let missing = missing.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
-    let mut heights = samples(&mut tiff, name, columns, rows)?;
-    // Floats mark what is missing with the nearest of theirs.
-    let marks = |height: f32, mark: f64| height == narrow(mark);
-    for height in &mut heights {
-        if missing.is_some_and(|mark| marks(*height, mark)) {
-            *height = f32::NAN;
-        }
-        *height *= scale;
-    }
+    let meaning = Meaning::read(&mut tiff, &keys, name)?;
     let mut grid = grid(&mut tiff, name, keys.get(keys::RASTER) == Some(keys::POINT))?;
-    if let Some(grid) = grid.as_mut().filter(|grid| grid.step[1] < 0.0) {
-        // Rows come from the south.
-        heights = heights.chunks_exact(columns).rev().flatten().copied().collect();
+    let from_south = grid.as_ref().is_some_and(|grid| grid.step[1] < 0.0);
+    if let Some(grid) = grid.as_mut().filter(|_| from_south) {
         grid.first[1] -= grid.step[1] * count(rows - 1);
         grid.step[1] = -grid.step[1];
     }
-    Ok(Found { columns, rows, heights, grid, crs: keys.crs(name) })
+    let heights = move |budget: &Budget| {
+        let mut heights = samples(&mut tiff, name, [columns, rows], &meaning, budget)?;
+        if from_south {
+            let _held = budget.hold(heights.len() * size_of::<f32>())?;
+            heights = heights.chunks_exact(columns).rev().flatten().copied().collect();
+        }
+        Ok(heights)
+    };
+    Ok(Found { columns, rows, grid, crs: keys.crs(name), heights: Box::new(heights) })
 }
 
 /// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.
@@ -139,40 +144,87 @@ fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
     Ok(())
 }
 
-/// All heights, strip by strip or tile by tile.
-fn samples(tiff: &mut Tiff<'_>, name: &str, columns: usize, rows: usize) -> Result<Vec<f32>> {
+/// Refuses strips and tiles that say they have more than their bytes can hold.
+fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> Result<()> {
+    let (columns, rows) = tiff.dimensions().map_err(|error| damaged(name, &error))?;
+    let [columns, rows] = [columns, rows].map(|side| side as usize);
     let (width, height) = tiff.chunk_dimensions();
     let [width, height] = [width, height].map(|side| side as usize);
     if width == 0 || height == 0 {
         return Err(Error::new(format!("{name} has strips or tiles without extent")).help("get it again"));
     }
+    let tag = match tiff.get_chunk_type() {
+        ChunkType::Strip => Tag::StripByteCounts,
+        ChunkType::Tile => Tag::TileByteCounts,
+    };
+    // Without packing the sizes may be left out.
+    let Ok(sizes) = tiff.get_tag_u64_vec(tag) else { return Ok(()) };
+    let most = match tiff.get_tag_u32(Tag::Compression).unwrap_or(1) {
+        1 => 1,
+        5 => LZW,
+        8 | 32946 => DEFLATED,
+        _ => PACKED,
+    };
+    let is_strip = matches!(tiff.get_chunk_type(), ChunkType::Strip);
+    let parts = columns.div_ceil(width) * rows.div_ceil(height);
+    for (part, size) in sizes.into_iter().enumerate().take(parts) {
+        // The last strip ends with the picture, while tiles are whole.
+        let down = if is_strip { height.min(rows.saturating_sub(part * height)) } else { height };
+        let whole = width.saturating_mul(down).saturating_mul(sample);
+        if !can_hold(usize::try_from(size).unwrap_or(usize::MAX), most, whole) {
+            return Err(cannot_hold(name, bytes.len(), columns, rows));
+        }
+    }
+    Ok(())
+}
+
+/// All heights, strip by strip or tile by tile.
+fn samples(
+    tiff: &mut Tiff<'_>,
+    name: &str,
+    [columns, rows]: [usize; 2],
+    meaning: &Meaning,
+    budget: &Budget,
+) -> Result<Vec<f32>> {
+    let (width, height) = tiff.chunk_dimensions();
+    let [width, height] = [width, height].map(|side| side as usize);
     let across = columns.div_ceil(width);
-    let chunks = across * rows.div_ceil(height);
-    let mut heights = vec![f32::NAN; columns * rows];
-    for chunk in 0..chunks {
-        let number = u32::try_from(chunk).map_err(|_| Error::new(format!("{name} has too many strips")))?;
-        let (found_width, _) = tiff.chunk_data_dimensions(number);
-        let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
-        let values = floats(values, name)?;
-        let (left, top) = (chunk % across * width, chunk / across * height);
-        let stride = (found_width as usize).max(1);
-        for (row, values) in (top..rows.min(top + height)).zip(values.chunks(stride)) {
-            let line = &mut heights[row * columns + left..row * columns + columns.min(left + width)];
-            line.iter_mut().zip(values).for_each(|(height, value)| *height = *value);
+    let mut heights = Vec::new();
+    for top in (0..rows).step_by(height) {
+        // No more room than for what was found.
+        heights.resize(columns * rows.min(top + height), f32::NAN);
+        for column in 0..across {
+            budget.check()?;
+            // The unpacked bytes, and heights of them.
+            let _held = budget.hold(width.saturating_mul(height).saturating_mul(12))?;
+            let number = u32::try_from(top / height * across + column)
+                .map_err(|_| Error::new(format!("{name} has too many strips")))?;
+            let (found_width, _) = tiff.chunk_data_dimensions(number);
+            let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
+            let values = numbers(values, meaning, name)?;
+            let left = column * width;
+            let stride = (found_width as usize).max(1);
+            for (row, values) in (top..rows.min(top + height)).zip(values.chunks(stride)) {
+                let line = &mut heights[row * columns + left..row * columns + columns.min(left + width)];
+                line.iter_mut().zip(values).for_each(|(height, value)| *height = *value);
+            }
         }
     }
     Ok(heights)
 }
 
-/// Samples as heights. Fails on types of which no heights are made.
-fn floats(values: DecodingResult, name: &str) -> Result<Vec<f32>> {
+/// Samples as heights (m). Fails on types of which no heights are made.
+fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<f32>> {
+    fn all<T: Copy + Into<f64>>(values: &[T], meaning: &Meaning) -> Vec<f32> {
+        values.iter().map(|value| meaning.height((*value).into())).collect()
+    }
     Ok(match values {
-        DecodingResult::F32(values) => values,
-        DecodingResult::F64(values) => values.into_iter().map(narrow).collect(),
-        DecodingResult::I16(values) => values.into_iter().map(f32::from).collect(),
-        DecodingResult::U16(values) => values.into_iter().map(f32::from).collect(),
-        DecodingResult::I32(values) => values.into_iter().map(|value| narrow(value.into())).collect(),
-        DecodingResult::U32(values) => values.into_iter().map(|value| narrow(value.into())).collect(),
+        DecodingResult::F32(values) => all(&values, meaning),
+        DecodingResult::F64(values) => all(&values, meaning),
+        DecodingResult::I16(values) => all(&values, meaning),
+        DecodingResult::U16(values) => all(&values, meaning),
+        DecodingResult::I32(values) => all(&values, meaning),
+        DecodingResult::U32(values) => all(&values, meaning),
         DecodingResult::U8(_) | DecodingResult::I8(_) => {
             return Err(Error::new(format!(
                 "{name} has samples of 8 bits, whose 256 levels would make steps"
@@ -210,7 +262,7 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>>
 }
 
 /// The keys of a GeoTIFF that are numbers.
-struct Keys {
+pub(super) struct Keys {
     short: Vec<(u16, u16)>,
     double: Vec<(u16, f64)>,
 }
@@ -232,7 +284,7 @@ impl Keys {
         keys
     }
 
-    fn get(&self, key: u16) -> Option<u16> {
+    pub(super) fn get(&self, key: u16) -> Option<u16> {
         self.short.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
     }
 
@@ -262,19 +314,6 @@ impl Keys {
             && [x, y, scale] == [Some(0.0), Some(0.0), Some(1.0)];
         let middle = [longitude?, latitude?];
         (is_ours && middle[0].abs() <= 180.0 && middle[1].abs() <= 90.0).then_some(middle)
-    }
-
-    /// What heights are multiplied by to be metres.
-    fn metres(&self, name: &str) -> Result<f32> {
-        match self.get(keys::VERTICAL_UNIT) {
-            None | Some(0 | keys::METRE | keys::OWN) => Ok(1.0),
-            Some(9002) => Ok(0.3048),
-            Some(9003) => Ok(0.304_800_6),
-            Some(unit) => {
-                Err(Error::new(format!("{name} has heights in a unit that is not known (EPSG:{unit})"))
-                    .help("convert it to metres"))
-            }
-        }
     }
 }
 

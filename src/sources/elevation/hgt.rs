@@ -3,43 +3,33 @@
 use std::io::{Cursor, Read};
 
 use super::super::Crs;
-use super::raster::{Found, Grid, count};
-use super::{MOST, Wanted};
+use super::Wanted;
+use super::raster::{DEFLATED, Found, Grid, can_hold, cannot_hold, check_size, count};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 
 /// What stands for a height that is not known.
 const MISSING: i16 = -32768;
-/// How many heights a side of the published tiles has: of three seconds, and of one.
-const SIDES: [usize; 2] = [1201, 3601];
+/// How many heights the published tiles have, from west to east and from north to south: of three seconds, of one, of
+/// two by one where the north is, and of a half.
+const SIZES: [[usize; 2]; 4] = [[1201, 1201], [3601, 3601], [1801, 3601], [7201, 7201]];
 
 /// Reads a tile called `name`. Its samples lie on the degrees, the first and the last included.
 ///
-/// Fails if it is not square, and if neither its name nor `wanted` tells where it lies.
-pub(super) fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
-    let side = (bytes.len() / 2).isqrt();
-    if side * side * 2 != bytes.len() {
-        return Err(not_square(bytes.len(), name));
-    }
-    Found::check_size(name, side, side)?;
-    let corner = corner(name);
-    if corner.is_none() && wanted.bounds.is_none() {
-        return Err(Error::new(format!("{name} does not tell where it lies"))
-            .help("name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs"));
-    }
-    let step = 1.0 / count(side - 1);
-    let grid = corner.map(|[x, y]| Grid { first: [x, y + 1.0], step: [step; 2] });
-    let heights = bytes.chunks_exact(2).map(|pair| match i16::from_be_bytes([pair[0], pair[1]]) {
-        MISSING => f32::NAN,
-        height => f32::from(height),
-    });
-    Ok(Found { columns: side, rows: side, heights: heights.collect(), grid, crs: Crs::epsg(4326).map(Some) })
+/// Fails if neither its name nor `wanted` tells where it lies, and if it has another size than tiles have: a square of
+/// any, where `wanted` tells.
+pub(super) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &Wanted) -> Result<Found<'a>> {
+    let [columns, rows] = size(bytes.len(), name, wanted)?;
+    let (grid, crs) = place(name, wanted, [columns, rows])?;
+    let heights = move |_: &Budget| Ok(bytes.chunks_exact(2).map(height).collect());
+    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
 }
 
 /// Reads the one tile in a zip, and unpacks nothing else.
 ///
-/// Fails if it is damaged, holds no tile or several, or if the tile is larger than any may be.
-pub(super) fn unzip(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
-    let damaged = || {
+/// Fails if it is damaged, holds no tile or several, and as [`read`] does.
+pub(super) fn unzip<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Result<Found<'a>> {
+    let damaged = move || {
         Error::new(format!("{name} cannot be unpacked"))
             .help("the file is damaged or cut short; get it again")
     };
@@ -57,32 +47,82 @@ pub(super) fn unzip(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> 
                 .help("unpack it, and name the one that is meant"));
         }
     };
-    let entry = archive.by_name(&tile).map_err(|_| damaged())?;
-    let limit = MOST as u64 * 2;
-    let mut content = Vec::new();
-    // What an entry says of its size need not be true.
-    let mut size = entry.size();
-    if size <= limit {
-        entry.take(limit + 1).read_to_end(&mut content).map_err(|_| damaged())?;
-        size = content.len() as u64;
-    }
-    if size > limit {
-        return Err(Error::new(format!("{tile} in {name} is larger than {} MB", limit / 1_000_000))
-            .help("get it again: a tile has 3601 x 3601 heights"));
-    }
     let shown = format!("{tile} in {name}");
-    if content.is_empty() {
+    let unpacked = archive.by_name(&tile).map_err(|_| damaged())?.size();
+    let unpacked = usize::try_from(unpacked).unwrap_or(usize::MAX);
+    if unpacked == 0 {
         return Err(Error::new(format!("{shown} is empty")).help("get it again"));
     }
-    read(&content, &shown, wanted)
+    let [columns, rows] = size(unpacked, &shown, wanted)?;
+    if !can_hold(bytes.len(), DEFLATED, unpacked) {
+        return Err(cannot_hold(name, bytes.len(), columns, rows));
+    }
+    let (grid, crs) = place(&shown, wanted, [columns, rows])?;
+    let heights = move |budget: &Budget| {
+        let mut entry = archive.by_name(&tile).map_err(|_| damaged())?;
+        let mut heights = Vec::new();
+        let mut row = vec![0; columns * 2];
+        for _ in 0..rows {
+            budget.tick()?;
+            entry.read_exact(&mut row).map_err(|_| damaged())?;
+            heights.extend(row.chunks_exact(2).map(height));
+        }
+        // What an entry says of its size need not be true.
+        match entry.read(&mut [0]) {
+            Ok(0) => Ok(heights),
+            _ => Err(damaged()),
+        }
+    };
+    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
+}
+
+fn height(pair: &[u8]) -> f32 {
+    match i16::from_be_bytes([pair[0], pair[1]]) {
+        MISSING => f32::NAN,
+        height => f32::from(height),
+    }
+}
+
+/// The columns and rows of so many bytes of heights.
+fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
+    if let Some(size) = SIZES.into_iter().find(|[columns, rows]| columns * rows * 2 == bytes) {
+        return Ok(size);
+    }
+    let side = (bytes / 2).isqrt();
+    if side.checked_mul(side * 2) != Some(bytes) {
+        return Err(not_square(bytes, name));
+    }
+    check_size(name, side, side)?;
+    if wanted.bounds.is_none() {
+        return Err(Error::new(format!("{name} has {side} x {side} heights, which no tile of a degree has"))
+            .help("tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs"));
+    }
+    Ok([side, side])
+}
+
+/// Where a tile lies, whose samples go from degree to degree, and in which coordinates.
+fn place(
+    name: &str,
+    wanted: &Wanted,
+    [columns, rows]: [usize; 2],
+) -> Result<(Option<Grid>, Result<Option<Crs>>)> {
+    let corner = corner(name);
+    if corner.is_none() && wanted.bounds.is_none() {
+        return Err(Error::new(format!("{name} does not tell where it lies"))
+            .help("name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs"));
+    }
+    let step = [columns, rows].map(|side| 1.0 / count(side - 1));
+    Ok((corner.map(|[x, y]| Grid { first: [x, y + 1.0], step }), Crs::epsg(4326).map(Some)))
 }
 
 fn not_square(bytes: usize, name: &str) -> Error {
-    let size = |side: &usize| side * side * 2;
-    match SIDES.iter().find(|side| size(side) > bytes) {
-        Some(side) => Error::new(format!(
-            "{name} is not square: it has {bytes} of the {} bytes of {side} x {side} heights",
-            size(side)
+    let size = |[columns, rows]: &[usize; 2]| columns * rows * 2;
+    match SIZES[..2].iter().find(|sides| size(sides) > bytes) {
+        Some(sides) => Error::new(format!(
+            "{name} is not square: it has {bytes} of the {} bytes of {} x {} heights",
+            size(sides),
+            sides[0],
+            sides[1]
         ))
         .help("it is cut short; get it again"),
         None => Error::new(format!("{name} is not square: it has {bytes} bytes of 16-bit heights"))

@@ -10,6 +10,7 @@ mod format;
 mod geotiff;
 mod hgt;
 mod lattice;
+mod meaning;
 mod png;
 mod raster;
 mod raw;
@@ -39,5 +40,7 @@ pub struct Wanted {
     pub terrain_rgb: bool,
 }
 
+#[cfg(test)]
+mod hostile;
 #[cfg(test)]
 mod tests;

@@ -4,9 +4,10 @@ use std::io::Cursor;
 
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
 
-use super::raster::Found;
+use super::raster::{DEFLATED, Found, can_hold, cannot_hold, check_size};
 use super::raw::narrow;
 use super::{MOST, Wanted};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 
 /// The names of the texts in a PNG that tell heights (m).
@@ -17,31 +18,76 @@ pub(crate) mod text {
     pub(crate) const HIGH: &str = "high";
 }
 
+/// A PNG in memory that is being read.
+type Png<'a> = Decoder<Cursor<&'a [u8]>>;
+
 /// Reads a picture called `name`.
 ///
 /// Fails on 8 bits of grey, and on colours unless `wanted` says what they mean; if the heights of black and white are
 /// neither in the file nor in `wanted`; if it is damaged or cut short.
-pub(super) fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
+pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MOST * 8 });
     decoder.set_transformations(Transformations::IDENTITY);
     let info = decoder.read_header_info().map_err(|error| damaged(name, bytes, &error))?;
     let [columns, rows] = [info.width, info.height].map(|side| side as usize);
     let form = (info.color_type, info.bit_depth);
-    Found::check_size(name, columns, rows)?;
+    check_size(name, columns, rows)?;
     let parts = parts(name, form, wanted)?;
-    let mut reader = decoder.read_info().map_err(|error| damaged(name, bytes, &error))?;
-    let size = reader.output_buffer_size().unwrap_or(usize::MAX);
-    // At most four channels of two bytes for each sample.
-    if size > MOST * 8 {
-        return Err(Error::new(format!("{name} is too large to be unpacked")).help("cut out a part of it"));
+    if !can_hold(bytes.len(), DEFLATED, columns * rows * parts) {
+        return Err(cannot_hold(name, bytes.len(), columns, rows));
     }
-    let mut content = vec![0; size];
-    reader.next_frame(&mut content).map_err(|error| damaged(name, bytes, &error))?;
-    let heights = if wanted.terrain_rgb {
-        content.chunks_exact(parts).map(rgb).collect()
-    } else {
+    let heights = move |budget: &Budget| {
+        let samples = Samples { parts, terrain_rgb: wanted.terrain_rgb };
+        let (mut heights, scale) = samples.read(decoder, bytes, (name, wanted), columns * rows, budget)?;
+        if let Some([low, scale]) = scale {
+            heights.iter_mut().for_each(|height| *height = narrow(low + scale * f64::from(*height)));
+        }
+        Ok(heights)
+    };
+    Ok(Found { columns, rows, grid: None, crs: Ok(None), heights: Box::new(heights) })
+}
+
+/// How samples stand in a row.
+struct Samples {
+    /// Bytes of each.
+    parts: usize,
+    terrain_rgb: bool,
+}
+
+impl Samples {
+    /// Those of all rows, and of grey the height (m) of black and that of a step.
+    fn read(
+        &self,
+        decoder: Png<'_>,
+        bytes: &[u8],
+        (name, wanted): (&str, &Wanted),
+        count: usize,
+        budget: &Budget,
+    ) -> Result<(Vec<f32>, Option<[f64; 2]>)> {
+        let failed = |error| damaged(name, bytes, &error);
+        let mut reader = decoder.read_info().map_err(failed)?;
+        let mut heights = Vec::new();
+        if reader.info().interlaced {
+            // Rows come in no order: all of them are unpacked first.
+            let size = count * self.parts;
+            let _held = budget.hold(size)?;
+            let mut content = vec![0; size];
+            reader.next_frame(&mut content).map_err(failed)?;
+            heights.extend(content.chunks_exact(self.parts).map(|sample| self.height(sample)));
+        } else {
+            while let Some(row) = reader.next_row().map_err(failed)? {
+                budget.tick()?;
+                heights.extend(row.data().chunks_exact(self.parts).map(|sample| self.height(sample)));
+            }
+        }
+        if self.terrain_rgb {
+            return Ok((heights, None));
+        }
         // Texts may stand behind the picture.
-        reader.finish().map_err(|error| damaged(name, bytes, &error))?;
+        match reader.finish() {
+            Ok(()) | Err(DecodingError::Parameter(_)) => {}
+            Err(error) => return Err(failed(error)),
+        }
         let texts = &reader.info().uncompressed_latin1_text;
         let told = |keyword: &str| {
             let text = texts.iter().find(|text| text.keyword == keyword)?;
@@ -56,15 +102,18 @@ pub(super) fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Found> {
             return Err(Error::new(format!("{name} cannot lie between low = {low} and high = {high}"))
                 .help("low is the height (m) of black, high the greater one of white"));
         }
-        let scale = (high - low) / 65535.0;
-        let grey = |sample: &[u8]| match sample {
+        Ok((heights, Some([low, (high - low) / 65535.0])))
+    }
+
+    /// The height (m) of a sample; of grey, how many steps above black.
+    fn height(&self, sample: &[u8]) -> f32 {
+        match sample {
+            _ if self.terrain_rgb => rgb(sample),
             [_, _, 0, 0] => f32::NAN,
-            [a, b, ..] => narrow(low + scale * f64::from(u16::from_be_bytes([*a, *b]))),
+            [a, b, ..] => f32::from(u16::from_be_bytes([*a, *b])),
             _ => f32::NAN,
-        };
-        content.chunks_exact(parts).map(grey).collect()
-    };
-    Ok(Found { columns, rows, heights, grid: None, crs: Ok(None) })
+        }
+    }
 }
 
 /// The number of bytes of a sample. Fails if they are not as `wanted` needs them.

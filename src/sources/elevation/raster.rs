@@ -6,6 +6,7 @@ use std::path::Path;
 
 use super::super::Crs;
 use super::{MOST, Wanted, fill, format};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 use crate::warning::{Warning, WarningKind};
 
@@ -62,40 +63,58 @@ pub(super) fn count(number: usize) -> f64 {
     number as f64
 }
 
-/// What a reader found: heights may be missing (NaN), and where they lie.
-pub(super) struct Found {
+/// What a reader found in the beginning of a file, and how to read the rest.
+pub(super) struct Found<'a> {
     pub columns: usize,
     pub rows: usize,
-    pub heights: Vec<f32>,
+    /// Where the heights lie.
     pub grid: Option<Grid>,
     /// An error if it names a coordinate system that is not known, for which options can stand in.
     pub crs: Result<Option<Crs>>,
+    /// Reads the heights, of which some may be missing (NaN). Nobody asks before all else is known to be right.
+    pub heights: Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>,
 }
 
-impl Found {
-    /// Refuses sizes that cannot be meant, before room is made for them.
-    pub(super) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
-        if columns < 2 || rows < 2 {
-            return Err(Error::new(format!("{name} has {columns} x {rows} heights"))
-                .help("at least 2 x 2 are needed to know what is in between"));
-        }
-        if columns.checked_mul(rows).is_none_or(|all| all > MOST) {
-            return Err(Error::new(format!(
-                "{name} has {columns} x {rows} heights, more than {} million",
-                MOST / 1_000_000
-            ))
-            .help("cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS"));
-        }
-        Ok(())
+/// Refuses sizes that cannot be meant, before room is made for them.
+pub(super) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
+    if columns < 2 || rows < 2 {
+        return Err(Error::new(format!("{name} has {columns} x {rows} heights"))
+            .help("at least 2 x 2 are needed to know what is in between"));
     }
+    if columns.checked_mul(rows).is_none_or(|all| all > MOST) {
+        return Err(Error::new(format!(
+            "{name} has {columns} x {rows} heights, more than {} million",
+            MOST / 1_000_000
+        ))
+        .help("cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS"));
+    }
+    Ok(())
+}
+
+/// Bytes that any packed content may have more than its kind of packing makes of a few.
+const SLACK: usize = 1 << 16;
+
+/// Whether `packed` bytes can become `bytes`, where each becomes `most` at best: what cannot is no reason to make room.
+pub(super) fn can_hold(packed: usize, most: usize, bytes: usize) -> bool {
+    bytes <= packed.saturating_mul(most).saturating_add(SLACK)
+}
+
+/// The most bytes that one of a deflated stream becomes: two bits stand for 258 of them, and blocks begin anew.
+pub(super) const DEFLATED: usize = 1040;
+
+/// The error for a file that says it has more heights than it can hold.
+pub(super) fn cannot_hold(name: &str, bytes: usize, columns: usize, rows: usize) -> Error {
+    Error::new(format!("{name} is cut short: its {bytes} bytes cannot hold {columns} x {rows} heights"))
+        .help("get it again")
 }
 
 impl Raster {
     /// Reads the file at `path`, which messages call `name`. Its content and its extension tell the format.
     ///
     /// Fails if it cannot be read, is in no known format, is cut short or too large, or has no heights; if it does not
-    /// tell where it lies and `wanted` does not either.
-    pub fn open(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
+    /// tell where it lies and `wanted` does not either, which is known before any heights are read; and if reading takes
+    /// more than the `budget`.
+    pub fn open(path: &Path, name: &str, wanted: &Wanted, budget: &Budget) -> Result<Self> {
         let cannot = |error: std::io::Error| Error::new(format!("cannot read {name}: {error}"));
         let meta = path.metadata().map_err(cannot)?;
         if meta.is_dir() {
@@ -108,15 +127,16 @@ impl Raster {
             let most = LARGEST / 1_000_000;
             return Err(Error::new(format!("{name} is larger than {most} MB")).help("cut out a part of it"));
         }
+        let _held = budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
         let mut bytes = Vec::new();
         // It may grow while it is read.
-        File::open(path).and_then(|file| file.take(LARGEST).read_to_end(&mut bytes)).map_err(cannot)?;
-        Self::read(&bytes, name, wanted)
+        File::open(path).and_then(|file| file.take(meta.len()).read_to_end(&mut bytes)).map_err(cannot)?;
+        Self::read(&bytes, name, wanted, budget)
     }
 
     /// Reads `bytes`, the content of a file called `name`. Fails as [`Raster::open`] does.
-    pub fn read(bytes: &[u8], name: &str, wanted: &Wanted) -> Result<Self> {
-        let Found { columns, rows, mut heights, grid, crs } = format::read(bytes, name, wanted)?;
+    pub fn read(bytes: &[u8], name: &str, wanted: &Wanted, budget: &Budget) -> Result<Self> {
+        let Found { columns, rows, grid, crs, heights } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
             Some(code) => Some(Crs::epsg(code).map_err(|error| {
                 Error::new(format!("elevation: {}", error.message()))
@@ -135,10 +155,13 @@ impl Raster {
             )
         })?;
         check_grid(name, &grid, columns, rows, crs.as_ref())?;
+        budget.check()?;
+        budget.take(columns * rows * size_of::<f32>())?;
+        let mut heights = heights(budget)?;
         let surplus = heights.len().saturating_sub(columns * rows);
         heights.truncate(columns * rows);
         check_heights(name, columns, &mut heights)?;
-        let filled = fill::fill(columns, rows, &mut heights);
+        let filled = fill::fill(columns, rows, &mut heights, budget)?;
         Ok(Self { name: name.to_owned(), columns, rows, heights, grid, crs, filled, surplus })
     }
 

@@ -1,10 +1,11 @@
 //! Raw squares of little-endian floats, of 4 bytes (`.r32`, `.f32`) or of 8 (`.r64`, `.f64`).
 
-use super::raster::Found;
+use super::raster::{Found, check_size};
+use crate::budget::Budget;
 use crate::error::{Error, Result};
 
 /// Reads a square of floats of `SIZE` bytes. Fails if it is not square.
-pub(super) fn read<const SIZE: usize>(bytes: &[u8], name: &str) -> Result<Found> {
+pub(super) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result<Found<'a>> {
     let side = (bytes.len() / SIZE).isqrt();
     if side * side * SIZE != bytes.len() {
         let next = side + 1;
@@ -15,8 +16,8 @@ pub(super) fn read<const SIZE: usize>(bytes: &[u8], name: &str) -> Result<Found>
         ))
         .help("it is cut short, or no square of floats; a GeoTIFF may have any shape"));
     }
-    Found::check_size(name, side, side)?;
-    let heights = bytes.chunks_exact(SIZE).map(|part| {
+    check_size(name, side, side)?;
+    let height = |part: &[u8]| {
         let mut wide = [0; 8];
         wide[..SIZE].copy_from_slice(part);
         if SIZE == 4 {
@@ -24,8 +25,9 @@ pub(super) fn read<const SIZE: usize>(bytes: &[u8], name: &str) -> Result<Found>
         } else {
             narrow(f64::from_le_bytes(wide))
         }
-    });
-    Ok(Found { columns: side, rows: side, heights: heights.collect(), grid: None, crs: Ok(None) })
+    };
+    let heights = move |_: &Budget| Ok(bytes.chunks_exact(SIZE).map(height).collect());
+    Ok(Found { columns: side, rows: side, grid: None, crs: Ok(None), heights: Box::new(heights) })
 }
 
 /// A height (m) as rasters hold it: to a millimetre below 16 km.

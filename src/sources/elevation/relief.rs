@@ -3,7 +3,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use glam::{DVec2, DVec3};
+use glam::{DMat2, DVec2, DVec3};
 
 use super::super::Frame;
 use super::super::frame::FARTHEST;
@@ -15,6 +15,9 @@ use crate::error::{Error, Result};
 const PIECES: usize = 256;
 /// How far (samples) beyond the edge a place still counts as on it, since projecting rounds.
 const ROUNDING: f64 = 1e-6;
+/// How near (samples) the place of a sample is found, and after how many steps at most.
+const CLOSE: f64 = 1e-9;
+const MOST_STEPS: usize = 12;
 
 /// Measured heights over the ground of a run. It never changes.
 pub struct Relief {
@@ -23,6 +26,8 @@ pub struct Relief {
     low: DVec3,
     high: DVec3,
     step: f64,
+    /// The distances (m) of neighbouring samples in the middle, from west to east and from south to north.
+    unit: DVec2,
 }
 
 /// From places (m) to columns and rows of the raster, counted from the centre of the first sample.
@@ -48,8 +53,7 @@ impl Relief {
         let Some(crs) = &raster.crs else {
             let Grid { first, step } = raster.grid;
             let way = Way::Straight { first: first.into(), step: step.into() };
-            let step = step[0].min(step[1]);
-            return Self::along(Arc::clone(&raster), way, corners(&raster, 1), step);
+            return Self::along(Arc::clone(&raster), way, corners(&raster, 1), step.into());
         };
         let [west, south, east, north] = raster.bounds();
         let middle = [(west + east) / 2.0, (south + north) / 2.0];
@@ -88,15 +92,16 @@ impl Relief {
                 .help("cut out a part of it, or convert it: gdalwarp -t_srs EPSG:4326 IN OUT.tif")
             })?)
         };
-        Self::along(Arc::clone(&raster), way, edge, unit.min_element())
+        Self::along(Arc::clone(&raster), way, edge, unit)
     }
 
     /// A raster whose edge (m) and way are known.
-    fn along(raster: Arc<Raster>, way: Way, edge: Vec<DVec2>, step: f64) -> Result<Self> {
+    fn along(raster: Arc<Raster>, way: Way, edge: Vec<DVec2>, unit: DVec2) -> Result<Self> {
         let (low, high) = around(&edge);
         check_near(&raster, low, high)?;
         let [lowest, highest] = raster.range().map(f64::from);
-        Ok(Self { raster, way, low: low.extend(lowest), high: high.extend(highest), step })
+        let (low, high) = (low.extend(lowest), high.extend(highest));
+        Ok(Self { raster, way, low, high, step: unit.min_element(), unit })
     }
 
     /// The raster itself.
@@ -123,32 +128,117 @@ impl Relief {
     ///
     /// It passes through the samples with a continuous slope, and never leaves the range of the 16 around the place.
     /// Method: Catmull and Rom, "A class of local interpolating splines", 1974, in both directions.
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
     pub fn height(&self, place: DVec2) -> Option<f64> {
         let at = self.find(place)?;
-        let last = DVec2::new(count(self.raster.columns - 1), count(self.raster.rows - 1));
         let margin = DVec2::splat(0.5 + ROUNDING);
         // A comparison with what is no number fails.
-        if !(at.cmpge(-margin).all() && at.cmple(last + margin).all()) {
-            return None;
-        }
-        // Beyond the outermost samples the ground is level.
-        let at = at.clamp(DVec2::ZERO, last);
+        let inside = at.cmpge(-margin).all() && at.cmple(self.last() + margin).all();
+        inside.then(|| self.around(at).0)
+    }
+
+    /// The height (m) at `place` (m) and the slope (m/m) there, also a little outside of the raster; `None` far away.
+    /// Straight between the samples, if it is not to be `smooth`.
+    pub fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)> {
+        let at = self.find(place).filter(|at| at.is_finite())?;
+        let (height, slope) = self.around(at);
+        Some((if smooth { height } else { self.straight(at) }, slope))
+    }
+
+    /// The column and the row of the last sample.
+    fn last(&self) -> DVec2 {
+        DVec2::new(count(self.raster.columns - 1), count(self.raster.rows - 1))
+    }
+
+    /// The smooth height (m) and the slope (m/m) at a column and a row; beyond the outermost samples the ground is level.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
+    fn around(&self, at: DVec2) -> (f64, f64) {
+        let at = at.clamp(DVec2::ZERO, self.last());
         let (column, row) = (at.x as usize, at.y as usize);
-        let (u, v) = (weights(at.x - count(column)), weights(at.y - count(row)));
+        let part = at - at.floor();
+        let (u, v) = (weights(part.x), weights(part.y));
+        let (du, dv) = (changes(part.x), changes(part.y));
         let (columns, rows) = (self.raster.columns, self.raster.rows);
         let across = around_index(column, columns);
         let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
-        for (line, weight) in around_index(row, rows).into_iter().zip(v) {
+        let mut slope = DVec2::ZERO;
+        for (line, (weight, change)) in around_index(row, rows).into_iter().zip(v.into_iter().zip(dv)) {
             let line = &self.raster.heights[line * columns..][..columns];
             let samples = across.map(|column| f64::from(line[column]));
-            for (sample, part) in samples.into_iter().zip(u) {
+            for (sample, (part, by)) in samples.into_iter().zip(u.into_iter().zip(du)) {
                 sum += sample * part * weight;
+                slope += sample * DVec2::new(by * weight, part * change);
                 low = low.min(sample);
                 high = high.max(sample);
             }
         }
-        Some(sum.clamp(low, high))
+        (sum.clamp(low, high), (slope / self.unit).length())
+    }
+
+    /// The height (m) at a column and a row, straight from sample to sample.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped to the samples")]
+    fn straight(&self, at: DVec2) -> f64 {
+        let at = at.clamp(DVec2::ZERO, self.last());
+        let (column, row) = (at.x as usize, at.y as usize);
+        let part = at - at.floor();
+        let [_, west, east, _] = around_index(column, self.raster.columns);
+        let [_, north, south, _] = around_index(row, self.raster.rows);
+        let sample =
+            |column: usize, row: usize| f64::from(self.raster.heights[row * self.raster.columns + column]);
+        let along = |row: usize| sample(west, row) * (1.0 - part.x) + sample(east, row) * part.x;
+        along(north) * (1.0 - part.y) + along(south) * part.y
+    }
+
+    /// The places (m) of the samples in the box from `low` to `high` (m), row by row.
+    pub fn samples(&self, low: DVec2, high: DVec2) -> Vec<DVec2> {
+        let corners = [low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)];
+        // A bent raster may bulge over the box between its corners, by less than a sample for each 16 of its sides.
+        let along = (0..4).flat_map(|side| (0..16).map(move |part| (side, f64::from(part) / 16.0)));
+        let rim: Vec<DVec2> = along
+            .filter_map(|(side, part)| self.find(corners[side].lerp(corners[(side + 1) % 4], part)))
+            .collect();
+        let (first, last) = around(&rim);
+        if !(first.is_finite() && last.is_finite()) {
+            return Vec::new();
+        }
+        let first = (first.ceil() - 1.0).max(DVec2::ZERO);
+        let last = (last.floor() + 1.0).min(self.last());
+        let mut places = Vec::new();
+        let mut row = first.y;
+        while row <= last.y {
+            let mut column = first.x;
+            let mut near = low.midpoint(high);
+            while column <= last.x {
+                near = self.place(DVec2::new(column, row), near);
+                if near.cmpge(low).all() && near.cmple(high).all() {
+                    places.push(near);
+                }
+                column += 1.0;
+            }
+            row += 1.0;
+        }
+        places
+    }
+
+    /// Where (m) a column and a row are, which is found from a place (m) that is near.
+    fn place(&self, at: DVec2, near: DVec2) -> DVec2 {
+        match &self.way {
+            Way::Straight { first, step } => DVec2::new(first.x + at.x * step.x, first.y - at.y * step.y),
+            Way::Bent(lattice) => {
+                // By Newton's steps: the lattice is nearly straight.
+                let mut place = near;
+                for _ in 0..MOST_STEPS {
+                    let off = at - lattice.at(place);
+                    let [east, north] = [DVec2::X, DVec2::Y]
+                        .map(|way| lattice.at(place + way * self.step) - lattice.at(place));
+                    let by = DMat2::from_cols(east, north).inverse() * off * self.step;
+                    place += by;
+                    if !(by.length() > self.step * CLOSE) {
+                        break;
+                    }
+                }
+                place
+            }
+        }
     }
 
     /// How far (0 to 1) a place (m) is from the nearest samples: 0 where a height was measured, 1 in the middle between
@@ -216,6 +306,18 @@ fn around_index(index: usize, number: usize) -> [usize; 4] {
 fn weights(t: f64) -> [f64; 4] {
     let (a, b) = (t * t, t * t * t);
     [(2.0 * a - b - t) / 2.0, (2.0 - 5.0 * a + 3.0 * b) / 2.0, (t + 4.0 * a - 3.0 * b) / 2.0, (b - a) / 2.0]
+}
+
+/// How much the weights change with `t`, for each sample.
+#[inline]
+fn changes(t: f64) -> [f64; 4] {
+    let a = t * t;
+    [
+        (4.0 * t - 3.0 * a - 1.0) / 2.0,
+        (9.0 * a - 10.0 * t) / 2.0,
+        (1.0 + 8.0 * t - 9.0 * a) / 2.0,
+        (3.0 * a - 2.0 * t) / 2.0,
+    ]
 }
 
 #[cfg(test)]

@@ -6,12 +6,14 @@ mod replace;
 #[cfg(test)]
 mod tests;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::{Color, Footprint, Surface};
 use crate::error::{Error, Result};
-use crate::geometry::fill;
-use crate::geometry::roof::{Patch, PatchKind, Shape, Surface as SurfaceOf};
+use crate::geometry::roof::{
+    Cover, Eaves, Patch, PatchKind, STEEPEST_EAVES, Shape, Support, Surface as SurfaceOf,
+};
+use crate::geometry::{Plan, fill};
 use crate::objects::Note;
 pub use detail::Detail;
 
@@ -24,7 +26,7 @@ fields! {
         pub height: Option<f64> = None,
         /// Slope (degrees) from the eaves to the highest ridge, where no height is given.
         pub slope: f64 = 35.0,
-        /// How far it juts out over the walls (m), where there is room.
+        /// How far it juts out over the outermost walls (m), where there is room.
         pub overhang: f64 = 0.0,
         /// "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a plate
         /// that follows the slope. "slab" if a `slab` is given, "closed" otherwise.
@@ -39,7 +41,7 @@ fields! {
         pub color: Option<Color> = None,
         /// Its material, in place of the colour.
         pub material: Option<Surface> = None,
-        /// The material of gables; the footprint's colour if left out.
+        /// The material of gables; that of the walls below them if left out.
         pub gable: Option<Surface> = None,
         /// The material of slabs and borders; the roof's if left out.
         pub trim: Option<Surface> = None,
@@ -72,11 +74,14 @@ impl Footprint {
         let (walls, base) = (self.plan.flat(), self.shell.top);
         let rows = options.party_gables && matches!(shape.surface, SurfaceOf::Sloped(..));
         let party = if rows { self.party_walls() } else { Vec::new() };
-        let mut make = |shape: &Shape, outline: &[Vec<DVec2>]| {
-            let own = std::ptr::eq(outline, walls.as_slice());
-            shape.cover_in_row(outline, base, if own { &party } else { &[] })
-        };
-        let made = replace::cover(&shape, &options.kind, &walls, base, &mut make);
+        let open = shape.eaves == Eaves::Open && shape.overhang > 0.0;
+        let juts = self.juts(open);
+        let furthest = shape.overhang + juts.iter().copied().fold(0.0, f64::max);
+        let drop = if open { STEEPEST_EAVES * shape.overhang } else { 0.0 };
+        let reach = if furthest > 0.0 { self.reach(furthest, drop) } else { Vec::new() };
+        let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach };
+        let mut make = |shape: &Shape, support: &Support<'_>| shape.cover_on(support);
+        let made = replace::cover(&shape, &options.kind, &support, &mut make);
         let mut note = |what: String, why: String| self.notes.push(Note::new(what, why));
         if let Some((what, why)) = made.replaced {
             note(what, why);
@@ -84,10 +89,9 @@ impl Footprint {
         if made.cover.hipped {
             note(format!("hips in place of gables of a {} roof", options.kind), String::new());
         }
-        let overhang = made.cover.overhang;
-        if overhang < options.overhang {
-            let why = format!("{overhang} m in place of {} m", options.overhang);
-            note("a smaller overhang, as there is no room".into(), why);
+        if !made.cover.tight.is_empty() {
+            let why = tight(&made.cover, options.overhang, &self.plan);
+            note("a smaller overhang over some edges, as there is no room".into(), why);
         }
         self.draw(options, &made.cover.patches).map_err(Error::of_data)?;
         if self.detail < 3 {
@@ -115,15 +119,20 @@ impl Footprint {
         let material = options.material.as_ref();
         let trim = options.trim.as_ref().or(material);
         let slope = self.part(options.color, material)?;
-        let gable = self.part(None, options.gable.as_ref())?;
+        let gable = options.gable.as_ref().map(|gable| self.part(None, Some(gable))).transpose()?;
         let fascia = self.part(options.color, trim)?;
         let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
         for patch in patches {
-            let part = match patch.kind {
-                PatchKind::Slope => slope,
-                PatchKind::Gable => gable,
-                PatchKind::Fascia => fascia,
-                PatchKind::Underside => underside,
+            let part = match (patch.kind, gable) {
+                (PatchKind::Slope, _) => slope,
+                (PatchKind::Gable, Some(gable)) => gable,
+                // It goes on as the wall below it.
+                (PatchKind::Gable, None) => match self.sides.get(patch.edge) {
+                    Some(side) => side.part,
+                    None => self.part(None, None)?,
+                },
+                (PatchKind::Fascia, _) => fascia,
+                (PatchKind::Underside, _) => underside,
             };
             let Some(&origin) = patch.rings.first().and_then(|ring| ring.first()) else { continue };
             let right = if patch.along == glam::DVec2::ZERO { DVec3::X } else { patch.along.extend(0.0) };
@@ -131,4 +140,24 @@ impl Footprint {
         }
         Ok(())
     }
+}
+
+/// The most edges that a note names.
+const NAMED: usize = 8;
+
+/// How far a roof juts out over the edges where it should do so more, by the numbers that they were given with.
+fn tight(cover: &Cover, overhang: f64, plan: &Plan) -> String {
+    let found = cover.tight.iter().map(|&edge| cover.overhangs[edge]);
+    let (least, most) =
+        found.fold((f64::INFINITY, 0.0f64), |(least, most), by| (least.min(by), most.max(by)));
+    let range = if least < most { format!("{least} to {most}") } else { format!("{most}") };
+    let given = plan.given_edges();
+    let mut edges: Vec<usize> =
+        cover.tight.iter().filter_map(|&edge| given.get(edge)).flatten().map(|edge| edge + 1).collect();
+    edges.sort_unstable();
+    let named: Vec<String> = edges.iter().take(NAMED).map(usize::to_string).collect();
+    let more = edges.len() - named.len();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let word = if edges.len() == 1 { "edge" } else { "edges" };
+    format!("{range} m in place of {overhang} m over {word} {}{more}", named.join(", "))
 }

@@ -1,0 +1,234 @@
+//! The outline of a roof: that of the walls, moved outwards over each edge as far as there is room.
+
+use geo::line_intersection::line_intersection;
+use geo::{Coord, Line};
+use glam::DVec2;
+
+/// An outline, and how far (m) it is from the walls over each edge.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Outset {
+    pub rings: Vec<Vec<DVec2>>,
+    pub distances: Vec<f64>,
+}
+
+/// What part is used of the room that there is before an edge of the outline vanishes, as in a narrow recess.
+const KEPT: f64 = 0.9;
+/// Edges that meet at an angle with a smaller sine than this are in one line, or lie on each other.
+const STRAIGHT: f64 = 0.02;
+/// A corner goes no further from that of the walls than by so many times the distance of its edges.
+const FURTHEST: f64 = 6.5;
+/// What is left of one plus the cosine of the turn at a sharp tip, so that it does not go far.
+const BLUNT: f64 = 0.05;
+/// Edges of an outline are so far (m) apart, so that they can be told apart.
+const APART: f64 = 0.01;
+/// Distances below this (m) are none.
+const LEAST: f64 = 0.01;
+/// How often distances become smaller, before there are none.
+const ROUNDS: usize = 200;
+
+impl Outset {
+    /// The rings with each edge moved outwards by the distance (m) that is `wanted`, or by less where there is no room:
+    /// only the edges give way that would vanish or meet others, and those that go with them.
+    ///
+    /// The first ring is counter-clockwise, the holes are clockwise. Edges that meet in a reflex corner are as far out
+    /// as one another, so that neither ends at the other's wall, unless one is a gable `apart`; so are edges in one line.
+    pub(super) fn new(walls: &[Vec<DVec2>], wanted: Vec<f64>, apart: impl Fn(usize) -> bool) -> Self {
+        let mut corners = Corner::all(walls, apart);
+        let mut distances = wanted;
+        for round in 0..ROUNDS {
+            level(&corners, &mut distances);
+            if distances.iter().all(|distance| *distance == 0.0) {
+                break;
+            }
+            for (edge, corner) in corners.iter_mut().enumerate() {
+                corner.moved = corner.place(&distances, edge);
+            }
+            let mut factors = shrunk(&corners, &distances);
+            if factors.is_empty() {
+                factors = crossing(&corners, &distances);
+            }
+            if factors.is_empty() {
+                return Self { rings: rings(walls, &corners), distances };
+            }
+            // What comes near to a limit ever more slowly reaches it.
+            let most = if round < 8 { 1.0 } else { 0.75 };
+            let before = distances.clone();
+            for (edge, factor) in factors {
+                let less = before[edge] * factor.min(most);
+                let whole = (less * 100.0 + 1e-6).floor() / 100.0;
+                distances[edge] = distances[edge].min(if whole < LEAST { 0.0 } else { whole });
+            }
+        }
+        Self { rings: walls.to_vec(), distances: vec![0.0; corners.len()] }
+    }
+
+    /// The greatest distance (m).
+    pub(super) fn most(&self) -> f64 {
+        self.distances.iter().copied().fold(0.0, f64::max)
+    }
+}
+
+/// A corner of the walls, with the number of the edge that begins there.
+struct Corner {
+    at: DVec2,
+    moved: DVec2,
+    /// The number of the edge before it, and of the corner where its edge ends.
+    before: usize,
+    next: usize,
+    /// The directions of the edges before and after it.
+    ways: [DVec2; 2],
+    /// Whether both edges have one distance.
+    tied: bool,
+}
+
+impl Corner {
+    fn all(walls: &[Vec<DVec2>], apart: impl Fn(usize) -> bool) -> Vec<Self> {
+        let mut corners = Vec::with_capacity(walls.iter().map(Vec::len).sum());
+        for ring in walls {
+            let (first, count) = (corners.len(), ring.len());
+            let way = |index: usize| (ring[(index + 1) % count] - ring[index % count]).normalize_or_zero();
+            corners.extend((0..count).map(|index| {
+                let ways = [way(index + count - 1), way(index)];
+                let turn = ways[0].perp_dot(ways[1]);
+                let (before, next) = (first + (index + count - 1) % count, first + (index + 1) % count);
+                let tied = turn.abs() < STRAIGHT || (turn < 0.0 && !apart(before) && !apart(first + index));
+                Self { at: ring[index], moved: ring[index], before, next, ways, tied }
+            }));
+        }
+        corners
+    }
+
+    /// Where it goes when the edges move outwards.
+    #[allow(clippy::float_cmp, reason = "equal distances are given as equal numbers")]
+    fn place(&self, distances: &[f64], edge: usize) -> DVec2 {
+        let ([a, b], [far, near]) = (self.ways, [distances[self.before], distances[edge]]);
+        if far == near {
+            self.at - (a + b).perp() * (near / (1.0 + a.dot(b)).max(BLUNT))
+        } else {
+            self.at + (a * near - b * far) / a.perp_dot(b)
+        }
+    }
+}
+
+/// Gives edges that are tied the lesser of their distances.
+#[allow(clippy::float_cmp, reason = "equal distances are given as equal numbers")]
+fn level(corners: &[Corner], distances: &mut [f64]) {
+    let mut changed = true;
+    while changed {
+        changed = false;
+        let mut tie = |edge: usize| {
+            let pair = [corners[edge].before, edge];
+            let [a, b] = pair.map(|edge| distances[edge]);
+            if corners[edge].tied && a != b {
+                pair.into_iter().for_each(|edge| distances[edge] = a.min(b));
+                changed = true;
+            }
+        };
+        (0..corners.len()).for_each(&mut tie);
+        (0..corners.len()).rev().for_each(&mut tie);
+    }
+}
+
+/// The edges that take the room of one that vanishes or turns around, or of a corner that goes too far, each with the
+/// part of its distance that there is room for.
+fn shrunk(corners: &[Corner], distances: &[f64]) -> Vec<(usize, f64)> {
+    let mut factors = Vec::new();
+    for (edge, corner) in corners.iter().enumerate() {
+        let pair = [corner.before, edge];
+        let most = pair.iter().map(|&edge| distances[edge]).fold(0.0, f64::max);
+        if corner.at.distance(corner.moved) > FURTHEST * most + 1e-9 {
+            factors.extend(pair.map(|edge| (edge, 0.0)));
+        }
+        let end = &corners[corner.next];
+        let old = end.at - corner.at;
+        if old.dot(end.moved - corner.moved) > 1e-3 {
+            continue;
+        }
+        let (mut longer, mut shorter, mut guilty) = (0.0, 0.0, Vec::new());
+        let mut add = |by: f64, edges: &[usize]| {
+            if by < 0.0 {
+                shorter -= by;
+                guilty.extend_from_slice(edges);
+            } else {
+                longer += by;
+            }
+        };
+        for (corner, other) in [(corner, corner.before), (end, corner.next)] {
+            let [a, b] = corner.ways;
+            let (sine, cosine) = (a.perp_dot(b), a.dot(b));
+            if corner.tied {
+                add(distances[edge] * sine / (1.0 + cosine).max(BLUNT), &[edge, other]);
+            } else {
+                add(distances[other] / sine, &[other]);
+                add(-distances[edge] * cosine / sine, &[edge]);
+            }
+        }
+        if guilty.is_empty() {
+            guilty.extend([corner.before, edge, corner.next]);
+        }
+        let factor = ((KEPT * old.length() + longer) / shorter.max(1e-9)).min(0.95);
+        factors.extend(guilty.into_iter().map(|edge| (edge, factor)));
+    }
+    factors
+}
+
+/// The edges that meet others or almost do, each with the part of its distance that there is room for.
+fn crossing(corners: &[Corner], distances: &[f64]) -> Vec<(usize, f64)> {
+    let ends = |edge: usize| [corners[edge].moved, corners[corners[edge].next].moved];
+    let left = |edge: usize| ends(edge)[0].x.min(ends(edge)[1].x);
+    let mut order: Vec<usize> = (0..corners.len()).collect();
+    // From left to right, so that each edge meets only those that begin before it ends.
+    order.sort_by(|&a, &b| left(a).total_cmp(&left(b)));
+    let mut factors = Vec::new();
+    for (rank, &a) in order.iter().enumerate() {
+        let ([from, to], neighbours) = (ends(a), [corners[a].before, corners[a].next]);
+        let (low, high) = (from.min(to) - APART, from.max(to) + APART);
+        for &b in order[rank + 1..].iter().take_while(|&&b| left(b) <= high.x) {
+            let [c, d] = ends(b);
+            if c.y.max(d.y) < low.y || c.y.min(d.y) > high.y || neighbours.contains(&b) {
+                continue;
+            }
+            let both = distances[a] + distances[b];
+            let meet = line_intersection(line([from, to]), line([c, d])).is_some();
+            let gap_now = || gap([[from, to], [c, d]]);
+            let facing = corners[a].ways[1].dot(corners[b].ways[1]) < -0.5;
+            if !meet && (!facing || both == 0.0 || gap_now() > APART) {
+                continue;
+            }
+            let gap = gap([a, b].map(|edge| [corners[edge].at, corners[corners[edge].next].at]));
+            // Beside a short edge others are near to each other from the beginning.
+            if !meet && gap_now() > gap / 4.0 {
+                continue;
+            }
+            if both > 0.0 {
+                let factor = (KEPT * gap / both).clamp(0.0, 0.75);
+                factors.extend([(a, factor), (b, factor)]);
+            } else {
+                // Their neighbours have made them longer.
+                let around = neighbours.into_iter().chain([corners[b].before, corners[b].next]);
+                factors.extend(around.map(|edge| (edge, 0.5)));
+            }
+        }
+    }
+    factors
+}
+
+/// How far (m) two edges are from each other that do not meet.
+fn gap([a, b]: [[DVec2; 2]; 2]) -> f64 {
+    let to = |[from, to]: [DVec2; 2], at: DVec2| {
+        let way = to - from;
+        at.distance(from + way * ((at - from).dot(way) / way.length_squared().max(1e-12)).clamp(0.0, 1.0))
+    };
+    b.map(|at| to(a, at)).into_iter().chain(a.map(|at| to(b, at))).fold(f64::INFINITY, f64::min)
+}
+
+fn line(ends: [DVec2; 2]) -> Line {
+    let [start, end] = ends.map(|at| Coord { x: at.x, y: at.y });
+    Line::new(start, end)
+}
+
+/// The corners as rings of the same sizes as those of the walls.
+fn rings(walls: &[Vec<DVec2>], corners: &[Corner]) -> Vec<Vec<DVec2>> {
+    let mut rest = corners.iter().map(|corner| corner.moved);
+    walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect()).collect()
+}

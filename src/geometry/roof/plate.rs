@@ -1,0 +1,127 @@
+//! The plate of open eaves: what of a roof's faces is beyond the walls.
+
+use glam::{DVec2, DVec3};
+use rustc_hash::FxHashMap;
+
+use super::patches::at_level;
+
+/// Where a slope meets the top of the walls, it is within this distance (m) of their corner.
+const AT_CORNER: f64 = 5e-3;
+/// Places within this distance (m) are above one another.
+const UPRIGHT: f64 = 1e-6;
+
+/// The faces of a skeleton, its `rings`, with corners where they reach the walls, `beyond` (m) from the outline; `ends` are those of
+/// the walls. Where an edge is said to be `free`, the roof goes on beyond its wall. `rests` (m) say how long edges stand
+/// still.
+///
+/// Fails with the edges whose faces do not reach the walls at their corners.
+pub(super) fn at_walls(
+    rings: &[Vec<usize>],
+    points: &mut Vec<DVec3>,
+    beyond: f64,
+    ends: &[[DVec2; 2]],
+    free: &[bool],
+    rests: &[f64],
+) -> Result<Vec<Vec<usize>>, Vec<usize>> {
+    let mut between: FxHashMap<[usize; 2], usize> = FxHashMap::default();
+    let mut faces = Vec::with_capacity(rings.len());
+    stand_still(rings, points, rests);
+    for (face, &[left, right]) in rings.iter().zip(ends) {
+        let mut ring = Vec::with_capacity(face.len() + 2);
+        for (index, &a) in face.iter().enumerate() {
+            ring.push(a);
+            let b = face[(index + 1) % face.len()];
+            let [low, high] = if points[a].z < points[b].z { [a, b] } else { [b, a] };
+            if points[low].z < beyond && points[high].z > beyond {
+                ring.push(*between.entry([low, high]).or_insert_with(|| {
+                    points.push(at_level(points[low], points[high], beyond));
+                    points.len() - 1
+                }));
+            }
+        }
+        for &index in &ring {
+            let corners = [left, right].into_iter();
+            let at = points[index];
+            let near = |corner: &DVec2| is_at(at, beyond) && corner.distance(at.truncate()) < AT_CORNER;
+            if let Some(corner) = corners.clone().find(near) {
+                points[index] = corner.extend(beyond);
+            }
+        }
+        faces.push(ring);
+    }
+    let astray: Vec<usize> = (0..faces.len())
+        .filter(|&edge| !free[edge] && !reaches(&faces[edge], points, beyond, ends[edge]))
+        .collect();
+    if astray.is_empty() { Ok(faces) } else { Err(astray) }
+}
+
+/// Puts what is above a corner of the outline while both of its edges stand still exactly there.
+fn stand_still(rings: &[Vec<usize>], points: &mut [DVec3], rests: &[f64]) {
+    // A corner of the outline has the number of the edge that begins there.
+    let mut before = vec![0; rings.len()];
+    for (edge, face) in rings.iter().enumerate() {
+        before[face[1]] = edge;
+    }
+    for face in rings {
+        for (corner, next) in [(face[0], face[face.len() - 1]), (face[1], face[2])] {
+            let still = rests[before[corner]].min(rests[corner]);
+            let (at, above) = (points[corner].truncate(), points[next]);
+            let is_due = is_at(above, still) || still.is_infinite();
+            if still > 0.0 && is_due && above.truncate().distance(at) < AT_CORNER {
+                points[next] = at.extend(above.z);
+            }
+        }
+    }
+}
+
+#[allow(clippy::float_cmp, reason = "levels are copies")]
+fn is_at(point: DVec3, level: f64) -> bool {
+    point.z == level
+}
+
+/// Whether a face passes the top of the walls once, from the right end of its wall, or from beyond it in its line, to
+/// the left one.
+fn reaches(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2; 2]) -> bool {
+    let mut found: Vec<DVec2> = face
+        .iter()
+        .map(|&index| points[index])
+        .filter(|at| is_at(*at, beyond))
+        .map(DVec3::truncate)
+        .collect();
+    found.dedup();
+    let &[from, to] = found.as_slice() else { return false };
+    let along = (right - left).normalize_or_zero();
+    let out = |at: DVec2, end: DVec2, way: f64| {
+        let off = at - end;
+        off == DVec2::ZERO || (along.perp_dot(off).abs() < AT_CORNER && way * along.dot(off) > 0.0)
+    };
+    out(from, right, 1.0) && out(to, left, -1.0)
+}
+
+/// The points of a face from its right end to its left one, up to a level; of those above one another the highest.
+pub(super) fn border(face: &[usize], points: &[DVec3], level: f64) -> Vec<DVec3> {
+    let mut border: Vec<DVec3> = Vec::with_capacity(face.len());
+    let around = face[1..].iter().chain(&face[..1]);
+    for point in around.map(|&index| points[index]).filter(|point| point.z <= level) {
+        match border.last_mut() {
+            Some(last) if last.truncate().distance(point.truncate()) < UPRIGHT => {
+                if last.z < point.z {
+                    *last = point;
+                }
+            }
+            _ => border.push(point),
+        }
+    }
+    border
+}
+
+/// The part of a face between two levels, from its lowest edge on.
+pub(super) fn part(face: &[usize], points: &[DVec3], [from, to]: [f64; 2]) -> Vec<DVec3> {
+    let mut part: Vec<DVec3> =
+        face.iter().map(|&index| points[index]).filter(|point| (from..=to).contains(&point.z)).collect();
+    // Where the face begins higher than its edge, the left end is the last one.
+    if from > 0.0 && part.last().is_some_and(|last| is_at(*last, from)) {
+        part.rotate_right(1);
+    }
+    part
+}

@@ -1,0 +1,119 @@
+//! What a roof stands on.
+
+use glam::{DVec2, DVec3};
+
+use super::outset::Outset;
+use super::shed::without_repeats;
+use super::{Patch, PatchKind, edges};
+
+/// The walls below a roof, and what stands beside them.
+#[derive(Debug, Clone, Copy)]
+pub struct Support<'a> {
+    /// Their outline: the first ring is counter-clockwise, the holes are clockwise.
+    pub walls: &'a [Vec<DVec2>],
+    /// Where they end (m).
+    pub base: f64,
+    /// The edges along neighbours, which get gables where possible.
+    pub party: &'a [usize],
+    /// How far (m) what is built below stands out over each edge; nowhere if empty. A roof juts out beyond it.
+    pub juts: &'a [f64],
+    /// How far (m) from each edge there may be a roof, as beside a neighbour; anywhere if empty.
+    pub reach: &'a [f64],
+}
+
+impl<'a> Support<'a> {
+    /// Walls that end at `base` (m), with nothing around them.
+    pub fn new(walls: &'a [Vec<DVec2>], base: f64) -> Self {
+        Self { walls, base, party: &[], juts: &[], reach: &[] }
+    }
+
+    /// The number of edges of all rings.
+    pub(super) fn edges(&self) -> usize {
+        self.walls.iter().map(Vec::len).sum()
+    }
+
+    /// How far (m) over each edge a roof may go that is to go so far everywhere; in whole centimetres where that is
+    /// less.
+    pub(super) fn within_reach(&self, distance: f64) -> Vec<f64> {
+        let reach = |edge: usize| self.reach.get(edge).copied().unwrap_or(f64::INFINITY).max(0.0);
+        let least =
+            |reach: f64| if reach < distance { (reach * 100.0 + 1e-6).floor() / 100.0 } else { distance };
+        (0..self.edges()).map(|edge| least(reach(edge))).collect()
+    }
+
+    /// The outline of what stands out below; none if nothing does.
+    ///
+    /// Beside a reflex corner the roof covers what stands out the most there, unless a neighbour is in its way.
+    pub(super) fn outermost(&self) -> Option<Outset> {
+        if self.juts.iter().all(|jut| *jut <= 0.0) {
+            return None;
+        }
+        let reach = self.within_reach(f64::INFINITY);
+        let limited = |(jut, reach): (&f64, &f64)| jut.clamp(0.0, *reach);
+        let mut juts: Vec<f64> = self.juts.iter().zip(&reach).map(limited).collect();
+        let mut first = 0;
+        for ring in self.walls {
+            let count = ring.len();
+            let at = |index: usize| ring[index % count];
+            for index in (0..count).chain((0..count).rev()) {
+                let turn = (at(index) - at(index + count - 1)).perp_dot(at(index + 1) - at(index));
+                if turn < 0.0 {
+                    let pair = [index + count - 1, index].map(|index| first + index % count);
+                    let most = pair.iter().map(|&edge| juts[edge]).fold(0.0, f64::max);
+                    pair.into_iter().for_each(|edge| juts[edge] = most.min(reach[edge]));
+                }
+            }
+            first += count;
+        }
+        Some(Outset::new(self.walls, juts, |_| false)).filter(|outset| outset.most() > 0.0)
+    }
+
+    /// Adds what looks down between the walls and the outline of what stands out below, where the roof begins.
+    pub(super) fn add_soffit(&self, outer: &Outset, patches: &mut Vec<Patch>) {
+        divide_feet(patches, self.walls, &outer.rings, self.base);
+        for (edge, [[left, right], [a, b]]) in feet(self.walls, &outer.rings, self.base).enumerate() {
+            if in_line([left, right], a) {
+                continue;
+            }
+            let along = (right - left).truncate().normalize_or_zero();
+            let rings = vec![without_repeats(vec![b, a, left, right])];
+            patches.push(Patch { kind: PatchKind::Underside, edge, flap: 0, along, rings });
+        }
+    }
+}
+
+/// Each edge of the walls, and of the outline around them, at height `base` (m).
+fn feet<'a>(
+    walls: &'a [Vec<DVec2>],
+    outer: &'a [Vec<DVec2>],
+    base: f64,
+) -> impl Iterator<Item = [[DVec3; 2]; 2]> + 'a {
+    let pairs = walls.iter().flat_map(|ring| edges(ring)).zip(outer.iter().flat_map(|ring| edges(ring)));
+    pairs.map(move |(inner, outer)| [inner, outer].map(|ends| ends.map(|at| at.extend(base))))
+}
+
+/// Gives the lower edge of a face that begins on a wall and beside it the corners of the wall.
+///
+/// So it is where an edge of the outline stays in its line, and becomes longer as those beside it do not.
+pub(super) fn divide_feet(patches: &mut [Patch], walls: &[Vec<DVec2>], outer: &[Vec<DVec2>], base: f64) {
+    let longer = feet(walls, outer, base).map(|[inner, outer]| {
+        let between = inner.into_iter().filter(|at| !outer.contains(at)).collect::<Vec<_>>();
+        (in_line(inner, outer[0]) && in_line(inner, outer[1]) && !between.is_empty())
+            .then_some((outer, between))
+    });
+    let longer: Vec<_> = longer.collect();
+    for patch in patches {
+        let Some((outer, between)) = &longer[patch.edge] else { continue };
+        for ring in &mut patch.rings {
+            let mut ends = (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]);
+            if let Some(begin) = ends.position(|ends| ends == *outer) {
+                ring.splice(begin + 1..begin + 1, between.iter().copied());
+            }
+        }
+    }
+}
+
+/// Whether a point of an edge's outline is in the edge's own line.
+fn in_line([left, right]: [DVec3; 2], at: DVec3) -> bool {
+    (right - left).truncate().perp_dot((at - left).truncate()).abs() < 1e-9
+}

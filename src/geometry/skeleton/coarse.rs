@@ -1,0 +1,238 @@
+//! The map of the faces made coarser where it is finer than a millimetre: short borders shrink, thin spikes close.
+
+use glam::DVec3;
+use smallvec::SmallVec;
+
+use super::Peak;
+use super::edge::Edge;
+
+/// Borders no longer than this (m), on the plan and in time, are short; spikes no wider are thin.
+const FINEST: f64 = 1e-3;
+/// What is left between a peak and a border (m), so that a mesh of 32-bit numbers can tell them apart.
+const NARROW: f64 = 2.5e-4;
+
+/// Shrinks short borders and closes thin spikes, as long as the faces stay a map of the plane.
+///
+/// Two peaks become one only where the border between them is all that the faces around them share, and a peak on a
+/// straight border between two faces is left out. A spike is closed where one of its borders runs along the other: what
+/// is beyond them meets there. No face loses its edge or touches itself, and no two faces get a second border between the same peaks. The first `fixed` peaks stay.
+pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
+    let sharp = |face: &Vec<usize>| face.len() > 3 && spikes_of(peaks, face).next().is_some();
+    let mut short = short_borders(peaks, fixed, faces);
+    if short.is_empty() && !faces.iter().any(sharp) {
+        return;
+    }
+    let mut map = Map::new(peaks.len(), faces);
+    // What cannot be done at first may be possible once other things have been.
+    let mut done = true;
+    while done {
+        done = false;
+        for (_, [kept, gone]) in short {
+            let far = way(peaks, [kept, gone]).length();
+            done |= map.shrinks(kept, gone, far, faces);
+        }
+        for face in 0..faces.len() {
+            while faces[face].len() > 3 {
+                let found: SmallVec<[[usize; 3]; 4]> = spikes_of(peaks, &faces[face]).collect();
+                let mut found = found.into_iter().filter(|spike| spike[1] >= fixed);
+                if !found.any(|spike| map.closes(face, spike, peaks, faces)) {
+                    break;
+                }
+                done = true;
+            }
+        }
+        for peak in fixed..peaks.len() {
+            done |= map.straightens(peak, peaks, faces);
+        }
+        short = short_borders(peaks, fixed, faces);
+    }
+}
+
+/// Widens faces that are all but cut in two: where a peak all but touches a border of a face that it is not an end of,
+/// it moves away from it, by less than borders are short.
+///
+/// Faces over edges that stand still at first are upright there, and left alone.
+pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[Edge], faces: &[Vec<usize>]) {
+    for (face, _) in faces.iter().zip(edges).filter(|(face, edge)| face.len() > 4 && edge.pace.moves()) {
+        for (index, &a) in face.iter().enumerate() {
+            let b = face[(index + 1) % face.len()];
+            let (from, way) = (peaks[a].at, peaks[b].at - peaks[a].at);
+            let length = way.length();
+            let (along, inward) = (way / length, way.perp() / length);
+            for &peak in face[2..].iter().filter(|&&peak| peak >= fixed && peak != a && peak != b) {
+                let there = peaks[peak].at - from;
+                let (far, on) = (inward.dot(there), along.dot(there));
+                if far.abs() < NARROW && on > NARROW && on < length - NARROW {
+                    peaks[peak].at += inward * (NARROW - far);
+                }
+            }
+        }
+    }
+}
+
+/// The short borders, each with the square of its length, the shortest first; the second of the two peaks may go.
+fn short_borders(peaks: &[Peak], fixed: usize, faces: &[Vec<usize>]) -> Vec<(f64, [usize; 2])> {
+    let mut short = Vec::new();
+    for face in faces {
+        for (index, &from) in face.iter().enumerate() {
+            let to = face[(index + 1) % face.len()];
+            if from < to && to >= fixed {
+                let way = way(peaks, [from, to]);
+                let square = way.truncate().length_squared().max(way.z * way.z);
+                if square <= FINEST * FINEST {
+                    short.push((square, [from, to]));
+                }
+            }
+        }
+    }
+    short.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    short
+}
+
+/// The spikes of a face: three corners after one another of which the first or the last is on the border between the
+/// two others.
+fn spikes_of<'a>(peaks: &'a [Peak], face: &'a [usize]) -> impl Iterator<Item = [usize; 3]> + 'a {
+    let count = face.len();
+    // The first two corners are those of the edge.
+    let corners = (2..count).map(move |index| [face[index - 1], face[index], face[(index + 1) % count]]);
+    corners.filter(|&[a, tip, b]| {
+        let [one, two] = [way(peaks, [tip, a]), way(peaks, [tip, b])];
+        let dot = one.dot(two);
+        if dot <= 0.0 {
+            return false;
+        }
+        let squares = [one.length_squared(), two.length_squared()];
+        let long = squares[0].max(squares[1]);
+        4.0 * dot * dot > squares[0] * squares[1] && one.cross(two).length_squared() <= FINEST * FINEST * long
+    })
+}
+
+/// From a peak to another, on the plan and in time.
+fn way(peaks: &[Peak], [from, to]: [usize; 2]) -> DVec3 {
+    (peaks[to].at - peaks[from].at).extend(peaks[to].time - peaks[from].time)
+}
+
+/// The faces around each peak, and how far (m) the peaks are that it stands for.
+struct Map {
+    around: Vec<SmallVec<[usize; 6]>>,
+    spread: Vec<f64>,
+}
+
+/// The corners before and after one of a ring; none if it is not there.
+fn beside(ring: &[usize], peak: usize) -> SmallVec<[usize; 2]> {
+    let count = ring.len();
+    let at = ring.iter().position(|&other| other == peak);
+    at.map(|at| SmallVec::from_slice(&[ring[(at + count - 1) % count], ring[(at + 1) % count]]))
+        .unwrap_or_default()
+}
+
+impl Map {
+    fn new(count: usize, faces: &[Vec<usize>]) -> Self {
+        let mut around = vec![SmallVec::new(); count];
+        for (number, face) in faces.iter().enumerate() {
+            face.iter().for_each(|&peak| around[peak].push(number));
+        }
+        Self { around, spread: vec![0.0; count] }
+    }
+
+    /// The peaks to which borders go from one.
+    fn neighbours(&self, peak: usize, faces: &[Vec<usize>]) -> SmallVec<[usize; 12]> {
+        self.around[peak].iter().flat_map(|&face| beside(&faces[face], peak)).collect()
+    }
+
+    /// Lets `kept` stand for `gone`, if that is sound and both are there; whether it is.
+    fn shrinks(&mut self, kept: usize, gone: usize, far: f64, faces: &mut [Vec<usize>]) -> bool {
+        let spread = self.spread[kept].max(far + self.spread[gone]);
+        if spread > 2.0 * FINEST {
+            return false;
+        }
+        let shared: SmallVec<[usize; 4]> =
+            self.around[gone].iter().copied().filter(|face| self.around[kept].contains(face)).collect();
+        let apart = |&face: &usize| faces[face].len() <= 3 || !beside(&faces[face], gone).contains(&kept);
+        if shared.len() != 2 || shared[0] == shared[1] || shared.iter().any(apart) {
+            return false;
+        }
+        let others = self.neighbours(kept, faces);
+        if self.neighbours(gone, faces).iter().any(|peak| others.contains(peak)) {
+            return false;
+        }
+        for face in std::mem::take(&mut self.around[gone]) {
+            if shared.contains(&face) {
+                faces[face].retain(|&peak| peak != gone);
+            } else {
+                faces[face].iter_mut().filter(|peak| **peak == gone).for_each(|peak| *peak = kept);
+                self.around[kept].push(face);
+            }
+        }
+        self.spread[kept] = spread;
+        true
+    }
+
+    /// Leaves out a peak that is on a straight border between two faces; whether it is.
+    fn straightens(&mut self, peak: usize, peaks: &[Peak], faces: &mut [Vec<usize>]) -> bool {
+        let [one, two] = self.around[peak][..] else { return false };
+        let [a, b] = beside(&faces[one], peak)[..] else { return false };
+        let [there, whole] = [way(peaks, [a, peak]), way(peaks, [a, b])];
+        // Both ends may be off by as much as peaks are that they stand for.
+        if there.cross(whole).length() > 3.0 * FINEST * whole.length()
+            || faces[one].len().min(faces[two].len()) <= 3
+            || self.neighbours(a, faces).contains(&b)
+        {
+            return false;
+        }
+        for face in [one, two] {
+            faces[face].retain(|&other| other != peak);
+        }
+        self.around[peak].clear();
+        true
+    }
+
+    /// The face on the other side of a border of a face; none beside an edge of the polygon.
+    fn across(&self, [from, to]: [usize; 2], faces: &[Vec<usize>]) -> Option<usize> {
+        let runs = |face: &usize| {
+            let ring = &faces[*face];
+            let at = ring.iter().position(|&peak| peak == to);
+            at.is_some_and(|at| ring[(at + 1) % ring.len()] == from)
+        };
+        self.around[to].iter().copied().find(runs)
+    }
+
+    /// Takes a spike from a face, if that is sound; whether it is.
+    fn closes(
+        &mut self,
+        face: usize,
+        [a, tip, b]: [usize; 3],
+        peaks: &[Peak],
+        faces: &mut [Vec<usize>],
+    ) -> bool {
+        let [Some(left), Some(right)] = [[a, tip], [tip, b]].map(|border| self.across(border, faces)) else {
+            return false;
+        };
+        if self.neighbours(a, faces).contains(&b) {
+            return false;
+        }
+        let far = |peak: usize| way(peaks, [tip, peak]).length_squared();
+        // The nearer end of the two is on the border to the other, and so on that of the face there.
+        let (beyond, middle, end) = if far(a) < far(b) { (right, a, b) } else { (left, b, a) };
+        if left == right {
+            // Only the two faces are at the tip.
+            if self.around[tip].len() != 2 || faces[left].len() <= 3 {
+                return false;
+            }
+            faces[left].retain(|&peak| peak != tip);
+            self.around[tip].clear();
+        } else if faces[beyond].contains(&middle) {
+            return false;
+        } else {
+            let ring = &mut faces[beyond];
+            let [one, two] = [tip, end].map(|end| ring.iter().position(|&peak| peak == end).unwrap_or(0));
+            // The border between them may be the one from the last corner to the first.
+            let at = if one.abs_diff(two) == 1 { one.max(two) } else { ring.len() };
+            ring.insert(at, middle);
+            self.around[middle].push(beyond);
+            self.around[tip].retain(|around| *around != face);
+        }
+        faces[face].retain(|&peak| peak != tip);
+        true
+    }
+}

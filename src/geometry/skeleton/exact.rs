@@ -1,0 +1,226 @@
+//! Moving lines in whole numbers: when three meet, where two are, and which comes first, without rounding.
+
+use std::cmp::Ordering;
+
+use dashu_int::ops::{BitTest, SquareRoot, UnsignedAbs};
+use dashu_int::{IBig, UBig};
+use glam::{DVec2, I64Vec2};
+
+use super::edge::{CELLS, Direction};
+
+/// The points (x, y) of the lattice with a x + b y = c + w t, where t is the time in cells.
+#[derive(Debug, Clone)]
+pub(super) struct ExactLine {
+    pub a: IBig,
+    pub b: IBig,
+    pub c: IBig,
+    pub w: IBig,
+}
+
+/// A fraction; the denominator is positive.
+#[derive(Debug, Clone)]
+pub(super) struct Ratio {
+    pub over: IBig,
+    pub under: IBig,
+}
+
+/// A point (cells) with one positive denominator for both coordinates.
+#[derive(Debug, Clone)]
+pub(super) struct ExactPlace {
+    pub x: IBig,
+    pub y: IBig,
+    pub under: IBig,
+}
+
+/// A number as a product of a whole one and a power of two.
+fn parts(number: f64) -> (i64, i64) {
+    let bits = number.to_bits();
+    #[allow(clippy::cast_possible_wrap, reason = "11 and 52 bits")]
+    let (exponent, fraction) = ((bits >> 52 & 0x7ff) as i64, (bits & ((1 << 52) - 1)) as i64);
+    let (mut whole, mut power) =
+        if exponent == 0 { (fraction, -1074) } else { (fraction | 1 << 52, exponent - 1075) };
+    if whole == 0 {
+        return (0, 0);
+    }
+    power += i64::from(whole.trailing_zeros());
+    whole >>= whole.trailing_zeros();
+    (if number < 0.0 { -whole } else { whole }, power)
+}
+
+#[allow(clippy::cast_sign_loss, clippy::cast_possible_truncation, reason = "callers make it positive")]
+fn shifted(number: IBig, by: i64) -> IBig {
+    number << by as usize
+}
+
+/// The length of a way, as a product of a whole number and a power of two.
+///
+/// Lines that are all but parallel part as slowly as their speeds differ, so these must be far more exact than
+/// directions are.
+fn length(x: i64, y: i64) -> (IBig, i64) {
+    let [x, y] = [x, y].map(|number| u128::from(number.unsigned_abs()));
+    let square = UBig::from(x * x + y * y);
+    let whole = square.sqrt();
+    if &whole * &whole == square {
+        return (whole.into(), 0);
+    }
+    let more = 128usize.saturating_sub(whole.bit_len());
+    #[allow(clippy::cast_possible_wrap, reason = "at most 128")]
+    let power = -(more as i64);
+    ((square << (2 * more)).sqrt().into(), power)
+}
+
+impl ExactLine {
+    /// The line in `direction` through a point, which moves to the left from the time `rest` (m) on.
+    ///
+    /// Its speed is as exact as a number of 128 bits can be, and the same for all lines that are parallel.
+    pub(super) fn new(direction: Direction, through: I64Vec2, speed: f64, rest: f64) -> Self {
+        let I64Vec2 { x, y } = direction.shortest().0;
+        let (length, length_power) = length(x, y);
+        let (speed, speed_power) = parts(speed);
+        let (w, w_power) = (length * IBig::from(speed), length_power + speed_power);
+        let (rest, rest_power) = parts(if speed > 0 { rest * CELLS } else { 0.0 });
+        let scale = 0.max(-w_power).max(-(w_power + rest_power));
+        let c = i128::from(-y) * i128::from(through.x) + i128::from(x) * i128::from(through.y);
+        let gone = &w * IBig::from(rest);
+        Self {
+            a: shifted(IBig::from(-y), scale),
+            b: shifted(IBig::from(x), scale),
+            c: shifted(IBig::from(c), scale) - shifted(gone, scale + w_power + rest_power),
+            w: shifted(w, scale + w_power),
+        }
+    }
+
+    /// The line through a place across `direction`, which never moves.
+    pub(super) fn pin(direction: Direction, at: &ExactPlace) -> Self {
+        let I64Vec2 { x, y } = direction.shortest().0;
+        let (x, y) = (IBig::from(x), IBig::from(y));
+        let c = &at.x * &x + &at.y * &y;
+        Self { a: &at.under * x, b: &at.under * y, c, w: IBig::ZERO }
+    }
+
+    fn cross(&self, other: &Self) -> IBig {
+        &self.a * &other.b - &self.b * &other.a
+    }
+}
+
+/// Its sign is that of the rate at which three lines near each other.
+pub(super) fn rate([l, m, n]: [&ExactLine; 3]) -> IBig {
+    &l.w * m.cross(n) + &m.w * n.cross(l) + &n.w * l.cross(m)
+}
+
+/// When three lines go through one point; none if they never do, or always.
+pub(super) fn time([l, m, n]: [&ExactLine; 3]) -> Option<Ratio> {
+    let crosses = [m.cross(n), n.cross(l), l.cross(m)];
+    let under = &l.w * &crosses[0] + &m.w * &crosses[1] + &n.w * &crosses[2];
+    let over = &l.c * &crosses[0] + &m.c * &crosses[1] + &n.c * &crosses[2];
+    match under.cmp(&IBig::ZERO) {
+        Ordering::Less => Some(Ratio { over, under: -under }),
+        Ordering::Equal => None,
+        Ordering::Greater => Some(Ratio { over: -over, under }),
+    }
+}
+
+/// Where two lines that are not parallel cross at a time.
+pub(super) fn place(l: &ExactLine, m: &ExactLine, time: &Ratio) -> ExactPlace {
+    let [level, other] = [l, m].map(|line| &line.c * &time.under + &line.w * &time.over);
+    let cross = l.cross(m);
+    let x = &level * &m.b - &other * &l.b;
+    let y = &other * &l.a - &level * &m.a;
+    let under = &cross * &time.under;
+    if cross < IBig::ZERO { ExactPlace { x: -x, y: -y, under: -under } } else { ExactPlace { x, y, under } }
+}
+
+impl Ratio {
+    /// A time (m).
+    pub(super) fn of(time: f64) -> Self {
+        let (whole, power) = parts(time * CELLS);
+        let [up, down] = [power.max(0), (-power).max(0)];
+        Self { over: shifted(IBig::from(whole), up), under: shifted(IBig::ONE, down) }
+    }
+
+    pub(super) fn compare(&self, other: &Self) -> Ordering {
+        (&self.over * &other.under).cmp(&(&other.over * &self.under))
+    }
+
+    /// In metres, rounded.
+    pub(super) fn metres(&self) -> f64 {
+        quotient(&self.over, &self.under)
+    }
+}
+
+impl ExactPlace {
+    pub(super) fn is(&self, other: &Self) -> bool {
+        &self.x * &other.under == &other.x * &self.under && &self.y * &other.under == &other.y * &self.under
+    }
+
+    /// The order of two places along a direction.
+    pub(super) fn compare_along(&self, other: &Self, direction: Direction) -> Ordering {
+        let (x, y) = (IBig::from(direction.0.x), IBig::from(direction.0.y));
+        let [own, others] = [self, other].map(|place| &place.x * &x + &place.y * &y);
+        (own * &other.under).cmp(&(others * &self.under))
+    }
+
+    /// In metres, rounded.
+    pub(super) fn metres(&self) -> DVec2 {
+        DVec2::new(quotient(&self.x, &self.under), quotient(&self.y, &self.under))
+    }
+}
+
+/// A fraction of cells in metres.
+fn quotient(over: &IBig, under: &IBig) -> f64 {
+    if under.is_zero() {
+        return f64::NAN;
+    }
+    let spare = under.bit_len() + 66;
+    let shift = spare.saturating_sub(over.unsigned_abs().bit_len());
+    let whole = (over << shift) / under;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_possible_wrap, reason = "a few thousand at most")]
+    let power = (-(shift as i64)).max(-2000) as i32;
+    whole.to_f64().value() * 2f64.powi(power / 2) * 2f64.powi(power - power / 2) / CELLS
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(way: (i64, i64), through: (i64, i64), speed: f64, rest: f64) -> ExactLine {
+        ExactLine::new(Direction(way.into()), I64Vec2::from(through), speed, rest)
+    }
+
+    #[test]
+    fn the_sides_of_a_square_meet_in_its_middle_when_half_of_it_is_gone() {
+        const SIDE: i64 = 3 << 32;
+        let sides = [
+            line((0, -7), (0, 5), 1.0, 0.0),
+            line((9, 0), (1, 0), 1.0, 0.0),
+            line((0, 2), (SIDE, 0), 1.0, 0.0),
+        ];
+        let found = time([&sides[0], &sides[1], &sides[2]]).expect("a time");
+        assert_eq!((found.metres(), found.compare(&Ratio::of(1.5))), (1.5, Ordering::Equal));
+        let at = place(&sides[0], &sides[1], &found);
+        assert_eq!(at.metres(), DVec2::splat(1.5));
+        assert!(at.is(&place(&sides[1], &sides[2], &found)));
+        assert!(time([&sides[0], &sides[2], &sides[0]]).is_none());
+    }
+
+    #[test]
+    fn a_line_that_rests_at_first_is_late_by_that() {
+        let sides = [
+            line((0, -1), (0, 0), 1.0, 0.0),
+            line((1, 0), (0, 0), 1.0, 0.0),
+            line((0, 1), (4 << 32, 0), 1.0, 0.3),
+        ];
+        let found = time([&sides[0], &sides[1], &sides[2]]).expect("a time");
+        assert!((found.metres() - 2.15).abs() < 1e-15);
+    }
+
+    #[test]
+    fn numbers_fall_into_a_whole_one_and_a_power_of_two() {
+        for number in [0.0, 1.0, -0.75, 1e300, 5e-324, 1.0 / 3.0] {
+            let (whole, power) = parts(number);
+            #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "53 bits")]
+            let (whole, power) = (whole as f64, power as i32);
+            assert_eq!(whole * 2f64.powi(power / 2) * 2f64.powi(power - power / 2), number);
+        }
+    }
+}
