@@ -68,7 +68,7 @@ impl Texture {
 
     /// The opacity at `uv` (m) in an image of this size, by number.
     pub(super) fn alpha(&self, uv: Vec2, level: usize) -> f32 {
-        self.levels[level].color(uv / self.size).w
+        self.levels[level].mix(uv / self.size, |pixel| Vec4::splat(f32::from(pixel[3]) / 255.0)).w
     }
 
     /// The linear colour at `uv` (m), averaged over the footprint with the sides `across` and `along` (m), as far as
@@ -112,26 +112,37 @@ fn open(texture: &scene::Texture) -> Result<image::RgbaImage, image::ImageError>
     }
 }
 
+/// The linear colour of a pixel times its opacity, and the opacity.
+fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
+    let color = [red, green, blue].map(|byte| tone::decode(f32::from(byte) / 255.0));
+    let alpha = f32::from(alpha) / 255.0;
+    (Vec3::from_array(color) * alpha).extend(alpha)
+}
+
 impl Level {
     /// The linear colour of a pixel times its opacity, and the opacity.
     fn linear(&self, x: usize, y: usize) -> Vec4 {
-        let [red, green, blue, alpha] = self.pixels[y * self.width + x];
-        let color = [red, green, blue].map(|byte| tone::decode(f32::from(byte) / 255.0));
-        let alpha = f32::from(alpha) / 255.0;
-        (Vec3::from_array(color) * alpha).extend(alpha)
+        linear(self.pixels[y * self.width + x])
     }
 
     /// The colour at `at`, in repetitions to the right and upwards, mixed from the four nearest pixels, times its
     /// opacity, and the opacity.
     fn color(&self, at: Vec2) -> Vec4 {
+        self.mix(at, linear)
+    }
+
+    /// What `value` makes of the four pixels nearest to `at`, mixed.
+    #[inline]
+    fn mix(&self, at: Vec2, value: impl Fn([u8; 4]) -> Vec4) -> Vec4 {
         let x = (at.x - at.x.floor()) * self.width as f32 - 0.5;
         let y = (1.0 - (at.y - at.y.floor())) * self.height as f32 - 0.5;
         let wrap = |i: f32, count: usize| (i as i64).rem_euclid(count as i64) as usize;
         let (left, right) = (wrap(x.floor(), self.width), wrap(x.floor() + 1.0, self.width));
         let (top, bottom) = (wrap(y.floor(), self.height), wrap(y.floor() + 1.0, self.height));
         let (tx, ty) = (x - x.floor(), y - y.floor());
-        let upper = self.linear(left, top).lerp(self.linear(right, top), tx);
-        let lower = self.linear(left, bottom).lerp(self.linear(right, bottom), tx);
+        let pixel = |x: usize, y: usize| value(self.pixels[y * self.width + x]);
+        let upper = pixel(left, top).lerp(pixel(right, top), tx);
+        let lower = pixel(left, bottom).lerp(pixel(right, bottom), tx);
         upper.lerp(lower, ty)
     }
 

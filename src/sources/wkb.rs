@@ -303,7 +303,7 @@ mod tests {
         assert!(
             line.len() > 10 && line[1..].iter().all(|it| ((it[0] - 2.0).hypot(it[1]) - 2.0).abs() < 1e-9)
         );
-        let disc = of_parts(10, &[compound.clone()]);
+        let disc = of_parts(10, std::slice::from_ref(&compound));
         let [Geometry::Polygon(rings)] = &read(&disc)[..] else { panic!("a polygon") };
         assert_eq!(rings[0].len(), line.len() - 1);
         let ring = of_points(2, &[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 0.0]]);

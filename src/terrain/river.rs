@@ -114,18 +114,23 @@ impl Drainage {
         }
         let mut cell = row * self.columns + column;
         let mut level = f64::INFINITY;
-        let mut way = Vec::new();
+        let (mut way, mut cells) = (Vec::new(), Vec::new());
         let why = loop {
             level = level.min(self.heights[cell]);
             way.push(self.middle(cell).extend(level));
-            let met = std::mem::replace(&mut self.wet[cell], true);
+            let met = self.wet[cell];
+            cells.push(cell);
             let next = self.next[cell] as usize;
             if met || next == cell || next >= self.heights.len() {
                 break if met { Dry::River } else { Dry::Outlet };
             }
             cell = next;
         };
-        if way.len() > 2 { Ok(rounded(rounded(way))) } else { Err(why) }
+        if way.len() <= 2 {
+            return Err(why);
+        }
+        cells.into_iter().for_each(|cell| self.wet[cell] = true);
+        Ok(rounded(rounded(way)))
     }
 
     #[allow(clippy::cast_precision_loss, reason = "few cells")]

@@ -155,7 +155,8 @@ fn what_the_script_reads_is_not_overwritten() {
       help: name another file
     ");
     // Copies of textures make way for a picture.
-    folder.burgeon(&["run", "s.lua", "-o", "a.obj", "-o", "a.gltf", "-o", "a_brick.png"]).done();
+    let all = ["run", "s.lua", "-o", "a.obj", "-o", "a.gltf", "-o", "a_brick.png", "--size", "8x6"];
+    folder.burgeon(&all).done();
     assert_eq!(fs::read(folder.path().join("a_brick_2.png")).unwrap(), brick);
     assert_eq!(fs::read(folder.path().join("in/brick.png")).unwrap(), brick);
     assert_eq!(

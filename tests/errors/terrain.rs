@@ -362,7 +362,10 @@ fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
         local land = lsystem({ object = planet({ radius = 1000, levels = 6, rules = { A = { \"A\", \"A\", \"A\", \"A\" } } }) })\n\
         land:axiom(Do())\nland:interpret(\"Do()\", function(this)\n  this:focus(0, 0, 3000)\n  this:focus(0, 0, 2000)\nend)\nland:derive(0)\n";
     let folder = Folder::new()
-        .with("sea.lua", script("levels = 5, water = 500", "  this:river({ 10, 20 }, 5)"))
+        .with(
+            "sea.lua",
+            script("levels = 5, water = 500", "  this:river({ 10, 20 }, 5)\n  this:river({ 10, 20 }, 5)"),
+        )
         .with("rim.lua", script("levels = 5", "  this:river({ 511, 20 }, 5)"))
         .with("focus.lua", script("size = 1024", &twice))
         .with("planet.lua", planet);
@@ -371,7 +374,7 @@ fn a_river_from_under_water_and_a_second_focus_are_warned_of() {
         text += &folder.warned(&["run", name]);
     }
     insta::assert_snapshot!(text, @r##"
-    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) lies 475.0 m under water, so there is no river
+    warning: sea.lua:5: rule Do() (interpretation): terrain:river: the source (10.0, 20.0) lies 475.0 m under water, so there is no river (2 times)
       | this:river({ 10, 20 }, 5)
       module: Do, step 0
       help: give a place above the water: this:height({ x, y }) tells how high the ground is

@@ -155,12 +155,13 @@ methods! {
             }
             let at = source.0.truncate();
             let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
-            let way = match self.drainage()?.river(at) {
-                Ok(way) => way,
+            let sunk = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
+            let way = match (self.drainage()?.river(at), sunk) {
+                (Ok(way), _) => way,
                 // Water runs there already.
-                Err(Dry::River) => return Ok(()),
-                Err(Dry::Outlet) => {
-                    self.warnings.push(self.dry(at, height));
+                (Err(Dry::River), None) => return Ok(()),
+                (Err(_), sunk) => {
+                    self.warnings.push(dry(at, sunk.map(|level| level - height)));
                     return Ok(());
                 }
             };
@@ -279,23 +280,6 @@ impl Terrain {
         ))
     }
 
-    /// What to tell of a river that ends where it begins, at a place (m) and a height (m).
-    fn dry(&self, at: DVec2, height: f64) -> Warning {
-        let level = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
-        let place = format!("({:.1}, {:.1})", at.x, at.y);
-        let (text, help) = match level {
-            Some(level) => (
-                format!("the source {place} lies {:.1} m under water", level - height),
-                "give a place above the water: this:height({ x, y }) tells how high the ground is",
-            ),
-            None => {
-                (format!("the source {place} lies at the rim or at the shore"), "give a place farther up")
-            }
-        };
-        Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river"))
-            .help(help)
-    }
-
     /// What to tell where the cells are too large for the samples of measured ground.
     fn coarse(&self) -> Option<Warning> {
         let (world, elevation) = (self.ground.world(), self.options.elevation.as_ref()?);
@@ -339,6 +323,19 @@ impl Terrain {
         }
         Ok(())
     }
+}
+
+/// What to tell of a river that ends where it begins, at a place (m) that may lie some metres under water.
+fn dry(at: DVec2, under: Option<f64>) -> Warning {
+    let place = format!("({:.1}, {:.1})", at.x, at.y);
+    let (text, help) = match under {
+        Some(under) => (
+            format!("the source {place} lies {under:.1} m under water"),
+            "give a place above the water: this:height({ x, y }) tells how high the ground is",
+        ),
+        None => (format!("the source {place} lies at the rim or at the shore"), "give a place farther up"),
+    };
+    Warning::new(WarningKind::DrawsNothing, format!("terrain:river: {text}, so there is no river")).help(help)
 }
 
 /// What to tell of a focus of a `kind` of object that takes the place of an earlier one in the same pass.
