@@ -22,8 +22,9 @@ const ROUNDS: usize = 4;
 /// How far (m) from an edge that was given what stands for it lies.
 const ALONG: f64 = 0.02;
 
-/// How often the edges of rings may meet for each of them, their ends among it.
+/// How often the edges of rings may meet, other than at their ends, for each of them, and in all where they are few.
 const MEETINGS: usize = 8;
+const FEW_MEETINGS: usize = 10_000;
 
 /// What is said of a ring that crosses itself.
 const LOOPS: &str = "loops of the outer ring left out";
@@ -99,7 +100,7 @@ fn meets_too_often(rings: &[Vec<DVec2>]) -> bool {
     let low = |[a, b]: &[DVec2; 2]| a.min(*b);
     let high = |[a, b]: &[DVec2; 2]| a.max(*b);
     edges.sort_by(|a, b| low(a).x.total_cmp(&low(b).x));
-    let mut left = MEETINGS * edges.len() + MEETINGS;
+    let mut left = FEW_MEETINGS.max(MEETINGS * edges.len());
     for (index, a) in edges.iter().enumerate() {
         for b in edges[index + 1..].iter().take_while(|b| low(b).x <= high(a).x) {
             if low(a).y > high(b).y || low(b).y > high(a).y {
@@ -107,7 +108,8 @@ fn meets_too_often(rings: &[Vec<DVec2>]) -> bool {
             }
             let side = |[from, to]: &[DVec2; 2], at: DVec2| (*to - *from).perp_dot(at - *from);
             let apart = |one: f64, two: f64| (one > 0.0 && two > 0.0) || (one < 0.0 && two < 0.0);
-            if apart(side(a, b[0]), side(a, b[1])) || apart(side(b, a[0]), side(b, a[1])) {
+            let joined = b.iter().any(|end| a.contains(end));
+            if joined || apart(side(a, b[0]), side(a, b[1])) || apart(side(b, a[0]), side(b, a[1])) {
                 continue;
             }
             if left == 0 {
