@@ -125,7 +125,7 @@ impl Error {
     /// Adds `what` in brackets to the message.
     #[must_use]
     pub(crate) fn noting(mut self, what: &str) -> Self {
-        self.0.message = format!("{} ({what})", self.0.message);
+        self.0.message = format!("{} ({})", self.0.message, shortened(what, LONGEST_NAME));
         self
     }
 

@@ -52,7 +52,8 @@ fn watched<T: Send + 'static>(
     begun.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
     loop {
         match result.recv_timeout(PERIOD) {
-            Ok(done) => return done,
+            // What was interrupted does not say why.
+            Ok(done) => return done.map_err(|error| budget.check().err().unwrap_or(error)),
             Err(RecvTimeoutError::Disconnected) => return Err(Error::new("the database gave no answer")),
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(over) = budget.check() {
