@@ -16,6 +16,12 @@ const SURFACES: [Surface; 5] = [
 ];
 const EAVES: [(Eaves, f64); 3] = [(Eaves::Open, 0.15), (Eaves::Closed, 0.0), (Eaves::Slab, 0.2)];
 
+/// `least` rounds, or so many times as many as `BURGEON_CASES` says: `BURGEON_CASES=10 cargo test --release --lib roof`.
+fn rounds(least: usize) -> std::ops::Range<usize> {
+    let times = std::env::var("BURGEON_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1);
+    0..least * times
+}
+
 /// A plan beside others, and which of its edges are along them.
 struct Adjoining {
     walls: Vec<Vec<DVec2>>,
@@ -88,7 +94,7 @@ fn covered(cover: &Cover) -> f64 {
 fn roofs_in_rows_with_bent_and_stepped_party_walls_never_meet_themselves() {
     let mut random = Random(23);
     let (mut count, mut full, mut gabled, mut faults) = (0, 0, 0, Vec::new());
-    for round in 0..900 {
+    for round in rounds(900) {
         let Some(Adjoining { walls, party, reach }) = house(&mut random) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let shape =
@@ -116,7 +122,7 @@ fn roofs_in_rows_with_bent_and_stepped_party_walls_never_meet_themselves() {
 fn roofs_over_random_plans_between_neighbours_never_meet_themselves() {
     let mut random = Random(31);
     let (mut count, mut juts_out, mut faults) = (0, 0, Vec::new());
-    for round in 0..1200 {
+    for round in rounds(1200) {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let overhang = [0.3, 0.5, 0.8][round / 15 % 3];
@@ -168,7 +174,7 @@ fn a_narrow_notch_takes_the_overhang_of_its_own_edges_only() {
     let mut random = Random(41);
     let surfaces = [SURFACES[0], SURFACES[2], Surface::Flat(None)];
     let mut faults = Vec::new();
-    for round in 0..600 {
+    for round in rounds(600) {
         let overhang = [0.2, 0.4, 0.6, 0.9][round % 4];
         let (ring, full, taken) = notched(&mut random, overhang);
         let walls = vec![ring];
@@ -192,7 +198,7 @@ fn a_narrow_notch_takes_the_overhang_of_its_own_edges_only() {
 fn a_roof_begins_where_the_outermost_storey_ends() {
     let mut random = Random(53);
     let (mut count, mut faults) = (0, Vec::new());
-    for round in 0..900 {
+    for round in rounds(900) {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let shape = Shape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
