@@ -153,7 +153,9 @@ fn modules_that_nothing_draws() {
     );
     let other = "local A = module(\"A\")\nlocal s = lsystem({ object = extruder() })\ns:axiom(A(), F(1))\n\
         s:interpret(\"A\", function(this) this:extrude(1) end)\ns:derive(0)";
-    insta::assert_snapshot!(warned(&[&undrawn, other]), @r#"
+    let plain = "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\n\
+        s:rule(\"A\", function() return F(1), B() end)\ns:derive()";
+    insta::assert_snapshot!(warned(&[&undrawn, other, plain]), @r#"
     s:interpret("A(x)", function(this, x) this:forward(x) end)
     s:rule("A(x)", function(this, x) return A(x), B() end)
     s:derive(2)
@@ -169,6 +171,15 @@ fn modules_that_nothing_draws() {
     warning: s.lua:2: the standard library draws F with a turtle, and this is none
       | local s = lsystem({ object = extruder() })
       help: system:interpret("F(length)", function(this, length) ... end)
+
+    local A, B = module("A"), module("B")
+    local s = lsystem({ object = turtle() })
+    s:axiom(A())
+    s:rule("A", function() return F(1), B() end)
+    s:derive()
+    warning: s.lua:1: B has neither a rule nor an interpretation, so it is drawn nowhere
+      | local A, B = module("A"), module("B")
+      help: system:interpret("B", function(this) ... end); if it is only a mark, say so: system:ignore("B")
     "#);
     for script in [&*undrawn, other] {
         let folder = Folder::new().with("s.lua", script);
@@ -181,8 +192,7 @@ fn modules_that_nothing_draws() {
         &undrawn.replace("s:rule", "s:rule(\"B < A(x)\", { when = function(this, x) return x > 9 end }, function() return nil end) s:rule"),
         &undrawn.replace("s:rule", "s:rule(\"A(x) > [B]\", { when = function(this, x) return x > 9 end }, function() return nil end) s:rule"),
         &undrawn.replace("s:derive", "s:rule(\"B\", { weight = 0 }, function() return nil end) s:derive"),
-        // A system that only the standard library draws, or that draws nothing at all.
-        "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:rule(\"A\", function() return F(1), B() end)\ns:derive()",
+        // A system that draws nothing at all.
         "local A, B = module(\"A\"), module(\"B\")\nlocal s = lsystem()\ns:axiom(A())\ns:rule(\"A\", function() return B() end)\ns:derive()",
         // Modules of a library that this script does not use.
         &with("local Leaf = module(\"Leaf\", \"size\")\ns:interpret(\"A(x)\", function(this, x) this:forward(x) end)\ns:derive(0)"),
@@ -420,9 +430,12 @@ fn a_model_without_triangles() {
       help: no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)
 
     s:derive()
+    warning: s.lua:1: A has neither a rule nor an interpretation, so it is drawn nowhere
+      | local A, B = module("A", "x"), module("B")
+      help: system:interpret("A(x)", function(this, x) ... end); if it is only a mark, say so: system:ignore("A")
     warning: s.lua:2: the model is empty, for this system draws nothing
       | local s = lsystem({ object = turtle() }) s:axiom(A(1))
-      help: it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules
+      help: another warning tells why
 
     s:interpret("A(x)", function(this, x) this:advance(x) end)
     s:derive(0)

@@ -114,7 +114,9 @@ impl System {
             let help = format!("interpret it, {interpret}, or give it another name");
             return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
         }
-        let is_used = self.interpretations.is_empty()
+        // Without interpretations only modules of the standard library are drawn, if the object knows any.
+        let draws = !self.interpretations.is_empty() || standard.iter().any(|known| known.kind == kind);
+        let is_used = !draws
             || self.ignored.contains(&symbol)
             || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))
             || self.rules.iter().any(|declared| names(&declared.rule.pattern, symbol));
