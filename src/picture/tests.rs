@@ -232,7 +232,7 @@ fn what_a_texture_leaves_out_is_not_there() {
 
 #[test]
 fn fine_holes_let_through_as_much_as_they_are() {
-    let dots = |x: u32, y: u32| if (x / 2 + y / 2) % 4 == 0 { [90, 140, 60, 255] } else { [0; 4] };
+    let dots = |x: u32, y: u32| if (x / 2 + y / 2).is_multiple_of(4) { [90, 140, 60, 255] } else { [0; 4] };
     let picture = front();
     let (image, whole) =
         (papered(dots, [1.0; 4], &picture), papered(|_, _| [90, 140, 60, 255], [1.0; 4], &picture));
@@ -247,7 +247,7 @@ fn fine_holes_let_through_as_much_as_they_are() {
 #[test]
 fn the_shadow_of_what_is_cut_out_has_its_holes() {
     let picture = Picture { ground: true, elevation: Some(30.0), ..front() };
-    let bars = |x: u32, _| if x / 8 % 2 == 0 { [200, 200, 200, 255] } else { [0; 4] };
+    let bars = |x: u32, _| if (x / 8).is_multiple_of(2) { [200, 200, 200, 255] } else { [0; 4] };
     let (barred, whole) =
         (papered(bars, [1.0; 4], &picture), papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture));
     // The sun stands on the left, so the shadow goes on to the right of the wall.

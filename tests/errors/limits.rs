@@ -273,7 +273,7 @@ fn branches_of_a_context_are_not_nested_without_end() {
     for depth in [201, 40_000] {
         let pattern = format!("A > {}B{}", "[".repeat(depth), "]".repeat(depth));
         let folder = Folder::new()
-            .with("s.lua", &format!("{HEAD}s:rule(\"{pattern}\", function() return B() end)\ns:derive(1)\n"));
+            .with("s.lua", format!("{HEAD}s:rule(\"{pattern}\", function() return B() end)\ns:derive(1)\n"));
         for command in ["run", "check"] {
             let said = folder.burgeon(&[command, "s.lua"]).failed();
             assert!(
@@ -290,7 +290,7 @@ fn branches_of_a_context_are_not_nested_without_end() {
     let axiom = format!("s:axiom(A(1), {}B(){})", "{ ".repeat(200), "}".repeat(200));
     let folder = Folder::new().with(
         "s.lua",
-        &format!("{HEAD}{axiom}\ns:rule(\"{pattern}\", function() return nil end)\ns:derive(1)\n"),
+        format!("{HEAD}{axiom}\ns:rule(\"{pattern}\", function() return nil end)\ns:derive(1)\n"),
     );
     let said = folder.burgeon(&["run", "s.lua", "--chain", "-"]).done();
     assert_eq!(said.stdout.replace(' ', ""), format!("{}B{}\n", "[".repeat(200), "]".repeat(200)));

@@ -171,7 +171,7 @@ fn what_is_long_is_told_shortly() {
         ),
         format!("s:axiom({long})"),
         format!("s:rule({long}, function() end)"),
-        format!("s:rule(\"A > \" .. string.rep(\"A \", 100000) .. \"?\", function() end)"),
+        "s:rule(\"A > \" .. string.rep(\"A \", 100000) .. \"?\", function() end)".to_owned(),
         format!("s:rule(\"A(x)\", {{ weight = {long} }}, function() end)"),
         format!("s:ignore({long})"),
         format!("turtle({{ [{long}] = 1 }})"),

@@ -72,8 +72,11 @@ pub(super) struct Found<'a> {
     /// An error if it names a coordinate system that is not known, for which options can stand in.
     pub crs: Result<Option<Crs>>,
     /// Reads the heights, of which some may be missing (NaN). Nobody asks before all else is known to be right.
-    pub heights: Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>,
+    pub heights: ReadHeights<'a>,
 }
+
+/// Reads all heights of a file, row by row.
+pub(super) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>;
 
 /// Refuses sizes that cannot be meant, before room is made for them.
 pub(super) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {

@@ -232,7 +232,8 @@ impl Relief {
                         .map(|way| lattice.at(place + way * self.step) - lattice.at(place));
                     let by = DMat2::from_cols(east, north).inverse() * off * self.step;
                     place += by;
-                    if !(by.length() > self.step * CLOSE) {
+                    // What is not a number comes no nearer either.
+                    if by.length() <= self.step * CLOSE || by.is_nan() {
                         break;
                     }
                 }
