@@ -56,7 +56,10 @@ local function from_others(...: any)
   if count == 1 and type(first) == "table" then
     local x, y, z = first[1], first[2], first[3]
     if type(x) ~= "number" or type(y) ~= "number" or (z ~= nil and type(z) ~= "number") then
-      refuse("vec takes a list of two or three numbers, but this table is none", "write vec({ 1, 2, 3 }) or vec(1, 2, 3)")
+      refuse(
+        "vec takes a list of two or three numbers, but this table is none",
+        "write vec({ 1, 2, 3 }) or vec(1, 2, 3)"
+      )
     end
     return made(x, y, z or 0)
   elseif count > 3 then
@@ -69,7 +72,10 @@ local function from_others(...: any)
   for index = 1, last do
     local value = (select(index, ...))
     if type(value) ~= "number" then
-      refuse(`{AXES[index]} of vec is {describe(value)}`, "write vec(x, y, z); what is left out at the end is 0")
+      refuse(
+        `{AXES[index]} of vec is {describe(value)}`,
+        "write vec(x, y, z); what is left out at the end is 0"
+      )
     end
   end
   local x, y, z = ...
@@ -91,7 +97,9 @@ local function vectors(a, b, operator: string)
     if is_vector(value) then
       return value
     elseif not is_list(value) then
-      local remedy = if operator == "+" or operator == "-" then "write vec(x, y, z); * and / also take numbers" else nil
+      local remedy = if operator == "+" or operator == "-"
+        then "write vec(x, y, z); * and / also take numbers"
+        else nil
       refuse(`{operator} takes two vectors, but one side is {describe(value)}`, remedy)
     end
     return vec(value)
