@@ -1,8 +1,8 @@
 //! Connections: accepts them, and lets none keep others waiting.
 //!
-//! Any program of this machine can connect. Until it has sent a request with the token it is a stranger: strangers have
-//! a short while for it, they are few, and the one that has been here longest goes first. So they can neither fill the
-//! server nor use up its file handles.
+//! Any program of this machine can connect. Until a connection has sent a request with the token it is unproven: such
+//! connections have a short while for it, they are few, and the oldest is closed first. So they can neither fill the server
+//! nor use up its file handles.
 
 use std::collections::VecDeque;
 use std::convert::Infallible;
@@ -23,19 +23,19 @@ use super::server::{Site, answer};
 /// How long the head of a request may take, and a connection be silent after one.
 const HEAD: Duration = Duration::from_secs(5);
 
-/// The most strangers at a time; fewer where the system allows few files.
-const STRANGERS: usize = 64;
+/// The most unproven connections at a time; fewer where the system allows few files.
+const UNPROVEN: usize = 64;
 
 /// How long to wait after the system had no room for a connection.
 const PAUSE: Duration = Duration::from_millis(20);
 
 /// Those who have not sent a request with the token yet, in the order in which they came.
 #[derive(Default)]
-pub(super) struct Strangers(Mutex<VecDeque<Arc<Notify>>>);
+pub(super) struct Unproven(Mutex<VecDeque<Arc<Notify>>>);
 
-impl Strangers {
+impl Unproven {
     /// Takes a new one in, and sends those away that are too many.
-    fn come(&self, most: usize) -> Arc<Notify> {
+    fn admit(&self, most: usize) -> Arc<Notify> {
         let away = Arc::new(Notify::new());
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
         all.push_back(Arc::clone(&away));
@@ -46,25 +46,25 @@ impl Strangers {
     }
 
     /// One that is none any more, or has gone.
-    fn no_more(&self, away: &Arc<Notify>) {
+    fn remove(&self, away: &Arc<Notify>) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).retain(|it| !Arc::ptr_eq(it, away));
     }
 
-    fn send_all_away(&self) {
+    fn close_all(&self) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).drain(..).for_each(|it| it.notify_one());
     }
 }
 
 /// Answers requests until it is dropped.
 pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
-    let strangers = Arc::new(Strangers::default());
-    let most = STRANGERS.min(files_allowed().unwrap_or(usize::MAX) / 8).max(2);
+    let unproven = Arc::new(Unproven::default());
+    let most = UNPROVEN.min(files_allowed().unwrap_or(usize::MAX) / 8).max(2);
     let mut told = false;
     loop {
         match listener.accept().await {
             Ok((stream, _)) => {
-                let away = strangers.come(most);
-                tokio::spawn(talk(stream, Arc::clone(&site), Arc::clone(&strangers), away));
+                let away = unproven.admit(most);
+                tokio::spawn(handle(stream, Arc::clone(&site), Arc::clone(&unproven), away));
             }
             // It went before it was taken.
             Err(error)
@@ -77,7 +77,7 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
                 if !std::mem::replace(&mut told, true) {
                     site.state.tell(&Told::Note(format!("a connection has to wait: {error}")));
                 }
-                strangers.send_all_away();
+                unproven.close_all();
                 tokio::time::sleep(PAUSE).await;
             }
         }
@@ -85,11 +85,11 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
 }
 
 /// Answers the requests of one connection.
-async fn talk(stream: TcpStream, site: Arc<Site>, strangers: Arc<Strangers>, away: Arc<Notify>) {
+async fn handle(stream: TcpStream, site: Arc<Site>, unproven: Arc<Unproven>, away: Arc<Notify>) {
     // Messages are small, and none is to wait for the next. A connection that refuses is only slower.
     let _ = stream.set_nodelay(true);
     let service = service_fn(|request: hyper::Request<hyper::body::Incoming>| {
-        let (site, known) = (Arc::clone(&site), || strangers.no_more(&away));
+        let (site, known) = (Arc::clone(&site), || unproven.remove(&away));
         async move { Ok::<_, Infallible>(answer(&site, request.map(Body::new), known).await) }
     });
     let connection = http1::Builder::new()
@@ -102,7 +102,7 @@ async fn talk(stream: TcpStream, site: Arc<Site>, strangers: Arc<Strangers>, awa
         _ = connection => {}
         () = away.notified() => {}
     }
-    strangers.no_more(&away);
+    unproven.remove(&away);
 }
 
 /// How many files the system lets this program open, where that is known.
@@ -117,12 +117,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_strangers_that_have_been_here_longest_go_first_and_those_that_are_known_stay() {
-        let strangers = Strangers::default();
-        let all: Vec<_> = (0..5).map(|_| strangers.come(3)).collect();
-        let known = strangers.come(3);
-        strangers.no_more(&known);
-        let later: Vec<_> = (0..3).map(|_| strangers.come(3)).collect();
+    fn the_unproven_that_have_been_here_longest_go_first_and_those_that_are_known_stay() {
+        let unproven = Unproven::default();
+        let all: Vec<_> = (0..5).map(|_| unproven.admit(3)).collect();
+        let known = unproven.admit(3);
+        unproven.remove(&known);
+        let later: Vec<_> = (0..3).map(|_| unproven.admit(3)).collect();
         let gone = |it: &Arc<Notify>| {
             let runtime = tokio::runtime::Builder::new_current_thread().enable_time().build().unwrap();
             let wait = async { tokio::time::timeout(Duration::ZERO, it.notified()).await.is_ok() };

@@ -10,13 +10,14 @@ use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::analysis::Globals;
 use super::convert::{class_key, to_field, to_lua};
-use super::handles::{ObjectHandle, methods_key};
+use super::handles::ObjectHandle;
+use super::kinds::{install_kind, named_fields, no_table};
 use super::machine::{Machine, compile, native};
 use super::param::Param;
 use super::require::require;
-use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy, is_unread_geometry};
+use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
 use crate::error::{Error, Place, Result};
-use crate::objects::{Call, Elevation, ElevationOptions, KINDS, Kind, Model, Table as ValueTable, Value};
+use crate::objects::{Elevation, ElevationOptions, KINDS, Kind, Model, Value};
 use crate::rules::{Signature, Symbol, Symbols};
 use crate::text::escaped_lines;
 use crate::warning::{Warning, WarningKind};
@@ -43,7 +44,7 @@ const LOCKED: [&str; 14] = [
 ];
 
 /// Types whose objects are made of files, by functions of their own.
-const OF_FILES: [&Kind; 2] = [&Model::KIND, &Elevation::KIND];
+pub(super) const OF_FILES: [&Kind; 2] = [&Model::KIND, &Elevation::KIND];
 
 /// An interpretation that the standard library gives to modules of every system with a type of object.
 pub(crate) struct Standard {
@@ -431,86 +432,3 @@ fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
 /// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
 /// function that tells whether the top level is running.
 pub(crate) struct Quiet(pub Function);
-
-/// Makes the constructor of a type of object and its table of methods.
-fn install_kind(machine: &Machine, globals: &Table, kind: &'static Kind) -> mlua::Result<()> {
-    let lua = machine.lua();
-    let methods = lua.create_table()?;
-    for (index, method) in kind.methods.iter().enumerate() {
-        let name = format!("{}:{}", kind.name, method.name);
-        let function: Function = match &method.call {
-            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
-                machine.prelude().recorder.call((index, name, method.arguments.len()))?
-            }
-            Call::Write { .. } => machine.prelude().direct.call((index, name, true))?,
-            Call::Read(_) => machine.prelude().direct.call((index, name, false))?,
-        };
-        methods.raw_set(method.name, function)?;
-    }
-    let unknown = lua.create_table()?;
-    unknown.raw_set(
-        "__index",
-        lua.create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
-            Err(mlua::Error::external(kind.unknown_method(&name)))
-        })?,
-    )?;
-    methods.set_metatable(Some(unknown))?;
-    lua.set_named_registry_value(&methods_key(kind.name), &methods)?;
-    if OF_FILES.iter().any(|known| known.name == kind.name) {
-        return Ok(());
-    }
-    let library = std::rc::Rc::clone(&machine.library);
-    globals.raw_set(
-        kind.name,
-        lua.create_function(move |_, given: MultiValue| {
-            let table = constructor_fields(kind, given).map_err(mlua::Error::external)?;
-            // What one feature has in place of a number, another may have right.
-            let mut object =
-                (kind.construct)(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
-            for warning in object.take_warnings() {
-                library.machine().map_err(mlua::Error::external)?.warn(warning);
-            }
-            Ok(ObjectHandle(Arc::from(object)))
-        })?,
-    )
-}
-
-/// The named fields that a constructor takes: a table, before which one of them may stand by itself.
-fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>> {
-    let mut given = given.into_iter();
-    let one = given.next().unwrap_or(LuaValue::Nil);
-    let two = given.next().unwrap_or(LuaValue::Nil);
-    let Some(first) = kind.first else { return named_fields(kind.name, one) };
-    let alone = match (&one, &two) {
-        (LuaValue::Nil, LuaValue::Nil) => true,
-        (LuaValue::Table(table), LuaValue::Nil) if !is_unread_geometry(table) => {
-            table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
-                kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == field.name))
-            })
-        }
-        _ => false,
-    };
-    if alone {
-        return named_fields(kind.name, one);
-    }
-    let mut table = ValueTable::clone(&*named_fields(kind.name, two)?);
-    if table.get(first).is_some() {
-        return Err(Error::new(format!("{} is given its {first} twice", kind.name)));
-    }
-    table.entries.push((crate::objects::Key::Name(first.into()), to_field(&one)?));
-    Ok(Arc::new(table))
-}
-
-/// The one table of named fields that a constructor takes; nothing is an empty one.
-fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
-    match to_field(&options)? {
-        Value::Nil => Ok(Arc::default()),
-        Value::Table(table) => Ok(table),
-        _ => Err(no_table(what, &options)),
-    }
-}
-
-fn no_table(what: &str, given: &LuaValue) -> Error {
-    Error::new(format!("{what} takes a table of named fields, not a {}", given.type_name()))
-        .help(format!("write {what} {{ name = value }}"))
-}

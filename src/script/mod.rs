@@ -9,6 +9,7 @@ mod data;
 mod drawn;
 mod freeze;
 mod handles;
+mod kinds;
 mod library;
 mod machine;
 mod options;

@@ -33,12 +33,12 @@ fn the_page_and_its_parts_are_served_with_headers_that_lock_it_in() {
 }
 
 #[test]
-fn strangers_are_refused() {
+fn requests_without_the_token_or_from_elsewhere_are_refused() {
     let server = Server::new(Some(&script(3)));
     let (token, port) = (&server.token, server.port);
     let host = format!("Host: 127.0.0.1:{port}\r\n");
     let other = format!("{}{}", if token.starts_with('0') { '1' } else { '0' }, &token[1..]);
-    let strangers = [
+    let unproven = [
         format!("GET / HTTP/1.1\r\n{host}"),
         format!("GET /favicon.ico HTTP/1.1\r\n{host}"),
         format!("GET /{other}/ HTTP/1.1\r\n{host}"),
@@ -59,7 +59,7 @@ fn strangers_are_refused() {
                  Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"
         ),
     ];
-    for head in &strangers {
+    for head in &unproven {
         assert_eq!(server.request(head).status, 403, "{head}");
     }
     let friends = [
