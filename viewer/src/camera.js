@@ -28,6 +28,8 @@ export class Camera {
   #perspective = new PerspectiveCamera(FIELD / DEGREE);
   #orthographic = new OrthographicCamera();
   #animation = 0;
+  /** Goes to a part, 0 to 1, of the way of a turn. */
+  #put = null;
   target = new Vector3(0, 2, 0);
   azimuth = 150 * DEGREE;
   elevation = 22 * DEGREE;
@@ -63,24 +65,34 @@ export class Camera {
     this.up.crossVectors(this.back, this.right);
   }
 
-  /** Places the camera; `center` and `radius` (m) are of what must not be cut off. */
-  place(center, radius) {
+  /** Puts the camera where its state says. */
+  pose() {
     this.orient();
     const camera = this.active;
     camera.position.copy(this.target).addScaledVector(this.back, this.distance);
     camera.quaternion.setFromRotationMatrix(new Matrix4().makeBasis(this.right, this.up, this.back));
-    const depth = -center.clone().sub(camera.position).dot(this.back);
-    camera.far = Math.max(depth + radius, this.distance * 2);
     if (this.flat) {
-      camera.near = depth - radius;
       [camera.left, camera.right] = [-this.reach * this.aspect, this.reach * this.aspect];
       [camera.bottom, camera.top] = [-this.reach, this.reach];
     } else {
-      camera.near = Math.max(depth - radius, this.distance * 0.004, camera.far * 2e-5);
       camera.aspect = this.aspect;
     }
     camera.updateProjectionMatrix();
     camera.updateMatrixWorld();
+    return camera;
+  }
+
+  /** Places the camera; `center` and `radius` (m) are of what must not be cut off. */
+  place(center, radius) {
+    const camera = this.pose();
+    const depth = -center.clone().sub(camera.position).dot(this.back);
+    camera.far = Math.max(depth + radius, this.distance * 2);
+    if (this.flat) {
+      camera.near = depth - radius;
+    } else {
+      camera.near = Math.max(depth - radius, this.distance * 0.004, camera.far * 2e-5);
+    }
+    camera.updateProjectionMatrix();
     return camera;
   }
 
@@ -148,6 +160,7 @@ export class Camera {
       this.changed();
     };
     if (at_once || document.hidden || matchMedia('(prefers-reduced-motion: reduce)').matches) return put(1);
+    this.#put = put;
     const start = performance.now();
     const step = () => {
       const t = Math.min((performance.now() - start) / TURN_TIME, 1);
@@ -160,6 +173,15 @@ export class Camera {
   stop() {
     cancelAnimationFrame(this.#animation);
     this.#animation = 0;
+    this.#put = null;
+  }
+
+  /** Ends a turn where it leads. */
+  arrive() {
+    const put = this.moving ? this.#put : null;
+    this.stop();
+    put?.(1);
+    this.pose();
   }
 
   get moving() {

@@ -17,6 +17,8 @@ export class Offer {
 
   /** Whether all of the model is seen, and large enough; asked before another one comes. */
   framed() {
+    // What was asked for a moment ago counts, not the way there.
+    this.stage.camera.arrive();
     if (this.stage.model.box.isEmpty()) return null;
     const { whole, size } = this.stage.framing();
     return whole && size > SMALL;
