@@ -6,8 +6,6 @@
 use std::hint::black_box;
 use std::time::Instant;
 
-use burgeon::script::Options;
-
 #[allow(dead_code, reason = "the tests use more of it")]
 #[path = "../tests/rewriting/candidates.rs"]
 mod candidates;
@@ -71,7 +69,7 @@ fn main() {
     let begin = Instant::now();
     let (mut applied, mut drawn, mut weightless) = (0, 0, 0);
     for seed in 0..seeds / 200 {
-        let compared = candidates::compare(seed, 500, Options::default());
+        let compared = candidates::compare(seed, 500, burgeon::options());
         (applied, drawn, weightless) =
             (applied + compared.applied, drawn + compared.drawn, weightless + compared.weightless);
     }

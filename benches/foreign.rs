@@ -82,12 +82,12 @@ fn main() {
     )
     .unwrap();
     std::fs::write(path("read.lua"), "model(\"a.glb\")\n").unwrap();
-    let made = burgeon::run(&path("make.lua"), Options::default()).unwrap();
+    let made = burgeon::run(&path("make.lua"), burgeon::options()).unwrap();
     burgeon::export::write(&made.scene, &path("made.glb"), &Picture::default()).unwrap();
     damaged("models", &std::fs::read(path("made.glb")).unwrap(), 2000, |bytes| {
         std::fs::write(path("a.glb"), bytes).unwrap();
         let limits = Limits { time: Duration::from_secs(20), triangles: 100_000, ..Limits::default() };
-        burgeon::run(&path("read.lua"), Options { limits, quiet: true, ..Options::default() }).is_ok()
+        burgeon::run(&path("read.lua"), Options { limits, quiet: true, ..burgeon::options() }).is_ok()
     });
 
     for count in [10_000, 40_000, 160_000] {

@@ -193,7 +193,7 @@ struct Measure {
 fn ours(workload: &Workload, threads: usize, steps: usize, times: usize) -> Measure {
     let path = write_script(workload, steps, times);
     let cpu = ThreadTime::now();
-    let run = burgeon::run(&path, Options { threads: Some(threads), seed: 7, ..Options::default() });
+    let run = burgeon::run(&path, Options { threads: Some(threads), seed: 7, ..burgeon::options() });
     let run = run.expect("the workload runs");
     let cpu = cpu.elapsed();
     std::fs::remove_file(path).ok();

@@ -11,7 +11,8 @@ use std::time::Instant;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, solid};
-use burgeon::objects::{Call, Footprint, Key, Parameter, Table, Value};
+use burgeon::kit::{Call, Key, Parameter, Table, Value};
+use burgeon::objects::Footprint;
 use burgeon::sources::{Geometry, Layer, Source, Wanted};
 use glam::{DVec2, DVec3, Vec3};
 
@@ -134,14 +135,14 @@ fn is_closed(rings: &[Vec<DVec3>]) -> bool {
         entries: entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone())).collect(),
     };
     let geometry = burgeon::objects::Rings(rings.to_vec()).into_value();
-    let Ok(mut house) = (Footprint::KIND.construct)(&table(&[("geometry", geometry)])) else { return false };
+    let Ok(mut house) = Footprint::kind().make(&table(&[("geometry", geometry)])) else { return false };
     house.begin();
     for (method, argument) in [
         ("groundwork", Value::Text("extruded".into())),
         ("walls", Value::Table(Arc::new(table(&[("height", Value::Number(3.0))])))),
         ("roof", Value::Table(Arc::new(table(&[("kind", Value::Text("hip".into()))])))),
     ] {
-        let Some(Call::Write { values, .. }) = house.kind().method(method).map(|method| &method.call) else {
+        let Some(Call::Write { values, .. }) = house.kind().method(method).map(|method| method.call.clone()) else {
             return false;
         };
         if values(&mut *house, &[argument]).is_err() {
@@ -149,7 +150,7 @@ fn is_closed(rings: &[Vec<DVec3>]) -> bool {
         }
     }
     let replaced = !house.notes().is_empty();
-    let Some(drawing) = house.drawing() else { return false };
+    let Some(drawing) = house.drawing_mut() else { return false };
     let mut uses: HashMap<[[u32; 3]; 2], u32> = HashMap::new();
     for part in drawing.parts() {
         let key = |corner: u32| (part.positions[corner as usize] + Vec3::ZERO).to_array().map(f32::to_bits);

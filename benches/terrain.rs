@@ -15,8 +15,8 @@
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use burgeon::random::Stream;
-use burgeon::rules::Key;
+use burgeon::kit::random::Stream;
+use burgeon::kit::rules::Key;
 use burgeon::terrain::{
     Area, Draw, Ground, Layer, Mesh, Quadrants, Ring, RuleTable, Rules, Tables, View, World,
 };
@@ -306,7 +306,7 @@ fn system() {
     let run = |levels: u32| {
         std::fs::write(&path, SYSTEM.replace("LEVELS", &levels.to_string())).expect("a script");
         least(3, || {
-            burgeon::run(&path, burgeon::script::Options::default()).expect("a run");
+            burgeon::run(&path, burgeon::options()).expect("a run");
         })
     };
     let (small, large) = (run(1), run(12));

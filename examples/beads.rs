@@ -3,11 +3,12 @@
 //! that it is given.
 
 use std::path::PathBuf;
+use std::sync::{Arc, LazyLock};
 
 use burgeon::geometry::sphere;
-use burgeon::objects::{Color, Drawing, Kind, Object, Table};
+use burgeon::kit::{Color, Draw, Drawing, Kind, Object, Registry, Table};
 use burgeon::picture::Picture;
-use burgeon::scene::{Material, Scene};
+use burgeon::scene::Material;
 use burgeon::script::Options as RunOptions;
 use burgeon::{Result, export};
 use glam::DVec3;
@@ -51,22 +52,23 @@ burgeon::methods! {
 
 impl Beads {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "beads",
-        doc: "Balls on top of one another.",
-        fields: Options::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |table: &Table| {
-            let options = Options::from_table(table)?;
-            Ok(Box::new(Self { options, height: 0.0, drawing: Drawing::default() }))
-        },
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new("beads", "Balls on top of one another.");
+            let make = |table: &Table| {
+                let options = Options::from_table(table)?;
+                Ok(Beads { options, height: 0.0, drawing: Drawing::default() })
+            };
+            let kind = kind.made_of(Options::fields(), make).methods(Beads::methods());
+            Arc::new(kind.begins_empty().draws::<Beads>())
+        });
+        &KIND
+    }
 }
 
 impl Object for Beads {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -77,25 +79,29 @@ impl Object for Beads {
         self.height = 0.0;
         self.drawing.clear();
     }
+}
 
-    fn begins_empty(&self) -> bool {
-        true
+impl Draw for Beads {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
-    fn triangles(&self) -> usize {
-        self.drawing.triangles()
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
     }
+}
 
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing.clone().show(scene, DVec3::ZERO, name, feature);
-        Ok(())
-    }
+/// The types that come with Burgeon, and beads.
+fn registry() -> Result<Registry> {
+    let mut registry = burgeon::objects::registry();
+    registry.add(Arc::clone(Beads::kind()))?;
+    Ok(registry)
 }
 
 fn main() -> Result<()> {
     let folder = std::env::args().nth(1).map_or_else(|| PathBuf::from("."), PathBuf::from);
     let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/beads.lua");
-    let run = burgeon::run(&script, RunOptions { kinds: vec![&Beads::KIND], ..RunOptions::default() })?;
+    let run = burgeon::run(&script, RunOptions { registry: registry()?, ..burgeon::options() })?;
     for name in ["beads.glb", "beads.png"] {
         export::write(&run.scene, &folder.join(name), &Picture::default())?;
     }
@@ -110,10 +116,10 @@ mod tests {
     #[test]
     fn a_registered_type_is_like_a_built_in_one() {
         let script = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("examples/beads.lua");
-        let run = |kinds| burgeon::run(&script, RunOptions { kinds, ..RunOptions::default() });
-        let made = run(vec![&Beads::KIND]).expect("the script runs");
+        let run = |registry| burgeon::run(&script, RunOptions { registry, ..burgeon::options() });
+        let made = run(registry().expect("the name is free")).expect("the script runs");
         let (low, high) = made.scene.bounds().expect("there are beads");
         assert!(low.z.abs() < 1e-6 && (high.z - 12.0 * 0.6).abs() < 1e-5, "{low} {high}");
-        assert!(run(Vec::new()).is_err(), "beads are unknown without the registration");
+        assert!(run(burgeon::objects::registry()).is_err(), "beads are unknown without the registration");
     }
 }

@@ -43,10 +43,10 @@
 //! ```
 //! use std::path::Path;
 //!
-//! use burgeon::{export, picture::Picture, script::Options};
+//! use burgeon::{export, picture::Picture};
 //!
 //! # fn main() -> burgeon::Result<()> {
-//! let run = burgeon::run(Path::new("scripts/tower.lua"), Options::default())?;
+//! let run = burgeon::run(Path::new("scripts/tower.lua"), burgeon::options())?;
 //! assert!(run.scene.triangles() > 0);
 //! # let folder = std::env::temp_dir().join(format!("burgeon-doc-{}", std::process::id()));
 //! # std::fs::create_dir_all(&folder).map_err(burgeon::Error::new)?;
@@ -79,14 +79,14 @@ pub mod export;
 mod files;
 pub mod geometry;
 mod interpret;
+#[macro_use]
+pub mod kit;
 #[cfg(feature = "live")]
 pub mod live;
 mod memory;
 pub mod objects;
 pub mod picture;
 pub mod presets;
-pub mod random;
-pub mod rules;
 mod run;
 pub mod scene;
 pub mod script;
@@ -104,3 +104,8 @@ pub use error::{Error, Result};
 pub use run::{Check, Run, RunTimes, check, run, run_session};
 pub use stop::Stop;
 pub use warning::{Warning, WarningKind};
+
+/// How a script is run unless something else is said, with all the types of objects that come with Burgeon.
+pub fn options() -> script::Options {
+    script::Options { registry: objects::registry(), ..script::Options::default() }
+}

@@ -5,7 +5,7 @@ use std::sync::{Arc, PoisonError};
 
 use crate::derive::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
 use crate::error::{Error, Place, Result};
-use crate::objects::Makers;
+use crate::kit::Makers;
 use crate::run::run_session;
 use crate::scene::{Origin, Part, Scene};
 use crate::script::{Options, Session};

@@ -8,13 +8,13 @@
 //! - *A function that scripts call, or a declaration*: `machine.warn(Warning::new(kind, "...").help("..."))`. The line of
 //!   the script is filled in, and machines that only help say nothing.
 //! - *An object* keeps a list, adds to it while it is made, in a method that changes it or while it grows, and gives it
-//!   away in [`Object::take_warnings`](crate::objects::Object::take_warnings). The line is that of the constructor's or
+//!   away in [`Object::take_warnings`](crate::kit::Object::take_warnings). The line is that of the constructor's or
 //!   the method's call, or of the system. Where passes begin empty, only what the last pass said counts.
 //!   [`Warning::of_all`] keeps it back as long as some module of the kind does better.
 //! - *A file*: what it was loaded into keeps the warnings, and the function that a script asked for it hands them on to
 //!   its machine, so that they are told by every run, also by one that need not read the file again.
 //!
-//! What only one feature of many is about is a [`Note`](crate::objects::Note) of the report.
+//! What only one feature of many is about is a [`Note`](crate::kit::Note) of the report.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -7,7 +7,8 @@ use std::sync::Arc;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, solid};
-use burgeon::objects::{Call, Footprint, Key, Object, Parameter, Rings, Table, Value};
+use burgeon::kit::{Call, Key, Object, Parameter, Table, Value};
+use burgeon::objects::{Footprint, Rings};
 use burgeon::sources::{Geometry, Layer, Source, Wanted};
 use glam::DVec3;
 
@@ -45,21 +46,23 @@ fn table(entries: &[(&str, Value)]) -> Table {
 }
 
 fn call(object: &mut dyn Object, method: &str, argument: Value) {
-    let Call::Write { values, .. } = object.kind().method(method).unwrap().call else { unreachable!() };
+    let Call::Write { values, .. } = object.kind().method(method).unwrap().call.clone() else {
+        unreachable!()
+    };
     values(object, &[argument]).unwrap_or_else(|error| panic!("{method}: {error}"));
 }
 
 /// A building that has not been built yet.
 fn footprint(rings: &[Vec<DVec3>]) -> burgeon::error::Result<Box<dyn Object>> {
     let geometry = Rings(rings.to_vec()).into_value();
-    (Footprint::KIND.construct)(&table(&[("geometry", geometry)]))
+    Footprint::kind().make(&table(&[("geometry", geometry)]))
 }
 
 /// The notes of a building with walls of 3 m, once it has been checked to be a closed solid.
 fn build(rings: &[Vec<DVec3>], kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
     let mut house = footprint(rings).unwrap();
     raise(&mut *house, kind, eaves, overhang);
-    let check = solid::check(house.drawing().unwrap().parts());
+    let check = solid::check(house.drawing_mut().unwrap().parts());
     assert!(check.is_solid(), "{kind} {eaves} {overhang}: {check:?} over {rings:?}");
     house.notes().iter().map(|note| note.what.clone()).collect()
 }
@@ -116,13 +119,13 @@ fn check_beside_neighbours(name: &str, kinds: &[&str], eaves: &str) {
     let Some(buildings) = buildings(name) else { return };
     let mut houses: Vec<Box<dyn Object>> =
         buildings.iter().filter_map(|rings| footprint(rings).ok()).collect();
-    let gather = houses.first().and_then(|house| house.gathers()).unwrap();
+    let gather = houses.first().and_then(|house| house.kind().gather).unwrap();
     gather(&mut houses);
     let mut faults = Vec::new();
     for (number, house) in houses.iter_mut().enumerate() {
         let kind = kinds[number % kinds.len()];
         raise(&mut **house, kind, eaves, [0.3, 0.5, 0.8][number / 5 % 3]);
-        let parts = house.drawing().unwrap().parts();
+        let parts = house.drawing_mut().unwrap().parts();
         let (check, clashes) = (solid::check(parts), solid::clashes(parts, 5e-3));
         if !check.is_solid() || !clashes.is_empty() {
             faults.push(format!("{number} {kind} {eaves}: {check:?} {clashes:?}"));

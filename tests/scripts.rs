@@ -6,7 +6,6 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use burgeon::objects::KINDS;
 use burgeon::picture::Picture;
 use burgeon::script::Options;
 use burgeon::{Run, export};
@@ -39,7 +38,7 @@ fn scripts() -> Vec<PathBuf> {
 fn run(script: &Path, threads: usize) -> Run {
     let data = vec![root().join("examples/data"), root().join("../shared/data")];
     let data = data.into_iter().filter(|folder| folder.is_dir()).collect();
-    let options = Options { threads: Some(threads), data, ..Options::default() };
+    let options = Options { threads: Some(threads), data, ..burgeon::options() };
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 
@@ -163,7 +162,7 @@ fn every_lua_block_of_the_readme_runs() {
         let (block, _) = rest.split_once("\n```").unwrap();
         let script = folder.path().join(format!("block{}.lua", index + 1));
         fs::write(&script, block).unwrap();
-        burgeon::check(&script, Options::default()).unwrap_or_else(|error| panic!("{error}"));
+        burgeon::check(&script, burgeon::options()).unwrap_or_else(|error| panic!("{error}"));
         let run = run(&script, 2);
         let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
         assert!(modules + run.scene.triangles() > 0, "{block}");
@@ -189,9 +188,9 @@ fn what_the_readme_says_of_a_context_is_what_comes_out() {
 #[test]
 fn the_readme_names_every_object_its_fields_and_its_methods() {
     let words: BTreeSet<&str> = README.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
-    for kind in KINDS {
-        let fields = kind.fields.iter().map(|field| field.name);
-        for name in fields.chain(kind.methods.iter().map(|method| method.name)).chain([kind.name]) {
+    for kind in burgeon::objects::registry().kinds() {
+        let fields = kind.fields.iter().map(|field| &*field.name);
+        for name in fields.chain(kind.methods.iter().map(|method| &*method.name)).chain([&*kind.name]) {
             assert!(words.contains(name), "{}: {name} is not in README.md", kind.name);
         }
     }

@@ -113,7 +113,7 @@ impl ScriptFlags {
             data: self.data.clone(),
             strict: self.strict,
             stdlib: self.stdlib.clone(),
-            ..Options::default()
+            ..burgeon::options()
         })
     }
 }

@@ -7,7 +7,7 @@ use super::Plan;
 use super::group::{Arranged, Group};
 use super::output::Output;
 use crate::error::{Error, Result};
-use crate::rules::{Around, Bindings, Chain, Links, Mark, module_brief};
+use crate::kit::rules::{Around, Bindings, Chain, Links, Mark, module_brief};
 use crate::script::{Declared, Machine, read_column, write_column};
 
 /// No rule.

@@ -2,7 +2,7 @@
 
 use super::batch::{Active, Batch, NONE, Piece, Scratch, narrow};
 use crate::error::{Error, Result};
-use crate::rules::{Candidates, Choice, END, Symbol};
+use crate::kit::rules::{Candidates, Choice, END, Symbol};
 use crate::script::read_column;
 
 impl Batch<'_> {

@@ -15,7 +15,7 @@ use super::derived::Derived;
 use super::step::Rewriting;
 use crate::error::{Error, Result};
 use crate::interpret::Interpreting;
-use crate::objects::Ahead;
+use crate::kit::Prefetch;
 use crate::script::{Declared, Machine, Session, Watchdog};
 
 /// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
@@ -23,7 +23,7 @@ use crate::script::{Declared, Machine, Session, Watchdog};
 pub(crate) enum Job {
     Rewrite(Weak<Rewriting>),
     Interpret(Weak<Interpreting>),
-    Foresee(Weak<Ahead>),
+    Prefetch(Weak<dyn Prefetch>),
 }
 
 enum Message {
@@ -207,9 +207,9 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 while rewriting.work(machine, declared, &mut scratch) {}
                 machine.current.objects.replace(None);
             }
-            Job::Foresee(ahead) => {
-                if let Some(ahead) = ahead.upgrade() {
-                    ahead.work();
+            Job::Prefetch(prefetch) => {
+                if let Some(prefetch) = prefetch.upgrade() {
+                    prefetch.work();
                 }
             }
             Job::Interpret(interpreting) => {

@@ -8,8 +8,8 @@ use super::output::Use;
 use super::remark::Remark;
 use super::trace::RuleName;
 use crate::error::{Place, Result};
-use crate::objects::{Model, Object};
-use crate::rules::{Chain, Symbols, Values, chain_text, write_chains};
+use crate::kit::rules::{Chain, Symbols, Values, chain_text, write_chains};
+use crate::kit::{Model, Object};
 use crate::scene::{Origin, Scene};
 use crate::warning::Warning;
 

@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use crate::rules::{CLOSE, OPEN, Symbol};
+use crate::kit::rules::{CLOSE, OPEN, Symbol};
 
 /// Brackets in the order that Lua writes.
 const OPENS: u32 = 0xFFFF_FFFE;

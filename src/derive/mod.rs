@@ -4,13 +4,13 @@
 //! while the next one is made, so a batch never sees what another batch does.
 
 mod batch;
-mod cells;
 mod choose;
 mod crew;
 mod derived;
 mod group;
 mod output;
 mod remark;
+mod rewriter;
 mod splice;
 mod step;
 mod trace;
@@ -27,11 +27,11 @@ use std::time::Instant;
 
 use crate::error::{Error, Result};
 use crate::interpret::Interpreting;
-use crate::objects::Object;
-use crate::rules::{Chain, Grammar, Key};
+use crate::kit::Object;
+use crate::kit::rules::{Chain, Grammar, Key};
 use crate::script::{Interpretations, Machine, Objects};
 use crate::warning::Warning;
-use cells::Cells;
+use rewriter::SystemRewriter;
 use step::Stepper;
 
 /// The first chains of a system and what belongs to each.
@@ -92,14 +92,14 @@ impl Plan {
     }
 
     /// Has objects that expand by themselves do so; adds to `said` what they warn of.
-    fn grow(&self, cells: &Cells<'_>, said: &mut Vec<Warning>) -> Result<()> {
+    fn expand(&self, rules: &SystemRewriter<'_>, said: &mut Vec<Warning>) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
-        if !objects.read(0, |object| Ok(object.grows()))? {
+        if !objects.read(0, |object| Ok(object.expands()))? {
             return Ok(());
         }
         for chain in (0..self.chains).filter(|chain| !objects.has_failed(*chain)) {
             objects.write(chain, |object| {
-                object.grow(cells)?;
+                object.expand(rules)?;
                 said.extend(object.take_warnings());
                 Ok(())
             })?;
@@ -176,7 +176,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let mut chain = std::mem::take(&mut axiom.chain);
     chain.mark(plan.batch, plan.grammar.arities());
     let mut stepper = Stepper::new(Arc::clone(&plan));
-    let cells = Cells::new(machine);
+    let rewriter = SystemRewriter::new(machine);
     let interprets = plan.objects.is_some() && !options.check;
     if options.check {
         plan.sketch()?;
@@ -195,12 +195,12 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             said.clear();
         }
         let chain = Interpreting::pass(machine, &plan, chain, step, &mut interpretations, &mut said)?;
-        plan.grow(&cells, &mut said)?;
+        plan.expand(&rewriter, &mut said)?;
         times.interpretation += begin.elapsed();
         Ok(chain)
     };
     if interprets {
-        plan.grow(&cells, &mut first)?;
+        plan.expand(&rewriter, &mut first)?;
     }
     if interprets && !last_only {
         chain = interpret(chain, 0, &mut times)?;
@@ -239,7 +239,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     let undrawn = machine.library.systems.borrow()[index].undrawn(&machine.library, &chain.symbols);
     let rules = reports(&plan, stepper.uses(), &interpretations);
     drop(stepper);
-    drop(cells);
+    drop(rewriter);
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&chain.params);
@@ -248,7 +248,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
         Some(Ok(objects)) if trace.is_some() => {
             let mut objects: Vec<_> = objects.into_owned().into_iter().map(|(object, _)| object).collect();
             if let Some(mut trace) = trace {
-                let drawings = objects.iter_mut().map(|object| object.drawing());
+                let drawings = objects.iter_mut().map(|object| object.drawing_mut());
                 trace.makers = drawings.map(|drawing| drawing?.take_makers()).collect();
                 trace.chain = chain;
                 session.traced.lock().unwrap_or_else(PoisonError::into_inner).replace(trace);

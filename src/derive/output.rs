@@ -3,7 +3,7 @@
 use std::ops::AddAssign;
 use std::time::Duration;
 
-use crate::rules::Chain;
+use crate::kit::rules::Chain;
 
 /// What a piece becomes.
 #[derive(Default)]

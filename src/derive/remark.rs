@@ -6,7 +6,7 @@ use std::fmt;
 use serde_json::json;
 
 use crate::error::Error;
-use crate::objects::Note;
+use crate::kit::Note;
 
 /// A feature that was left out or simplified, and why.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::batch::{Batch, NONE, Piece, Scratch, narrow, narrow_rule};
 use super::group::Made;
 use super::output::{Output, Use};
-use crate::rules::{Chain, END, Key, Symbol};
+use crate::kit::rules::{Chain, END, Key, Symbol};
 
 impl Batch<'_> {
     /// The next chain where `piece` was.

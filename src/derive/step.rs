@@ -8,7 +8,7 @@ use super::batch::{Batch, Piece, Scratch};
 use super::crew::Job;
 use super::output::{Output, Use};
 use crate::error::{Error, Result};
-use crate::rules::{Chain, Links, Mark};
+use crate::kit::rules::{Chain, Links, Mark};
 use crate::script::{Declared, Machine};
 
 /// Pieces of a chain from which rewriting it takes longer than starting a helper.
@@ -191,7 +191,8 @@ impl Stepper {
             });
             made.marks.extend(rebased);
             if self.plan.chains > 1 {
-                chain += output.chain.symbols.iter().filter(|symbol| **symbol == crate::rules::END).count();
+                chain +=
+                    output.chain.symbols.iter().filter(|symbol| **symbol == crate::kit::rules::END).count();
             }
             ran |= output.ran;
             changed |= output.changed;

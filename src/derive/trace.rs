@@ -8,8 +8,8 @@ use std::sync::Arc;
 use super::Plan;
 use super::batch::NONE;
 use crate::error::{Place, shortened};
-use crate::objects::Makers;
-use crate::rules::{Chain, END, Symbol, Symbols, Values, module_brief};
+use crate::kit::Makers;
+use crate::kit::rules::{Chain, END, Symbol, Symbols, Values, module_brief};
 
 /// Characters of a parameter that people are shown.
 const SHOWN: usize = 2000;
@@ -250,7 +250,7 @@ impl Trace {
     }
 
     /// Who made what is drawn of each traced chain; `None` where the object does not draw with a
-    /// [`Drawing`](crate::objects::Drawing).
+    /// [`Drawing`](crate::kit::Drawing).
     pub(crate) fn makers(&self) -> &[Option<Makers>] {
         &self.makers
     }

@@ -8,8 +8,8 @@ use mlua::Buffer;
 use super::Interpreting;
 use super::notices::Notice;
 use crate::error::{Error, Result};
-use crate::objects::{Call, Method, Object, Value};
-use crate::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
+use crate::kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
+use crate::kit::{Call, Kind, Object, Value};
 use crate::script::{Flusher, Machine, Objects, read_column, returns_modules};
 use crate::warning::Warning;
 
@@ -17,7 +17,7 @@ use crate::warning::Warning;
 pub(crate) struct Applier {
     pass: Arc<Interpreting>,
     objects: Arc<Objects>,
-    methods: &'static [Method],
+    kind: Arc<Kind>,
     values: Arc<Values>,
     triangle_limit: usize,
     buffers: [Buffer; 3],
@@ -63,7 +63,7 @@ impl Applier {
     pub(crate) fn new(pass: Arc<Interpreting>, machine: &Machine, begin: Mark) -> Result<Self> {
         let missing = || Error::new("the system has no object");
         let objects = pass.plan.objects.clone().ok_or_else(missing)?;
-        let methods = objects.read(begin.chain, |object| Ok(object.kind().methods))?;
+        let kind = objects.read(begin.chain, |object| Ok(Arc::clone(object.kind())))?;
         let (calls, numbers, counts) =
             machine.prelude().recorded().map_err(|error| machine.translate(error))?;
         Ok(Self {
@@ -71,7 +71,7 @@ impl Applier {
             triangle_limit: machine.session.options.limits.triangles,
             pass,
             objects,
-            methods,
+            kind,
             buffers: [calls, numbers, counts],
             position: begin.module,
             param: begin.param,
@@ -276,7 +276,7 @@ impl Applier {
         }
         while self.call_at < end {
             let method = self.calls[self.call_at];
-            let count = self.methods[usize::from(method)].arguments.len();
+            let count = self.kind.methods[usize::from(method)].arguments.len();
             let numbers = self.number_at..self.number_at + count;
             if let Err(error) = self.call(object, method, &self.numbers[numbers]) {
                 self.failed = Some((self.next, self.applied));
@@ -293,7 +293,7 @@ impl Applier {
     /// The number of arguments that these recorded calls have together.
     fn arguments_of(&self, calls: std::ops::Range<usize>) -> usize {
         let calls = self.calls.get(calls).unwrap_or_default();
-        calls.iter().map(|call| self.methods[usize::from(*call)].arguments.len()).sum()
+        calls.iter().map(|call| self.kind.methods[usize::from(*call)].arguments.len()).sum()
     }
 
     fn count(&mut self) -> Result<()> {
@@ -307,7 +307,7 @@ impl Applier {
     }
 
     fn call(&self, object: &mut dyn Object, method: u16, numbers: &[f64]) -> Result<()> {
-        match self.methods.get(usize::from(method)).map(|method| &method.call) {
+        match self.kind.methods.get(usize::from(method)).map(|method| &method.call) {
             Some(Call::Write { numbers: Some(call), .. }) => call(object, numbers),
             Some(Call::Write { values: call, .. }) => {
                 let mut values: Vec<Value> =
@@ -342,7 +342,7 @@ impl Applier {
 
 /// Notes that the symbol at place `position` of the chain draws what follows.
 fn follow(object: &mut dyn Object, position: usize) {
-    if let Some(drawing) = object.drawing() {
+    if let Some(drawing) = object.drawing_mut() {
         drawing.trace(u32::try_from(position).unwrap_or(u32::MAX));
     }
 }

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use crate::derive::{Job, Plan, Use};
 use crate::error::{Error, Place, Result};
-use crate::rules::{Chain, END, Mark, Symbol, module_brief};
+use crate::kit::rules::{Chain, END, Mark, Symbol, module_brief};
 use crate::script::{Flusher, Machine, write_column};
 use crate::warning::Warning;
 pub(crate) use apply::Applier;

@@ -7,7 +7,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use crate::rules::Symbol;
+use crate::kit::rules::Symbol;
 use crate::warning::Warning;
 
 /// A warning of an object, and what gave rise to it.

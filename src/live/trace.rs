@@ -13,7 +13,7 @@ use super::state::{Shown, State};
 use super::work;
 use crate::derive::{Derived, RuleName};
 use crate::error::{Error, Place, Result};
-use crate::rules::END;
+use crate::kit::rules::END;
 use crate::run::Run;
 use crate::script::Options;
 use crate::trace as engine;

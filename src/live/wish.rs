@@ -230,8 +230,7 @@ mod tests {
         assert_eq!(old(&mut wish, 5.0, 6.0), None);
         set(&mut wish, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
         assert_eq!(old(&mut wish, 5.0, 10.0), None);
-        let mut early =
-            Wish::new(&Options { set: vec![("floors".into(), "7".into())], ..Options::default() });
+        let mut early = Wish::new(&Options { set: vec![("floors".into(), "7".into())], ..crate::options() });
         assert_eq!(old(&mut early, 4.0, 10.0), None);
         assert_eq!(old(&mut early, 5.0, 10.0), Some(json!(4.0)));
     }

@@ -1,14 +1,14 @@
 //! Measured heights of the ground, to be asked for by place.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DVec2, DVec3};
 
-use super::parameter::{Expected, object};
-use super::{Kind, Object, Parameter, Table, Value, Vector};
 use crate::error::{Error, Result};
-use crate::sources::elevation::{Relief, Wanted};
+use crate::kit::{Expected, Loaded, Loader, Loading, object};
+use crate::kit::{Kind, Object, Parameter, Table, Value, Vector};
+use crate::sources::elevation::{Raster, Relief, Wanted};
 use crate::terrain::Measured;
 
 /// The one encoding of heights as colours that is known.
@@ -85,16 +85,19 @@ methods! {
 
 impl Elevation {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "elevation",
-        doc: "Measured heights of the ground, from a file.",
-        fields: ElevationOptions::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |_: &Table| {
-            Err(Error::new("an elevation is made of a file").help("write elevation(\"N43E007.hgt\")"))
-        },
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let loader = Loader {
+                what: "file of heights",
+                example: "elevation(\"N43E007.hgt\")",
+                example_with_fields: "elevation(\"N43E007.hgt\", { crs = 4326 })",
+                load,
+            };
+            let kind = Kind::new("elevation", "Measured heights of the ground, from a file.");
+            Arc::new(kind.loaded(ElevationOptions::fields(), loader).methods(Elevation::methods()))
+        });
+        &KIND
+    }
 
     /// The heights of `relief`.
     pub fn new(relief: Arc<Relief>) -> Self {
@@ -126,6 +129,21 @@ impl Elevation {
         .help("ask within its bounds, or use a file that reaches farther")
         .of_data()
     }
+}
+
+/// Reads the heights of a file, as the options of the script want them.
+fn load(file: &mut Loading<'_>, options: &Table) -> Result<Loaded> {
+    let wanted = ElevationOptions::from_table(options)?.wanted()?;
+    let raster = match file.resources.cache() {
+        Some(cache) => cache.raster(file.path, file.name, &wanted, file.budget),
+        None => Raster::open(file.path, file.name, &wanted, file.budget).map(Arc::new),
+    };
+    let raster = raster?;
+    // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
+    let memory = raster.heights.len() * size_of::<f32>();
+    let warnings = raster.warnings().into_iter().collect();
+    let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, file.frame)?)));
+    Ok(Loaded { object, memory, warnings })
 }
 
 impl Measured for Elevation {
@@ -168,8 +186,8 @@ impl fmt::Debug for Elevation {
 }
 
 impl Object for Elevation {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {

@@ -3,16 +3,17 @@
 #[cfg(test)]
 mod tests;
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-use super::{Color, Kind, Object, Table, Vector};
-use super::{Drawing, Surface};
+use super::Surface;
 use crate::error::{Error, Result};
 use crate::geometry::{Frame, Section, Segment, Station, SweepOptions, sweep};
-use crate::scene::{Material, Scene};
+use crate::kit::{Color, Kind, Object, Vector};
+use crate::kit::{Draw, Drawing};
+use crate::scene::Material;
 use crate::warning::{Warning, WarningKind};
 
 fields! {
@@ -265,14 +266,21 @@ fn check_resolution(along: u32, around: u32) -> Result<()> {
 
 impl Extruder {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "extruder",
-        doc: "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
-        fields: Options::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "extruder",
+                "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Extruder::new(Options::from_table(table)?))
+                    .methods(Extruder::methods())
+                    .begins_empty()
+                    .draws::<Extruder>(),
+            )
+        });
+        &KIND
+    }
 
     /// An extruder at its beginning.
     pub fn new(options: Options) -> Result<Self> {
@@ -438,8 +446,8 @@ impl State {
 }
 
 impl Object for Extruder {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -451,10 +459,6 @@ impl Object for Extruder {
         self.stack.clear();
         self.drawing.clear();
         self.open_edges = 0;
-    }
-
-    fn begins_empty(&self) -> bool {
-        true
     }
 
     fn push(&mut self) {
@@ -477,22 +481,18 @@ impl Object for Extruder {
     fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
+}
 
-    fn triangles(&self) -> usize {
-        self.drawing.triangles()
+impl Draw for Extruder {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
-    fn drawing(&mut self) -> Option<&mut Drawing> {
-        Some(&mut self.drawing)
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
     }
 
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing.clone().show(scene, self.options.position.0, name, feature);
-        Ok(())
-    }
-
-    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        std::mem::take(&mut self.drawing).show(scene, self.options.position.0, name, feature);
-        Ok(())
+    fn origin(&self) -> DVec3 {
+        self.options.position.0
     }
 }

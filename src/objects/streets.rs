@@ -1,15 +1,15 @@
 //! Streets, for those who ask which way the nearest one lies.
 
 use std::fmt;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DVec2, DVec3};
 use rstar::primitives::Line;
 use rstar::{PointDistance, RTree};
 
-use super::parameter::{Expected, object};
-use super::{Features, Kind, Object, Parameter, Shape, Table, Value, Vector};
 use crate::error::Result;
+use crate::kit::{Expected, object};
+use crate::kit::{Features, Kind, Object, Parameter, Shape, Value, Vector};
 use crate::sources::Geometry;
 use crate::warning::{Warning, WarningKind};
 
@@ -155,14 +155,18 @@ methods! {
 
 impl Streets {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "streets",
-        doc: "Streets, for footprints to know which of their edges is on one.",
-        fields: Options::FIELDS,
-        first: Some("lines"),
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind =
+                Kind::new("streets", "Streets, for footprints to know which of their edges is on one.");
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Streets::new(Options::from_table(table)?))
+                    .first("lines")
+                    .methods(Streets::methods()),
+            )
+        });
+        &KIND
+    }
 
     /// The streets that a script names.
     pub fn new(options: Options) -> Result<Self> {
@@ -218,8 +222,8 @@ impl Parameter for Streets {
 }
 
 impl Object for Streets {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {

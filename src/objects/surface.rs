@@ -1,7 +1,7 @@
 //! `material { ... }`: how scripts say what a surface looks like.
 
-use super::{Color, Parameter, Table, Value};
 use crate::error::{Error, Result};
+use crate::kit::{Color, Parameter, Table, Value};
 use crate::scene::{Material, Texture};
 
 /// What a texture is multiplied with.
@@ -37,13 +37,12 @@ impl Parameter for Surface {
         "Material".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, super::parameter::Expected> {
+    fn from_value(value: Value) -> Result<Self, crate::kit::Expected> {
         match value {
-            Value::Table(table) => Self::from_table(&table).map_err(|error| {
-                super::parameter::Expected::new(format!("a material ({})", error.message()))
-            }),
+            Value::Table(table) => Self::from_table(&table)
+                .map_err(|error| crate::kit::Expected::new(format!("a material ({})", error.message()))),
             Value::Nil => Ok(Self::default()),
-            _ => Err(super::parameter::Expected::new("a table of a material's fields")),
+            _ => Err(crate::kit::Expected::new("a table of a material's fields")),
         }
     }
 

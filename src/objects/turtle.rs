@@ -1,13 +1,14 @@
 //! The turtle: walks, turns and draws branches, polygons and instances.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::{Color, Drawing, Kind, Model, Object, Surface, Table, Vector};
+use super::Surface;
 use crate::error::{Error, Result};
 use crate::geometry::{Frame, Strand, face, sphere};
-use crate::scene::{Material, Scene};
+use crate::kit::{Color, Draw, Drawing, Kind, Model, Object, Vector};
+use crate::scene::Material;
 
 fields! {
     /// What `turtle { ... }` takes.
@@ -278,14 +279,21 @@ fn no_polygon(method: &str) -> Error {
 
 impl Turtle {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "turtle",
-        doc: "A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.",
-        fields: Options::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "turtle",
+                "A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Turtle::new(Options::from_table(table)?))
+                    .methods(Turtle::methods())
+                    .begins_empty()
+                    .draws::<Turtle>(),
+            )
+        });
+        &KIND
+    }
 
     /// A turtle at its beginning.
     pub fn new(options: Options) -> Result<Self> {
@@ -390,8 +398,8 @@ impl State {
 }
 
 impl Object for Turtle {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -403,10 +411,6 @@ impl Object for Turtle {
         self.drawing.clear();
         self.state = State::begin(&self.options, &mut self.drawing);
         self.polygons.clear();
-    }
-
-    fn begins_empty(&self) -> bool {
-        true
     }
 
     fn push(&mut self) {
@@ -433,22 +437,18 @@ impl Object for Turtle {
         }
         Ok(())
     }
+}
 
-    fn triangles(&self) -> usize {
-        self.drawing.triangles()
+impl Draw for Turtle {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
-    fn drawing(&mut self) -> Option<&mut Drawing> {
-        Some(&mut self.drawing)
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
     }
 
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing.clone().show(scene, self.options.position.0, name, feature);
-        Ok(())
-    }
-
-    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        std::mem::take(&mut self.drawing).show(scene, self.options.position.0, name, feature);
-        Ok(())
+    fn origin(&self) -> DVec3 {
+        self.options.position.0
     }
 }

@@ -1,14 +1,14 @@
 //! The universe: galaxies, their stars and the planets of these, made of a seed and a place, with nothing stored.
 
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::DVec3;
 
-use super::{Expected, Key, Kind, Object, Parameter, Seed, Table, Value};
 use crate::error::{Error, Result};
-use crate::random::Stream;
-use crate::rules::Key as Numbers;
+use crate::kit::random::Stream;
+use crate::kit::rules::Key as Numbers;
+use crate::kit::{Expected, Key, Kind, Object, Parameter, Seed, Table, Value};
 
 fields! {
     /// What `universe { ... }` takes.
@@ -77,14 +77,19 @@ methods! {
 
 impl Universe {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "universe",
-        doc: "Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.",
-        fields: Options::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(&Options::from_table(table)?))),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "universe",
+                "Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Ok(Universe::new(&Options::from_table(table)?)))
+                    .methods(Universe::methods()),
+            )
+        });
+        &KIND
+    }
 
     /// The universe of a seed.
     pub fn new(options: &Options) -> Self {
@@ -93,8 +98,8 @@ impl Universe {
 }
 
 impl Object for Universe {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -332,7 +337,7 @@ impl Parameter for Star {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::objects::Color;
+    use crate::kit::Color;
 
     fn field(value: &Value, name: &str) -> Value {
         let Value::Table(table) = value else { panic!("{value}") };

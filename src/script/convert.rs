@@ -7,8 +7,7 @@ use mlua::{Lua, LuaString, Value as LuaValue};
 use super::handles::{DerivedHandle, ObjectHandle};
 use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
 use crate::error::{Error, Result};
-use crate::objects::terrain::System;
-use crate::objects::{Key, Shape, Table, Value};
+use crate::kit::{Key, Shape, System, Table, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
@@ -31,7 +30,7 @@ pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
 }
 
 /// Copies what a constructor takes to Rust, where it may find sources and geometries as
-/// [`Features`](crate::objects::Features) and [`Shape`](crate::objects::Shape).
+/// [`Features`](crate::kit::Features) and [`Shape`](crate::kit::Shape).
 pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
     convert(value, Manner::Field, 0)
 }

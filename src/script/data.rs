@@ -1,6 +1,6 @@
 //! What scripts get of data files: which they may read, and how a run reads each of them once.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -8,10 +8,7 @@ use super::paths::{is_absolute, lead};
 use super::session::Session;
 use crate::budget::Budget;
 use crate::error::{Error, Result};
-use crate::objects::import::Wanted as WantedModel;
-use crate::objects::terrain::EditFile;
-use crate::objects::{Elevation, Model};
-use crate::sources::elevation::{Raster, Relief, Wanted as WantedHeights};
+use crate::kit::{Loaded, Loader, Loading, Resources, Table};
 use crate::sources::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
@@ -25,11 +22,9 @@ pub(crate) struct Data {
 struct Known {
     /// The projection and the origin, which the first source decides.
     frame: Option<Frame>,
-    told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
-    models: BTreeMap<PathBuf, Result<Arc<Model>>>,
-    edits: BTreeMap<PathBuf, Result<EditFile>>,
-    elevations: BTreeMap<String, Result<Elevation>>,
+    /// What was made of files, by type, file and fields.
+    objects: BTreeMap<String, Result<Loaded>>,
     /// What all reading of the run may take.
     budget: Option<Arc<Budget>>,
 }
@@ -64,68 +59,39 @@ impl Data {
 }
 
 impl Data {
-    /// The model that `model(name)` means: the same one each time.
-    pub(crate) fn model(&self, session: &Session, name: &str) -> Result<Arc<Model>> {
-        let example = "write model(\"window.glb\")";
+    /// What `loader` makes of the file that a script calls `name`: the same each time. It is for type `kind`.
+    pub(crate) fn object(
+        &self,
+        session: &Session,
+        (kind, loader): (&str, &Loader),
+        name: &str,
+        fields: &Table,
+    ) -> Result<Loaded> {
         if name.is_empty() {
-            return Err(Error::new("model needs the name of a file").help(example));
+            return Err(Error::new(format!("{kind} needs the name of a file"))
+                .help(format!("write {}", loader.example)));
         }
-        let path = find(session, "model", name)?;
+        let path = find(session, loader.what, name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(model) = known.models.get(&path) {
-            return model.clone();
+        let key = format!("{kind} {} {fields:?}", path.display());
+        if let Some(loaded) = known.objects.get(&key) {
+            return loaded.clone();
         }
         let budget = known.budget(session);
         let before = budget.taken();
-        let read = read_model(session, &path, name, &budget);
-        session.stop.check()?;
-        budget.settle(before, read.as_ref().map_or(0, |model| model.memory()));
-        known.models.insert(path, read.clone());
-        read
-    }
-}
-
-impl Data {
-    /// The heights that `elevation(name, wanted)` means: the same ones each time.
-    pub(crate) fn elevation(
-        &self,
-        session: &Session,
-        name: &str,
-        wanted: &WantedHeights,
-    ) -> Result<Elevation> {
-        if name.is_empty() {
-            return Err(
-                Error::new("elevation needs the name of a file").help("write elevation(\"N43E007.hgt\")")
-            );
-        }
-        let path = find(session, "file of heights", name)?;
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = format!("{} {wanted:?}", path.display());
-        if let Some(loaded) = known.elevations.get(&key) {
-            return loaded.clone();
-        }
-        let loaded = read_heights(session, &path, name, wanted, &mut known);
-        session.stop.check()?;
-        known.elevations.insert(key, loaded.clone());
-        loaded
-    }
-}
-
-impl Data {
-    /// The changes of the ground that `edits(name)` means.
-    pub(crate) fn edits(&self, session: &Session, name: &str) -> Result<EditFile> {
-        if name.is_empty() {
-            return Err(Error::new("edits needs the name of a file").help("write edits(\"ground.json\")"));
-        }
-        let path = find(session, "file of edits", name)?;
-        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let budget = known.budget(session);
-        let read = || -> Result<EditFile> {
-            let text = String::from_utf8(read_file(&path, name, "name a .json file", &budget)?)
-                .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
-            Ok(EditFile { name: name.to_owned(), text: text.into() })
+        let mut file = Loading {
+            name,
+            path: &path,
+            budget: &budget,
+            triangles: session.options.limits.triangles,
+            frame: &mut known.frame,
+            resources: session,
         };
-        known.edits.entry(path.clone()).or_insert_with(read).clone()
+        let loaded = (loader.load)(&mut file, fields);
+        session.stop.check()?;
+        budget.settle(before, loaded.as_ref().map_or(0, |loaded| loaded.memory));
+        known.objects.insert(key, loaded.clone());
+        loaded
     }
 
     /// The projection and the origin of the run, if any data has decided them.
@@ -134,56 +100,14 @@ impl Data {
     }
 }
 
-fn read_heights(
-    session: &Session,
-    path: &Path,
-    name: &str,
-    wanted: &WantedHeights,
-    known: &mut Known,
-) -> Result<Elevation> {
-    let budget = known.budget(session);
-    let before = budget.taken();
-    let raster = match session.options.cache.as_deref() {
-        Some(cache) => cache.raster(path, name, wanted, &budget),
-        None => Raster::open(path, name, wanted, &budget).map(Arc::new),
-    };
-    // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
-    let kept = raster.as_ref().map_or(0, |raster| raster.heights.len() * size_of::<f32>());
-    budget.settle(before, kept);
-    let raster = raster?;
-    if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
-        let all = raster.columns * raster.rows;
-        eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);
+impl Resources for Session {
+    fn find(&self, what: &str, name: &str) -> Result<PathBuf> {
+        find(self, what, name)
     }
-    Ok(Elevation::new(Arc::new(Relief::new(raster, &mut known.frame)?)))
-}
 
-/// The largest file (bytes) of a model.
-const LARGEST: u64 = 1_000_000_000;
-
-fn read_model(session: &Session, path: &Path, name: &str, budget: &Budget) -> Result<Arc<Model>> {
-    let remedy = "name a .glb or .gltf file";
-    let content = read_file(path, name, remedy, budget)?;
-    // Files beside it are named from its own folder.
-    let folder = Path::new(name).parent().map(Path::to_path_buf).unwrap_or_default();
-    let mut beside = |uri: &str| {
-        let name = folder.join(uri).display().to_string();
-        read_file(&find(session, "file of a model", &name)?, &name, remedy, budget)
-    };
-    let triangles = session.options.limits.triangles;
-    crate::objects::import::model(&content, &mut WantedModel { name, triangles, budget, beside: &mut beside })
-}
-
-/// The content of a file, for which memory is taken.
-fn read_file(path: &Path, name: &str, remedy: &str, budget: &Budget) -> Result<Vec<u8>> {
-    let cannot = |why: &dyn std::fmt::Display| Error::new(format!("cannot read {name}: {why}"));
-    let (_, meta) = crate::files::open(path).map_err(|error| cannot(&error).help(remedy))?;
-    if meta.len() > LARGEST {
-        return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));
+    fn cache(&self) -> Option<&Cache> {
+        self.options.cache.as_deref()
     }
-    budget.check()?;
-    budget.take(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
-    crate::files::read(path, meta.len()).map_err(|error| cannot(&error).help(remedy))
 }
 
 fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 
-use crate::random::Stream;
+use crate::kit::random::Stream;
 
 /// The stream of the top level after the axiom of each derivation, in their order: a machine that does not run an
 /// axiom's function itself goes on from there.

@@ -7,7 +7,7 @@ use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value
 
 use crate::derive::Derived;
 use crate::error::{Error, Result, nearest};
-use crate::objects::Object;
+use crate::kit::Object;
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
 pub(crate) struct Objects {
@@ -88,7 +88,7 @@ pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
 impl UserData for ObjectHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_meta_method(MetaMethod::Index, |lua, this, name: String| {
-            let table: Table = lua.named_registry_value(&methods_key(this.0.kind().name))?;
+            let table: Table = lua.named_registry_value(&methods_key(&this.0.kind().name))?;
             match table.raw_get::<LuaValue>(name.as_str())? {
                 LuaValue::Nil => Err(mlua::Error::external(this.0.kind().unknown_method(&name))),
                 method => Ok(method),
@@ -97,14 +97,14 @@ impl UserData for ObjectHandle {
         methods.add_meta_method(
             MetaMethod::NewIndex,
             |_, this, (name, _): (LuaValue, LuaValue)| -> mlua::Result<()> {
-                let (kind, name) = (this.0.kind().name, name.to_string().unwrap_or_default());
+                let (kind, name) = (this.0.kind().name.clone(), name.to_string().unwrap_or_default());
                 Err(mlua::Error::external(
                     Error::new(format!("{name} of a {kind} cannot be assigned"))
                         .help(format!("its fields are given when it is made: {kind} {{ {name} = ... }}")),
                 ))
             },
         );
-        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| Ok(this.0.kind().name));
+        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| Ok(this.0.kind().name.to_string()));
     }
 }
 

@@ -9,16 +9,15 @@ use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::analysis::Globals;
-use super::convert::{class_key, to_field, to_lua};
-use super::handles::ObjectHandle;
+use super::convert::{class_key, to_lua};
 use super::kinds::{install_kind, named_fields, no_table};
 use super::machine::{Machine, compile, native};
 use super::param::Param;
 use super::require::require;
 use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
 use crate::error::{Error, Place, Result};
-use crate::objects::{Elevation, ElevationOptions, KINDS, Kind, Model, Value};
-use crate::rules::{Signature, Symbol, Symbols};
+use crate::kit::Construct;
+use crate::kit::rules::{Signature, Symbol, Symbols};
 use crate::text::escaped_lines;
 use crate::warning::{Warning, WarningKind};
 
@@ -42,9 +41,6 @@ const LOCKED: [&str; 14] = [
     "dofile",
     "loadfile",
 ];
-
-/// Types whose objects are made of files, by functions of their own.
-pub(super) const OF_FILES: [&Kind; 2] = [&Model::KIND, &Elevation::KIND];
 
 /// An interpretation that the standard library gives to modules of every system with a type of object.
 pub(crate) struct Standard {
@@ -75,6 +71,8 @@ pub(crate) struct Library {
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
+    /// The constructors of objects, by name.
+    kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
     params: RefCell<Vec<(Param, Option<Place>)>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
@@ -84,7 +82,12 @@ impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
         let shapes = self.machine().map(|machine| Arc::clone(&machine.session.shapes)).unwrap_or_default();
-        Globals { names: self.names.borrow().clone(), modules: self.modules.borrow().clone(), shapes }
+        Globals {
+            names: self.names.borrow().clone(),
+            modules: self.modules.borrow().clone(),
+            kinds: self.kinds.borrow().clone(),
+            shapes,
+        }
     }
 
     /// The machine that this library belongs to, once it is complete.
@@ -122,7 +125,7 @@ impl Library {
     }
 
     /// Refuses what belongs at the top level while rules run; the standard library is always at the top.
-    fn at_top_level(&self, what: &str) -> Result<()> {
+    pub(super) fn at_top_level(&self, what: &str) -> Result<()> {
         self.machine()?.refuse_in_rules(what)
     }
 
@@ -230,18 +233,20 @@ impl Library {
         self.install_plain(machine, &globals)?;
         lua.set_app_data(Eager(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
-        let own = machine.session.options.kinds.clone();
-        for kind in KINDS.iter().copied().chain(OF_FILES).chain(own) {
+        for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
+            if matches!(kind.construct, Construct::Fields(_)) {
+                self.kinds.borrow_mut().push(kind.name.to_string());
+            }
         }
-        let library = std::rc::Rc::clone(&machine.library);
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
             "__interpretation",
             lua.create_function(move |_, (kind, module, method): (String, String, String)| {
                 let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
-                let known = KINDS.iter().find(|known| known.name == kind);
-                let method =
-                    known.and_then(|known| known.methods.iter().position(|known| known.name == method));
+                // A run without the type has no system that draws with it.
+                let Some(known) = session.options.registry.get(&kind) else { return Ok(()) };
+                let method = known.methods.iter().position(|known| known.name == method);
                 let method = method
                     .ok_or_else(|| mlua::Error::external(Error::new(format!("{kind} has no such method"))))?;
                 library.standard.borrow_mut().push(Standard { kind, symbol, method });
@@ -330,58 +335,6 @@ impl Library {
                     .at_top_level("source")
                     .and_then(|()| SourceHandle::new(&*library.machine()?, &what, &options));
                 made.map_err(mlua::Error::external)
-            })?,
-        )?;
-        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
-        globals.raw_set(
-            "model",
-            lua.create_function(move |_, name: LuaValue| {
-                let name = match name {
-                    LuaValue::String(name) => name.to_string_lossy(),
-                    _ => String::new(),
-                };
-                let made = library.at_top_level("model").and_then(|()| session.data.model(&session, &name));
-                made.map(|model| ObjectHandle(model)).map_err(mlua::Error::external)
-            })?,
-        )?;
-        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
-        globals.raw_set(
-            "edits",
-            lua.create_function(move |_, name: LuaValue| {
-                let name = match name {
-                    LuaValue::String(name) => name.to_string_lossy(),
-                    _ => String::new(),
-                };
-                let made = library.at_top_level("edits").and_then(|()| session.data.edits(&session, &name));
-                made.map(|edits| ObjectHandle(Arc::new(edits))).map_err(mlua::Error::external)
-            })?,
-        )?;
-        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
-        globals.raw_set(
-            "elevation",
-            lua.create_function(move |_, (name, options): (LuaValue, LuaValue)| {
-                let name = match name {
-                    LuaValue::String(name) => name.to_string_lossy(),
-                    _ => String::new(),
-                };
-                let made = library.at_top_level("elevation").and_then(|()| {
-                    let options = match to_field(&options)? {
-                        Value::Nil => ElevationOptions::default(),
-                        Value::Table(options) => ElevationOptions::from_table(&options)?,
-                        other => {
-                            let what = other.describe();
-                            return Err(Error::new(format!(
-                                "elevation takes a table of options, not {what}"
-                            ))
-                            .help("write elevation(\"N43E007.hgt\", { crs = 4326 })"));
-                        }
-                    };
-                    let found = session.data.elevation(&session, &name, &options.wanted()?)?;
-                    let machine = library.machine()?;
-                    found.relief().raster().warnings().into_iter().for_each(|it| machine.warn(it));
-                    Ok(found)
-                });
-                made.map(|elevation| ObjectHandle(Arc::new(elevation))).map_err(mlua::Error::external)
             })?,
         )?;
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));

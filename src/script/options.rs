@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use super::Preset;
 use crate::derive::Traced;
-use crate::objects::Kind;
+use crate::kit::Registry;
 use crate::sources::Cache;
 use crate::stop::Stop;
 
@@ -58,8 +58,8 @@ pub struct Options {
     pub data: Vec<PathBuf>,
     /// Layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
-    /// Types of objects that scripts can construct besides the built-in ones.
-    pub kinds: Vec<&'static Kind>,
+    /// The types of objects that scripts can use.
+    pub registry: Registry,
     /// A file in the place of the built-in standard library.
     pub stdlib: Option<PathBuf>,
     /// Whether values in `set` that the script does not take are left out, and not an error;
@@ -105,7 +105,7 @@ impl Default for Options {
             stop: None,
             data: Vec::new(),
             cache: None,
-            kinds: Vec::new(),
+            registry: Registry::default(),
             stdlib: None,
             forgiving: false,
             profile: false,

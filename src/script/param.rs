@@ -2,7 +2,7 @@
 
 use super::preset::Preset;
 use crate::error::{Error, Result, nearest};
-use crate::objects::{Color, Parameter, Table, Value};
+use crate::kit::{Color, Parameter, Table, Value};
 
 /// A declared parameter and the value it has in this run.
 #[derive(Debug, Clone, PartialEq)]
@@ -91,8 +91,8 @@ impl Param {
     pub fn declare(name: &str, options: &Table) -> Result<Self> {
         for (key, _) in &options.entries {
             let key = match key {
-                crate::objects::Key::Name(name) => name.to_string(),
-                crate::objects::Key::Index(index) => index.to_string(),
+                crate::kit::Key::Name(name) => name.to_string(),
+                crate::kit::Key::Index(index) => index.to_string(),
             };
             if !FIELDS.contains(&key.as_str()) {
                 let error = Error::new(format!("param {name} has no field called {key}"));

@@ -15,7 +15,7 @@ use super::options::Options;
 use super::param::Param;
 use crate::derive::Trace;
 use crate::error::{Error, Result};
-use crate::rules::Values;
+use crate::kit::rules::Values;
 use crate::stop::Stop;
 use crate::warning::{Warning, Warnings};
 

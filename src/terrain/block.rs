@@ -1,6 +1,6 @@
 //! A rectangle of cells of one level, in columns.
 
-use crate::rules::{Key, Symbol};
+use crate::kit::rules::{Key, Symbol};
 
 /// A rectangle of cells, by column from the west and row from the north.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

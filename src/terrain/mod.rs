@@ -6,6 +6,7 @@
 //! Source: Fitzpatrick, "Procedurally Generated Surfaces Using L-Systems".
 
 mod block;
+mod cells;
 mod edits;
 pub mod fit;
 pub mod globe;
@@ -23,6 +24,7 @@ mod view;
 mod world;
 
 pub use block::{Area, Block};
+pub use cells::Cells;
 pub use edits::{Edit, Edits};
 pub use ground::{Ground, Map};
 pub use measured::Measured;

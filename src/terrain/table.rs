@@ -3,8 +3,8 @@
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
-use crate::random::Stream;
-use crate::rules::{Key, Symbol};
+use crate::kit::random::Stream;
+use crate::kit::rules::{Key, Symbol};
 
 /// A number, or the range that it is drawn from.
 #[derive(Debug, Clone, Copy, PartialEq)]

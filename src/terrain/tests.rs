@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use super::*;
-use crate::random::Stream;
-use crate::rules::{Key, Symbol};
+use crate::kit::random::Stream;
+use crate::kit::rules::{Key, Symbol};
 use crate::scene::Part;
 
 /// A rule table of four symbols.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 use super::block::{Area, Block};
 use super::edits::Edit;
 use super::world::World;
-use crate::rules::Symbol;
+use crate::kit::rules::Symbol;
 
 /// Which cell of the world a tile is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]

@@ -9,7 +9,7 @@ use super::block::{Area, Block};
 use super::measured::Measured;
 use super::table::RuleTable;
 use crate::error::{Error, Result};
-use crate::rules::{Key, Symbol};
+use crate::kit::rules::{Key, Symbol};
 
 /// What divides cells.
 #[derive(Clone)]

@@ -347,7 +347,7 @@ s:derive()
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
         std::fs::write(&script, SCRIPT).unwrap();
-        let options = Options { threads: Some(threads), ..Options::default() };
+        let options = Options { threads: Some(threads), ..crate::options() };
         let picture = Picture { width: 40, height: 50, quality: Quality::Draft, ..Picture::default() };
         let mut cells = Vec::new();
         let variations = Variations::new(&script, &options, over).unwrap();
@@ -402,7 +402,7 @@ s:derive()
         let script = folder.path().join("s.lua");
         std::fs::write(&script, "while true do end\n").unwrap();
         let over = Over::seeds("1..9").unwrap();
-        let variations = Variations::new(&script, &Options::default(), &over).unwrap();
+        let variations = Variations::new(&script, &crate::options(), &over).unwrap();
         let stop = Arc::clone(&variations.stop);
         let stopper = std::thread::spawn(move || {
             std::thread::sleep(std::time::Duration::from_millis(100));

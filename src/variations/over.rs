@@ -1,7 +1,7 @@
 //! What changes from one variation to the next, and how it is written: `1..16`, `twist=0..90:10`, `kind=a,b`.
 
 use crate::error::{Error, Result};
-use crate::objects::Value;
+use crate::kit::Value;
 
 /// The most variations that are made at once.
 pub const MOST: usize = 256;

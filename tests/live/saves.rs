@@ -175,7 +175,7 @@ fn data_and_models_are_followed_even_where_they_are_missing() {
     let model = |count: usize, to: &Path| {
         let other = tempfile::tempdir().unwrap();
         fs::write(other.path().join("s.lua"), script(count)).unwrap();
-        let run = burgeon::run(&other.path().join("s.lua"), burgeon::script::Options::default()).unwrap();
+        let run = burgeon::run(&other.path().join("s.lua"), burgeon::options()).unwrap();
         burgeon::export::write(&run.scene, to, &burgeon::picture::Picture::default()).unwrap();
     };
     let text = r#"

@@ -143,7 +143,7 @@ fn check(cases: &[(Case, Vec<usize>)], options: Options) {
 
 #[test]
 fn contexts_match_along_the_tree_in_every_case_of_the_table() {
-    check_table(Options::default());
+    check_table(burgeon::options());
 }
 
 #[test]
@@ -201,7 +201,7 @@ fn consider_passes_over_all_other_symbols() {
         (Case { passing, chains: vec![text], pattern: Pattern::parse(pattern) }, expected)
     })
     .collect();
-    check(&cases, Options::default());
+    check(&cases, burgeon::options());
 }
 
 #[test]

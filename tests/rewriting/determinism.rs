@@ -68,7 +68,7 @@ fn threads_and_batches_change_no_byte() {
 
 #[test]
 fn seeds_give_different_trees() {
-    let of = |seed| bytes(&run_with(TREE, Options { seed, ..Options::default() }));
+    let of = |seed| bytes(&run_with(TREE, Options { seed, ..burgeon::options() }));
     assert!(of(1) == of(1));
     assert_ne!(of(1).0, of(2).0);
     assert!(of(1).1 != of(2).1);
@@ -123,7 +123,7 @@ fn a_random_number_of_the_top_level_is_the_same_every_time() {
     let words = words(&first[0]);
     assert_ne!(words[0], words[1]);
     assert!(words[1].starts_with("A(5."), "{first:?}");
-    assert_ne!(first, lines(&run_with(script, Options { seed: 1, ..Options::default() })));
+    assert_ne!(first, lines(&run_with(script, Options { seed: 1, ..burgeon::options() })));
 }
 
 #[test]

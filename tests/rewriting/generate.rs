@@ -1,7 +1,7 @@
 //! Random chains, patterns and rules of the kinds that are hard on an engine, for tests and benches alike.
 
-use burgeon::rules::{Around, Bindings, CLOSE};
-use burgeon::rules::{
+use burgeon::kit::rules::{Around, Bindings, CLOSE};
+use burgeon::kit::rules::{
     Chain, END, FIRST_SYMBOL, Grammar, Key, Links, OPEN, Pattern, Rule, Signature, Symbols,
 };
 

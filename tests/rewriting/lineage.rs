@@ -1,7 +1,6 @@
 //! Which module made a triangle, and which rules led to it.
 
 use burgeon::scene::Scene;
-use burgeon::script::Options;
 use burgeon::trace::{Pick, highlight, pick};
 
 fn script_file(text: &str) -> tempfile::TempPath {
@@ -33,13 +32,13 @@ fn corners(scene: &Scene, mesh: usize, part: usize, triangle: usize) -> [glam::D
 #[test]
 fn a_triangle_of_a_solid_of_many_segments_knows_its_own_module() {
     let file = script_file(TOWER);
-    let run = burgeon::run(&file, Options::default()).expect("the tower stands");
+    let run = burgeon::run(&file, burgeon::options()).expect("the tower stands");
     let [instance] = run.scene.instances.as_slice() else { panic!("one mesh") };
     let triangles = run.scene.meshes[instance.mesh].parts[0].triangles.len();
     let mut seen = 0;
     for triangle in (0..triangles).step_by(5) {
         let asked = Pick { instance: 0, part: 0, triangle };
-        let picked = pick(&file, &Options::default(), &run.scene, asked).expect("it is known");
+        let picked = pick(&file, &burgeon::options(), &run.scene, asked).expect("it is known");
         let made = picked.drawn.expect("a module made it");
         assert_eq!(picked.placed, None);
         // The slabs are 4, 3, 2 and 1 m high, and lie on one another.
@@ -91,13 +90,13 @@ tree:derive()
 #[test]
 fn a_branch_that_is_bent_or_placed_many_times_knows_its_module() {
     let file = script_file(TREE);
-    let run = burgeon::run(&file, Options::default()).expect("the tree grows");
+    let run = burgeon::run(&file, burgeon::options()).expect("the tree grows");
     let (mut branches, mut leaves) = (0, 0);
     for (number, instance) in run.scene.instances.iter().enumerate().step_by(7) {
         let part = &run.scene.meshes[instance.mesh].parts[0];
         for triangle in (0..part.triangles.len()).step_by(if number == 0 { 37 } else { 50 }) {
             let asked = Pick { instance: number, part: 0, triangle };
-            let picked = pick(&file, &Options::default(), &run.scene, asked).expect("it is known");
+            let picked = pick(&file, &burgeon::options(), &run.scene, asked).expect("it is known");
             let drawn = picked.drawn.expect("a module drew it");
             let length: f64 = drawn.module.params[0].1.parse().expect("a number");
             assert_eq!(drawn.module.symbol, "F");
@@ -121,11 +120,11 @@ fn a_branch_that_is_bent_or_placed_many_times_knows_its_module() {
 #[test]
 fn a_line_of_the_script_knows_all_that_it_made() {
     let file = script_file(TREE);
-    let run = burgeon::run(&file, Options::default()).expect("the tree grows");
+    let run = burgeon::run(&file, burgeon::options()).expect("the tree grows");
     let name = file.display().to_string();
     let at = |line: usize| {
         let systems = run.systems.len();
-        highlight(&file, &Options::default(), &run.scene, systems, &name, line).expect("it is known")
+        highlight(&file, &burgeon::options(), &run.scene, systems, &name, line).expect("it is known")
     };
     let whole: usize = run.scene.meshes[run.scene.instances[0].mesh].triangles();
     let of = |mesh: usize, runs: &[burgeon::trace::Run]| -> usize {

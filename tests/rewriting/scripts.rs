@@ -22,12 +22,12 @@ pub(crate) fn run_with(script: &str, options: Options) -> Run {
 }
 
 pub(crate) fn run(script: &str) -> Run {
-    run_with(script, Options::default())
+    run_with(script, burgeon::options())
 }
 
 /// Options with a number of threads and modules in a batch.
 pub(crate) fn divided(threads: usize, batch: usize) -> Options {
-    Options { threads: Some(threads), batch, ..Options::default() }
+    Options { threads: Some(threads), batch, ..burgeon::options() }
 }
 
 /// The chains of every system, joined, with a line for each chain.
@@ -58,7 +58,7 @@ pub(crate) fn chain(script: &str) -> String {
 
 /// What is wrong with a script.
 pub(crate) fn error(script: &str) -> String {
-    match try_run(script, Options::default()) {
+    match try_run(script, burgeon::options()) {
         Err(error) => error.to_string(),
         Ok(run) => panic!("this script should fail, but it makes {}\n{script}", all_chains(&run)),
     }

@@ -27,7 +27,7 @@ fn chi_square(rules: &str, shares: &[(&str, f64)]) -> (f64, usize) {
     let total: f64 = shares.iter().map(|(_, share)| share).sum();
     let mut sum = 0.0;
     for seed in 1..=5 {
-        let run = run_with(&script, Options { seed, ..Options::default() });
+        let run = run_with(&script, Options { seed, ..burgeon::options() });
         let text = lines(&run).concat();
         let words = words(&text);
         assert_eq!(words.len(), BUDS);
@@ -64,7 +64,7 @@ fn a_rule_of_weight_0_is_never_chosen_and_changes_nothing_for_the_others() {
     let others =
         "s:rule(\"Bud\", { weight = 3 }, [[ return P() ]]) s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])";
     let never = "s:rule(\"Bud\", { weight = 0 }, [[ return R() ]])";
-    let text = |rules: &str| lines(&run_with(&buds(rules), Options::default())).concat();
+    let text = |rules: &str| lines(&run_with(&buds(rules), burgeon::options())).concat();
     assert_eq!(text(&format!("{never} {others}")), text(others));
     assert_eq!(text(&format!("{others} {never}")), text(others));
     assert_eq!(words(&text(&format!("{never} s:rule(\"Bud\", [[ return Q() ]])")))[0], "Q");
@@ -107,7 +107,7 @@ fn contexts_limit_which_weights_are_drawn_from() {
                  s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])
                  s:rule(\"Bud > P\", { weight = 1000 }, [[ return R() ]])";
     check_frequencies(rules, &[("P", 1.0), ("Q", 1.0)]);
-    let first = lines(&run_with(&buds(rules), Options::default())).concat();
+    let first = lines(&run_with(&buds(rules), burgeon::options())).concat();
     assert!(first.starts_with("Q "), "{}", &first[..20]);
 }
 
@@ -115,7 +115,7 @@ fn contexts_limit_which_weights_are_drawn_from() {
 fn random_is_uniform_in_a_rule_and_within_its_bounds() {
     let script =
         buds("s:rule(\"Bud\", function() local u = random() return Bud(random(-2, 3)), Bud(u * 10) end)");
-    let text = lines(&run_with(&script, Options::default())).concat();
+    let text = lines(&run_with(&script, burgeon::options())).concat();
     let values: Vec<f64> = words(&text)
         .iter()
         .filter_map(|word| word.strip_prefix("Bud(")?.strip_suffix(')')?.parse().ok())
@@ -141,7 +141,7 @@ fn the_choice_and_what_the_rule_draws_are_independent() {
         "s:rule(\"Bud\", { weight = 1 }, function() return Bud(random()) end)
          s:rule(\"Bud\", { weight = 1 }, [[ return Q() ]])",
     );
-    let text = lines(&run_with(&script, Options::default())).concat();
+    let text = lines(&run_with(&script, burgeon::options())).concat();
     let values: Vec<f64> = words(&text)
         .iter()
         .filter_map(|word| word.strip_prefix("Bud(")?.strip_suffix(')')?.parse().ok())
@@ -161,7 +161,7 @@ fn siblings_and_generations_draw_independently() {
         s:rule("A(n, u)", function(this, n, u) return A(-1, random()) end)
         s:derive(11)
     "#;
-    let text = lines(&run_with(script, Options::default())).concat();
+    let text = lines(&run_with(script, burgeon::options())).concat();
     let mut values: Vec<&str> = text.split(' ').filter(|word| word.starts_with("A(")).collect();
     assert_eq!(values.len(), 1024);
     values.sort_unstable();
@@ -187,7 +187,7 @@ fn draws(rules: &str, axiom: &str, steps: usize, seed: u64) -> Vec<String> {
         s:derive({steps})
         "#
     );
-    words(&lines(&run_with(&script, Options { seed, ..Options::default() })).concat())
+    words(&lines(&run_with(&script, Options { seed, ..burgeon::options() })).concat())
 }
 
 const WAITING: &str =
@@ -270,7 +270,7 @@ fn seeds_differ_and_a_system_may_have_its_own() {
             "local U = module(\"U\", \"u\") local s = lsystem {{ {own} }} s:axiom(U(0))
              s:rule(\"U\", function() return U(random()) end) s:derive(1)"
         );
-        lines(&run_with(&script, Options { seed, ..Options::default() }))
+        lines(&run_with(&script, Options { seed, ..burgeon::options() }))
     };
     assert_eq!(own(1, "seed = 5"), own(2, "seed = 5"));
     assert_ne!(own(1, "seed = 5"), own(1, "seed = 6"));

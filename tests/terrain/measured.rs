@@ -4,9 +4,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use burgeon::kit::random::Stream;
+use burgeon::kit::rules::Key;
 use burgeon::objects::Elevation;
-use burgeon::random::Stream;
-use burgeon::rules::Key;
 use burgeon::scene::Part;
 use burgeon::sources::elevation::{Grid, Raster, Relief};
 use burgeon::sources::{Crs, Frame};

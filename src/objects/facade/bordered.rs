@@ -1,10 +1,13 @@
 //! `bordered { ... }`: a wall between four margins.
 
+use std::sync::{Arc, LazyLock};
+
 use super::size::{Margin, Policy, Size};
 use super::wall::{Rule, Wall};
 use crate::error::{Error, Result};
 use crate::geometry::{Share, Split};
-use crate::objects::{Kind, Surface, Table};
+use crate::kit::Kind;
+use crate::objects::Surface;
 
 fields! {
     /// What `bordered { ... }` takes.
@@ -29,14 +32,17 @@ fields! {
 }
 
 /// The type, as scripts see it.
-pub static KIND: Kind = Kind {
-    name: "bordered",
-    doc: "A wall between four margins.",
-    fields: Options::FIELDS,
-    first: Some("wall"),
-    methods: Wall::METHODS,
-    construct: |table: &Table| Ok(Box::new(make(&Options::from_table(table)?)?)),
-};
+pub fn kind() -> &'static Arc<Kind> {
+    static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+        let kind = Kind::new("bordered", "A wall between four margins.");
+        Arc::new(
+            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+                .first("wall")
+                .methods(Wall::methods()),
+        )
+    });
+    &KIND
+}
 
 fn make(options: &Options) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {

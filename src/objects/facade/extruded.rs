@@ -1,12 +1,13 @@
 //! `extruded { ... }`: a wall in front of the others or behind them.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use super::fixture::{Anchor, Fixture};
 use super::size::Size;
 use super::wall::{Rule, Wall};
 use crate::error::{Error, Result};
-use crate::objects::{Kind, Model, Surface, Table};
+use crate::kit::{Kind, Model};
+use crate::objects::Surface;
 
 fields! {
     /// What `extruded { ... }` takes.
@@ -39,14 +40,17 @@ fields! {
 }
 
 /// The type, as scripts see it.
-pub static KIND: Kind = Kind {
-    name: "extruded",
-    doc: "A wall that stands out or lies back, with faces at its sides.",
-    fields: Options::FIELDS,
-    first: Some("wall"),
-    methods: Wall::METHODS,
-    construct: |table: &Table| Ok(Box::new(make(&Options::from_table(table)?)?)),
-};
+pub fn kind() -> &'static Arc<Kind> {
+    static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+        let kind = Kind::new("extruded", "A wall that stands out or lies back, with faces at its sides.");
+        Arc::new(
+            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+                .first("wall")
+                .methods(Wall::methods()),
+        )
+    });
+    &KIND
+}
 
 /// How far a wall may be moved (m).
 const FURTHEST: f64 = 100.0;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use crate::objects::{Expected, Model, Parameter, Value};
+use crate::kit::{Expected, Model, Parameter, Value};
 
 /// A model and how it sits on a wall.
 ///

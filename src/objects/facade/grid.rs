@@ -1,10 +1,12 @@
 //! `grid { ... }`: one wall, repeated in rows and columns.
 
+use std::sync::{Arc, LazyLock};
+
 use super::size::{Count, Size};
 use super::wall::{Rule, Wall};
 use crate::error::{Error, Result};
 use crate::geometry::{SAME, Sizes};
-use crate::objects::{Kind, Table};
+use crate::kit::Kind;
 
 fields! {
     /// What `grid { ... }` takes.
@@ -23,14 +25,20 @@ fields! {
 }
 
 /// The type, as scripts see it.
-pub static KIND: Kind = Kind {
-    name: "grid",
-    doc: "One wall, repeated in rows and columns as often as fits its preferred size best.",
-    fields: Options::FIELDS,
-    first: Some("wall"),
-    methods: Wall::METHODS,
-    construct: |table: &Table| Ok(Box::new(make(&Options::from_table(table)?)?)),
-};
+pub fn kind() -> &'static Arc<Kind> {
+    static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+        let kind = Kind::new(
+            "grid",
+            "One wall, repeated in rows and columns as often as fits its preferred size best.",
+        );
+        Arc::new(
+            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+                .first("wall")
+                .methods(Wall::methods()),
+        )
+    });
+    &KIND
+}
 
 fn make(options: &Options) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {

@@ -1,10 +1,13 @@
 //! `list { ... }`: walls beside or above each other.
 
+use std::sync::{Arc, LazyLock};
+
 use super::size::Size;
 use super::wall::{Rule, Wall, range};
 use crate::error::{Error, Result};
 use crate::geometry::{Share, Split};
-use crate::objects::{Kind, Surface, Table};
+use crate::kit::Kind;
+use crate::objects::Surface;
 
 fields! {
     /// What `list { ... }` takes.
@@ -21,14 +24,17 @@ fields! {
 }
 
 /// The type, as scripts see it.
-pub static KIND: Kind = Kind {
-    name: "list",
-    doc: "Walls from left to right, or from the bottom up.",
-    fields: Options::FIELDS,
-    first: Some("walls"),
-    methods: Wall::METHODS,
-    construct: |table: &Table| Ok(Box::new(make(&Options::from_table(table)?)?)),
-};
+pub fn kind() -> &'static Arc<Kind> {
+    static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+        let kind = Kind::new("list", "Walls from left to right, or from the bottom up.");
+        Arc::new(
+            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+                .first("walls")
+                .methods(Wall::methods()),
+        )
+    });
+    &KIND
+}
 
 /// The most walls in a list.
 const MOST: usize = 500;

@@ -18,11 +18,15 @@ pub mod template;
 mod tests;
 pub mod wall;
 
-pub use bordered::KIND as BORDERED;
-pub use extruded::KIND as EXTRUDED;
-pub use grid::KIND as GRID;
 pub use lay::{Face, Laid, Rectangle};
-pub use list::KIND as LIST;
-pub use panel::KIND as PANEL;
 pub use template::{Facade, Template, Templates};
 pub use wall::Wall;
+
+use std::sync::Arc;
+
+use crate::kit::Kind;
+
+/// The types of walls.
+pub(super) fn kinds() -> [&'static Arc<Kind>; 5] {
+    [panel::kind(), bordered::kind(), extruded::kind(), list::kind(), grid::kind()]
+}

@@ -1,13 +1,14 @@
 //! `panel { ... }`: the only wall without parts.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use super::fixture::{Anchor, Fixture};
 use super::size::Size;
 use super::wall::{Rule, Wall};
 use crate::error::Result;
 use crate::geometry::Sizes;
-use crate::objects::{Kind, Model, Surface, Table};
+use crate::kit::{Kind, Model};
+use crate::objects::Surface;
 
 fields! {
     /// What `panel { ... }` takes.
@@ -32,14 +33,16 @@ fields! {
 }
 
 /// The type, as scripts see it.
-pub static KIND: Kind = Kind {
-    name: "panel",
-    doc: "A plain piece of wall, with a model or an image on it if wanted.",
-    fields: Options::FIELDS,
-    first: None,
-    methods: Wall::METHODS,
-    construct: |table: &Table| Ok(Box::new(make(&Options::from_table(table)?)?)),
-};
+pub fn kind() -> &'static Arc<Kind> {
+    static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+        let kind = Kind::new("panel", "A plain piece of wall, with a model or an image on it if wanted.");
+        Arc::new(
+            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+                .methods(Wall::methods()),
+        )
+    });
+    &KIND
+}
 
 fn make(options: &Options) -> Result<Wall> {
     let decoration = options.decoration.as_ref().map(Surface::material).transpose()?;

@@ -1,7 +1,7 @@
 //! How scripts say how wide, high or many something may be.
 
 use crate::geometry::{SAME, Sizes};
-use crate::objects::{Expected, Parameter, Value};
+use crate::kit::{Expected, Parameter, Value};
 
 /// A preferred length (m), or the least and the greatest, or least, preferred and greatest.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,11 +1,12 @@
 //! Templates: which wall goes on which frontage.
 
 use std::any::Any;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use super::wall::Wall;
 use crate::error::{Error, Result};
-use crate::objects::{Expected, Kind, Object, Parameter, Surface, Table, Value};
+use crate::kit::{Expected, Kind, Object, Parameter, Value};
+use crate::objects::Surface;
 use crate::scene::Material;
 
 fields! {
@@ -52,14 +53,18 @@ methods! {
 
 impl Template {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "template",
-        doc: "A wall for a whole frontage, with keywords that say for which.",
-        fields: Options::FIELDS,
-        first: Some("wall"),
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(&Options::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind =
+                Kind::new("template", "A wall for a whole frontage, with keywords that say for which.");
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Template::new(&Options::from_table(table)?))
+                    .first("wall")
+                    .methods(Template::methods()),
+            )
+        });
+        &KIND
+    }
 
     fn new(options: &Options) -> Result<Self> {
         let Some(wall) = options.wall.clone() else {
@@ -101,14 +106,17 @@ methods! {
 
 impl Facade {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "facade",
-        doc: "Templates for the frontages of a building.",
-        fields: FacadeOptions::FIELDS,
-        first: Some("templates"),
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(FacadeOptions::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new("facade", "Templates for the frontages of a building.");
+            Arc::new(
+                kind.made_of(FacadeOptions::fields(), |table| Facade::new(FacadeOptions::from_table(table)?))
+                    .first("templates")
+                    .methods(Facade::methods()),
+            )
+        });
+        &KIND
+    }
 
     fn new(options: FacadeOptions) -> Result<Self> {
         if options.templates.is_empty() {
@@ -203,8 +211,8 @@ impl Parameter for Templates {
 }
 
 impl Object for Template {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -213,8 +221,8 @@ impl Object for Template {
 }
 
 impl Object for Facade {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {

@@ -6,7 +6,7 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::*;
-use crate::objects::{Key, Kind, Table, Value};
+use crate::kit::{Key, Kind, Table, Value};
 
 fn table(fields: &[(&str, Value)]) -> Table {
     let entries = fields.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
@@ -28,7 +28,7 @@ fn text(text: &str) -> Value {
 
 /// A wall by the rule of `kind`, or why there is none.
 fn make(kind: &Kind, fields: &[(&str, Value)]) -> Result<Value, String> {
-    match (kind.construct)(&table(fields)) {
+    match kind.make(&table(fields)) {
         Ok(wall) => Ok(Value::Object(Arc::from(wall))),
         Err(error) => Err(error.message().to_owned()),
     }
@@ -46,7 +46,7 @@ fn wall(value: &Value) -> Wall {
 }
 
 fn panel(width: &[f64], height: &[f64]) -> Value {
-    make(&PANEL, &[("width", sizes(width)), ("height", sizes(height))]).expect("a panel")
+    make(panel::kind(), &[("width", sizes(width)), ("height", sizes(height))]).expect("a panel")
 }
 
 /// The faces of `wall` over a frontage, as left, bottom, right, top and depth (m).
@@ -72,7 +72,7 @@ fn margins_keep_their_policies() {
     let center = panel(&[1.0, 1.4, 2.0], &[1.0, 2.0]);
     let margin = |size: f64, policy: &str| list(&[Value::Number(size), text(policy)]);
     let framed = make(
-        &BORDERED,
+        bordered::kind(),
         &[
             ("wall", center),
             ("left", margin(0.5, "fixed")),
@@ -97,8 +97,9 @@ fn margins_keep_their_policies() {
 
 #[test]
 fn a_grid_has_the_number_of_cells_whose_size_is_nearest_to_the_preferred_one() {
-    let row = make(&GRID, &[("wall", panel(&[2.0, 2.6, 4.0], &[3.0, 3.0])), ("rows", sizes(&[1.0, 5.0]))])
-        .expect("a grid");
+    let row =
+        make(grid::kind(), &[("wall", panel(&[2.0, 2.6, 4.0], &[3.0, 3.0])), ("rows", sizes(&[1.0, 5.0]))])
+            .expect("a grid");
     for (width, height, cells) in [(10.0, 3.0, 4), (8.0, 6.0, 6), (3.9, 9.0, 3)] {
         assert_eq!(laid(&row, width, height).len(), cells, "{width} m x {height} m");
     }
@@ -109,11 +110,12 @@ fn a_grid_has_the_number_of_cells_whose_size_is_nearest_to_the_preferred_one() {
 #[test]
 fn lists_run_from_left_to_right_and_from_the_bottom_up() {
     let (base, top) = (panel(&[0.0, 99.0], &[3.5, 3.5]), panel(&[0.0, 99.0], &[0.0, 99.0]));
-    let column = make(&LIST, &[("walls", list(&[base.clone(), top])), ("direction", text("vertical"))]);
+    let column =
+        make(list::kind(), &[("walls", list(&[base.clone(), top])), ("direction", text("vertical"))]);
     let column = column.expect("a list");
     assert_near(&laid(&column, 4.0, 9.0), &[[0.0, 0.0, 4.0, 3.5, 0.0], [0.0, 3.5, 4.0, 9.0, 0.0]]);
     let door = panel(&[1.2, 1.2], &[3.5, 3.5]);
-    let row = make(&LIST, &[("walls", list(&[base, door]))]).expect("a list");
+    let row = make(list::kind(), &[("walls", list(&[base, door]))]).expect("a list");
     assert_near(&laid(&row, 4.0, 3.5), &[[0.0, 0.0, 2.8, 3.5, 0.0], [2.8, 0.0, 4.0, 3.5, 0.0]]);
 }
 
@@ -121,7 +123,7 @@ fn lists_run_from_left_to_right_and_from_the_bottom_up() {
 fn what_is_extruded_has_the_sides_that_are_wanted_and_they_look_outwards() {
     for (depth, inwards) in [(0.4, -1.0), (-0.4, 1.0)] {
         let niche = make(
-            &EXTRUDED,
+            extruded::kind(),
             &[
                 ("wall", panel(&[0.0, 9.0], &[0.0, 9.0])),
                 ("depth", Value::Number(depth)),
@@ -146,27 +148,29 @@ fn what_is_extruded_has_the_sides_that_are_wanted_and_they_look_outwards() {
 #[test]
 fn what_can_never_fit_is_refused_when_it_is_made() {
     let (low, high) = (panel(&[1.0, 2.0], &[1.0, 1.0]), panel(&[1.0, 2.0], &[2.0, 3.0]));
-    let error = refused(&LIST, &[("walls", list(&[low.clone(), high]))]);
+    let error = refused(list::kind(), &[("walls", list(&[low.clone(), high]))]);
     assert_eq!(error, "list: it can never fit: wall 2 is 2 to 3 m high, the walls before it are 1 m high");
-    let error =
-        refused(&BORDERED, &[("wall", low), ("left", Value::Number(3.0)), ("width", sizes(&[1.0, 2.0]))]);
+    let error = refused(
+        bordered::kind(),
+        &[("wall", low), ("left", Value::Number(3.0)), ("width", sizes(&[1.0, 2.0]))],
+    );
     assert_eq!(
         error,
         "bordered: it can never fit: its parts are at least 4 m wide, and it must be 1 to 2 m wide"
     );
-    assert_eq!(refused(&GRID, &[]), "grid: there is no wall to repeat");
+    assert_eq!(refused(grid::kind(), &[]), "grid: there is no wall to repeat");
 }
 
 fn template(keywords: &[&str], weight: f64, width: &[f64]) -> Value {
     let words: Vec<Value> = keywords.iter().map(|word| text(word)).collect();
     let wall = panel(width, &[0.0, 99.0]);
     let fields = [("wall", wall), ("keywords", list(&words)), ("weight", Value::Number(weight))];
-    make(&Template::KIND, &fields).expect("a template")
+    make(Template::kind(), &fields).expect("a template")
 }
 
 #[test]
 fn the_template_that_shares_most_keywords_wins_and_ties_are_drawn_by_weight() {
-    use crate::objects::Parameter;
+    use crate::kit::Parameter;
     let any = &[0.0, 99.0];
     let all = [
         template(&[], 1.0, any),
@@ -205,14 +209,14 @@ proptest! {
     ) {
         let policy = |size: f64, index: usize| list(&[Value::Number(size), text(["min", "max", "fixed"][index])]);
         let window = panel(&[cell.0, cell.0 + cell.1], &[cell.2, cell.2 + cell.3]);
-        let framed = make(&BORDERED, &[
+        let framed = make(bordered::kind(), &[
             ("wall", window), ("left", policy(margins.0, margins.2)), ("top", policy(margins.1, margins.3)),
         ]).expect("a wall");
-        let floors = make(&GRID, &[("wall", framed)]).expect("a grid");
-        let entry = make(&LIST, &[("walls", list(&[
+        let floors = make(grid::kind(), &[("wall", framed)]).expect("a grid");
+        let entry = make(list::kind(), &[("walls", list(&[
             panel(&[0.0, 9.0], &[base, base]), panel(&[door, door], &[base, base]), panel(&[0.1, 30.0], &[base, base]),
         ]))]).expect("a list");
-        let whole = make(&LIST, &[("walls", list(&[entry, floors])), ("direction", text("vertical"))]).expect("a list");
+        let whole = make(list::kind(), &[("walls", list(&[entry, floors])), ("direction", text("vertical"))]).expect("a list");
         let [width, height] = [(0, across), (1, above)].map(|(side, at): (usize, f64)| {
             let sizes = &wall(&whole).0.sizes[side];
             sizes.nearest(sizes.low() + at * (sizes.high().min(40.0) - sizes.low()))

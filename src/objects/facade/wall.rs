@@ -8,7 +8,8 @@ use super::size::Size;
 use super::{bordered, extruded, grid, list, panel};
 use crate::error::{Error, Result};
 use crate::geometry::{Sizes, Split};
-use crate::objects::{Expected, Kind, Object, Parameter, Surface, Value};
+use crate::kit::{Expected, Kind, Object, Parameter, Value};
+use crate::objects::Surface;
 use crate::scene::Material;
 
 /// A wall of a facade, made by one of five rules. It never changes.
@@ -77,7 +78,7 @@ impl Wall {
         own: [Option<Size>; 2],
         material: Option<&Surface>,
     ) -> Result<Self> {
-        let name = rule.kind().name;
+        let name = &rule.kind().name;
         let depth = 1 + rule.parts().iter().map(|wall| wall.0.depth).max().unwrap_or(0);
         if depth > DEEPEST {
             return Err(Error::new(format!("{name}: more than {DEEPEST} walls are within one another"))
@@ -129,13 +130,13 @@ impl Rule {
         }
     }
 
-    fn kind(&self) -> &'static Kind {
+    fn kind(&self) -> &'static Arc<Kind> {
         match self {
-            Self::Panel { .. } => &panel::KIND,
-            Self::Bordered { .. } => &bordered::KIND,
-            Self::Extruded { .. } => &extruded::KIND,
-            Self::List { .. } => &list::KIND,
-            Self::Grid { .. } => &grid::KIND,
+            Self::Panel { .. } => panel::kind(),
+            Self::Bordered { .. } => bordered::kind(),
+            Self::Extruded { .. } => extruded::kind(),
+            Self::List { .. } => list::kind(),
+            Self::Grid { .. } => grid::kind(),
         }
     }
 }
@@ -158,7 +159,7 @@ impl Parameter for Wall {
 }
 
 impl Object for Wall {
-    fn kind(&self) -> &'static Kind {
+    fn kind(&self) -> &Arc<Kind> {
         self.0.rule.kind()
     }
 
@@ -169,6 +170,6 @@ impl Object for Wall {
 
 impl std::fmt::Debug for Wall {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(self.kind().name)
+        f.write_str(&self.0.rule.kind().name)
     }
 }

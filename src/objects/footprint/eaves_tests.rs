@@ -1,9 +1,9 @@
 //! Tests of what a roof knows of its surroundings: storeys that stand out, neighbours, and what walls are made of.
 
 use super::*;
-use crate::objects::Key;
+use crate::kit::Key;
+use crate::kit::random::Stream;
 use crate::objects::facade;
-use crate::random::Stream;
 
 fn table(entries: &[(&str, Value)]) -> Table {
     let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
@@ -11,7 +11,7 @@ fn table(entries: &[(&str, Value)]) -> Table {
 }
 
 fn make(kind: &Kind, entries: &[(&str, Value)]) -> Value {
-    Value::Object(Arc::from((kind.construct)(&table(entries)).expect("a wall")))
+    Value::Object(Arc::from(kind.make(&table(entries)).expect("a wall")))
 }
 
 fn number(number: f64) -> Value {
@@ -28,8 +28,11 @@ fn material(color: &str) -> Value {
 
 /// A wall of this colour that stands out by `depth` (m).
 fn template(depth: f64, color: &str) -> Value {
-    let wall = make(&facade::EXTRUDED, &[("wall", make(&facade::PANEL, &[])), ("depth", number(depth))]);
-    make(&facade::Template::KIND, &[("wall", wall), ("material", material(color))])
+    let wall = make(
+        facade::extruded::kind(),
+        &[("wall", make(facade::panel::kind(), &[])), ("depth", number(depth))],
+    );
+    make(facade::Template::kind(), &[("wall", wall), ("material", material(color))])
 }
 
 fn on(rings: Vec<Vec<DVec3>>, height: f64) -> Footprint {

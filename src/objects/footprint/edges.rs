@@ -8,9 +8,9 @@ use glam::DVec2;
 use super::neighbors::Touch;
 use super::{Footprint, edges};
 use crate::error::{Error, Result};
+use crate::kit::Expected;
+use crate::kit::{Key, Parameter, Table, Value};
 use crate::objects::facade::template::BLIND;
-use crate::objects::parameter::Expected;
-use crate::objects::{Key, Parameter, Table, Value};
 
 /// The word for the edge on the street.
 const STREET: &str = "street";

@@ -1,10 +1,10 @@
 //! The footprint: a plan on the ground, from which groundwork, walls and a roof rise.
 
-mod ahead;
 #[cfg(test)]
 mod eaves_tests;
 mod edges;
 mod neighbors;
+mod prefetch;
 mod roof;
 mod shell;
 mod sides;
@@ -12,24 +12,23 @@ mod sides;
 mod tests;
 mod walls;
 
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::{DVec2, DVec3};
 
-use super::parameter::Expected;
-use super::{
-    Color, Drawing, Gather, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Terrain, Value,
-    Vector,
-};
+use super::{Streets, Surface, Terrain};
 use crate::error::{Error, Result, nearest};
 use crate::geometry::Plan;
-use crate::scene::{Material, Scene};
+use crate::kit::{
+    Color, Draw, Drawing, Expected, Kind, LevelOfDetail, Note, Object, Parameter, Report, Shape, Table,
+    Value, Vector,
+};
+use crate::scene::Material;
 use crate::sources::Geometry;
-pub(crate) use ahead::Ahead;
-use ahead::Grounded;
 pub use edges::EdgeKeywords;
 use edges::Edges;
 use neighbors::Neighborhood;
+use prefetch::{Grounded, PlanPrefetch};
 pub use roof::{Detail, Roof};
 use shell::Shell;
 use sides::Side;
@@ -273,19 +272,24 @@ methods! {
 
 impl Footprint {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "footprint",
-        doc: "A building: groundwork, walls and a roof over a polygon on the ground.",
-        fields: Options::FIELDS,
-        first: Some("geometry"),
-        methods: Self::METHODS,
-        construct: |table: &Table| {
-            let options = Options::from_table(table)?;
-            // Under other heights it is another plan.
-            let ready = if options.ground.is_none() { made_ahead(table) } else { None };
-            Ok(Box::new(Self::with(options, ready)?))
-        },
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "footprint",
+                "A building: groundwork, walls and a roof over a polygon on the ground.",
+            );
+            let kind = kind.made_of(Options::fields(), |table| {
+                let options = Options::from_table(table)?;
+                // Under other heights it is another plan.
+                let ready = if options.ground.is_none() { prefetched(table) } else { None };
+                Footprint::with(options, ready)
+            });
+            let kind = kind.first("geometry").methods(Footprint::methods()).begins_empty();
+            let kind = kind.draws::<Footprint>().has_detail::<Footprint>().reports::<Footprint>();
+            Arc::new(kind.gathers(neighbors::gather).prefetches(|layer| Arc::new(PlanPrefetch::new(layer))))
+        });
+        &KIND
+    }
 
     /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
     pub fn new(options: Options) -> Result<Self> {
@@ -350,11 +354,12 @@ impl Footprint {
 }
 
 /// The plan of the geometry in a table of options, if another thread has made it.
-fn made_ahead(options: &Table) -> Option<Result<Grounded>> {
+fn prefetched(options: &Table) -> Option<Result<Grounded>> {
     let Some(Value::Object(object)) = options.get("geometry") else { return None };
     let any: &dyn std::any::Any = &**object;
-    let (ahead, number) = any.downcast_ref::<Shape>()?.ahead()?;
-    ahead.take(number)
+    let (prefetch, number) = any.downcast_ref::<Shape>()?.prefetch()?;
+    let any: &dyn std::any::Any = prefetch;
+    any.downcast_ref::<PlanPrefetch>()?.take(number)
 }
 
 /// Fails if a height (m) is not above 0 or is absurd.
@@ -386,16 +391,12 @@ fn along(from: DVec2, to: DVec2) -> DVec3 {
 }
 
 impl Object for Footprint {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
-    }
-
-    fn gathers(&self) -> Option<Gather> {
-        Some(neighbors::gather)
     }
 
     fn begin(&mut self) {
@@ -415,34 +416,30 @@ impl Object for Footprint {
     fn seed(&mut self, seed: u64) {
         self.seed = seed;
     }
+}
 
+impl LevelOfDetail for Footprint {
     fn set_detail(&mut self, detail: u8) {
         self.detail = detail;
     }
+}
 
+impl Report for Footprint {
     fn notes(&self) -> &[Note] {
         &self.notes
     }
+}
 
-    fn begins_empty(&self) -> bool {
-        true
+impl Draw for Footprint {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
     }
 
-    fn triangles(&self) -> usize {
-        self.drawing.triangles()
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
     }
 
-    fn drawing(&mut self) -> Option<&mut Drawing> {
-        Some(&mut self.drawing)
-    }
-
-    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing.clone().show(scene, self.origin, name, feature);
-        Ok(())
-    }
-
-    fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        std::mem::take(&mut self.drawing).show(scene, self.origin, name, feature);
-        Ok(())
+    fn origin(&self) -> DVec3 {
+        self.origin
     }
 }

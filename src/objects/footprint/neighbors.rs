@@ -9,7 +9,7 @@ use smallvec::SmallVec;
 
 use super::{Footprint, edges};
 use crate::geometry::Plan;
-use crate::objects::Object;
+use crate::kit::Object;
 
 /// How far (m) walls that touch may be apart, or overlap.
 const APART: f64 = 0.3;

@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::geometry::solid;
+use crate::kit::Show;
 use crate::scene::Part;
 
 fn plan(rings: &[&[(f64, f64)]]) -> Rings {
@@ -9,8 +10,7 @@ fn plan(rings: &[&[(f64, f64)]]) -> Rings {
 }
 
 fn table(entries: &[(&str, Value)]) -> Option<Arc<Table>> {
-    let entries =
-        entries.iter().map(|(name, value)| (super::super::Key::Name((*name).into()), value.clone()));
+    let entries = entries.iter().map(|(name, value)| (crate::kit::Key::Name((*name).into()), value.clone()));
     Some(Arc::new(Table { class: None, entries: entries.collect() }))
 }
 
@@ -131,14 +131,13 @@ fn every_roof_closes_every_plan() {
 fn with_facades(detail: u8) -> Footprint {
     use crate::objects::facade;
     let object = |made: Result<Box<dyn Object>>| Value::Object(Arc::from(made.expect("a wall")));
-    let make =
-        |kind: &Kind, entries: &[(&str, Value)]| object((kind.construct)(&table(entries).expect("a table")));
+    let make = |kind: &Kind, entries: &[(&str, Value)]| object(kind.make(&table(entries).expect("a table")));
     let size = |low: f64, high: f64| vec![low, high].into_value();
-    let glass = make(&facade::PANEL, &[("width", size(1.0, 1.0)), ("height", size(1.5, 1.5))]);
-    let niche = make(&facade::EXTRUDED, &[("wall", glass), ("depth", Value::Number(-0.2))]);
+    let glass = make(facade::panel::kind(), &[("width", size(1.0, 1.0)), ("height", size(1.5, 1.5))]);
+    let niche = make(facade::extruded::kind(), &[("wall", glass), ("depth", Value::Number(-0.2))]);
     let margins = ["left", "right", "bottom", "top"].map(|side| (side, Value::Number(0.5)));
-    let window = make(&facade::BORDERED, &[&[("wall", niche)], margins.as_slice()].concat());
-    let template = make(&facade::Template::KIND, &[("wall", window)]);
+    let window = make(facade::bordered::kind(), &[&[("wall", niche)], margins.as_slice()].concat());
+    let template = make(facade::Template::kind(), &[("wall", window)]);
     let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]]);
     let keywords = super::EdgeKeywords([(2, vec!["blind".to_owned()])].into_iter().collect());
     let options = Options { geometry, edge_keywords: keywords, ..Options::default() };

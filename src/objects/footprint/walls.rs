@@ -6,11 +6,12 @@ use super::sides::material_of;
 use super::{Footprint, Height, along, check_height, edges};
 use crate::error::{Error, Result};
 use crate::geometry::{SAME, fill};
+use crate::kit::random::Stream;
+use crate::kit::{Color, Note};
+use crate::objects::Surface;
 use crate::objects::facade::lay::MOST;
 use crate::objects::facade::template::BLIND;
 use crate::objects::facade::{Face, Laid, Rectangle, Template, Templates};
-use crate::objects::{Color, Note, Surface};
-use crate::random::Stream;
 use crate::scene::{Material, Part};
 
 fields! {

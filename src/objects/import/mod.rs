@@ -13,6 +13,7 @@ mod shape;
 mod tests;
 mod tints;
 
+use std::path::Path;
 use std::sync::Arc;
 
 use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
@@ -20,6 +21,7 @@ use gltf_json::{Index, Root, scene::Node};
 
 use crate::budget::Budget;
 use crate::error::{Error, Result};
+use crate::kit::{Kind, Loaded, Loader, Loading, Model, Table};
 use crate::scene::{Instance, Mesh, Scene};
 use bytes::{Bytes, Columns};
 use look::Look;
@@ -32,7 +34,7 @@ const MOST_NODES: usize = 100_000;
 const OBJECT: usize = 500;
 
 /// What an import needs from outside of the file.
-pub(crate) struct Wanted<'a> {
+struct Wanted<'a> {
     /// What messages call the file.
     pub name: &'a str,
     /// The most triangles, those of repeated meshes counted each time.
@@ -48,7 +50,7 @@ pub(crate) struct Wanted<'a> {
 /// Takes positions, normals, texture coordinates, colours of points, instances of a node, and of materials base colour with its texture, metal, roughness and
 /// light; normals that are missing are those of flat faces, texture coordinates are then metres along the faces. Fails
 /// if the file is damaged, needs an extension that is not known here, or has too many triangles.
-pub(crate) fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
+fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
     let name = wanted.name;
     let (json, own) = container(content).map_err(|why| broken(name, why))?;
     wanted.budget.check()?;
@@ -296,7 +298,28 @@ fn turned(place: DAffine3) -> DAffine3 {
     DAffine3 { matrix3: turn * place.matrix3 * turn.transpose(), translation: turn * place.translation }
 }
 
-/// A scene as a model that can be shared.
-pub(crate) fn model(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Arc<super::Model>> {
-    read(content, wanted).map(|scene| Arc::new(super::Model::new(scene)))
+/// The type of models, which files of glTF are read for.
+pub(super) fn kind() -> Kind {
+    let loader = Loader {
+        what: "model",
+        example: "model(\"window.glb\")",
+        example_with_fields: "model(\"window.glb\")",
+        load,
+    };
+    Kind::clone(Model::kind()).loaded(Vec::new(), loader)
+}
+
+fn load(file: &mut Loading<'_>, _: &Table) -> Result<Loaded> {
+    let remedy = "name a .glb or .gltf file";
+    let content = file.read(remedy)?;
+    // Files beside it are named from its own folder.
+    let folder = Path::new(file.name).parent().map(Path::to_path_buf).unwrap_or_default();
+    let mut beside = |uri: &str| {
+        let name = folder.join(uri).display().to_string();
+        file.read_beside("file of a model", &name, remedy)
+    };
+    let mut wanted =
+        Wanted { name: file.name, triangles: file.triangles, budget: file.budget, beside: &mut beside };
+    let model = Model::new(read(&content, &mut wanted)?);
+    Ok(Loaded { memory: model.memory(), object: Arc::new(model), warnings: Vec::new() })
 }

@@ -2,18 +2,18 @@
 
 mod looks;
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
 use super::terrain::{Cover, RuleLayers, Water, lost_focus, rules};
-use super::{Color, Kind, Object, Seed, Table, Vector};
 use crate::error::{Error, Result};
-use crate::rules::Key;
+use crate::kit::rules::Key;
+use crate::kit::{Color, Expand, Kind, Object, Rewriter, Seed, Show, Vector};
 use crate::scene::{Instance, Material, Mesh, Scene};
 use crate::terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
-use crate::terrain::{Divide, World};
+use crate::terrain::{Cells, World};
 use crate::warning::Warning;
 
 fields! {
@@ -124,14 +124,22 @@ const DEEP: f64 = 0.1;
 
 impl Planet {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "planet",
-        doc: "A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.",
-        fields: Options::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "planet",
+                "A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Planet::new(Options::from_table(table)?))
+                    .methods(Planet::methods())
+                    .begins_empty()
+                    .shows::<Planet>()
+                    .expands::<Planet>(),
+            )
+        });
+        &KIND
+    }
 
     /// What was `found`; where nothing is expanded, an error, or `even` while the script is only checked.
     fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
@@ -213,8 +221,8 @@ impl std::fmt::Debug for Planet {
 }
 
 impl Object for Planet {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -234,23 +242,14 @@ impl Object for Planet {
         self.wanted = None;
     }
 
-    fn sketch(&mut self) {
-        self.sketched = true;
-    }
-
-    fn begins_empty(&self) -> bool {
-        true
-    }
-
     fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
+}
 
-    fn grows(&self) -> bool {
-        true
-    }
-
-    fn grow(&mut self, divide: &dyn Divide) -> Result<()> {
+impl Expand for Planet {
+    fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
+        let divide = &Cells::new(rules);
         if let Some(world) = self.globe.world().begun(divide)? {
             self.globe = Globe::new(world, self.options.radius, self.globe.sea());
         }
@@ -258,6 +257,12 @@ impl Object for Planet {
         self.globe.focus(self.eye, self.options.closeness, self.options.levels, divide)
     }
 
+    fn sketch(&mut self) {
+        self.sketched = true;
+    }
+}
+
+impl Show for Planet {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let globe = &self.globe;
         let mesh = GlobeMesh::new(globe, self.options.error);

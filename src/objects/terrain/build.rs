@@ -6,8 +6,8 @@ use glam::DVec2;
 
 use super::{Options, rules};
 use crate::error::{Error, Result};
+use crate::kit::rules::Key;
 use crate::objects::Elevation;
-use crate::rules::Key;
 use crate::terrain::{Layer, Measured, Rules, World};
 
 /// The world that `options` describe. Fails for what cannot be.

@@ -1,10 +1,10 @@
 //! A file of changes of the ground, on its way from the script's folder to a terrain.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-use crate::error::Error;
-use crate::objects::parameter::object;
-use crate::objects::{Expected, Kind, Object, Parameter, Table, Value};
+use crate::error::{Error, Result};
+use crate::kit::{Expected, Kind, Object, Parameter, Table, Value};
+use crate::kit::{Loaded, Loader, Loading, object};
 
 /// The text of a file that keeps changes of the ground.
 #[derive(Debug, Clone)]
@@ -17,14 +17,29 @@ pub struct EditFile {
 
 impl EditFile {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "edits",
-        doc: "Changes of the ground that a file keeps.",
-        fields: &[],
-        first: None,
-        methods: &[],
-        construct: |_: &Table| Err(Error::new("edits come from a file").help("write edits(\"ground.json\")")),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let loader = Loader {
+                what: "file of edits",
+                example: "edits(\"ground.json\")",
+                example_with_fields: "edits(\"ground.json\")",
+                load,
+            };
+            Arc::new(
+                Kind::new("edits", "Changes of the ground that a file keeps.").loaded(Vec::new(), loader),
+            )
+        });
+        &KIND
+    }
+}
+
+fn load(file: &mut Loading<'_>, _: &Table) -> Result<Loaded> {
+    let name = file.name;
+    let text = String::from_utf8(file.read("name a .json file")?)
+        .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
+    let memory = text.len();
+    let object = Arc::new(EditFile { name: name.to_owned(), text: text.into() });
+    Ok(Loaded { object, memory, warnings: Vec::new() })
 }
 
 impl Parameter for EditFile {
@@ -42,8 +57,8 @@ impl Parameter for EditFile {
 }
 
 impl Object for EditFile {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {

@@ -7,7 +7,7 @@ use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 
 use crate::error::{Error, Result};
-use crate::objects::{Color, Expected, Parameter, Table, Value};
+use crate::kit::{Color, Expected, Parameter, Table, Value};
 use crate::scene::{Material, Texture};
 use crate::terrain::{Ground, Tile};
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use crate::error::{Error, Result, nearest};
-use crate::objects::{Expected, Parameter, Table, Value};
+use crate::kit::{Expected, Parameter, Table, Value};
 use crate::terrain::{Ground, World, octaves, octaves_around};
 
 fields! {

@@ -12,7 +12,7 @@ mod sides;
 mod view;
 mod water;
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DVec2, DVec3};
 
@@ -20,17 +20,18 @@ pub use edits::EditFile;
 pub use looks::Cover;
 pub use mask::Mask;
 pub use plants::Plants;
-pub use rules::{LayerRules, RuleLayer, RuleLayers, System};
+pub use rules::{LayerRules, RuleLayer, RuleLayers};
 pub use water::Water;
 
 use river::River;
 
-use super::parameter::object;
-use super::{Color, Elevation, Expected, Kind, Object, Parameter, Table, Value, Vector};
+use super::Elevation;
 use crate::error::{Error, Result};
-use crate::rules::Key;
+use crate::kit::rules::Key;
+use crate::kit::{Color, Expected, Kind, Object, Parameter, Value, Vector};
+use crate::kit::{Expand, Rewriter, Show, object};
 use crate::scene::Scene;
-use crate::terrain::{DEEPEST, Divide, Drainage, Dry, Edit, Edits, Ground, Map, View, World};
+use crate::terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, Map, View, World};
 use crate::warning::{Warning, WarningKind};
 
 fields! {
@@ -207,14 +208,22 @@ methods! {
 
 impl Terrain {
     /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "terrain",
-        doc: "Ground made by dividing a square into quadrants again and again, expanded where it is looked at.",
-        fields: Options::FIELDS,
-        first: None,
-        methods: Self::METHODS,
-        construct: |table: &Table| Ok(Box::new(Self::new(Options::from_table(table)?)?)),
-    };
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "terrain",
+                "Ground made by dividing a square into quadrants again and again, expanded where it is looked at.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Terrain::new(Options::from_table(table)?))
+                    .methods(Terrain::methods())
+                    .begins_empty()
+                    .shows::<Terrain>()
+                    .expands::<Terrain>(),
+            )
+        });
+        &KIND
+    }
 
     /// A terrain of which nothing is expanded.
     pub fn new(options: Options) -> Result<Self> {
@@ -379,8 +388,8 @@ fn flat(points: &[Vector]) -> Vec<[f64; 2]> {
 }
 
 impl Object for Terrain {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -404,23 +413,14 @@ impl Object for Terrain {
         self.edits = Arc::clone(&self.kept);
     }
 
-    fn sketch(&mut self) {
-        self.sketched = true;
-    }
-
-    fn begins_empty(&self) -> bool {
-        true
-    }
-
     fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
+}
 
-    fn grows(&self) -> bool {
-        true
-    }
-
-    fn grow(&mut self, divide: &dyn Divide) -> Result<()> {
+impl Expand for Terrain {
+    fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
+        let divide = &Cells::new(rules);
         let (eye, view) = match (&self.wanted, self.options.levels) {
             (Some((eye, view)), _) => (*eye, view.clone()),
             (None, Some(levels)) => {
@@ -446,6 +446,12 @@ impl Object for Terrain {
         Ok(())
     }
 
+    fn sketch(&mut self) {
+        self.sketched = true;
+    }
+}
+
+impl Show for Terrain {
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         self.draw(scene, name, feature)
     }

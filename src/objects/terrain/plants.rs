@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 use super::mask::{Mask, Spot};
 use crate::error::{Error, Result};
-use crate::objects::{Drawing, Expected, Model, Parameter, Table, Value};
-use crate::random::Stream;
-use crate::rules::Key;
+use crate::kit::random::Stream;
+use crate::kit::rules::Key;
+use crate::kit::{Drawing, Expected, Model, Parameter, Table, Value};
 use crate::terrain::Ground;
 
 fields! {

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use crate::error::nearest;
-use crate::objects::{Expected, Key, Kind, Object, Parameter, Table, Value};
-use crate::rules::Symbol;
+use crate::kit::rules::Symbol;
+use crate::kit::{Expected, Key, Parameter, System, Table, Value};
 use crate::terrain::{Draw, Layer, Quadrants, RuleTable, Rules};
 use crate::warning::{Warning, WarningKind};
 
@@ -34,34 +34,6 @@ pub enum LayerRules {
     Table(Arc<RuleTable>),
     /// A system of the script.
     System(Arc<System>),
-}
-
-/// A system of the script, as the rules of a terrain.
-#[derive(Debug, Clone)]
-pub struct System {
-    /// Its place among the systems of the script.
-    pub index: usize,
-}
-
-impl System {
-    const KIND: Kind = Kind {
-        name: "system",
-        doc: "A system whose rules divide the cells of a terrain.",
-        fields: &[],
-        first: None,
-        methods: &[],
-        construct: |_: &Table| Err(crate::error::Error::new("a system is made with lsystem")),
-    };
-}
-
-impl Object for System {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
 }
 
 const WHAT: &str = "a table of rules, such as { A = { \"A\", \"B\", \"B\", \"A\", change = { 1, -1, 0, 0.5 }, decay = 0.5 }, ... }, \

@@ -4,8 +4,8 @@ use glam::{DAffine3, DVec3};
 
 use super::{Terrain, looks, sides};
 use crate::error::{Error, Result};
-use crate::objects::Drawing;
-use crate::rules::Key;
+use crate::kit::Drawing;
+use crate::kit::rules::Key;
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
 use crate::terrain::Mesh as Triangulation;
 

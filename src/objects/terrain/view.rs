@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::objects::{Expected, Key, Parameter, Table, Value};
+use crate::kit::{Expected, Key, Parameter, Table, Value};
 use crate::terrain::{Ring, View};
 
 impl Parameter for View {

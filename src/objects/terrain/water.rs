@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2};
 
 use crate::error::Result;
-use crate::objects::{Color, Expected, Parameter, Table, Value};
+use crate::kit::{Color, Expected, Parameter, Table, Value};
 use crate::scene::{Normal, Part};
 use crate::terrain::{Ground, Tile};
 

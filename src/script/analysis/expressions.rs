@@ -11,7 +11,7 @@ use full_moon::tokenizer::TokenReference;
 use super::syntax::{end_of, instead_of, string_of, text_of};
 use super::walk::{Role, Walk};
 use crate::error::Error;
-use crate::rules::Signature;
+use crate::kit::rules::Signature;
 
 impl Walk<'_> {
     pub(super) fn expressions(&mut self, expressions: &Punctuated<Expression>) {

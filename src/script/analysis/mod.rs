@@ -21,7 +21,7 @@ use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
 use crate::error::{Error, Place};
-use crate::rules::Signature;
+use crate::kit::rules::Signature;
 pub(crate) use quiet::has_metatables;
 use walk::{Facts, Walk};
 
@@ -32,6 +32,8 @@ pub(crate) struct Globals {
     pub names: Vec<String>,
     /// The modules among them.
     pub modules: FxHashMap<String, Signature>,
+    /// The constructors of objects among them.
+    pub kinds: Vec<String>,
     /// Counts the shapes of the run's rules.
     pub shapes: Arc<AtomicUsize>,
 }

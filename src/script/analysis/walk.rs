@@ -10,7 +10,7 @@ use full_moon::tokenizer::TokenReference;
 use super::Globals;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use crate::error::{Error, Place, nearest};
-use crate::rules::Signature;
+use crate::kit::rules::Signature;
 
 /// What the first walk learned about the variables, in the order of their declaration.
 #[derive(Default)]

@@ -62,13 +62,12 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::script::Options;
 
     #[test]
     fn a_machine_that_was_made_ready_makes_what_others_do_once() {
         let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("scripts/herb.lua");
         let made = || -> Vec<String> {
-            let run = crate::run(&script, Options::default()).unwrap();
+            let run = crate::run(&script, crate::options()).unwrap();
             run.systems.iter().map(|system| system.chain_text()).collect()
         };
         let expected = made();

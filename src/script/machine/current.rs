@@ -4,9 +4,9 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use crate::error::{Error, Place, Result};
-use crate::objects::{Call, Method, Value};
-use crate::random::Stream;
-use crate::rules::{Key, Symbol};
+use crate::kit::random::Stream;
+use crate::kit::rules::{Key, Symbol};
+use crate::kit::{Call, Method, Value};
 use crate::script::handles::Objects;
 use crate::script::session::Session;
 use crate::warning::Warning;
@@ -56,7 +56,7 @@ pub(crate) struct Current {
     /// The most random numbers that one application has drawn lately.
     pub drawn: Cell<usize>,
     /// The methods of `this`, as their numbers in Lua.
-    pub methods: RefCell<Vec<&'static Method>>,
+    pub methods: RefCell<Vec<Method>>,
     /// The shapes of prepared returns, by number.
     pub shapes: RefCell<Vec<Shape>>,
     /// Applies recorded calls while interpreting.
@@ -121,7 +121,7 @@ impl Current {
         };
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
-        match method.call {
+        match &method.call {
             Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {

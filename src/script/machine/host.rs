@@ -7,8 +7,8 @@ use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
 use super::current::Current;
 use crate::error::Error;
-use crate::objects::{Call, Value};
-use crate::rules::{DEEPEST, module_text};
+use crate::kit::rules::{DEEPEST, module_text};
+use crate::kit::{Call, Value};
 use crate::script::convert::{to_lua, to_value};
 use crate::script::handles::ObjectHandle;
 use crate::script::library::Library;
@@ -26,8 +26,8 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         "pack",
         lua.create_function(move |_, value: LuaValue| {
             let value = to_value(&value, true).map_err(mlua::Error::external)?;
-            match crate::rules::Boxed::unpack(state.session.values.pack(value)) {
-                crate::rules::Boxed::Handle(handle) => Ok(handle),
+            match crate::kit::rules::Boxed::unpack(state.session.values.pack(value)) {
+                crate::kit::rules::Boxed::Handle(handle) => Ok(handle),
                 _ => Err(mlua::Error::external(Error::new("this value cannot be a parameter"))),
             }
         })?,
@@ -143,7 +143,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             let Some(method) = handle.0.kind().method(method) else {
                 return Err(mlua::Error::external(handle.0.kind().unknown_method(method)));
             };
-            match method.call {
+            match &method.call {
                 Call::Read(read) => {
                     let answer = read(&*handle.0, &values(&arguments)?).map_err(mlua::Error::external)?;
                     to_lua(lua, &answer, false)

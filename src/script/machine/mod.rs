@@ -25,7 +25,7 @@ use super::session::Session;
 use super::system::tell_unseen;
 use crate::derive::Crew;
 use crate::error::{Error, Place, Result};
-use crate::rules::{Symbol, Symbols};
+use crate::kit::rules::{Symbol, Symbols};
 use crate::warning::Warning;
 use begun::Begun;
 use prelude::Prelude;

@@ -6,8 +6,8 @@ use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
 use crate::derive::{Axiom, Job, Remark};
 use crate::error::{Error, Result};
-use crate::objects::{Ahead, Footprint, Object, Value};
-use crate::rules::{CLOSE, Chain, DEEPEST, END, Key, OPEN, Symbol};
+use crate::kit::rules::{CLOSE, Chain, DEEPEST, END, Key, OPEN, Symbol};
+use crate::kit::{Object, Prefetch, Value};
 use crate::script::convert::to_value;
 use crate::script::handles::ObjectHandle;
 use crate::script::machine::Machine;
@@ -51,7 +51,7 @@ impl System {
         let mut axiom = Axiom::default();
         let mut builder = Builder { machine, chain: &mut axiom.chain, random };
         match &self.axiom {
-            None if self.object.as_ref().is_some_and(|object| object.grows()) => {
+            None if self.object.as_ref().is_some_and(|object| object.expands()) => {
                 builder.push(END, &[], key);
                 axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
                 axiom.features.push(None);
@@ -70,7 +70,7 @@ impl System {
                 made?;
             }
         }
-        if let Some(gather) = axiom.objects.first().and_then(|object| object.gathers()) {
+        if let Some(gather) = axiom.objects.first().and_then(|object| object.kind().gather) {
             gather(&mut axiom.objects);
         }
         Ok(axiom)
@@ -86,7 +86,7 @@ impl System {
         axiom: &mut Axiom,
     ) -> Result<()> {
         let LuaValue::UserData(source) = source else { return Ok(()) };
-        let ahead = self.ahead(machine, source)?;
+        let prefetch = self.prefetch(machine, source)?;
         let mut refused: Option<Error> = None;
         axiom.source = shown(source);
         for (id, error) in refused_of(source) {
@@ -151,8 +151,8 @@ impl System {
             builder.push(END, &[], key);
             Ok(())
         };
-        let ahead = ahead.as_ref().map(|ahead| &ahead.0);
-        each_feature(machine.lua(), source, ahead, each, |error| machine.translate(error))?;
+        let prefetch = prefetch.as_ref().map(|prefetch| &prefetch.0);
+        each_feature(machine.lua(), source, prefetch, each, |error| machine.translate(error))?;
         // Where nothing is left, the error tells more.
         match refused {
             Some(error) if axiom.features.is_empty() => Err(error),
@@ -162,28 +162,25 @@ impl System {
 }
 
 impl System {
-    /// Has the plans of many footprints made by a thread that helps, if there is one.
-    fn ahead(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<Foreseen>> {
-        let draws_footprints = self.object.as_ref().is_some_and(|object| {
-            let any: &dyn std::any::Any = &**object;
-            any.is::<Footprint>()
-        });
-        let pays = draws_footprints && !machine.session.options.check;
-        let layer = layer_of(source).filter(|layer| pays && layer.features.len() >= MANY);
-        let Some(layer) = layer else { return Ok(None) };
-        let foreseen = Foreseen(Arc::new(Ahead::new(&layer)));
-        machine.crew.hand_out(machine, 2, 2, || Job::Foresee(Arc::downgrade(&foreseen.0)))?;
-        Ok(Some(foreseen))
+    /// Has what the system's objects need of many features made by a thread that helps, if there is one.
+    fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<Prefetching>> {
+        let begin = self.object.as_ref().and_then(|object| object.kind().prefetch);
+        let begin = begin.filter(|_| !machine.session.options.check);
+        let layer = layer_of(source).filter(|layer| layer.features.len() >= MANY);
+        let (Some(begin), Some(layer)) = (begin, layer) else { return Ok(None) };
+        let prefetching = Prefetching(begin(&layer));
+        machine.crew.hand_out(machine, 2, 2, || Job::Prefetch(Arc::downgrade(&prefetching.0)))?;
+        Ok(Some(prefetching))
     }
 }
 
 /// From this many features on, helpers will be needed anyway to interpret the chains, so they may as well start now.
 const MANY: usize = 256;
 
-/// What is made ahead for as long as features are gone through.
-struct Foreseen(Arc<Ahead>);
+/// A prefetch that lasts for as long as features are gone through.
+struct Prefetching(Arc<dyn Prefetch>);
 
-impl Drop for Foreseen {
+impl Drop for Prefetching {
     fn drop(&mut self) {
         self.0.end();
     }

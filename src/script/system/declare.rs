@@ -4,8 +4,8 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::derive::grouped;
 use crate::error::{Error, Place, Result, nearest};
-use crate::objects::Value;
-use crate::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
+use crate::kit::Value;
+use crate::kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
 use crate::script::analysis::{analyse, unmarked};
 use crate::script::convert::to_value;
 use crate::script::library::Library;

@@ -8,8 +8,8 @@ use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value
 
 use crate::derive::derive;
 use crate::error::{Error, Place, Result, nearest};
-use crate::objects::{Object, Value};
-use crate::rules::Symbol;
+use crate::kit::rules::Symbol;
+use crate::kit::{Object, Value};
 use crate::script::convert::to_value;
 use crate::script::handles::{DerivedHandle, ObjectHandle};
 use crate::script::library::Library;

@@ -14,7 +14,7 @@ use mlua::{Function, LightUserData, Lua, MetaMethod, Table, UserData, UserDataRe
 use rustc_hash::FxHashMap;
 
 use super::source::{Maker, nested};
-use crate::objects::{Ahead, Key, Shape, Table as ValueTable, Value};
+use crate::kit::{Key, Prefetch, Shape, Table as ValueTable, Value};
 use crate::script::library::Library;
 use crate::script::machine::native;
 use crate::sources::{Attribute, Kind, Layer};
@@ -46,7 +46,7 @@ pub(crate) fn peeks(text: &str) -> bool {
 struct Held {
     layer: Arc<Layer>,
     /// What makes plans of its polygons before they are asked for, if something does.
-    ahead: Option<Arc<Ahead>>,
+    prefetch: Option<Arc<dyn Prefetch>>,
     names: FxHashMap<String, usize>,
 }
 
@@ -75,7 +75,7 @@ pub(super) struct Unread {
 pub(super) fn unread(
     lua: &Lua,
     layer: &Arc<Layer>,
-    ahead: Option<&Arc<Ahead>>,
+    prefetch: Option<&Arc<dyn Prefetch>>,
 ) -> mlua::Result<Option<Unread>> {
     if lua.app_data_ref::<Eager>().is_none_or(|eager| eager.0.peeks()) {
         return Ok(None);
@@ -84,7 +84,7 @@ pub(super) fn unread(
         lua.set_app_data(Kept(Rc::new(Maker::new(lua)?)));
     }
     let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
-    let held = lua.create_userdata(Held { layer: Arc::clone(layer), ahead: ahead.cloned(), names })?;
+    let held = lua.create_userdata(Held { layer: Arc::clone(layer), prefetch: prefetch.cloned(), names })?;
     let functions: Table = lua.named_registry_value(LAZY)?;
     let make = |kind: &str| -> mlua::Result<Table> {
         let metatable = lua.create_table()?;
@@ -189,7 +189,7 @@ pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<Shape> {
     if is_feature(metatable) {
         return None;
     }
-    Shape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.ahead.as_ref())
+    Shape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.prefetch.as_ref())
 }
 
 /// What a table with this metatable knows of its feature, if it stands for one: its geometry and its other fields.
@@ -213,7 +213,7 @@ pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Shape, Vec
         .collect();
     fields.push((name("id"), Value::Text(feature.id.as_str().into())));
     fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((Shape::new(&held.layer, index, held.ahead.as_ref())?, fields))
+    Some((Shape::new(&held.layer, index, held.prefetch.as_ref())?, fields))
 }
 
 /// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.

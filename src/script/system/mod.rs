@@ -26,8 +26,8 @@ use super::handles::methods_key;
 use super::library::Library;
 use super::machine::Machine;
 use crate::error::{Place, Result};
-use crate::objects::Object;
-use crate::rules::{FIRST_SYMBOL, Grammar, Rule, Symbol};
+use crate::kit::Object;
+use crate::kit::rules::{FIRST_SYMBOL, Grammar, Rule, Symbol};
 
 /// What a script declared of one system.
 pub(crate) struct System {
@@ -127,12 +127,12 @@ pub(crate) struct Interpretation {
 impl System {
     /// Whether every interpretation pass begins with empty objects, so that earlier passes leave no trace.
     pub(crate) fn draws_afresh(&self) -> bool {
-        self.object.as_ref().is_none_or(|object| object.begins_empty())
+        self.object.as_ref().is_none_or(|object| object.kind().begins_empty)
     }
 
     /// Whether only the last pass can be seen: each begins with an empty object, and no rule asks what it drew.
     pub(crate) fn shows_last_only(&self) -> bool {
-        let empties = |object: &Arc<dyn Object>| object.begins_empty() && !object.grows();
+        let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
         self.last_only
             || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
     }
@@ -191,10 +191,10 @@ impl System {
         let lua = machine.lua();
         let this = match &self.object {
             Some(object) => {
-                *machine.current.methods.borrow_mut() = object.kind().methods.iter().collect();
+                *machine.current.methods.borrow_mut() = object.kind().methods.clone();
                 let this = lua.create_table()?;
                 let metatable = lua.create_table()?;
-                let methods: Table = lua.named_registry_value(&methods_key(object.kind().name))?;
+                let methods: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;
                 metatable.raw_set("__index", methods)?;
                 metatable.raw_set("__metatable", "this")?;
                 this.set_metatable(Some(metatable))?;

@@ -7,7 +7,7 @@ use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMeth
 
 use super::lazy;
 use crate::error::{Error, Result, nearest};
-use crate::objects::{Ahead, Features, Table as ValueTable, Value};
+use crate::kit::{Features, Prefetch, Table as ValueTable, Value};
 use crate::script::machine::{Machine, native, write_column};
 use crate::sources::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
 
@@ -183,11 +183,11 @@ pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
 /// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
 ///
 /// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
-/// What they need may be made `ahead`.
+/// What they need may come from `prefetch`.
 pub(super) fn each_feature(
     lua: &Lua,
     source: &AnyUserData,
-    ahead: Option<&Arc<Ahead>>,
+    prefetch: Option<&Arc<dyn Prefetch>>,
     mut each: impl FnMut(usize, LuaValue, Option<&str>) -> Result<()>,
     failed: impl Fn(mlua::Error) -> Error,
 ) -> Result<()> {
@@ -205,7 +205,7 @@ pub(super) fn each_feature(
         SourceHandle::Layer(layer) => Arc::clone(layer),
     };
     let (maker, names) =
-        (Maker::new(lua).map_err(&failed)?, Names::new(lua, &layer, ahead).map_err(&failed)?);
+        (Maker::new(lua).map_err(&failed)?, Names::new(lua, &layer, prefetch).map_err(&failed)?);
     for (index, feature) in layer.features.iter().enumerate() {
         let made = match &kept {
             LuaValue::Table(kept) => kept.raw_get(index + 1),
@@ -226,13 +226,13 @@ struct Names {
 }
 
 impl Names {
-    fn new(lua: &Lua, layer: &Arc<Layer>, ahead: Option<&Arc<Ahead>>) -> mlua::Result<Self> {
+    fn new(lua: &Lua, layer: &Arc<Layer>, prefetch: Option<&Arc<dyn Prefetch>>) -> mlua::Result<Self> {
         let text = |text: &str| lua.create_string(text);
         Ok(Self {
             attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
             layer: text(&layer.name)?,
             fixed: [text("id")?, text("geometry")?, text("layer")?],
-            unread: lazy::unread(lua, layer, ahead)?,
+            unread: lazy::unread(lua, layer, prefetch)?,
         })
     }
 }
@@ -340,8 +340,8 @@ fn wanted(options: &ValueTable) -> Result<Wanted> {
     let mut wanted = Wanted::default();
     for (key, value) in &options.entries {
         let name = match key {
-            crate::objects::Key::Name(name) => name,
-            crate::objects::Key::Index(_) => {
+            crate::kit::Key::Name(name) => name,
+            crate::kit::Key::Index(_) => {
                 return Err(Error::new("source takes named options").help("write { limit = 100 }"));
             }
         };

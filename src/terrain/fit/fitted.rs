@@ -8,7 +8,7 @@ use glam::DVec2;
 use super::code::Code;
 use super::targets::Target;
 use crate::error::Result;
-use crate::rules::Symbol;
+use crate::kit::rules::Symbol;
 use crate::terrain::{Area, Draw, Layer, Quadrants, RuleTable, Rules, Tables, World};
 
 /// A rule table whose map is like a target.

@@ -3,7 +3,7 @@
 use super::code::{Code, Level};
 use super::solve::{MOST, dot, improve, misfit};
 use super::targets::{self, number};
-use crate::random::Stream;
+use crate::kit::random::Stream;
 
 /// What is to be fitted, scaled to 0..1, along the Z curve.
 pub(super) struct Problem {

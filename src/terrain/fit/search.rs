@@ -11,7 +11,7 @@ use super::code::{Code, Rule, along};
 use super::fitted::Fitted;
 use super::moves::Problem;
 use super::targets::{Target, number};
-use crate::random::Stream;
+use crate::kit::random::Stream;
 
 /// How many cells across the search looks at, at most; what it finds is improved and measured on the whole target.
 const COARSE: usize = 64;

@@ -6,7 +6,7 @@
 
 use super::faces::{Spot, cell};
 use crate::error::Result;
-use crate::rules::Key;
+use crate::kit::rules::Key;
 use crate::terrain::block::{Area, Block};
 use crate::terrain::world::{Divide, World, smooth};
 

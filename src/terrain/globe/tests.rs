@@ -7,8 +7,8 @@ use glam::{DVec2, DVec3};
 
 use super::leaves::DETAIL;
 use super::*;
-use crate::random::Stream;
-use crate::rules::{Key, Symbol};
+use crate::kit::random::Stream;
+use crate::kit::rules::{Key, Symbol};
 use crate::terrain::{Draw, Layer, Quadrants, RuleTable, Rules, Tables, Tile, World};
 
 const RADIUS: f64 = 50_000.0;

@@ -6,9 +6,9 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use crate::error::{Error, Result};
 use crate::geometry::roof::{LineKind, Patch, PatchKind, lines, normal};
-use crate::objects::parameter::Expected;
-use crate::objects::{Model, Parameter, Table, Value};
-use crate::random::Stream;
+use crate::kit::Expected;
+use crate::kit::random::Stream;
+use crate::kit::{Model, Parameter, Table, Value};
 
 fields! {
     /// One of the `details` of `footprint:roof { ... }`.

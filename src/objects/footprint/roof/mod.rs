@@ -14,7 +14,7 @@ use crate::geometry::roof::{
     Cover, Eaves, Patch, PatchKind, STEEPEST_EAVES, Shape, Support, Surface as SurfaceOf,
 };
 use crate::geometry::{Plan, fill};
-use crate::objects::Note;
+use crate::kit::Note;
 pub use detail::Detail;
 
 fields! {

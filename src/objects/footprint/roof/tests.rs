@@ -8,8 +8,8 @@ use super::*;
 use crate::error::Error;
 use crate::geometry::roof::{Cover, Ends, Rise, Shape, Surface as Faces, fill, floor};
 use crate::geometry::solid;
-use crate::objects::{Model, Parameter, Value};
-use crate::random::Stream;
+use crate::kit::random::Stream;
+use crate::kit::{Model, Parameter, Value};
 use crate::scene::{Instance, Material, Mesh, Part, Scene};
 
 const RECTANGLE: [(f64, f64); 4] = [(0., 0.), (12., 0.), (12., 8.), (0., 8.)];

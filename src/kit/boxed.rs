@@ -11,7 +11,7 @@ pub enum Boxed {
     Nil,
     /// `true` or `false`.
     Boolean(bool),
-    /// The place of the value in [`Values`](crate::rules::Values).
+    /// The place of the value in [`Values`](crate::kit::rules::Values).
     Handle(u32),
 }
 

@@ -25,4 +25,4 @@ pub use symbols::{FIRST_SYMBOL, Signature, Symbols};
 pub use text::{chain_text, module_brief, module_text, write_chains};
 pub use values::Values;
 
-pub use crate::objects::Boxed;
+pub use crate::kit::Boxed;

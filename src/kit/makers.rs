@@ -2,7 +2,7 @@
 
 /// The makers of a drawing's triangles and placed models, each a symbol of the chain by its place in it.
 #[derive(Debug, Clone, Default)]
-pub(crate) struct Makers {
+pub struct Makers {
     present: u32,
     /// For each part, runs of triangles: where each ends, and who made it.
     parts: Vec<Vec<(usize, u32)>>,
@@ -57,19 +57,19 @@ impl Makers {
     }
 
     /// Who made triangle number `triangle` of part `part`.
-    pub(crate) fn of_triangle(&self, part: usize, triangle: usize) -> Option<usize> {
+    pub fn of_triangle(&self, part: usize, triangle: usize) -> Option<usize> {
         let runs = self.parts.get(part)?;
         let run = runs.partition_point(|(end, _)| *end <= triangle);
         runs.get(run).map(|(_, maker)| *maker as usize)
     }
 
     /// Who placed model number `placement`, counted over all models.
-    pub(crate) fn of_placement(&self, placement: usize) -> Option<usize> {
+    pub fn of_placement(&self, placement: usize) -> Option<usize> {
         self.placed.iter().flatten().nth(placement).map(|maker| *maker as usize)
     }
 
     /// Runs of triangles whose makers `wanted` names: part, first triangle and their number.
-    pub(crate) fn runs(&self, wanted: impl Fn(usize) -> bool) -> Vec<(usize, usize, usize)> {
+    pub fn runs(&self, wanted: impl Fn(usize) -> bool) -> Vec<(usize, usize, usize)> {
         let mut found: Vec<(usize, usize, usize)> = Vec::new();
         for (part, runs) in self.parts.iter().enumerate() {
             let mut start = 0;
@@ -89,7 +89,7 @@ impl Makers {
     }
 
     /// The placed models, counted over all, whose makers `wanted` names.
-    pub(crate) fn placements(&self, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
+    pub fn placements(&self, wanted: impl Fn(usize) -> bool) -> Vec<usize> {
         let all = self.placed.iter().flatten().enumerate();
         all.filter(|(_, maker)| wanted(**maker as usize)).map(|(number, _)| number).collect()
     }

@@ -1,7 +1,7 @@
 //! Seeds as scripts give them.
 
 use super::{Expected, Parameter, Value};
-use crate::rules::Key;
+use crate::kit::rules::Key;
 
 /// What random numbers come from: 64 bits, as a number or a string.
 ///

@@ -153,7 +153,7 @@ impl Drawing {
     }
 
     /// From now on notes which symbol of the chain draws what; the next one is `maker`.
-    pub(crate) fn trace(&mut self, maker: u32) {
+    pub fn trace(&mut self, maker: u32) {
         let makers = self.makers.get_or_insert_default();
         for (index, part) in self.parts.iter().enumerate() {
             makers.settle(index, part.triangles.len(), makers.present());
@@ -162,7 +162,7 @@ impl Drawing {
     }
 
     /// Which symbol made what: for each part that has triangles, and for placed models in their order.
-    pub(crate) fn take_makers(&mut self) -> Option<Makers> {
+    pub fn take_makers(&mut self) -> Option<Makers> {
         self.trace(0);
         let shown: Vec<bool> = self.parts.iter().map(|part| !part.triangles.is_empty()).collect();
         self.makers.take().map(|makers| makers.shown(&shown))

@@ -1,29 +1,20 @@
 //! The features of a data file and their geometries, on their way from a source to a constructor.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
-use super::{Ahead, Key, Kind, Object, Parameter, Table, Value};
-use crate::error::Error;
+use super::{Key, Kind, Object, Parameter, Prefetch, Table, Value};
 use crate::sources::{Geometry, Layer};
 
 /// The features of a source. A constructor may take them; no script holds them in this form.
 #[derive(Clone)]
 pub struct Features(pub Arc<Layer>);
 
-impl Features {
-    const KIND: Kind = Kind {
-        name: "source",
-        doc: "The features of a data file.",
-        fields: &[],
-        first: None,
-        methods: &[],
-        construct: |_: &Table| Err(Error::new("a source is made of a file").help("write source(\"a.gpkg\")")),
-    };
-}
+static FEATURES: LazyLock<Arc<Kind>> =
+    LazyLock::new(|| Arc::new(Kind::new("source", "The features of a data file.")));
 
 impl Object for Features {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        &FEATURES
     }
 
     fn boxed(&self) -> Box<dyn Object> {
@@ -36,28 +27,22 @@ impl Object for Features {
 pub struct Shape {
     layer: Arc<Layer>,
     index: usize,
-    ahead: Option<Arc<Ahead>>,
+    prefetch: Option<Arc<dyn Prefetch>>,
 }
 
-impl Shape {
-    const KIND: Kind = Kind {
-        name: "geometry",
-        doc: "The geometry of a feature.",
-        fields: &[],
-        first: None,
-        methods: &[],
-        construct: |_: &Table| Err(Error::new("a geometry is what a feature has")),
-    };
+static GEOMETRY: LazyLock<Arc<Kind>> =
+    LazyLock::new(|| Arc::new(Kind::new("geometry", "The geometry of a feature.")));
 
-    /// That of the feature with this number, from 0; `None` if there is none. Its plan may be made `ahead`.
-    pub(crate) fn new(layer: &Arc<Layer>, index: usize, ahead: Option<&Arc<Ahead>>) -> Option<Self> {
+impl Shape {
+    /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
+    pub fn new(layer: &Arc<Layer>, index: usize, prefetch: Option<&Arc<dyn Prefetch>>) -> Option<Self> {
         let there = index < layer.features.len();
-        there.then(|| Self { layer: Arc::clone(layer), index, ahead: ahead.cloned() })
+        there.then(|| Self { layer: Arc::clone(layer), index, prefetch: prefetch.cloned() })
     }
 
-    /// Where its plan may have been made already, and its feature's number there.
-    pub(super) fn ahead(&self) -> Option<(&Ahead, usize)> {
-        self.ahead.as_deref().map(|ahead| (ahead, self.index))
+    /// Where what it needs may have been made already, and its feature's number there.
+    pub fn prefetch(&self) -> Option<(&dyn Prefetch, usize)> {
+        self.prefetch.as_deref().map(|prefetch| (prefetch, self.index))
     }
 
     /// The geometry itself.
@@ -66,7 +51,7 @@ impl Shape {
     }
 
     /// The table that scripts see.
-    pub(crate) fn to_table(&self) -> Value {
+    pub fn to_table(&self) -> Value {
         let points = |points: &[[f64; 3]]| points.iter().map(|point| point.to_vec()).collect::<Vec<_>>();
         let geometry = self.geometry();
         let (name, lists) = match geometry {
@@ -83,8 +68,8 @@ impl Shape {
 }
 
 impl Object for Shape {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        &GEOMETRY
     }
 
     fn boxed(&self) -> Box<dyn Object> {

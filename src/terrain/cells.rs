@@ -6,13 +6,11 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::Plan;
-use super::batch::NONE;
-use super::step::{Outcome, Stepper};
+use super::block::{Area, Block};
+use super::world::{Begin, Divide};
 use crate::error::{Error, Result};
-use crate::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_brief};
-use crate::script::{Declared, Interpretations, Machine};
-use crate::terrain::{Area, Begin, Block, Divide};
+use crate::kit::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_brief};
+use crate::kit::{RewriteOutcome, Rewriter, RuleSet};
 
 /// The parameter of a module that is its cell's height.
 const HEIGHT: &str = "height";
@@ -23,16 +21,15 @@ const FORM: &str = "form";
 const STRIP: usize = 1 << 17;
 
 /// Divides cells by the rules of the systems of a script.
-pub(super) struct Cells<'a> {
-    machine: &'a Machine,
-    systems: RefCell<FxHashMap<usize, System>>,
+pub struct Cells<'a> {
+    rewriter: &'a dyn Rewriter,
+    systems: RefCell<FxHashMap<usize, Arc<System>>>,
 }
 
 /// A system whose rules divide cells.
 struct System {
-    plan: Arc<Plan>,
-    declared: Declared,
-    stepper: Stepper,
+    index: usize,
+    rules: Arc<RuleSet>,
     begin: Begin,
     /// By symbol: which of its parameters is the height.
     heights: Vec<Option<usize>>,
@@ -41,54 +38,50 @@ struct System {
 }
 
 impl<'a> Cells<'a> {
-    pub(super) fn new(machine: &'a Machine) -> Self {
-        Self { machine, systems: RefCell::default() }
+    /// Divides by the rules that `rewriter` applies.
+    pub fn new(rewriter: &'a dyn Rewriter) -> Self {
+        Self { rewriter, systems: RefCell::default() }
     }
 
-    /// Does something with system `index`, which is made ready the first time.
-    fn with<T>(&self, index: usize, work: impl FnOnce(&mut System) -> Result<T>) -> Result<T> {
-        let mut systems = self.systems.borrow_mut();
-        let system = match systems.entry(index) {
-            std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
-            std::collections::hash_map::Entry::Vacant(entry) => {
-                entry.insert(System::new(self.machine, index)?)
-            }
-        };
-        work(system)
+    /// System `index`, which is made ready the first time.
+    fn system(&self, index: usize) -> Result<Arc<System>> {
+        if let Some(system) = self.systems.borrow().get(&index) {
+            return Ok(Arc::clone(system));
+        }
+        let system = Arc::new(System::new(self.rewriter, index)?);
+        self.systems.borrow_mut().insert(index, Arc::clone(&system));
+        Ok(system)
     }
 }
 
 impl Divide for Cells<'_> {
     fn begin(&self, system: usize) -> Result<Begin> {
-        self.with(system, |system| Ok(system.begin.clone()))
+        self.system(system).map(|system| system.begin.clone())
     }
 
     fn divide(&self, system: usize, cells: &Block, area: Area, last: bool) -> Result<Block> {
-        self.with(system, |system| system.divide(self.machine, cells, area, last))
+        self.system(system)?.divide(self.rewriter, cells, area, last)
     }
 }
 
 impl System {
-    fn new(machine: &Machine, index: usize) -> Result<Self> {
-        let session = &machine.session;
-        let systems = machine.library.systems.borrow();
-        let system = &systems[index];
-        let place = system.place.clone();
-        let named = |error: Error| error.rather_at(place.clone());
-        if system.object.is_some() {
+    fn new(rewriter: &dyn Rewriter, index: usize) -> Result<Self> {
+        let rules = rewriter.rules(index)?;
+        let named = |error: Error| error.rather_at(rules.place.clone());
+        if rules.has_object {
             return Err(named(
                 Error::new("a system that divides the cells of a terrain has no object")
                     .help("leave object out: what the cells are is all that counts"),
             ));
         }
-        let grammar = system.grammar(&machine.library, session.draws_random());
+        let grammar = &rules.grammar;
         if grammar.has_contexts() {
             return Err(named(
                 Error::new("the cells of a terrain have no neighbours in their chain")
                     .help("write rules for single modules, without < and >"),
             ));
         }
-        let axiom = system.axiom(machine, Key::default(), grammar.draws_random())?;
+        let axiom = rewriter.axiom(index)?;
         let signatures = grammar.symbols();
         let find = |parameter: &str| -> Vec<Option<usize>> {
             let of =
@@ -97,11 +90,11 @@ impl System {
             (0..FIRST_SYMBOL).map(|_| None).chain(declared.map(of)).collect()
         };
         let (heights, forms) = (find(HEIGHT), find(FORM));
-        let begin = match axiom.chain.symbols.as_slice() {
+        let begin = match axiom.symbols.as_slice() {
             [symbol, END] if *symbol >= FIRST_SYMBOL => {
                 let height = heights[usize::from(*symbol)]
                     .ok_or_else(|| no_height(&signatures.signature(*symbol).name))?;
-                let mut rest = axiom.chain.params.clone();
+                let mut rest = axiom.params;
                 let height = rest.remove(height);
                 let stride =
                     grammar.arities().iter().max().map_or(0, |most| usize::from(*most).saturating_sub(1));
@@ -117,22 +110,10 @@ impl System {
                 ));
             }
         };
-        let plan = Arc::new(Plan {
-            system: index,
-            grammar,
-            interpretations: Interpretations::default(),
-            objects: None,
-            chains: 1,
-            batch: session.options.batch.max(1),
-            // How many modules each cell became has to be known.
-            traced: true,
-            profiled: false,
-        });
-        let declared = system.prepare(machine)?;
-        Ok(Self { stepper: Stepper::new(Arc::clone(&plan)), plan, declared, begin, heights, forms })
+        Ok(Self { index, rules, begin, heights, forms })
     }
 
-    fn divide(&mut self, machine: &Machine, cells: &Block, area: Area, last: bool) -> Result<Block> {
+    fn divide(&self, rewriter: &dyn Rewriter, cells: &Block, area: Area, last: bool) -> Result<Block> {
         let made = area.quadrants();
         let (count, stride) = (made.len(), self.begin.rest.len());
         let random = !cells.keys.is_empty();
@@ -149,18 +130,18 @@ impl System {
         };
         let rows = (STRIP / area.columns.max(1)).max(1);
         for first in (0..area.rows).step_by(rows) {
-            machine.session.stop.check()?;
+            rewriter.check()?;
             let rows = rows.min(area.rows - first);
             #[allow(clippy::cast_possible_wrap, reason = "rows are below 2^31")]
             let strip = Area { y: area.y + first as i64, rows, ..area };
-            self.strip(machine, cells, strip, &mut block)?;
+            self.strip(rewriter, cells, strip, &mut block)?;
         }
         Ok(block)
     }
 
     /// Divides the cells of some rows, and puts the quadrants where they belong.
-    fn strip(&mut self, machine: &Machine, cells: &Block, area: Area, block: &mut Block) -> Result<()> {
-        let grammar = &self.plan.grammar;
+    fn strip(&self, rewriter: &dyn Rewriter, cells: &Block, area: Area, block: &mut Block) -> Result<()> {
+        let grammar = &self.rules.grammar;
         let arities = grammar.arities();
         let random = grammar.draws_random();
         let mut chain = Chain::default();
@@ -182,15 +163,16 @@ impl System {
         if random {
             chain.keys.push(Key::default());
         }
-        chain.mark(self.plan.batch, arities);
+        chain.mark(self.rules.batch, arities);
         let step = cells.level as usize + 1;
-        let Outcome { chain, applied, .. } = self.stepper.step(machine, &self.declared, chain, step)?;
+        let RewriteOutcome { chain, applied } = rewriter.rewrite(self.index, chain, step)?;
         let mut here = Mark::default();
         for ((x, y), (rule, count)) in area.cells().zip(&applied) {
             let from = cells.area.index(x, y);
-            let whole = *rule == NONE || (*count == 1 && chain.symbols[here.module] == cells.symbols[from]);
+            let whole = *rule == RewriteOutcome::NONE
+                || (*count == 1 && chain.symbols[here.module] == cells.symbols[from]);
             if !whole && *count != 4 {
-                return Err(self.not_four(machine, cells, from, (*rule, *count), step));
+                return Err(self.not_four(cells, from, (*rule, *count), step));
             }
             let key = cells.keys.get(from).copied();
             for ordinal in 0..4 {
@@ -198,7 +180,7 @@ impl System {
                 let arity = usize::from(arities[usize::from(symbol)]);
                 let Some(at) = self.heights[usize::from(symbol)].filter(|_| symbol > END) else {
                     return Err(match symbol {
-                        ..=END => self.not_four(machine, cells, from, (*rule, 1), step),
+                        ..=END => self.not_four(cells, from, (*rule, 1), step),
                         _ => self.blame(no_height(&grammar.symbols().signature(symbol).name), *rule),
                     });
                 };
@@ -206,7 +188,7 @@ impl System {
                 let height = params[at];
                 let form = self.forms[usize::from(symbol)].map_or(0.0, |form| params[form]);
                 if !(height + form).is_finite() {
-                    let module = module_brief(grammar.symbols(), &machine.session.values, symbol, params);
+                    let module = module_brief(grammar.symbols(), &self.rules.values, symbol, params);
                     let error = Error::new(format!("the height of {module} is no finite number"))
                         .help("give each quadrant a height in metres");
                     return Err(self.blame(error, *rule));
@@ -236,25 +218,18 @@ impl System {
                 here.module += 1;
             }
         }
-        self.stepper.reuse(chain);
+        rewriter.reuse(self.index, chain);
         Ok(())
     }
 
     /// The error of a cell that did not become four.
-    fn not_four(
-        &self,
-        machine: &Machine,
-        cells: &Block,
-        from: usize,
-        (rule, count): (u16, u32),
-        step: usize,
-    ) -> Error {
-        let grammar = &self.plan.grammar;
+    fn not_four(&self, cells: &Block, from: usize, (rule, count): (u16, u32), step: usize) -> Error {
+        let grammar = &self.rules.grammar;
         let symbol = cells.symbols[from];
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let mut params = cells.rest[from * cells.stride..][..arity - 1].to_vec();
         params.insert(self.heights[usize::from(symbol)].unwrap_or(0), cells.heights[from]);
-        let module = module_brief(grammar.symbols(), &machine.session.values, symbol, &params);
+        let module = module_brief(grammar.symbols(), &self.rules.values, symbol, &params);
         let count = match count {
             0 => "nothing".to_owned(),
             1 => "one module or a branch".to_owned(),
@@ -266,7 +241,7 @@ impl System {
     }
 
     fn blame(&self, error: Error, rule: u16) -> Error {
-        match self.plan.grammar.rules().get(usize::from(rule)) {
+        match self.rules.grammar.rules().get(usize::from(rule)) {
             Some(rule) => error.at(rule.place.clone()).rule(&rule.pattern.text),
             None => error,
         }

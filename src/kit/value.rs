@@ -119,7 +119,7 @@ impl fmt::Display for Value {
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Number(value) => write_number(*value, f),
             Self::Text(value) => write!(f, "{value:?}"),
-            Self::Object(value) => f.write_str(value.kind().name),
+            Self::Object(value) => f.write_str(&value.kind().name),
             Self::Table(table) => {
                 f.write_str(table.class.as_deref().unwrap_or_default())?;
                 f.write_str("{")?;

@@ -1,12 +1,12 @@
 //! What a derived system has drawn, or a file holds, as one thing that systems can place.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DVec3};
 
 use super::parameter::object;
-use super::{Expected, Kind, Object, Parameter, Table, Value};
-use crate::error::{Error, Result};
+use super::{Expected, Kind, Object, Parameter, Show, Value};
+use crate::error::Result;
 use crate::scene::{Instance, Material, Part, Scene};
 
 /// The drawing of a derived system, or the content of a file. It never changes.
@@ -32,18 +32,14 @@ methods! {
 }
 
 impl Model {
-    /// The type, as scripts see it.
-    pub const KIND: Kind = Kind {
-        name: "model",
-        doc: "What a derived system has drawn, or a glTF file holds, for placing elsewhere.",
-        fields: &[],
-        first: None,
-        methods: Self::METHODS,
-        construct: |_: &Table| {
-            Err(Error::new("a model is what derive returns, or a file")
-                .help("write local model = system:derive(), or model(\"window.glb\")"))
-        },
-    };
+    /// The type, as scripts see it, without the way in which files are read.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let doc = "What a derived system has drawn, or a glTF file holds, for placing elsewhere.";
+            Arc::new(Kind::new("model", doc).methods(Model::methods()).shows::<Model>())
+        });
+        &KIND
+    }
 
     /// A model of all that `scene` shows.
     pub fn new(scene: Scene) -> Self {
@@ -57,7 +53,7 @@ impl Model {
     }
 
     /// About how much memory (bytes) it takes.
-    pub(crate) fn memory(&self) -> usize {
+    pub fn memory(&self) -> usize {
         let parts = self.scene.meshes.iter().flat_map(|mesh| &mesh.parts);
         let images =
             self.scene.materials.iter().filter_map(|material| material.texture.as_ref()?.content.as_ref());
@@ -127,14 +123,16 @@ impl std::fmt::Debug for Model {
 }
 
 impl Object for Model {
-    fn kind(&self) -> &'static Kind {
-        const { &Self::KIND }
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
     }
 
     fn boxed(&self) -> Box<dyn Object> {
         Box::new(self.clone())
     }
+}
 
+impl Show for Model {
     fn triangles(&self) -> usize {
         self.size()
     }

@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rustc_hash::FxHashMap;
 
-use crate::objects::{Boxed, Value};
+use crate::kit::{Boxed, Value};
 
 /// The strings, tables and objects that the modules of one derivation carry, each kept once.
 #[derive(Default)]
@@ -128,7 +128,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::objects::{Key, Table};
+    use crate::kit::{Key, Table};
 
     #[test]
     fn every_kind_of_value_survives_a_column() {

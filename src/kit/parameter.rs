@@ -35,7 +35,7 @@ impl Expected {
     }
 
     /// What is wrong with item `number` of a list.
-    pub(super) fn item(&self, number: usize) -> String {
+    pub fn item(&self, number: usize) -> String {
         match &self.found {
             Some(found) => format!("item {number} must be {}, not {found}", self.what),
             None => format!("item {number} must be {}", self.what),
@@ -65,7 +65,7 @@ fn shown(value: &Value) -> String {
             if text.len() <= LONGEST { text } else { value.describe().to_owned() }
         }
         Value::Object(object) => {
-            let name = object.kind().name;
+            let name = &object.kind().name;
             format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
         }
         other => other.describe().to_owned(),
@@ -138,7 +138,7 @@ macro_rules! answers {
 answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
 
 /// The object of type `T` that a value is; otherwise `what` was expected.
-pub(super) fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expected> {
+pub fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expected> {
     let Value::Object(object) = value else { return Err(Expected::new(what)) };
     let any: Arc<dyn Any + Send + Sync> = object;
     any.downcast().map_err(|_| Expected::new(what))

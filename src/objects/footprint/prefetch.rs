@@ -12,6 +12,7 @@ use glam::DVec3;
 use super::Rings;
 use crate::error::{Error, Result};
 use crate::geometry::Plan;
+use crate::kit::Prefetch;
 use crate::sources::Layer;
 
 /// From this many plans on, no more are made until some have been taken.
@@ -43,7 +44,7 @@ impl Grounded {
 }
 
 /// Plans of a layer's polygons that are made ahead.
-pub(crate) struct Ahead {
+pub(super) struct PlanPrefetch {
     layer: Arc<Layer>,
     state: Mutex<State>,
     changed: Condvar,
@@ -61,13 +62,33 @@ struct State {
     over: bool,
 }
 
-impl Ahead {
-    pub(crate) fn new(layer: &Arc<Layer>) -> Self {
+impl PlanPrefetch {
+    pub(super) fn new(layer: &Arc<Layer>) -> Self {
         Self { layer: Arc::clone(layer), state: Mutex::default(), changed: Condvar::new() }
     }
 
-    /// Makes plans ahead of those that are asked for, from the first such question until [`Ahead::end`].
-    pub(crate) fn work(&self) {
+    /// The plan of the feature with this number, if it has been made.
+    pub(super) fn take(&self, number: usize) -> Option<Result<Grounded>> {
+        let mut state = self.state();
+        state.asked = Some(number);
+        while state.made.front().is_some_and(|(made, _)| *made < number) {
+            state.made.pop_front();
+        }
+        // To wake a thread takes longer than to look whether there is one to wake.
+        if state.waits && state.made.len() < READY / 2 {
+            self.changed.notify_one();
+        }
+        let there = state.made.front().is_some_and(|(made, _)| *made == number);
+        if there { state.made.pop_front().map(|(_, plan)| plan) } else { None }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Prefetch for PlanPrefetch {
+    fn work(&self) {
         let features = &self.layer.features;
         let mut next = 0;
         let mut state = self.state();
@@ -91,29 +112,9 @@ impl Ahead {
         }
     }
 
-    /// The plan of the feature with this number, if it has been made.
-    pub(super) fn take(&self, number: usize) -> Option<Result<Grounded>> {
-        let mut state = self.state();
-        state.asked = Some(number);
-        while state.made.front().is_some_and(|(made, _)| *made < number) {
-            state.made.pop_front();
-        }
-        // To wake a thread takes longer than to look whether there is one to wake.
-        if state.waits && state.made.len() < READY / 2 {
-            self.changed.notify_one();
-        }
-        let there = state.made.front().is_some_and(|(made, _)| *made == number);
-        if there { state.made.pop_front().map(|(_, plan)| plan) } else { None }
-    }
-
-    /// Lets the thread go that works.
-    pub(crate) fn end(&self) {
+    fn end(&self) {
         self.state().over = true;
         self.changed.notify_all();
-    }
-
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -150,7 +151,7 @@ mod tests {
     #[test]
     fn what_is_made_ahead_is_what_would_be_made_in_its_place() {
         let layer = squares(1000);
-        let ahead = Ahead::new(&layer);
+        let ahead = PlanPrefetch::new(&layer);
         let mut ready = 0;
         std::thread::scope(|scope| {
             scope.spawn(|| ahead.work());
@@ -172,7 +173,7 @@ mod tests {
 
     #[test]
     fn nothing_is_made_that_nobody_asks_for() {
-        let ahead = Ahead::new(&squares(20));
+        let ahead = PlanPrefetch::new(&squares(20));
         std::thread::scope(|scope| {
             let working = scope.spawn(|| ahead.work());
             std::thread::sleep(std::time::Duration::from_millis(5));

@@ -3,7 +3,7 @@
 use smallvec::SmallVec;
 
 use super::grammar::Rule;
-use crate::random::Stream;
+use crate::kit::random::Stream;
 
 /// The candidates for one module, of its symbol's rules in the order of their declaration.
 #[derive(Debug, Clone, Default)]
