@@ -29,8 +29,10 @@ pub(super) fn triangulate(rings: &[Vec<DVec2>]) -> Result<Vec<[usize; 3]>> {
         .filter(is_sound)
         .or_else(|| delaunay(&points, &border).filter(is_sound))
         .ok_or_else(|| {
-            Error::new("the cross-section cannot be filled with triangles, as it is too narrow somewhere")
-                .help("move the points that almost touch another edge further from it, or leave them out")
+            Error::geometry(
+                "the cross-section cannot be filled with triangles, as it is too narrow somewhere",
+            )
+            .help("move the points that almost touch another edge further from it, or leave them out")
         })
 }
 

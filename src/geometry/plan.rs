@@ -6,7 +6,7 @@ use smallvec::SmallVec;
 use super::outline::{Manner, numbered_rings};
 use super::repair::{Repaired, repair};
 use super::section::{MOST_POINTS, SectionPoint};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 const PLAN: Manner = Manner { owner: "footprint", near: 0.01, straight: 2e-3 };
 
@@ -48,11 +48,11 @@ impl Plan {
     pub fn new(rings: &[Vec<DVec3>]) -> Result<Self> {
         let count: usize = rings.iter().map(Vec::len).sum();
         if count > MOST_POINTS {
-            return Err(Error::new(format!("the footprint has {count} points"))
+            return Err(Error::limit(Limit::Size, format!("the footprint has {count} points"))
                 .help(format!("simplify it to at most {MOST_POINTS} points")));
         }
         let Some((outer, holes)) = rings.split_first() else {
-            return Err(Error::new("the footprint has no ring").help("give it at least 3 points"));
+            return Err(Error::geometry("the footprint has no ring").help("give it at least 3 points"));
         };
         let sharp = |ring: &Vec<DVec3>| -> Vec<SectionPoint> {
             ring.iter().map(|point| SectionPoint::sharp(point.truncate())).collect()
@@ -64,7 +64,7 @@ impl Plan {
                 let name = if ring == 0 { "the outer ring".to_owned() } else { format!("hole {ring}") };
                 let message =
                     format!("point {number} of {name} of the footprint has the height {} m", point.z);
-                return Err(Error::new(message).help("give heights from -20000 to 20000 m"));
+                return Err(Error::geometry(message).help("give heights from -20000 to 20000 m"));
             }
         }
         let holes: Vec<Vec<SectionPoint>> = holes.iter().map(sharp).collect();

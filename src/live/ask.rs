@@ -87,7 +87,9 @@ impl State {
     /// Opens a line of a file in the editor. Fails if there is no editor or the file is none of the script's.
     fn open(&self, file: &str, line: usize) -> Result<()> {
         let Some(editor) = &self.editor else {
-            return Err(Error::new("no editor was named").help("start with --editor 'code -g {file}:{line}'"));
+            return Err(
+                Error::usage("no editor was named").help("start with --editor 'code -g {file}:{line}'")
+            );
         };
         editor.open(&self.own_file(file)?, line.max(1))
     }
@@ -115,7 +117,9 @@ impl State {
             (None, _) if name == self.script_name() => Ok(script),
             // A file in another folder by its name alone, if there is no other one of that name.
             (None, [path]) if !name.is_empty() => Ok((*path).clone()),
-            (None, _) => Err(Error::new(format!("{name:?} is not a file of the script"))),
+            (None, _) => {
+                Err(Error::not_found("file", name, [], format!("{name:?} is not a file of the script")))
+            }
         }
     }
 

@@ -46,7 +46,7 @@ struct Waiting(Arc<Stop>);
 
 impl Drop for Waiting {
     fn drop(&mut self) {
-        self.0.stop(Error::new("nobody waits for it any more"));
+        self.0.stop(Error::stopped("nobody waits for it any more"));
     }
 }
 

@@ -65,8 +65,9 @@ fn written(name: &str) -> (tempfile::TempDir, Vec<u8>) {
 }
 
 fn read_in(folder: &std::path::Path, content: &[u8], triangles: usize) -> Result<Scene> {
-    let mut beside =
-        |name: &str| std::fs::read(folder.join(name)).map_err(|error| Error::new(format!("{name}: {error}")));
+    let mut beside = |name: &str| {
+        std::fs::read(folder.join(name)).map_err(|error| Error::other(format!("{name}: {error}")))
+    };
     let budget = &Budget::default();
     read(content, &mut Wanted { name: "box.glb", triangles, budget, beside: &mut beside })
 }
@@ -364,7 +365,7 @@ fn changed_descriptions_neither_panic_nor_take_more_than_they_may() {
         let mut changed = whole.clone();
         (0..=dice.roll(4)).for_each(|_| mutate(&mut changed, &mut dice));
         let budget = Budget::within(std::time::Duration::from_secs(20), 20_000_000);
-        let mut beside = |name: &str| Err(Error::new(format!("there is no {name}")));
+        let mut beside = |name: &str| Err(Error::other(format!("there is no {name}")));
         let mut wanted = Wanted { name: "a", triangles: 2000, budget: &budget, beside: &mut beside };
         let begin = std::time::Instant::now();
         match read(&glb(&changed.to_string(), body, true), &mut wanted) {
@@ -399,7 +400,7 @@ fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
     };
     let told = |content: &[u8], seconds: f64, memory: usize, triangles: usize| {
         let budget = Budget::within(std::time::Duration::from_secs_f64(seconds), memory);
-        let mut beside = |name: &str| Err(Error::new(name));
+        let mut beside = |name: &str| Err(Error::other(name));
         let begin = std::time::Instant::now();
         let read = read(content, &mut Wanted { name: "a", triangles, budget: &budget, beside: &mut beside });
         assert!(begin.elapsed().as_secs_f64() < seconds + 5.0, "{:?}", begin.elapsed());
