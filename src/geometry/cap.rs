@@ -299,6 +299,6 @@ mod tests {
                 .is_empty(),
             );
         }
-        eprintln!("{other} need exact predicates");
+        assert!(other > 0, "clipping alone fills all of them");
     }
 }

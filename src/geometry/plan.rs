@@ -1,5 +1,6 @@
 //! Plans: the outline of a building on the ground, made clean, repaired or refused.
 
+use geo::{ConvexHull, Coord, LineString};
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
@@ -153,25 +154,16 @@ impl Plan {
     }
 
     /// The area as a part of its convex hull's: 1 if it is convex and has no holes.
-    ///
-    /// Method: the hull by A. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
     pub fn convexity(&self) -> f64 {
-        let mut points: Vec<DVec2> = self.flat().into_iter().next().unwrap_or_default();
-        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let mut hull: Vec<DVec2> = Vec::new();
-        for pass in [points.clone(), points.into_iter().rev().collect()] {
-            let begin = hull.len();
-            for point in pass {
-                while hull.len() > begin + 1
-                    && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 1])
-                        <= 0.0
-                {
-                    hull.pop();
-                }
-                hull.push(point);
-            }
-            hull.pop();
-        }
+        let points = self.flat().into_iter().next().unwrap_or_default();
+        let line: LineString = points.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
+        let hull = line.convex_hull();
+        let mut hull: Vec<DVec2> = hull.exterior().0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
+        hull.pop();
+        // From its westernmost corner on, so that the sum does not depend on where the outline begins.
+        let west = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+        let first = (0..hull.len()).min_by(|&a, &b| west(&hull[a], &hull[b])).unwrap_or(0);
+        hull.rotate_left(first);
         let whole = twice_area(&hull) / 2.0;
         if whole > 0.0 { self.area() / whole } else { 0.0 }
     }

@@ -63,7 +63,7 @@ pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> 
             state.say(&Say::Presets { names: known.clone(), chosen: inner.wish.preset() });
             None
         }
-        Err(error) => Some(Say::Refused { id: None, text: error.to_string() }),
+        Err(error) => Some(Say::refused(None, &error)),
     }
 }
 
@@ -83,7 +83,7 @@ pub(super) fn presets_changed(state: &State) {
             known.clone_from(&names);
             Say::Presets { names, chosen }
         }
-        Err(error) => Say::Refused { id: None, text: error.to_string() },
+        Err(error) => Say::refused(None, &error),
     };
     state.say(&say);
 }
@@ -145,7 +145,7 @@ pub(super) fn variations(
     };
     let variations = match begin() {
         Ok(variations) => variations,
-        Err(error) => return Some(Say::Refused { id: Some(id), text: error.to_string() }),
+        Err(error) => return Some(Say::refused(Some(id), &error)),
     };
     let stop = Arc::clone(&variations.stop);
     let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
@@ -189,13 +189,12 @@ pub(super) fn variations(
             && !stop.is_stopped()
         {
             // The page may have gone.
-            let _ =
-                page.blocking_send(Say::Refused { id: Some(id), text: error.to_string() }.to_text().into());
+            let _ = page.blocking_send(Say::refused(Some(id), &error).to_text().into());
         }
     };
     match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
         Ok(_) => None,
-        Err(error) => Some(Say::Refused { id: Some(id), text: format!("cannot start a thread: {error}") }),
+        Err(error) => Some(Say::refused(Some(id), &Error::system(format!("cannot start a thread: {error}")))),
     }
 }
 

@@ -173,5 +173,5 @@ fn tell_made(state: &State, shown: &Shown, made: &engine::Made) -> Made {
 }
 
 fn refused(id: u64, error: &Error) -> Say {
-    Say::Refused { id: Some(id), text: error.to_string() }
+    Say::refused(Some(id), error)
 }

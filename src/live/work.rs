@@ -320,7 +320,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             let remarks = (!report.is_clean())
                 .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
             for text in remarks.into_iter().chain(note) {
-                state.say(&Say::Refused { id: None, text: text.clone() });
+                state.say(&Say::note(text.clone()));
                 told.push(Told::Note(text));
             }
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
@@ -361,7 +361,7 @@ impl Inner {
             .collect();
         let mut told = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
-            state.say(&Say::Refused { id: None, text: text.clone() });
+            state.say(&Say::note(text.clone()));
             told.push(Told::Note(text.clone()));
         }
         self.left_out = texts.into_iter().collect();

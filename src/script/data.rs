@@ -1,6 +1,6 @@
 //! What scripts get of data files: which they may read, and how a run reads each of them once.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -25,7 +25,6 @@ pub(crate) struct Data {
 struct Known {
     /// The projection and the origin, which the first source decides.
     frame: Option<Frame>,
-    told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     models: BTreeMap<PathBuf, Result<Arc<Model>>>,
     edits: BTreeMap<PathBuf, Result<EditFile>>,
@@ -152,10 +151,6 @@ fn read_heights(
     let kept = raster.as_ref().map_or(0, |raster| raster.heights.len() * size_of::<f32>());
     budget.settle(before, kept);
     let raster = raster?;
-    if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
-        let all = raster.columns * raster.rows;
-        eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);
-    }
     Ok(Elevation::new(Arc::new(Relief::new(raster, &mut known.frame)?)))
 }
 

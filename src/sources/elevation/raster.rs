@@ -178,13 +178,24 @@ impl Raster {
 
     /// What people should know of how it was read.
     pub(crate) fn warnings(&self) -> Vec<Warning> {
-        let Self { name, columns, rows, surplus, .. } = self;
-        let what = if *surplus == 1 { "number" } else { "numbers" };
-        let text =
-            format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
-        let warning =
-            Warning::new(WarningKind::Data, text).help("they are left out; correct ncols and nrows");
-        if *surplus > 0 { vec![warning] } else { Vec::new() }
+        let Self { name, columns, rows, surplus, filled, .. } = self;
+        let mut warnings = Vec::new();
+        if *filled > 0 {
+            let all = columns * rows;
+            let text =
+                format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
+            warnings.push(
+                Warning::new(WarningKind::Data, text).help("fill them in the file, if that is too rough"),
+            );
+        }
+        if *surplus > 0 {
+            let what = if *surplus == 1 { "number" } else { "numbers" };
+            let text =
+                format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
+            let warning = Warning::new(WarningKind::Data, text);
+            warnings.push(warning.help("they are left out; correct ncols and nrows"));
+        }
+        warnings
     }
 
     /// Its lowest and its highest height (m).
