@@ -110,11 +110,6 @@ impl Error {
         }))
     }
 
-    /// An error of no kind of its own.
-    pub fn new(message: impl fmt::Display) -> Self {
-        Self::other(message)
-    }
-
     /// Several problems found in one go; `problems` is not empty.
     pub fn several(mut problems: Vec<Error>) -> Self {
         if problems.is_empty() {

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::*;
 use crate::picture::Picture;
+use crate::random::Stream;
 use crate::scene::{Material, Part, Texture};
 
 /// A box of 2 m by 3 m by 4 m that stands twice, once turned and at half its size, with an image on it.
@@ -298,12 +299,11 @@ fn colours_of_points_become_materials() {
 }
 
 /// Random numbers that are the same each time.
-struct Dice(u64);
+struct Dice(Stream);
 
 impl Dice {
     fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % sides.max(1)
+        self.0.below(sides)
     }
 }
 
@@ -360,7 +360,7 @@ fn changed_descriptions_neither_panic_nor_take_more_than_they_may() {
     let length = u32::from_le_bytes(content[12..16].try_into().unwrap()) as usize;
     let whole: serde_json::Value = serde_json::from_slice(&content[20..20 + length]).unwrap();
     let body = &content[20 + length + 8..];
-    let (mut dice, mut good, mut bad) = (Dice(7), 0, 0);
+    let (mut dice, mut good, mut bad) = (Dice(Stream::new(7)), 0, 0);
     for _ in 0..3000 {
         let mut changed = whole.clone();
         (0..=dice.roll(4)).for_each(|_| mutate(&mut changed, &mut dice));

@@ -236,16 +236,14 @@ fn compile_successor(
         text.push_str(&format!("local {name} = module(\"{name}\"{parameters}) "));
     }
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
-    text.push_str(&format!("local __system = nil; __system:rule(\"\", function(this{formals}) {body}\nend)"));
+    text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));
     drop(symbols);
     let analysis = analyse(file, &text, &library.globals());
     machine.session.note(&analysis);
-    let problems: Vec<Error> =
-        analysis.problems.into_iter().filter(|problem| !problem.message().contains("__system")).collect();
-    if !problems.is_empty() {
-        return Err(Error::several(problems));
+    if !analysis.problems.is_empty() {
+        return Err(Error::several(analysis.problems));
     }
-    let text = analysis.text.replacen("local __system = nil; __system:rule(\"\", ", "return (", 1);
+    let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
     let chunk = machine.load(file, &text)?;
     let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
     let begin = successor.info().line_defined;
