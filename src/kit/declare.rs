@@ -1,24 +1,23 @@
 //! How an object type says what scripts can do with it: said once, in the type's own file.
 
 use super::{Boxed, Key, Object, Parameter, Table, Value};
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 
 /// Refuses entries of `table` that `fields` does not name.
 pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
         let Key::Name(name) = key else {
-            return Err(Error::new(format!(
+            return Err(Error::argument(format!(
                 "{kind} takes named fields, but was given {value} without a name"
             ))
             .help(format!("write {kind} {{ {} = {value} }}", fields.first().unwrap_or(&"name")))
             .of_script());
         };
         if !fields.contains(&&**name) {
-            let error = Error::new(format!("{kind} has no field called {name}")).of_script();
-            return Err(match nearest(name, fields.iter().copied()) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None => error.help(format!("it has {}", fields.join(", "))),
-            });
+            let message = format!("{kind} has no field called {name}");
+            return Err(Error::not_found("field", name, fields.iter().copied(), message)
+                .help(format!("it has {}", fields.join(", ")))
+                .of_script());
         }
     }
     Ok(())
@@ -199,7 +198,7 @@ impl<'a> Arguments<'a> {
     /// Fails if there are more arguments than have been taken.
     pub fn end(&self) -> Result<()> {
         if self.values.len() > self.taken {
-            return Err(Error::new(format!(
+            return Err(Error::argument(format!(
                 "{}:{} takes {} arguments, not {}",
                 self.kind,
                 self.method,
@@ -269,7 +268,7 @@ pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
 
 #[cold]
 fn wrong_type() -> Error {
-    Error::new("the method belongs to another type of object")
+    Error::script("the method belongs to another type of object")
         .help("call it with a colon: this:method()")
         .of_script()
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::capability::{self, Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 use super::{Loader, Object, Prefetch, Table, Value};
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::sources::Layer;
 
 /// Text that a built-in type has in the program, and another brings.
@@ -228,7 +228,7 @@ impl Kind {
         match &self.construct {
             Construct::Fields(make) => make(table),
             Construct::File(_) | Construct::Given => {
-                Err(Error::new(format!("{} is not made of fields", self.name)))
+                Err(Error::argument(format!("{} is not made of fields", self.name)))
             }
         }
     }
@@ -240,13 +240,9 @@ impl Kind {
 
     /// The error for a name that is no method, with the nearest one that is.
     pub fn unknown_method(&self, name: &str) -> Error {
-        let error = Error::new(format!("{} has no method or field called {name}", self.name));
-        match nearest(name, self.methods.iter().map(|method| &*method.name)) {
-            Some(near) => error.help(format!("did you mean {near}?")),
-            None => error.help(format!(
-                "it has {}",
-                self.methods.iter().map(|method| &*method.name).collect::<Vec<_>>().join(", ")
-            )),
-        }
+        let names: Vec<&str> = self.methods.iter().map(|method| &*method.name).collect();
+        let message = format!("{} has no method or field called {name}", self.name);
+        Error::not_found("method", name, names.iter().copied(), message)
+            .help(format!("it has {}", names.join(", ")))
     }
 }

@@ -52,7 +52,7 @@ pub struct Loading<'a> {
 /// What a run gives to those who read its files.
 pub trait Resources {
     /// The file that a script means by `name`, which is to be a `what`. Fails for one that it may not read.
-    fn find(&self, what: &str, name: &str) -> Result<PathBuf>;
+    fn find(&self, what: &'static str, name: &str) -> Result<PathBuf>;
 
     /// What earlier runs have read.
     fn cache(&self) -> Option<&Cache>;
@@ -68,13 +68,13 @@ impl Loading<'_> {
     }
 
     /// The content of another file, which the first one names; it is a `what`.
-    pub fn read_beside(&self, what: &str, name: &str, remedy: &str) -> Result<Vec<u8>> {
+    pub fn read_beside(&self, what: &'static str, name: &str, remedy: &str) -> Result<Vec<u8>> {
         self.read_from(&self.resources.find(what, name)?, name, remedy)
     }
 
     /// The content of a file, for which memory is taken.
     fn read_from(&self, path: &Path, name: &str, remedy: &str) -> Result<Vec<u8>> {
-        let cannot = |why: &dyn std::fmt::Display| Error::new(format!("cannot read {name}: {why}"));
+        let cannot = |why: &dyn std::fmt::Display| Error::file(path, format!("cannot read {name}: {why}"));
         let (_, meta) = crate::files::open(path).map_err(|error| cannot(&error).help(remedy))?;
         if meta.len() > LARGEST {
             return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));

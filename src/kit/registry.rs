@@ -16,7 +16,7 @@ impl Registry {
     pub fn add(&mut self, kind: impl Into<Arc<Kind>>) -> Result<()> {
         let kind = kind.into();
         if self.get(&kind.name).is_some() {
-            return Err(Error::new(format!("there is a type of object called {} already", kind.name))
+            return Err(Error::argument(format!("there is a type of object called {} already", kind.name))
                 .help("give it another name"));
         }
         self.kinds.push(kind);

@@ -68,7 +68,7 @@ impl Data {
         fields: &Table,
     ) -> Result<Loaded> {
         if name.is_empty() {
-            return Err(Error::new(format!("{kind} needs the name of a file"))
+            return Err(Error::argument(format!("{kind} needs the name of a file"))
                 .help(format!("write {}", loader.example)));
         }
         let path = find(session, loader.what, name)?;
@@ -101,7 +101,7 @@ impl Data {
 }
 
 impl Resources for Session {
-    fn find(&self, what: &str, name: &str) -> Result<PathBuf> {
+    fn find(&self, what: &'static str, name: &str) -> Result<PathBuf> {
         find(self, what, name)
     }
 
@@ -114,7 +114,9 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
     let (name, layer) = split_name(text);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
     if name.is_empty() {
-        return Err(Error::new("source needs the name of a file").help("write source(\"village.geojson\")"));
+        return Err(
+            Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
+        );
     }
     let path = find(session, "data file", name)?;
     let cache = session.options.cache.as_deref();
@@ -144,15 +146,15 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
 
 /// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
 /// `--data`.
-fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
+fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
     let outside = || {
-        Error::new(format!("the {what} {name} lies outside the script's folder")).help(
+        Error::file(name, format!("the {what} {name} lies outside the script's folder")).help(
             "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
         )
     };
     let relative = Path::new(name);
     if is_absolute(relative) {
-        return Err(Error::new(format!("the {what} {name} is named by a path from the root"))
+        return Err(Error::file(name, format!("the {what} {name} is named by a path from the root"))
             .help("name it from the script's folder, or from one that is given: --data FOLDER"));
     }
     let roots = || std::iter::once(session.root()).chain(session.data_roots().iter().map(PathBuf::as_path));
@@ -183,11 +185,9 @@ fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
     if !inside {
         return Err(outside());
     }
-    let error = Error::new(format!("there is no {what} {name}"));
-    Err(match near {
-        Some(near) => error.help(format!("did you mean {near}?")),
-        None if session.data_roots().is_empty() => error
-            .help("it is looked for from the script's folder; other folders are given with --data FOLDER"),
-        None => error.help("it is looked for from the script's folder and from those given with --data"),
-    })
+    let error = Error::not_found(what, name, near.as_deref(), format!("there is no {what} {name}"));
+    Err(error.help(match session.data_roots().is_empty() {
+        true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
+        false => "it is looked for from the script's folder and from those given with --data",
+    }))
 }

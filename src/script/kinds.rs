@@ -66,8 +66,10 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
                         Value::Table(fields) => fields,
                         other => {
                             let (name, what) = (&kind.name, other.describe());
-                            return Err(Error::new(format!("{name} takes a table of options, not {what}"))
-                                .help(format!("write {}", loader.example_with_fields)));
+                            return Err(Error::argument(format!(
+                                "{name} takes a table of options, not {what}"
+                            ))
+                            .help(format!("write {}", loader.example_with_fields)));
                         }
                     };
                     let loaded = session.data.object(&session, (&kind.name, &loader), &name, &fields)?;
@@ -102,7 +104,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     }
     let mut table = ValueTable::clone(&*named_fields(&kind.name, two)?);
     if table.get(first).is_some() {
-        return Err(Error::new(format!("{} is given its {first} twice", kind.name)));
+        return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
     }
     table.entries.push((Key::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))
@@ -118,6 +120,6 @@ pub(super) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTab
 }
 
 pub(super) fn no_table(what: &str, given: &LuaValue) -> Error {
-    Error::new(format!("{what} takes a table of named fields, not a {}", given.type_name()))
+    Error::argument(format!("{what} takes a table of named fields, not a {}", given.type_name()))
         .help(format!("write {what} {{ name = value }}"))
 }

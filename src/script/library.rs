@@ -93,7 +93,7 @@ impl Library {
     /// The machine that this library belongs to, once it is complete.
     pub(crate) fn machine(&self) -> Result<std::rc::Rc<Machine>> {
         let machine = self.machine.borrow().as_ref().and_then(std::rc::Weak::upgrade);
-        machine.ok_or_else(|| Error::new("this cannot be used while the machine is being made"))
+        machine.ok_or_else(|| Error::internal("this cannot be used while the machine is being made"))
     }
 
     pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
@@ -139,13 +139,13 @@ impl Library {
         };
         let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
         let LuaValue::Table(exports) = exports else {
-            return Err(Error::new(format!("{name} returns no table"))
+            return Err(Error::script(format!("{name} returns no table"))
                 .help("end it with: return { name = value, ... }, the names that scripts get"));
         };
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
             let (name, value) = pair.map_err(|_| {
-                Error::new(format!("{name} returns a table with keys that are no names"))
+                Error::script(format!("{name} returns a table with keys that are no names"))
                     .help("return { name = value, ... }")
             })?;
             if name.starts_with(char::is_lowercase) {
@@ -247,8 +247,9 @@ impl Library {
                 // A run without the type has no system that draws with it.
                 let Some(known) = session.options.registry.get(&kind) else { return Ok(()) };
                 let method = known.methods.iter().position(|known| known.name == method);
-                let method = method
-                    .ok_or_else(|| mlua::Error::external(Error::new(format!("{kind} has no such method"))))?;
+                let method = method.ok_or_else(|| {
+                    mlua::Error::external(Error::internal(format!("{kind} has no such method")))
+                })?;
                 library.standard.borrow_mut().push(Standard { kind, symbol, method });
                 Ok(())
             })?,
@@ -286,7 +287,7 @@ impl Library {
                 library.at_top_level("param").map_err(mlua::Error::external)?;
                 let LuaValue::String(name) = name else {
                     return Err(mlua::Error::external(
-                        Error::new("param begins with a name")
+                        Error::argument("param begins with a name")
                             .help("write param(\"height\", { default = 3 })"),
                     ));
                 };

@@ -126,13 +126,13 @@ impl Wavefront {
         for _ in 0..16 * paces.len() + 64 {
             let Some(mut when) = self.gather() else {
                 if self.corners.iter().any(|corner| corner.alive) {
-                    return Err(Error::new("the wavefront is left with corners that meet nothing"));
+                    return Err(Error::geometry("the wavefront is left with corners that meet nothing"));
                 }
                 return Ok(());
             };
             self.resolve(&mut when)?;
         }
-        Err(Error::new("the wavefront does not end"))
+        Err(Error::geometry("the wavefront does not end"))
     }
 
     /// Puts the wavefront on the polygon, whatever it was before.
@@ -165,7 +165,7 @@ impl Wavefront {
         for (ring, index) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |index| (ring, index))) {
             let (from, to) = (ring[index], ring[(index + 1) % ring.len()]);
             if from == to {
-                return Err(Error::new("two corners of the outline are in one place"));
+                return Err(Error::geometry("two corners of the outline are in one place"));
             }
             let pace = paces.get(self.through.len()).copied().unwrap_or_default();
             let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
@@ -186,7 +186,9 @@ impl Wavefront {
                 self.traced.peaks.push(Peak { at: at.at, time: 0.0 });
                 let corner = self.corner(edges, first + index, &at, &When::at(0.0));
                 if self.corners[corner].kind == Kind::Rushing {
-                    return Err(Error::new("two edges in one line turn back or move at different speeds"));
+                    return Err(Error::geometry(
+                        "two edges in one line turn back or move at different speeds",
+                    ));
                 }
                 self.corners[corner].before = first + before;
                 self.corners[corner].after = first + after;

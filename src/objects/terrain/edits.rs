@@ -36,7 +36,7 @@ impl EditFile {
 fn load(file: &mut Loading<'_>, _: &Table) -> Result<Loaded> {
     let name = file.name;
     let text = String::from_utf8(file.read("name a .json file")?)
-        .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
+        .map_err(|_| Error::data(format!("{name} is not text, so it holds no edits of a terrain")))?;
     let memory = text.len();
     let object = Arc::new(EditFile { name: name.to_owned(), text: text.into() });
     Ok(Loaded { object, memory, warnings: Vec::new() })
