@@ -221,3 +221,130 @@ fn is_wide(corners: [[f64; 2]; 3]) -> bool {
     let longest = square(bx - ax, by - ay).max(square(cx - bx, cy - by)).max(square(ax - cx, ay - cy));
     twice_area(corners) > THIN * longest
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::HashSet;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// A plan of squares, each in the union or not.
+    type Squares = Vec<Vec<bool>>;
+
+    /// The squares as rectangles, each as long as it can be if its number among `long` says so.
+    fn cells(squares: &Squares, long: &[bool]) -> Vec<Cell> {
+        let mut cells: Vec<Cell> = Vec::new();
+        for (y, row) in (0u32..).zip(squares) {
+            for (x, _) in (0u32..).zip(row).filter(|(_, inside)| **inside) {
+                let beside = |cell: &&mut Cell| cell.y == [y, y + 1] && cell.x[1] == x;
+                let joins = long[cells.len() % long.len()];
+                match cells.last_mut().filter(beside).filter(|_| joins) {
+                    Some(cell) => cell.x[1] = x + 1,
+                    None => cells.push(Cell { x: [x, x + 1], y: [y, y + 1] }),
+                }
+            }
+        }
+        cells.sort_unstable();
+        cells
+    }
+
+    /// The four squares around a crossing: below on the left and on the right, above on the left and on the right.
+    fn around(squares: &Squares, [x, y]: Crossing) -> [bool; 4] {
+        let inside = |x: Option<u32>, y: Option<u32>| {
+            let row = squares.get(y? as usize)?;
+            row.get(x? as usize).copied()
+        };
+        let (left, low) = (x.checked_sub(1), y.checked_sub(1));
+        let found = [(left, low), (Some(x), low), (left, Some(y)), (Some(x), Some(y))];
+        found.map(|(x, y)| inside(x, y).unwrap_or(false))
+    }
+
+    fn squares() -> impl Strategy<Value = Squares> {
+        (1usize..8, 1usize..8).prop_flat_map(|(width, height)| {
+            let row = prop::collection::vec(prop::bool::weighted(0.7), width);
+            prop::collection::vec(row, height)
+        })
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+
+        #[test]
+        fn a_union_has_the_corners_of_its_outline_and_triangles_without_t_junctions(
+            squares in squares(),
+            long in prop::collection::vec(any::<bool>(), 1..9),
+            steps in prop::collection::vec(prop::sample::select(vec![0.01, 1.0, 2.5, 30.0]), 16),
+            asked in prop::collection::vec(any::<bool>(), 64),
+        ) {
+            let (width, height) = (squares[0].len() as u32, squares.len() as u32);
+            let places = |steps: &[f64]| -> Vec<f64> {
+                steps.iter().scan(0.0, |sum, step| { *sum += step; Some(*sum) }).collect()
+            };
+            let (xs, ys) = (places(&steps[..8]), places(&steps[8..]));
+            let crossings = || (0..=height).flat_map(|y| (0..=width).map(move |x| [x, y]));
+            let others: Vec<Crossing> = crossings().zip(&asked).filter(|it| *it.1).map(|it| it.0).collect();
+            let is_corner = |at: &Crossing| {
+                let [a, b, c, d] = around(&squares, *at);
+                !((a == b && c == d) || (a == c && b == d))
+            };
+            let is_on = |at: &Crossing| {
+                let found = around(&squares, *at);
+                found.contains(&true) && found.contains(&false)
+            };
+            let mut union = Union::default();
+            let cells = cells(&squares, &long);
+            let mut corners = Vec::new();
+            union.corners(&cells, |at| corners.push(at));
+            prop_assert_eq!(corners, crossings().filter(is_corner).collect::<Vec<_>>());
+            union.triangulate(&cells, &others, [&xs, &ys]);
+            let expected = crossings().filter(|at| is_corner(at) || (others.contains(at) && is_on(at)));
+            prop_assert_eq!(&union.vertices, &expected.collect::<Vec<_>>());
+
+            let place = |[x, y]: Crossing| [xs[x as usize], ys[y as usize]];
+            let mut area = 0.0;
+            let mut sides = HashSet::new();
+            for triangle in &union.triangles {
+                let corners = triangle.map(|vertex| place(union.vertices[vertex as usize]));
+                prop_assert!(twice_area(corners) > 1e-9);
+                area += twice_area(corners) / 2.0;
+                for side in 0..3 {
+                    prop_assert!(sides.insert([triangle[side], triangle[(side + 1) % 3]]), "a side is there twice");
+                }
+            }
+            let size = |cell: &Cell| {
+                let ([a, b], [c, d]) = (place([cell.x[0], cell.y[0]]), place([cell.x[1], cell.y[1]]));
+                (c - a) * (d - b)
+            };
+            let whole: f64 = cells.iter().map(size).sum();
+            prop_assert!((area - whole).abs() < 1e-9 * whole.max(1.0), "{area} m², not {whole} m²");
+            for &[from, to] in sides.iter().filter(|[from, to]| !sides.contains(&[*to, *from])) {
+                let [[a, b], [c, d]] = [from, to].map(|vertex| union.vertices[vertex as usize]);
+                prop_assert!(a == c || b == d, "a side that no other triangle has is on the outline");
+                let between = union.vertices.iter().filter(|[x, y]| {
+                    let within = |at: u32, a: u32, b: u32| (a.min(b)..=a.max(b)).contains(&at);
+                    within(*x, a, c) && within(*y, b, d)
+                });
+                prop_assert_eq!(between.count(), 2, "no vertex is between its ends");
+            }
+        }
+    }
+
+    #[test]
+    fn a_row_of_windows_takes_six_triangles_for_each_and_two() {
+        for count in [1u32, 5, 40] {
+            let mut cells = vec![Cell { x: [2 * count, 2 * count + 1], y: [0, 3] }];
+            for left in (0..count).map(|number| 2 * number) {
+                cells.push(Cell { x: [left, left + 1], y: [0, 3] });
+                cells.extend([[0, 1], [2, 3]].map(|y| Cell { x: [left + 1, left + 2], y }));
+            }
+            cells.sort_unstable();
+            let places: Vec<f64> = (0..2 * count + 2).map(f64::from).collect();
+            let mut union = Union::default();
+            union.triangulate(&cells, &[], [&places, &places]);
+            let found = (union.vertices.len() as u32, union.triangles.len() as u32);
+            assert_eq!(found, (4 * count + 4, 6 * count + 2));
+        }
+    }
+}

@@ -1,10 +1,10 @@
 //! Where meshes stand: a node for each instance, or one node for many.
 
 use super::super::check::{Checked, Measured};
+use super::body::{Block, Body, short};
 use super::decompose::{Steps, Trs, decompose, y_up};
 use super::description::{Accessor, Description, Feature, Node};
 use super::material::use_extension;
-use super::body::{Block, Body, short};
 use super::mesh::{Arrays, accessor};
 use crate::scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
@@ -312,4 +312,38 @@ fn unless<const N: usize>(default: [f32; N], value: [f32; N]) -> Option<[f32; N]
 fn quaternion(rotation: DQuat) -> [f32; 4] {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     rotation.as_quat().to_array().map(|number| number + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_turn_in_short_numbers_is_off_by_less_than_five_thousandths_of_a_degree(
+            numbers in proptest::array::uniform4(-1.0_f64..1.0)
+        ) {
+            prop_assume!(DQuat::from_array(numbers).length() > 0.1);
+            let meant = DQuat::from_array(numbers).normalize();
+            let Column::Shorts(shorts, true) = Column::rotations(quaternion(meant).to_vec(), 1.0) else {
+                panic!("short numbers")
+            };
+            let read: Vec<f64> = shorts.iter().map(|number| f64::from(*number) / 32767.0).collect();
+            let off = (meant.inverse() * DQuat::from_slice(&read).normalize()).to_scaled_axis().length();
+            let off = off.min(std::f64::consts::TAU - off);
+            prop_assert!(off <= ROUNDING && off.to_degrees() < 0.005, "{off}");
+        }
+    }
+
+    #[test]
+    fn what_reaches_far_keeps_its_turn_and_what_has_a_high_number_keeps_it() {
+        let turn = quaternion(DQuat::from_rotation_y(0.7)).to_vec();
+        assert!(matches!(Column::rotations(turn.clone(), 16.0), Column::Shorts(..)));
+        assert!(matches!(Column::rotations(turn, 17.0), Column::Floats(_)));
+        assert!(
+            matches!(Column::whole(vec![-1.0, 32767.0]), Column::Shorts(shorts, false) if shorts == [-1, 32767])
+        );
+        assert!(matches!(Column::whole(vec![-1.0, 32768.0]), Column::Floats(_)));
+    }
 }

@@ -1,6 +1,8 @@
 //! Joins the faces of a frontage: those of one material that lie beside one another become one surface, and where
 //! faces meet they have the same corners.
 
+use std::cell;
+
 use glam::DVec3;
 
 use super::lay::Face;
@@ -11,6 +13,9 @@ const SAME: f64 = 1e-9;
 
 /// A corner of a face, by the numbers of its coordinates.
 type Corner = [u32; 3];
+
+/// A corner as a number: those of a line along some axis follow one another.
+type Key = u128;
 
 /// A face between such corners.
 #[derive(Clone, Copy)]
@@ -27,8 +32,9 @@ pub struct Joiner {
     /// The coordinates (m) of all corners, along each axis and in order.
     places: [Vec<f64>; 3],
     bounds: Vec<Bounds>,
-    /// The corners of all surfaces: in three orders, of which each has those of a line along an axis in a row.
-    corners: [Vec<Corner>; 3],
+    /// The corners of all surfaces, as far as others may have to know them: in three orders, of which each has those of
+    /// a line along an axis in a row.
+    corners: [Vec<Key>; 3],
     /// Faces that others may join, with what they need to have in common and their numbers.
     fronts: Vec<(Front, Cell, usize)>,
     union: Union,
@@ -55,36 +61,75 @@ pub struct FaceMesh {
     pub triangles: Vec<[u32; 3]>,
 }
 
+thread_local! {
+    /// The last one of the thread, whose memory the next one uses again: a city has a hundred thousand frontages.
+    static SPARE: cell::Cell<Option<Box<Joiner>>> = const { cell::Cell::new(None) };
+}
+
 impl Joiner {
+    /// One that has the memory of an earlier one, if there is any.
+    pub fn spare() -> Box<Self> {
+        SPARE.take().unwrap_or_default()
+    }
+
+    /// Leaves its memory to the next one.
+    pub fn retire(self: Box<Self>) {
+        SPARE.set(Some(self));
+    }
+
     /// Joins `faces`, each of which belongs to one of `parts`. Gives each surface to `draw` with the number of a face
     /// that it is like.
     pub fn join(&mut self, faces: &[Face<'_>], parts: &[usize], mut draw: impl FnMut(usize, &FaceMesh)) {
+        if let [face] = faces {
+            self.mesh.cover(face);
+            return draw(0, &self.mesh);
+        }
         self.measure(faces);
-        self.fronts.clear();
-        self.corners.iter_mut().for_each(Vec::clear);
-        let [all, ..] = &mut self.corners;
-        for (number, (face, bounds)) in faces.iter().zip(&self.bounds).enumerate() {
-            match bounds.as_front().filter(|_| !face.stretched) {
-                Some(cell) => {
-                    let front = Front { part: parts[number], depth: bounds.ends[0][2] };
-                    self.fronts.push((front, cell, number));
-                }
-                None => all.extend(bounds.corners()),
-            }
-        }
-        self.fronts.sort_unstable();
-        for group in self.fronts.chunk_by(|a, b| a.0 == b.0) {
-            self.cells.clear();
-            self.cells.extend(group.iter().map(|(_, cell, _)| *cell));
-            self.union.corners(&self.cells, |[x, y]| all.push([x, y, group[0].0.depth]));
-        }
-        self.sort_corners();
+        self.gather(faces, parts);
         self.draw_fronts(&mut draw);
         for (number, face) in faces.iter().enumerate() {
             let bounds = self.bounds[number];
             if !bounds.is_empty() && (face.stretched || bounds.as_front().is_none()) {
                 self.draw_face(&bounds);
                 draw(number, &self.mesh);
+            }
+        }
+    }
+
+    /// Finds the faces that others may join, and the corners of all surfaces.
+    fn gather(&mut self, faces: &[Face<'_>], parts: &[usize]) {
+        self.fronts.clear();
+        self.corners.iter_mut().for_each(Vec::clear);
+        let [all, ..] = &mut self.corners;
+        // Whether a single face may have corners of others between its own.
+        let mut is_wide = false;
+        for (number, (face, bounds)) in faces.iter().zip(&self.bounds).enumerate() {
+            match bounds.as_front().filter(|_| !face.stretched) {
+                Some(cell) => {
+                    let front = Front { part: parts[number], depth: bounds.ends[0][2] };
+                    self.fronts.push((front, cell, number));
+                }
+                None => {
+                    all.extend(bounds.corners().map(|corner| key(corner, 0)));
+                    is_wide |= bounds.axes.iter().any(|axis| bounds.is_wide(*axis));
+                }
+            }
+        }
+        self.fronts.sort_unstable();
+        let is_one = self.fronts.first().map(|front| front.0) == self.fronts.last().map(|front| front.0);
+        let groups = self.fronts.chunk_by(|a, b| a.0 == b.0);
+        for group in groups.filter(|_| is_wide || !is_one) {
+            self.cells.clear();
+            self.cells.extend(group.iter().map(|(_, cell, _)| *cell));
+            self.union.corners(&self.cells, |[x, y]| all.push(key([x, y, group[0].0.depth], 0)));
+        }
+        all.sort_unstable();
+        all.dedup();
+        if is_wide {
+            let [x, y, z] = &mut self.corners;
+            for (axis, corners) in [(1, y), (2, z)] {
+                corners.extend(x.iter().map(|known| key(corner(*known, 0), axis)));
+                corners.sort_unstable();
             }
         }
     }
@@ -113,17 +158,6 @@ impl Joiner {
         }));
     }
 
-    /// Puts the corners into their three orders.
-    fn sort_corners(&mut self) {
-        let [x, y, z] = &mut self.corners;
-        x.sort_unstable_by_key(|corner| in_order(*corner, 0));
-        x.dedup();
-        for (axis, corners) in [(1, y), (2, z)] {
-            corners.extend_from_slice(x);
-            corners.sort_unstable_by_key(|corner| in_order(*corner, axis));
-        }
-    }
-
     /// Draws the surfaces of faces that others may join.
     fn draw_fronts(&mut self, draw: &mut impl FnMut(usize, &FaceMesh)) {
         let Self { places, corners: [corners, ..], fronts, union, cells, others, mesh, .. } = self;
@@ -131,10 +165,10 @@ impl Joiner {
             let (Front { depth, .. }, _, number) = group[0];
             cells.clear();
             cells.extend(group.iter().map(|(_, cell, _)| *cell));
-            let from = corners.partition_point(|corner| corner[2] < depth);
-            let plane = corners[from..].iter().take_while(|corner| corner[2] == depth);
+            let from = corners.partition_point(|known| *known < key([0, 0, depth], 0));
+            let plane = corners[from..].iter().map(|known| corner(*known, 0));
             others.clear();
-            others.extend(plane.map(|&[x, y, _]| [x, y]));
+            others.extend(plane.take_while(|corner| corner[2] == depth).map(|[x, y, _]| [x, y]));
             union.triangulate(cells, others, [&places[0], &places[1]]);
             mesh.take(union, false, |[x, y]| place(places, [x, y, depth]));
             draw(number, mesh);
@@ -148,18 +182,18 @@ impl Joiner {
         others.clear();
         for (side, &from) in ring.iter().enumerate() {
             let axis = bounds.axes[side % 2];
-            let to = ring[(side + 1) % 4];
-            let [low, high] = [from.min(to), from.max(to)].map(|end| in_order(end, axis));
-            let line = &corners[axis];
-            let begin = line.partition_point(|corner| in_order(*corner, axis) <= low);
-            let between = line[begin..].iter().take_while(|corner| in_order(**corner, axis) < high);
-            others.extend(between.map(|corner| bounds.axes.map(|axis| corner[axis])));
+            if bounds.is_wide(axis) {
+                let to = ring[(side + 1) % 4];
+                let [low, high] = [from.min(to), from.max(to)].map(|end| key(end, axis));
+                let line = &corners[axis];
+                let begin = line.partition_point(|known| *known <= low);
+                let between = line[begin..].iter().take_while(|known| **known < high);
+                let between = between.map(|known| corner(*known, axis));
+                others.extend(between.map(|corner| bounds.axes.map(|axis| corner[axis])));
+            }
         }
         if others.is_empty() {
-            mesh.corners.clear();
-            mesh.corners.extend(ring.map(|corner| place(places, corner)));
-            mesh.triangles.clear();
-            mesh.triangles.extend([[0, 1, 2], [0, 2, 3]]);
+            mesh.set(ring.map(|corner| place(places, corner)));
             return;
         }
         others.sort_unstable_by_key(|[x, y]| [*y, *x]);
@@ -184,6 +218,11 @@ impl Bounds {
         self.axes.iter().any(|axis| low[*axis] == high[*axis])
     }
 
+    /// Whether there is a coordinate between its ends along `axis`.
+    fn is_wide(&self, axis: usize) -> bool {
+        self.ends[0][axis].abs_diff(self.ends[1][axis]) > 1
+    }
+
     /// The four corners, counter-clockwise from outside.
     fn corners(&self) -> [Corner; 4] {
         let [low, high] = self.ends;
@@ -205,11 +244,23 @@ impl Bounds {
 impl FaceMesh {
     /// That of a face by itself.
     pub fn of(face: &Face<'_>) -> Self {
+        let mut mesh = Self::default();
+        mesh.cover(face);
+        mesh
+    }
+
+    /// Becomes that of a face by itself.
+    fn cover(&mut self, face: &Face<'_>) {
         let Face { at, right, up, .. } = *face;
-        Self {
-            corners: vec![at, at + right, at + right + up, at + up],
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-        }
+        self.set([at, at + right, at + right + up, at + up]);
+    }
+
+    /// Becomes that of a face with these corners (m).
+    fn set(&mut self, corners: [DVec3; 4]) {
+        self.corners.clear();
+        self.corners.extend(corners);
+        self.triangles.clear();
+        self.triangles.extend([[0, 1, 2], [0, 2, 3]]);
     }
 
     /// Takes over what `union` has found. It is seen from behind if it is `mirrored`.
@@ -231,11 +282,22 @@ fn place(places: &[Vec<f64>; 3], corner: Corner) -> DVec3 {
     DVec3::from(std::array::from_fn(|axis| places[axis][corner[axis] as usize]))
 }
 
-/// What `corner` is sorted by so that those of a line along `axis` are in a row.
-fn in_order([x, y, z]: Corner, axis: usize) -> Corner {
-    match axis {
+/// The key of a corner by which those of a line along `axis` are in a row.
+fn key([x, y, z]: Corner, axis: usize) -> Key {
+    let in_order = match axis {
         0 => [z, y, x],
         1 => [z, x, y],
         _ => [x, y, z],
+    };
+    in_order.into_iter().fold(0, |key, number| key << 32 | Key::from(number))
+}
+
+/// The corner that has this key.
+fn corner(key: Key, axis: usize) -> Corner {
+    let [a, b, c] = [64, 32, 0].map(|bits| (key >> bits) as u32);
+    match axis {
+        0 => [c, b, a],
+        1 => [b, c, a],
+        _ => [a, b, c],
     }
 }

@@ -10,6 +10,8 @@ pub mod extruded;
 pub mod fixture;
 pub mod grid;
 pub mod join;
+#[cfg(test)]
+mod join_tests;
 pub mod lay;
 pub mod list;
 pub mod panel;

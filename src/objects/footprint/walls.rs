@@ -144,7 +144,7 @@ impl Footprint {
         to: f64,
     ) -> Result<()> {
         let mut laid = Laid::default();
-        let mut joiner = Joiner::default();
+        let mut joiner = Joiner::spare();
         // Parts by the addresses of materials, which templates keep where they are.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
         let mut without: Vec<DVec2> = Vec::new();
@@ -184,6 +184,7 @@ impl Footprint {
                 }
             }
         }
+        joiner.retire();
         if let Some(first) = without.first() {
             let why = format!(
                 "no template fits {} of {} frontages, the first {:.2} m wide and {:.2} m high",
