@@ -76,6 +76,7 @@ impl Corner {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Front {
     pub line: Line,
+    pub direction: Direction,
     pub edge: usize,
 }
 
@@ -187,10 +188,11 @@ impl Wavefront {
             }
             let pace = paces.get(self.through.len()).copied().unwrap_or_default();
             let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
-            let line = self.lines.add(Direction(to - from), from, speed, 0.0);
+            let direction = Direction(to - from);
+            let line = self.lines.add(direction, from, speed, 0.0);
             let normal = self.lines.line(line).normal;
             let level = normal.dot(metres(from));
-            self.current.push(Front { line: *self.lines.line(line), edge: self.through.len() });
+            self.current.push(Front { line: *self.lines.line(line), direction, edge: self.through.len() });
             self.traced.edges.push(Edge { along: -normal.perp(), level, pace, line });
             self.through.push(from);
         }
