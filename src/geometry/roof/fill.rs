@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::super::cap;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::Part;
 
 /// Triangles that are less wide than this (m) are thin.
@@ -48,8 +48,8 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
             cap::triangulate(&nested.collect::<Vec<_>>())?.into()
         }
     };
-    let base =
-        u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
+    let base = u32::try_from(part.positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
     part.make_room(flats.len(), triangles.len());
     part.positions.extend(rings.iter().flatten().map(DVec3::as_vec3));
     part.normals.resize(part.positions.len(), normal.into());

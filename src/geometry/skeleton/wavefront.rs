@@ -134,7 +134,7 @@ impl Wavefront {
             };
             self.resolve(&mut when)?;
         }
-        Err(Error::new("the wavefront does not end"))
+        Err(Error::geometry("the wavefront does not end"))
     }
 
     /// Lets the edges around areas that nothing sweeps begin to move, a little later than all that has happened.
@@ -151,7 +151,7 @@ impl Wavefront {
                 found = true;
             }
         }
-        if found { Ok(()) } else { Err(Error::new("the wavefront is left with corners that meet nothing")) }
+        if found { Ok(()) } else { Err(Error::geometry("the wavefront is left with corners that meet nothing")) }
     }
 
     /// Puts the wavefront on the polygon, whatever it was before.
@@ -184,7 +184,7 @@ impl Wavefront {
         for (ring, index) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |index| (ring, index))) {
             let (from, to) = (ring[index], ring[(index + 1) % ring.len()]);
             if from == to {
-                return Err(Error::new("two corners of the outline are in one place"));
+                return Err(Error::geometry("two corners of the outline are in one place"));
             }
             let pace = paces.get(self.through.len()).copied().unwrap_or_default();
             let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
@@ -206,7 +206,9 @@ impl Wavefront {
                 self.traced.peaks.push(Peak { at: at.at, time: 0.0 });
                 let corner = self.corner(edges, first + index, &at, &When::at(0.0));
                 if self.corners[corner].kind == Kind::Rushing {
-                    return Err(Error::new("two edges in one line turn back or move at different speeds"));
+                    return Err(Error::geometry(
+                        "two edges in one line turn back or move at different speeds",
+                    ));
                 }
                 self.corners[corner].before = first + before;
                 self.corners[corner].after = first + after;
