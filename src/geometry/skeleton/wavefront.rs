@@ -151,7 +151,11 @@ impl Wavefront {
                 found = true;
             }
         }
-        if found { Ok(()) } else { Err(Error::geometry("the wavefront is left with corners that meet nothing")) }
+        if found {
+            Ok(())
+        } else {
+            Err(Error::geometry("the wavefront is left with corners that meet nothing"))
+        }
     }
 
     /// Puts the wavefront on the polygon, whatever it was before.
