@@ -10,6 +10,7 @@ use std::time::{Duration, Instant};
 use burgeon::Budget;
 use burgeon::geometry::Plan;
 use burgeon::picture::Picture;
+use burgeon::random::Stream;
 use burgeon::script::{Limits, Options};
 use burgeon::sources::{Layer, Source, Wanted};
 use glam::DVec3;
@@ -17,12 +18,11 @@ use glam::DVec3;
 const VILLAGE: &str = include_str!("../examples/data/village.geojson");
 
 /// Random numbers that are the same each time.
-struct Dice(u64);
+struct Dice(Stream);
 
 impl Dice {
     fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % sides.max(1)
+        self.0.below(sides)
     }
 
     /// Changes, repeats, moves or cuts out some of `bytes`.
@@ -48,7 +48,7 @@ impl Dice {
 
 /// Has `read` look at `count` damaged copies of `whole`; it tells whether it took one.
 fn damaged(what: &str, whole: &[u8], count: usize, read: impl Fn(&[u8]) -> bool) {
-    let (mut dice, mut good, mut longest) = (Dice(1), 0, Duration::ZERO);
+    let (mut dice, mut good, mut longest) = (Dice(Stream::new(1)), 0, Duration::ZERO);
     for _ in 0..count {
         let mut bytes = whole.to_vec();
         dice.damage(&mut bytes);

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// How many small pieces of work lie between two looks at the clock.
 const PIECES: usize = 1024;
@@ -59,7 +59,7 @@ impl Budget {
             if begin.elapsed() < time {
                 return Ok(());
             }
-            Err(Error::new(format!("reading took longer than {} s", time.as_secs_f64()))
+            Err(Error::limit(Limit::Time, format!("reading took longer than {} s", time.as_secs_f64()))
                 .help("read a part, or raise the limit: --time-limit SECONDS"))
         })
     }
@@ -95,7 +95,7 @@ impl Budget {
     }
 
     fn too_much(&self) -> Error {
-        Error::new(format!("reading takes more than {} MB of memory", self.most / 1_000_000))
+        Error::limit(Limit::Memory, format!("reading takes more than {} MB of memory", self.most / 1_000_000))
             .help("read a part, or raise the limit: --memory-limit MEGABYTES")
     }
 

@@ -1,8 +1,13 @@
 //! What a person is told when something is wrong: where, in which rule, on which module, and what to do.
 
+mod kind;
+mod suggest;
+
 use std::borrow::Cow;
 use std::fmt;
 
+pub use self::kind::{ErrorKind, Limit};
+pub use self::suggest::{did_you_mean, nearest};
 use crate::text::escaped_lines;
 
 /// The characters of a message or a remedy that are told at most; more are left out in the middle.
@@ -64,8 +69,9 @@ impl fmt::Display for Place {
 #[derive(Debug, Clone)]
 pub struct Error(Box<Parts>);
 
-#[derive(Debug, Clone, Default)]
+#[derive(Debug, Clone)]
 struct Parts {
+    kind: ErrorKind,
     message: String,
     place: Option<Place>,
     rule: Option<String>,
@@ -89,27 +95,51 @@ enum Fault {
 }
 
 impl Error {
-    /// An error that says `message`, a clause without a full stop.
-    pub fn new(message: impl fmt::Display) -> Self {
-        let message = shortened(&message.to_string(), LONGEST).into_owned();
-        Self(Box::new(Parts { message, ..Parts::default() }))
+    /// An error of a kind that says `message`, a clause without a full stop.
+    pub(crate) fn of(kind: ErrorKind, message: impl fmt::Display) -> Self {
+        Self(Box::new(Parts {
+            kind,
+            message: shortened(&message.to_string(), LONGEST).into_owned(),
+            place: None,
+            rule: None,
+            module: None,
+            step: None,
+            help: None,
+            more: Vec::new(),
+            fault: Fault::Unknown,
+        }))
     }
 
     /// Several problems found in one go; `problems` is not empty.
     pub fn several(mut problems: Vec<Error>) -> Self {
         if problems.is_empty() {
-            return Self::new("nothing is wrong");
+            return Self::internal("nothing is wrong");
         }
         let mut first = problems.remove(0);
         first.0.more.extend(problems);
         first
     }
 
-    /// The same place, rule and module, but the message and the remedy of `cause`.
+    /// The same place, rule and module, but the kind, the message and the remedy of `cause`.
     #[must_use]
     pub(crate) fn because(mut self, cause: &Self) -> Self {
+        self.0.kind.clone_from(&cause.0.kind);
         self.0.message.clone_from(&cause.0.message);
         self.0.help.clone_from(&cause.0.help);
+        self
+    }
+
+    /// Is of another kind.
+    #[must_use]
+    pub(crate) fn in_kind(mut self, kind: ErrorKind) -> Self {
+        self.0.kind = kind;
+        self
+    }
+
+    /// Says `message` in place of its own, and something else about the same.
+    #[must_use]
+    pub(crate) fn saying(mut self, message: impl fmt::Display) -> Self {
+        self.0.message = shortened(&message.to_string(), LONGEST).into_owned();
         self
     }
 
@@ -198,6 +228,11 @@ impl Error {
         self
     }
 
+    /// What it is about, for code.
+    pub fn kind(&self) -> &ErrorKind {
+        &self.0.kind
+    }
+
     /// What is wrong, without the place.
     pub fn message(&self) -> &str {
         &self.0.message
@@ -226,10 +261,12 @@ impl Error {
         std::iter::once(self).chain(&self.0.more)
     }
 
-    /// The error for machines: `{ message, file, line, rule, module, step, help }`, absent where unknown.
+    /// The error for machines: `{ code, message, file, line, rule, module, step, help }`, absent where
+    /// unknown; codes are those of [`ErrorKind::code`].
     pub fn to_json(&self) -> serde_json::Value {
         let mut object = serde_json::Map::new();
         let parts = &*self.0;
+        object.insert("code".into(), parts.kind.code().into());
         object.insert("message".into(), parts.message.clone().into());
         if let Some(place) = &parts.place {
             object.insert("file".into(), place.file.clone().into());
@@ -307,57 +344,13 @@ pub fn shortened(text: &str, most: usize) -> Cow<'_, str> {
     }
 }
 
-/// Characters that a misspelt name may have: a longer one is no name at all, and comparing it takes long.
-const LONGEST_NEAR: usize = 100;
-
-/// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
-pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    if name.len() > LONGEST_NEAR {
-        return None;
-    }
-    let lower = name.to_lowercase();
-    // Every name of one letter is one letter away from every other.
-    let limit = match name.chars().count() {
-        0 | 1 => 0,
-        length => (length / 3).max(1),
-    };
-    known
-        .into_iter()
-        .map(|candidate| (edit_distance(&lower, &candidate.to_lowercase()), candidate))
-        .filter(|(distance, _)| *distance <= limit)
-        .min_by_key(|(distance, candidate)| (*distance, candidate.len()))
-        .map(|(_, candidate)| candidate)
-}
-
-/// Insertions, deletions, replacements and swaps of neighbours that turn `a` into `b`.
-fn edit_distance(a: &str, b: &str) -> usize {
-    let (a, b): (Vec<char>, Vec<char>) = (a.chars().collect(), b.chars().collect());
-    let width = b.len() + 1;
-    let mut table: Vec<usize> = vec![0; (a.len() + 1) * width];
-    for i in 0..=a.len() {
-        for j in 0..=b.len() {
-            table[i * width + j] = if i == 0 || j == 0 {
-                i + j
-            } else {
-                let replace = table[(i - 1) * width + j - 1] + usize::from(a[i - 1] != b[j - 1]);
-                let mut best = replace.min(table[(i - 1) * width + j] + 1).min(table[i * width + j - 1] + 1);
-                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                    best = best.min(table[(i - 2) * width + j - 2] + 1);
-                }
-                best
-            };
-        }
-    }
-    table[a.len() * width + b.len()]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn an_error_reads_place_rule_message_module_and_help() {
-        let error = Error::new("the height is NaN")
+        let error = Error::argument("the height is NaN")
             .at(Some(Place { file: "a.lua".into(), line: 3 }))
             .rule("Slab(h)")
             .module("Slab(NaN)", 2)
@@ -376,18 +369,9 @@ mod tests {
         assert_eq!(shortened("äöüäöü", 6), "äöüäöü");
         assert_eq!(shortened("äöüßéñø", 4), "äö... (7 characters in all) ...ñø");
         let long = "ä".repeat(20_000_000);
-        let error = Error::new(&long).help(&long).rule(&long).module(&long, 1).feature(&long).about(&long);
+        let error =
+            Error::argument(&long).help(&long).rule(&long).module(&long, 1).feature(&long).about(&long);
         assert!(error.to_string().len() < 20_000 && error.to_json().to_string().len() < 20_000);
         assert!(error.message().contains("20000000 characters in all"), "{error}");
-    }
-
-    #[test]
-    fn the_nearest_name_is_found_and_a_far_one_is_not() {
-        assert_eq!(nearest("Flor", ["Floor", "Slab"]), Some("Floor"));
-        assert_eq!(nearest("smoth", ["sides", "smooth"]), Some("smooth"));
-        assert_eq!(nearest("window", ["sides", "smooth"]), None);
-        assert_eq!(nearest("m", ["n", "max"]), None);
-        assert_eq!(nearest("nothing", ["string"]), None);
-        assert_eq!(nearest("a", ["A"]), Some("A"));
     }
 }

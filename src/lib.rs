@@ -49,10 +49,10 @@
 //! let run = burgeon::run(Path::new("scripts/tower.lua"), Options::default())?;
 //! assert!(run.scene.triangles() > 0);
 //! # let folder = std::env::temp_dir().join(format!("burgeon-doc-{}", std::process::id()));
-//! # std::fs::create_dir_all(&folder).map_err(burgeon::Error::new)?;
+//! # std::fs::create_dir_all(&folder).map_err(burgeon::Error::other)?;
 //! # let path = folder.join("tower.glb");
 //! export::write(&run.scene, &path, &Picture::default())?;
-//! # std::fs::remove_dir_all(&folder).map_err(burgeon::Error::new)?;
+//! # std::fs::remove_dir_all(&folder).map_err(burgeon::Error::other)?;
 //! # Ok(())
 //! # }
 //! ```

@@ -23,7 +23,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Number, Value};
 
-use crate::error::{Error, Place, Result, nearest};
+use crate::error::{Error, Limit, Place, Result};
 use crate::export;
 use crate::script::{Preset, Setting};
 use crate::watch::settled;
@@ -56,7 +56,7 @@ impl Presets {
     fn read_once(path: &Path) -> Result<Self> {
         let path = path.to_path_buf();
         let cannot = |why: &dyn std::fmt::Display| {
-            Error::new(format!("cannot read the presets in {}: {why}", path.display()))
+            Error::file(&path, format!("cannot read the presets in {}: {why}", path.display()))
                 .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
         };
         let bytes = match crate::files::read(&path, LARGEST) {
@@ -65,8 +65,11 @@ impl Presets {
                 return Ok(Self { path, presets: Vec::new() });
             }
             Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
-                return Err(Error::new(format!("{} is too large for presets", path.display()))
-                    .help(format!("presets have at most {LARGEST} bytes; move that file away")));
+                return Err(Error::limit(
+                    Limit::Size,
+                    format!("{} is too large for presets", path.display()),
+                )
+                .help(format!("presets have at most {LARGEST} bytes; move that file away")));
             }
             Err(error) => return Err(cannot(&error)),
         };
@@ -106,14 +109,18 @@ impl Presets {
         self.presets.iter().find(|preset| preset.name == name).ok_or_else(|| {
             let file = self.path.display();
             if self.presets.is_empty() {
-                return Error::new(format!("there is no preset {name}, for there are none"))
-                    .help(format!("write them into {file}, or save one: burgeon run --save-preset NAME"));
+                return Error::not_found(
+                    "preset",
+                    name,
+                    [],
+                    format!("there is no preset {name}, for there are none"),
+                )
+                .help(format!("write them into {file}, or save one: burgeon run --save-preset NAME"));
             }
-            let names = || self.names();
-            Error::new(format!("{file} has no preset called {name}")).help(match nearest(name, names()) {
-                Some(near) => format!("did you mean {near}?"),
-                None => format!("it has {}", names().collect::<Vec<_>>().join(", ")),
-            })
+            let names: Vec<&str> = self.names().collect();
+            let message = format!("{file} has no preset called {name}");
+            Error::not_found("preset", name, names.iter().copied(), message)
+                .help(format!("it has {}", names.join(", ")))
         })
     }
 
@@ -154,7 +161,7 @@ pub fn check_name(name: &str) -> Result<()> {
     if fits && !name.chars().any(char::is_control) {
         return Ok(());
     }
-    Err(Error::new(format!("{name:?} cannot be the name of a preset")).help(format!(
+    Err(Error::argument(format!("{name:?} cannot be the name of a preset")).help(format!(
         "use 1 to {LONGEST} characters, without line breaks, and no space at the beginning or the end"
     )))
 }
@@ -175,7 +182,7 @@ impl<'a> File<'a> {
             let said = error.to_string();
             let said = said.split(" at line ").next().unwrap_or_default();
             let place = Place { file: self.name.clone(), line: error.line().max(1) };
-            Error::new(format!("this is not JSON: {said}"))
+            Error::data(format!("this is not JSON: {said}"))
                 .at(Some(place))
                 .help("mend the file, or move it away")
         })?;
@@ -187,7 +194,7 @@ impl<'a> File<'a> {
                 match key.as_str() {
                     "seed" => {
                         let seed = serde_json::from_str(raw.get()).map_err(|_| {
-                            Error::new(format!("{what}: {} is no seed", short(raw)))
+                            Error::data(format!("{what}: {} is no seed", short(raw)))
                                 .help("write a whole number from 0")
                                 .at(Some(self.place(raw)))
                         })?;
@@ -202,14 +209,9 @@ impl<'a> File<'a> {
                         }
                     }
                     _ => {
-                        let help = match nearest(&key, ["seed", "params"]) {
-                            Some(near) => format!("did you mean {near}?"),
-                            None => {
-                                "a preset has a seed and params; parameters belong into params".to_owned()
-                            }
-                        };
-                        return Err(Error::new(format!("{what} has no field called {key}"))
-                            .help(help)
+                        let message = format!("{what} has no field called {key}");
+                        return Err(Error::not_found("field", &key, ["seed", "params"], message)
+                            .help("a preset has a seed and params; parameters belong into params")
                             .at(Some(self.place(raw))));
                     }
                 }
@@ -221,7 +223,7 @@ impl<'a> File<'a> {
 
     /// The members of `raw`, which must be an object without repeated names.
     fn members(&self, raw: &'a RawValue, what: &str, form: &str) -> Result<Members<'a>> {
-        let refuse = |message: String, raw: &RawValue| Error::new(message).at(Some(self.place(raw)));
+        let refuse = |message: String, raw: &RawValue| Error::data(message).at(Some(self.place(raw)));
         let members = if raw.get().starts_with('{') { read_members(raw.get()).ok() } else { None };
         let members = members.ok_or_else(|| {
             refuse(format!("{what} is {}, not an object", short(raw)), raw).help(format!("write {form}"))
@@ -246,7 +248,7 @@ impl<'a> File<'a> {
             _ => None,
         };
         read.ok_or_else(|| {
-            Error::new(format!("{what}: {} is no value for {name}", short(raw)))
+            Error::data(format!("{what}: {} is no value for {name}", short(raw)))
                 .help("write a number, true, false or a string")
                 .at(Some(self.place(raw)))
         })

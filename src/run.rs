@@ -209,13 +209,12 @@ fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
 
 /// The error for a parameter `name` that `script` does not have.
 pub(crate) fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
-    let error = Error::new(format!("{} has no parameter called {name}", script.display()));
-    let names = params.iter().map(|param| param.name.as_str());
-    match crate::error::nearest(name, names.clone()) {
-        Some(near) => error.help(format!("did you mean {near}?")),
-        None if params.is_empty() => error.help("it declares none"),
-        None => error.help(format!("it has {}", names.collect::<Vec<_>>().join(", "))),
-    }
+    let names: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
+    let message = format!("{} has no parameter called {name}", script.display());
+    Error::not_found("parameter", name, names.iter().copied(), message).help(match names.is_empty() {
+        true => "it declares none".to_owned(),
+        false => format!("it has {}", names.join(", ")),
+    })
 }
 
 /// Which features of a system were left out, and why; those that its source has told of are not counted.
@@ -242,14 +241,15 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         let path = found.map_err(|_| {
-            Error::new(format!("there is no texture {shown}")).help("textures are files beside the script")
+            Error::not_found("texture", &shown, [], format!("there is no texture {shown}"))
+                .help("textures are files beside the script")
         })?;
         if !path.starts_with(session.root()) {
-            return Err(Error::new(format!("the texture {shown} lies outside the script's folder"))
+            return Err(Error::file(&path, format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
         crate::files::open(&path).map_err(|error| {
-            Error::new(format!("the texture {shown} cannot be read: {error}"))
+            Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
                 .help("textures are PNG or JPEG files beside the script")
         })?;
         texture.path = path;

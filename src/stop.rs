@@ -45,7 +45,7 @@ impl Stop {
             return parent.check();
         }
         let reason = self.reason.lock().unwrap_or_else(PoisonError::into_inner).clone();
-        Err(reason.unwrap_or_else(|| Error::new("stopped")))
+        Err(reason.unwrap_or_else(|| Error::stopped("stopped")))
     }
 }
 
@@ -57,9 +57,9 @@ mod tests {
     fn a_stop_under_another_stops_with_its_reason() {
         let parent = Arc::new(Stop::default());
         let (child, other) = (Stop::under(Some(Arc::clone(&parent))), Stop::under(Some(Arc::clone(&parent))));
-        other.stop(Error::new("mine"));
+        other.stop(Error::stopped("mine"));
         assert!(!child.is_stopped() && !parent.is_stopped());
-        parent.stop(Error::new("all"));
+        parent.stop(Error::stopped("all"));
         assert_eq!(child.check().unwrap_err().message(), "all");
         assert_eq!(other.check().unwrap_err().message(), "mine");
     }

@@ -85,7 +85,7 @@ pub struct Highlighted {
 /// Derives the chain again, with its lineage. Fails if the script has changed so that it cannot.
 pub fn pick(script: &Path, options: &Options, scene: &Scene, pick: Pick) -> Result<Picked> {
     let instance =
-        scene.instances.get(pick.instance).ok_or_else(|| Error::new("there is no such instance"))?;
+        scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("there is no such instance"))?;
     let mesh = &scene.meshes[instance.mesh];
     let mut picked = Picked { drawn: None, placed: None };
     if let Some(origin) = mesh.origin {
@@ -198,7 +198,7 @@ fn trace_session(session: &Arc<Session>) -> Result<Trace> {
     match (trace, ended) {
         (Some(trace), _) => Ok(trace),
         (None, Err(error)) => Err(error),
-        (None, Ok(_)) => Err(Error::new("the script no longer derives this system")
+        (None, Ok(_)) => Err(Error::unavailable("the script no longer derives this system")
             .help("wait until the model has been made anew")),
     }
 }

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
-use crate::error::{Error, Place};
+use crate::error::{Error, ErrorKind, Place};
 
 /// What a warning is about, for code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -59,24 +59,29 @@ pub enum WarningKind {
 }
 
 impl WarningKind {
-    /// Its name for machines.
+    /// Its name for machines, without the `warning.` of its [`code`](Self::code).
     pub fn name(self) -> &'static str {
+        self.code().trim_start_matches("warning.")
+    }
+
+    /// Its name among those of errors, which it is in a strict run.
+    pub fn code(self) -> &'static str {
         match self {
-            Self::DrawsNothing => "draws-nothing",
-            Self::EmptyModel => "empty-model",
-            Self::UndrawnModule => "undrawn-module",
-            Self::HiddenModule => "hidden-module",
-            Self::ReturnedModules => "returned-modules",
-            Self::NoObject => "no-object",
-            Self::LateDeclaration => "late-declaration",
-            Self::UnreachableRule => "unreachable-rule",
-            Self::ImpossibleContext => "impossible-context",
-            Self::DerivedTwice => "derived-twice",
-            Self::NotDerived => "not-derived",
-            Self::ParameterTwice => "parameter-twice",
-            Self::NoEffect => "no-effect",
-            Self::Data => "data",
-            Self::Doubtful => "doubtful",
+            Self::DrawsNothing => "warning.draws-nothing",
+            Self::EmptyModel => "warning.empty-model",
+            Self::UndrawnModule => "warning.undrawn-module",
+            Self::HiddenModule => "warning.hidden-module",
+            Self::ReturnedModules => "warning.returned-modules",
+            Self::NoObject => "warning.no-object",
+            Self::LateDeclaration => "warning.late-declaration",
+            Self::UnreachableRule => "warning.unreachable-rule",
+            Self::ImpossibleContext => "warning.impossible-context",
+            Self::DerivedTwice => "warning.derived-twice",
+            Self::NotDerived => "warning.not-derived",
+            Self::ParameterTwice => "warning.parameter-twice",
+            Self::NoEffect => "warning.no-effect",
+            Self::Data => "warning.data",
+            Self::Doubtful => "warning.doubtful",
         }
     }
 }
@@ -94,7 +99,7 @@ pub struct Warning {
 impl Warning {
     /// A warning that says `message`, a clause without a full stop.
     pub fn new(kind: WarningKind, message: impl fmt::Display) -> Self {
-        Self { kind, told: Error::new(message), count: 1, of_all: false }
+        Self { kind, told: Error::of(ErrorKind::Warning(kind), message), count: 1, of_all: false }
     }
 
     /// Says what to do about it.

@@ -132,7 +132,7 @@ impl Fit {
         };
         let pool = rayon::ThreadPoolBuilder::new().num_threads(self.threads.map_or(0, usize::from)).build();
         let pool = pool.map_err(|error| {
-            Error::new(format!("cannot start threads: {error}")).help("use fewer: --threads 1")
+            Error::system(format!("cannot start threads: {error}")).help("use fewer: --threads 1")
         })?;
         let fitted = pool.install(|| search.run(target, &stop, &mut tell));
         // The round in which the time ended it is not whole.
@@ -146,7 +146,7 @@ impl Fit {
         let path = &self.output;
         let shown = path.display();
         if path.is_dir() {
-            return Err(Error::new(format!("cannot write {shown}: it is a folder"))
+            return Err(Error::file(path, format!("cannot write {shown}: it is a folder"))
                 .help(format!("name a file in it, such as {}", path.join("rules.lua").display())));
         }
         export::check_files([path.as_path()])?;
@@ -156,10 +156,10 @@ impl Fit {
         let mut first = Vec::new();
         let read = File::open(path).and_then(|file| file.take(MARK.len() as u64).read_to_end(&mut first));
         if read.is_err() || !(first.is_empty() || first == MARK.as_bytes()) {
-            return Err(Error::new(format!(
-                "{} is there already, and is no fitted rule table",
-                path.display()
-            ))
+            return Err(Error::file(
+                path,
+                format!("{} is there already, and is no fitted rule table", path.display()),
+            )
             .help("name another file, or move that one away"));
         }
         Ok(())

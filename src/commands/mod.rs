@@ -83,7 +83,7 @@ fn print_help(error: &clap::Error) -> ExitCode {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::FAILURE,
         Err(error) => {
-            report::error(&Error::new(format!("cannot write to standard output: {error}")), false);
+            report::error(&Error::system(format!("cannot write to standard output: {error}")), false);
             ExitCode::FAILURE
         }
     }
@@ -104,6 +104,6 @@ fn refuse_command_line(error: &clap::Error) -> ExitCode {
     let text = error.to_string();
     let text = text.trim_start_matches("error: ");
     let (message, help) = text.split_once("\n\n").unwrap_or((text, ""));
-    report::error(&Error::new(message.trim()).help(help.trim()), true);
+    report::error(&Error::usage(message.trim()).help(help.trim()), true);
     ExitCode::from(2)
 }

@@ -36,21 +36,24 @@ impl New {
         let mut file = OpenOptions::new().write(true).create_new(true).open(&path).map_err(|error| {
             match error.kind() {
                 ErrorKind::AlreadyExists => {
-                    Error::new(format!("{shown} exists already")).help("choose another name")
+                    Error::file(&path, format!("{shown} exists already")).help("choose another name")
                 }
                 ErrorKind::NotFound | ErrorKind::NotADirectory => {
                     let folder =
                         path.parent().map_or_else(|| ".".into(), |folder| folder.display().to_string());
-                    Error::new(format!("cannot make {shown}: there is no folder {folder}"))
+                    Error::file(&path, format!("cannot make {shown}: there is no folder {folder}"))
                         .help("make the folder first")
                 }
-                _ => Error::new(format!("cannot make {shown}: {error}")).help("choose another folder"),
+                _ => {
+                    Error::file(&path, format!("cannot make {shown}: {error}")).help("choose another folder")
+                }
             }
         })?;
         file.write_all(STARTER.as_bytes()).map_err(|error| {
             // Half a script would only be in the way.
             let _ = std::fs::remove_file(&path);
-            Error::new(format!("cannot write {shown}: {error}")).help("write to another folder or disk")
+            Error::file(&path, format!("cannot write {shown}: {error}"))
+                .help("write to another folder or disk")
         })?;
         if self.json {
             report::print(&format!("{}\n", json!({ "ok": true, "path": path })))?;

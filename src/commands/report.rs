@@ -208,7 +208,7 @@ pub(crate) fn print_all(content: impl FnOnce(&mut BufWriter<Standard>) -> io::Re
             CLOSED.store(true, Ordering::Relaxed);
             Ok(())
         }
-        Err(error) => Err(Error::new(format!("cannot write to standard output: {error}"))
+        Err(error) => Err(Error::system(format!("cannot write to standard output: {error}"))
             .help("look at where it leads: whether the disk is full, or the file may be written to")),
     }
 }

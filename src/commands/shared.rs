@@ -203,7 +203,7 @@ pub(crate) fn end_on_interrupt() -> Result<()> {
 const INTERRUPTED: i32 = 130;
 
 fn deaf(error: ctrlc::Error) -> Error {
-    Error::new(format!("cannot wait for an interrupt: {error}"))
+    Error::system(format!("cannot wait for an interrupt: {error}"))
 }
 
 pub(crate) fn size(text: &str) -> Result<(u32, u32), String> {

@@ -69,11 +69,11 @@ impl Variations {
         export::check_files([self.output.as_path()])?;
         let options = self.script.options()?;
         let over = self.seeds.as_ref().or(self.sweep.as_ref());
-        let over = over.ok_or_else(|| Error::new("give --seeds or --sweep"))?;
+        let over = over.ok_or_else(|| Error::usage("give --seeds or --sweep"))?;
         if let Over::Param { name, .. } = over
             && options.set.iter().any(|(known, _)| known == name)
         {
-            return Err(Error::new(format!("{name} is set and varied at the same time"))
+            return Err(Error::usage(format!("{name} is set and varied at the same time"))
                 .help(format!("leave out --set {name} or --sweep {name}")));
         }
         let variations = Arc::new(Cells::new(&self.script.script, &options, over)?);

@@ -77,14 +77,14 @@ impl System {
         let named = |error: Error| error.rather_at(place.clone());
         if system.object.is_some() {
             return Err(named(
-                Error::new("a system that divides the cells of a terrain has no object")
+                Error::script("a system that divides the cells of a terrain has no object")
                     .help("leave object out: what the cells are is all that counts"),
             ));
         }
         let grammar = system.grammar(&machine.library, session.draws_random());
         if grammar.has_contexts() {
             return Err(named(
-                Error::new("the cells of a terrain have no neighbours in their chain")
+                Error::script("the cells of a terrain have no neighbours in their chain")
                     .help("write rules for single modules, without < and >"),
             ));
         }
@@ -112,7 +112,7 @@ impl System {
             }
             _ => {
                 return Err(named(
-                    Error::new("a terrain begins with one cell")
+                    Error::script("a terrain begins with one cell")
                         .help("give its system one module without branches: cells:axiom(Hill(0, 100))"),
                 ));
             }
@@ -207,7 +207,7 @@ impl System {
                 let form = self.forms[usize::from(symbol)].map_or(0.0, |form| params[form]);
                 if !(height + form).is_finite() {
                     let module = module_brief(grammar.symbols(), &machine.session.values, symbol, params);
-                    let error = Error::new(format!("the height of {module} is no finite number"))
+                    let error = Error::script(format!("the height of {module} is no finite number"))
                         .help("give each quadrant a height in metres");
                     return Err(self.blame(error, *rule));
                 }
@@ -260,7 +260,7 @@ impl System {
             1 => "one module or a branch".to_owned(),
             count => format!("{count} modules"),
         };
-        let error = Error::new(format!("a cell becomes {count}, where it has four quadrants"))
+        let error = Error::script(format!("a cell becomes {count}, where it has four quadrants"))
             .help("return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is");
         self.blame(error, rule).module(module, step)
     }
@@ -274,6 +274,6 @@ impl System {
 }
 
 fn no_height(name: &str) -> Error {
-    Error::new(format!("{name} is no cell of a terrain: it has no parameter called {HEIGHT}"))
+    Error::script(format!("{name} is no cell of a terrain: it has no parameter called {HEIGHT}"))
         .help(format!("declare it with one: module(\"{name}\", \"{HEIGHT}\", ...)"))
 }

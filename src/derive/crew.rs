@@ -175,10 +175,10 @@ impl Helper {
                 let _ = machine.run();
             }
         };
-        let thread = std::thread::Builder::new()
-            .name("burgeon helper".to_owned())
-            .spawn(follow)
-            .map_err(|error| Error::new(format!("cannot start a thread: {error}")).help("try --threads 1"))?;
+        let thread =
+            std::thread::Builder::new().name("burgeon helper".to_owned()).spawn(follow).map_err(|error| {
+                Error::system(format!("cannot start a thread: {error}")).help("try --threads 1")
+            })?;
         Ok(Self { outbox, thread })
     }
 }
@@ -193,7 +193,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
         let job = match inbox.recv() {
             Ok(Message::Work(job)) => job,
             Ok(Message::Derived(derived)) => return Ok(derived),
-            Err(_) => return Err(Error::new("the run has ended")),
+            Err(_) => return Err(Error::stopped("the run has ended")),
         };
         // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
         match job {

@@ -243,7 +243,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&chain.params);
-    let plan = Arc::try_unwrap(plan).map_err(|_| Error::new("a worker still holds the plan"))?;
+    let plan = Arc::try_unwrap(plan).map_err(|_| Error::internal("a worker still holds the plan"))?;
     let objects = match plan.objects.map(Arc::try_unwrap) {
         Some(Ok(objects)) if trace.is_some() => {
             let mut objects: Vec<_> = objects.into_owned().into_iter().map(|(object, _)| object).collect();
@@ -253,7 +253,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
                 trace.chain = chain;
                 session.traced.lock().unwrap_or_else(PoisonError::into_inner).replace(trace);
             }
-            return Err(Error::new("the traced system is derived"));
+            return Err(Error::internal("the traced system is derived"));
         }
         Some(Ok(objects)) => {
             let mut remarks = Vec::new();
@@ -262,7 +262,7 @@ fn lead(machine: &Machine, index: usize, steps: Option<usize>) -> Result<Derived
             axiom.remarks.append(&mut remarks);
             objects
         }
-        Some(Err(_)) => return Err(Error::new("a worker still holds the objects")),
+        Some(Err(_)) => return Err(Error::internal("a worker still holds the objects")),
         None => Vec::new(),
     };
     let mut derived = Derived::new(

@@ -162,7 +162,7 @@ mod tests {
     fn features_are_counted_once_and_what_was_done_each_time() {
         let note = |what: &str| Note::new(what, "");
         let remarks = [
-            Remark::skipped("a:b", Some("1"), &Error::new("it has no area")),
+            Remark::skipped("a:b", Some("1"), &Error::geometry("it has no area")),
             Remark::simplified("a:b", Some("2"), &note("a flat roof instead of a hip roof")),
             Remark::simplified("a:b", Some("2"), &note("repeated points dropped")),
             Remark::simplified("a:b", Some("7"), &note("repeated points dropped")),

@@ -7,7 +7,7 @@ use super::Plan;
 use super::batch::{Batch, Piece, Scratch};
 use super::crew::Job;
 use super::output::{Output, Use};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::rules::{Chain, Links, Mark};
 use crate::script::{Declared, Machine};
 
@@ -215,7 +215,7 @@ impl Stepper {
     }
 
     fn runaway(&self, growth: &[usize], limit: usize, step: usize) -> Error {
-        let error = Error::new(format!("the chain grew past {limit} modules in step {step}"))
+        let error = Error::limit(Limit::Modules, format!("the chain grew past {limit} modules in step {step}"))
             .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");
         match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
             Some((rule, _)) => {

@@ -39,11 +39,15 @@ pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
     for (i, instance) in scene.instances.iter().enumerate() {
         let name = || named("instance", &instance.name, i);
         let Some(shown) = meshes.get_mut(instance.mesh) else {
-            return Err(Error::new(format!("{} shows mesh {}, which is not there", name(), instance.mesh)));
+            return Err(Error::internal(format!(
+                "{} shows mesh {}, which is not there",
+                name(),
+                instance.mesh
+            )));
         };
         *shown = true;
         if !instance.transform.to_cols_array().iter().all(|number| number.abs() <= LARGEST) {
-            let error = Error::new(format!("the transform of {} is not made of usable numbers", name()));
+            let error = Error::geometry(format!("the transform of {} is not made of usable numbers", name()));
             return Err(error.help("look for a division by zero in a length, a scale or an angle"));
         }
     }
@@ -113,7 +117,7 @@ pub(super) fn named(kind: &str, name: &str, index: usize) -> String {
 }
 
 fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
-    let error = Error::new(format!("{} {what}", named("mesh", &mesh.name, index)));
+    let error = Error::geometry(format!("{} {what}", named("mesh", &mesh.name, index)));
     error.help("look for a division by zero or an empty shape in what built it")
 }
 

@@ -60,7 +60,7 @@ impl Files {
         self.stop.check()?;
         let target = Target::of(path)?;
         if self.written.iter().any(|known| known.target.is(&target)) {
-            return Err(Error::new(format!("{} would be written twice", path.display()))
+            return Err(Error::usage(format!("{} would be written twice", path.display()))
                 .help("name another file for each of them"));
         }
         let (temporary, file, way) = target.create()?;
@@ -80,7 +80,7 @@ impl Files {
         let missing: Vec<&Path> = path.ancestors().take_while(missing).collect();
         for folder in missing.into_iter().rev() {
             let made = Temporary::folder(folder).map_err(|error| {
-                Error::new(format!("cannot make the folder {}: {error}", folder.display()))
+                Error::file(folder, format!("cannot make the folder {}: {error}", folder.display()))
                     .help("make it first, or name one that is there")
             })?;
             self.folders.push(made);
@@ -88,8 +88,11 @@ impl Files {
         if path.is_dir() {
             return Ok(());
         }
-        Err(Error::new(format!("cannot make the folder {}: there is a file of that name", path.display()))
-            .help("name another folder"))
+        Err(Error::file(
+            path,
+            format!("cannot make the folder {}: there is a file of that name", path.display()),
+        )
+        .help("name another folder"))
     }
 
     /// As [`write`](Self::write), but the same `bytes` may have been written to `path` already.
@@ -264,7 +267,7 @@ mod tests {
             .write(&folder.path().join("a.obj"), |out| {
                 for line in 0..1_000_000 {
                     if line == 10_000 {
-                        stop.stop(Error::new("nobody waits for it"));
+                        stop.stop(Error::stopped("nobody waits for it"));
                     }
                     out.write_all(&[b'x'; 1000])?;
                     written = line;

@@ -1,6 +1,6 @@
 //! The formats that a scene can be written in.
 
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use std::path::Path;
 
 /// What kind of file to write.
@@ -40,7 +40,7 @@ impl Format {
         let known = "the formats are .glb, .gltf, .obj, .png and .svg";
         let Some(extension) = path.extension() else {
             let message = format!("cannot write {}: its name does not end in a format", path.display());
-            return Err(Error::new(message).help(known));
+            return Err(Error::usage(message).help(known));
         };
         let extension = extension.to_string_lossy();
         if let Some(format) = Self::ALL.into_iter().find(|it| extension.eq_ignore_ascii_case(it.extension()))
@@ -48,10 +48,9 @@ impl Format {
             return Ok(format);
         }
         let message = format!("cannot write {}: .{extension} is not a format", path.display());
-        Err(Error::new(message).help(match nearest(&extension, Self::ALL.map(Self::extension)) {
-            Some(meant) => format!("did you mean .{meant}? {known}"),
-            None => known.into(),
-        }))
+        let extensions = Self::ALL.map(|format| format!(".{}", format.extension()));
+        let meant = extensions.iter().map(String::as_str);
+        Err(Error::not_found("format", format!(".{extension}"), meant, message).help(known))
     }
 }
 
@@ -71,7 +70,7 @@ mod tests {
     fn an_unknown_extension_is_refused_with_a_suggestion() {
         insta::assert_snapshot!(Format::of(Path::new("a/tower.gtlf")).unwrap_err(), @r"
         cannot write a/tower.gtlf: .gtlf is not a format
-          help: did you mean .gltf? the formats are .glb, .gltf, .obj, .png and .svg
+          help: did you mean .gltf?
         ");
         insta::assert_snapshot!(Format::of(Path::new("tower.step")).unwrap_err(), @r"
         cannot write tower.step: .step is not a format

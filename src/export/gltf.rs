@@ -89,7 +89,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
     let head = document.head()?;
     let length: usize = head.iter().map(Vec::len).sum();
     bytes.reserve_exact(length + document.body.length() as usize);
-    document.body.write(head, &mut bytes, stop).map_err(Error::new)?;
+    document.body.write(head, &mut bytes, stop).map_err(Error::internal)?;
     stop.check()?;
     Ok((bytes, document.layout))
 }

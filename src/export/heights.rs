@@ -61,7 +61,7 @@ impl Format {
             "r32" | "f32" => Self::Raw32,
             "r64" | "f64" => Self::Raw64,
             _ => {
-                return Err(Error::new(format!(
+                return Err(Error::usage(format!(
                     "cannot write {}: its extension is no format of height maps",
                     path.display()
                 ))
@@ -101,15 +101,20 @@ fn check(map: &HeightMap, format: Format) -> Result<()> {
     let fits = columns.checked_mul(rows) == Some(map.heights.len());
     if !fits || columns < 2 || rows < 2 {
         let count = map.heights.len();
-        return Err(Error::new(format!("the height map has {columns} x {rows} places for {count} heights"))
-            .help("give one height for each place, at least 2 x 2"));
+        return Err(Error::argument(format!(
+            "the height map has {columns} x {rows} places for {count} heights"
+        ))
+        .help("give one height for each place, at least 2 x 2"));
     }
     if !(map.step.is_finite() && map.step > 0.0 && map.corner.is_finite()) {
-        return Err(Error::new(format!("the height map has steps of {} m from {}", map.step, map.corner))
-            .help("give a positive step and a finite corner"));
+        return Err(Error::argument(format!(
+            "the height map has steps of {} m from {}",
+            map.step, map.corner
+        ))
+        .help("give a positive step and a finite corner"));
     }
     if let Some(index) = map.heights.iter().position(|height| height.is_infinite()) {
-        return Err(Error::new(format!(
+        return Err(Error::argument(format!(
             "the height in row {}, column {} is infinite",
             index / columns + 1,
             index % columns + 1
@@ -117,11 +122,13 @@ fn check(map: &HeightMap, format: Format) -> Result<()> {
         .help("give finite heights"));
     }
     if format == Format::Png && map.heights.iter().any(|height| height.is_nan()) {
-        return Err(Error::new("a PNG cannot leave heights out").help("write a GeoTIFF: .tif"));
+        return Err(Error::argument("a PNG cannot leave heights out").help("write a GeoTIFF: .tif"));
     }
     if matches!(format, Format::Raw32 | Format::Raw64) && columns != rows {
-        return Err(Error::new(format!("raw floats tell no width, and {columns} x {rows} is no square"))
-            .help("make it square, or write a GeoTIFF: .tif"));
+        return Err(Error::argument(format!(
+            "raw floats tell no width, and {columns} x {rows} is no square"
+        ))
+        .help("make it square, or write a GeoTIFF: .tif"));
     }
     Ok(())
 }

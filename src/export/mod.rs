@@ -102,9 +102,9 @@ pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
 /// `image` as a PNG file.
 pub fn encode_png(image: &image::RgbaImage) -> Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    image
-        .write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png)
-        .map_err(|error| crate::error::Error::new(format!("cannot encode the picture as PNG: {error}")))?;
+    image.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(|error| {
+        crate::error::Error::internal(format!("cannot encode the picture as PNG: {error}"))
+    })?;
     Ok(bytes)
 }
 

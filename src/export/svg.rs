@@ -13,7 +13,7 @@ mod view;
 
 use super::check::{Checked, check};
 use super::texture::Images;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::Scene;
 use crate::stop::Stop;
 use faces::{Faces, Palette};
@@ -32,7 +32,8 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     let checked = check(scene)?;
     let count = scene.triangles();
     if count > LIMIT {
-        let error = Error::new(format!("a drawing cannot show {count} triangles; it ends at {LIMIT}"));
+        let error =
+            Error::limit(Limit::Size, format!("a drawing cannot show {count} triangles; it ends at {LIMIT}"));
         return Err(error.help("write a picture (.png) instead, or draw a part of the model"));
     }
     let images = Images::load(&checked)?;

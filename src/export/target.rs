@@ -36,7 +36,7 @@ impl Target {
     pub(super) fn of(named: &Path) -> Result<Self> {
         let there = named.metadata().ok();
         if there.as_ref().is_some_and(Metadata::is_dir) {
-            let error = Error::new(format!("cannot write {}: it is a folder", named.display()));
+            let error = Error::file(named, format!("cannot write {}: it is a folder", named.display()));
             return Err(
                 error.help(format!("name a file in it, such as {}", named.join("model.glb").display()))
             );
@@ -48,8 +48,8 @@ impl Target {
         };
         let folder = folder(&real);
         if !folder.is_dir() {
-            let (named, folder) = (named.display(), folder.display());
-            return Err(Error::new(format!("cannot write {named}: there is no folder {folder}"))
+            let (shown, folder) = (named.display(), folder.display());
+            return Err(Error::file(named, format!("cannot write {shown}: there is no folder {folder}"))
                 .help("make the folder first, or write to one that is there"));
         }
         // What is about to be replaced need not be asked by the system, but its owner may have meant to keep it.
@@ -189,7 +189,7 @@ fn is_forbidden(error: &io::Error) -> bool {
 
 /// The error for a `path` that could not be written.
 fn refused(path: &Path, error: &io::Error) -> Error {
-    let said = Error::new(format!("cannot write {}: {error}", path.display()));
+    let said = Error::file(path, format!("cannot write {}: {error}", path.display()));
     match error.kind() {
         ErrorKind::NotFound => said.help("make the folder first, or write to one that is there"),
         ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {

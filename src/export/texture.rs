@@ -93,7 +93,7 @@ impl ImageFile {
     fn read(texture: &Texture, material: &str) -> Result<Self> {
         let path = &texture.path;
         let refused = |why: &dyn std::fmt::Display| {
-            Error::new(format!("cannot read the texture {} of {material}: {why}", path.display()))
+            Error::file(path, format!("cannot read the texture {} of {material}: {why}", path.display()))
         };
         let bytes = match &texture.content {
             Some(content) => content.to_vec(),

@@ -29,8 +29,10 @@ pub(super) fn triangulate(rings: &[Vec<DVec2>]) -> Result<Vec<[usize; 3]>> {
         .filter(is_sound)
         .or_else(|| delaunay(&points, &border).filter(is_sound))
         .ok_or_else(|| {
-            Error::new("the cross-section cannot be filled with triangles, as it is too narrow somewhere")
-                .help("move the points that almost touch another edge further from it, or leave them out")
+            Error::geometry(
+                "the cross-section cannot be filled with triangles, as it is too narrow somewhere",
+            )
+            .help("move the points that almost touch another edge further from it, or leave them out")
         })
 }
 
@@ -278,7 +280,6 @@ mod tests {
 
     #[test]
     fn turned_rows_of_holes_are_filled_by_clipping_and_by_exact_predicates() {
-        let mut other = 0;
         for seed in 0..600 {
             let (rings, expected) = turned_grid(seed);
             assert!((area(&rings) - expected).abs() < 1e-6 * expected, "{seed}");
@@ -288,15 +289,6 @@ mod tests {
             let sum: f64 =
                 exact.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c]) / 2.0).sum();
             assert!((sum - expected).abs() < 1e-6 * expected, "{seed}");
-            other += usize::from(
-                !unmatched(
-                    &clipped(&rings, &points, &border),
-                    &Sides::of(&clipped(&rings, &points, &border), points.len()),
-                    &border,
-                )
-                .is_empty(),
-            );
         }
-        eprintln!("{other} need exact predicates");
     }
 }

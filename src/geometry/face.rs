@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::Part;
 use geo::{Coord, LineString, Polygon, TriangulateEarcut};
 
@@ -14,7 +14,7 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
     let mut points: Vec<DVec3> = Vec::with_capacity(corners.len());
     for corner in corners {
         if !corner.is_finite() {
-            return Err(Error::new("a corner of the polygon is not finite"));
+            return Err(Error::geometry("a corner of the polygon is not finite"));
         }
         if points.last().is_none_or(|last| last.distance_squared(*corner) > 1e-20) {
             points.push(*corner);
@@ -24,8 +24,11 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
         points.pop();
     }
     if points.len() < 3 {
-        return Err(Error::new(format!("the polygon has {} different corners, and needs 3", points.len()))
-            .help("add corners with Point(), moving in between"));
+        return Err(Error::geometry(format!(
+            "the polygon has {} different corners, and needs 3",
+            points.len()
+        ))
+        .help("add corners with Point(), moving in between"));
     }
     let newell = (0..points.len())
         .map(|index| (points[index] - points[0]).cross(points[(index + 1) % points.len()] - points[0]))
@@ -42,8 +45,8 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
         .collect();
     let ring: LineString = flat.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
     let raw = Polygon::new(ring, Vec::new()).earcut_triangles_raw();
-    let base =
-        u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
+    let base = u32::try_from(part.positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
     for (point, flat) in points.iter().zip(&flat) {
         part.positions.push(point.as_vec3());
         part.normals.push(normal.into());
@@ -68,14 +71,14 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
 /// Adds a closed ball with `radius` (m) and `sides` faces around its axis, at least 3.
 pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result<()> {
     if !radius.is_finite() || radius < 0.0 {
-        return Err(Error::new(format!("the radius of a ball must be 0 or more, and is {radius}")));
+        return Err(Error::geometry(format!("the radius of a ball must be 0 or more, and is {radius}")));
     }
     if radius == 0.0 {
         return Ok(());
     }
     let (sides, rows) = (sides.max(3), (sides / 2).max(2));
-    let base =
-        u32::try_from(part.positions.len()).map_err(|_| Error::new("a mesh holds too many vertices"))?;
+    let base = u32::try_from(part.positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
     for row in 0..=rows {
         let (sin, cos) = (std::f64::consts::PI * f64::from(row) / f64::from(rows)).sin_cos();
         // Exact poles, so that the faces around them meet.

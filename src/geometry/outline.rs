@@ -74,7 +74,7 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
     let mut points = numbered(&name, points, &SECTION)?;
     drop_repeated(&mut points, &SECTION);
     if points.len() < 2 {
-        return Err(Error::new("the line of an open cross-section has fewer than 2 distinct points")
+        return Err(Error::geometry("the line of an open cross-section has fewer than 2 distinct points")
             .help("give at least 2 points that differ"));
     }
     drop_straight(&mut points, false, &SECTION);
@@ -97,22 +97,27 @@ fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<Ring> 
     }
     if points.len() < 3 {
         let count = points.len();
-        return Err(Error::new(format!("{name} of the {owner} has {count} distinct points"))
+        return Err(Error::geometry(format!("{name} of the {owner} has {count} distinct points"))
             .help("give at least 3 points that differ"));
     }
     let [a, b] = [points[0].point.at, points[1].point.at];
     if points.iter().all(|point| orientation(a, b, point.point.at) == Orientation::Collinear) {
-        return Err(Error::new(format!("{name} of the {owner} has no area: its points lie on one line"))
-            .help(if manner.straight > 0.0 {
-                "move a point off the line"
-            } else {
-                "move a point off the line, or use an open cross-section"
-            }));
+        return Err(Error::geometry(format!(
+            "{name} of the {owner} has no area: its points lie on one line"
+        ))
+        .help(if manner.straight > 0.0 {
+            "move a point off the line"
+        } else {
+            "move a point off the line, or use an open cross-section"
+        }));
     }
     drop_straight(&mut points, true, manner);
     if points.len() < 3 {
-        return Err(Error::new(format!("{name} of the {owner} is nowhere wider than {} m", manner.straight))
-            .help("leave it out"));
+        return Err(Error::geometry(format!(
+            "{name} of the {owner} is nowhere wider than {} m",
+            manner.straight
+        ))
+        .help("leave it out"));
     }
     Ok(Ring { name, points })
 }
@@ -124,7 +129,7 @@ fn numbered(name: &str, points: &[SectionPoint], manner: &Manner) -> Result<Vec<
             return Ok(Numbered { point, number: index + 1 });
         }
         let (number, DVec2 { x, y }) = (index + 1, point.at);
-        Err(Error::new(format!("point {number} of {name} of the {owner} is ({x}, {y})"))
+        Err(Error::geometry(format!("point {number} of {name} of the {owner} is ({x}, {y})"))
             .help("give coordinates in metres, up to 1e9"))
     };
     points.iter().enumerate().map(number).collect()
@@ -209,7 +214,7 @@ fn refuse_crossings(rings: &[Ring], closed: bool, manner: &Manner) -> Result<()>
                     "edge {second} of {two} meets edge {first} of {one} of the {owner} at ({x:.3}, {y:.3})"
                 )
             };
-            return Err(Error::new(message).help(
+            return Err(Error::geometry(message).help(
                 "edges are named by their points, counted from 1; move these apart or leave some out",
             ));
         }
@@ -255,7 +260,7 @@ fn refuse_misplaced_holes(rings: &[Ring], manner: &Manner) -> Result<()> {
             }
             let side = if other == 0 { "outside" } else { "inside" };
             let message = format!("{} of the {} is {side} {}", hole.name, manner.owner, around.name);
-            return Err(Error::new(format!("{message}: it begins at ({x:.3}, {y:.3})"))
+            return Err(Error::geometry(format!("{message}: it begins at ({x:.3}, {y:.3})"))
                 .help("a hole lies inside the outer ring and beside the other holes"));
         }
     }

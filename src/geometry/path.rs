@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use glam::{DQuat, DVec2};
 
 use super::Frame;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// The greatest number of steps of a segment.
 const MOST_STEPS: usize = 1_000_000;
@@ -126,14 +126,14 @@ impl Segment {
         ];
         if let Some((name, value)) = values.into_iter().find(|(_, value)| !value.is_finite()) {
             return Err(
-                Error::new(format!("the {name} of the segment is {value}")).help("give a finite number")
+                Error::argument(format!("the {name} of the segment is {value}")).help("give a finite number")
             );
         }
         if self.steps == 0 {
-            return Err(Error::new("the segment has no steps").help("give at least 1 step"));
+            return Err(Error::argument("the segment has no steps").help("give at least 1 step"));
         }
         if self.steps > MOST_STEPS {
-            return Err(Error::new(format!("a segment of {} steps is too fine", self.steps))
+            return Err(Error::limit(Limit::Size, format!("a segment of {} steps is too fine", self.steps))
                 .help(format!("give at most {MOST_STEPS} steps")));
         }
         for (name, angle) in [("bends", self.bend), ("twists", self.twist)] {
@@ -142,7 +142,7 @@ impl Segment {
                 let steps = (angle.abs() / (TAU / 2.0)) as usize + 1;
                 let message = format!("the segment {name} by {whole:.1} degrees in {} steps", self.steps);
                 return Err(
-                    Error::new(message).help(format!("give at least {steps} steps, better many more"))
+                    Error::geometry(message).help(format!("give at least {steps} steps, better many more"))
                 );
             }
         }

@@ -1,12 +1,13 @@
 //! Plans: the outline of a building on the ground, made clean, repaired or refused.
 
+use geo::{ConvexHull, Coord, LineString};
 use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::outline::{Manner, numbered_rings};
 use super::repair::{Repaired, repair};
 use super::section::{MOST_POINTS, SectionPoint};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 const PLAN: Manner = Manner { owner: "footprint", near: 0.01, straight: 2e-3 };
 
@@ -48,11 +49,11 @@ impl Plan {
     pub fn new(rings: &[Vec<DVec3>]) -> Result<Self> {
         let count: usize = rings.iter().map(Vec::len).sum();
         if count > MOST_POINTS {
-            return Err(Error::new(format!("the footprint has {count} points"))
+            return Err(Error::limit(Limit::Size, format!("the footprint has {count} points"))
                 .help(format!("simplify it to at most {MOST_POINTS} points")));
         }
         let Some((outer, holes)) = rings.split_first() else {
-            return Err(Error::new("the footprint has no ring").help("give it at least 3 points"));
+            return Err(Error::geometry("the footprint has no ring").help("give it at least 3 points"));
         };
         let sharp = |ring: &Vec<DVec3>| -> Vec<SectionPoint> {
             ring.iter().map(|point| SectionPoint::sharp(point.truncate())).collect()
@@ -64,7 +65,7 @@ impl Plan {
                 let name = if ring == 0 { "the outer ring".to_owned() } else { format!("hole {ring}") };
                 let message =
                     format!("point {number} of {name} of the footprint has the height {} m", point.z);
-                return Err(Error::new(message).help("give heights from -20000 to 20000 m"));
+                return Err(Error::geometry(message).help("give heights from -20000 to 20000 m"));
             }
         }
         let holes: Vec<Vec<SectionPoint>> = holes.iter().map(sharp).collect();
@@ -153,25 +154,16 @@ impl Plan {
     }
 
     /// The area as a part of its convex hull's: 1 if it is convex and has no holes.
-    ///
-    /// Method: the hull by A. Andrew, "Another efficient algorithm for convex hulls in two dimensions", 1979.
     pub fn convexity(&self) -> f64 {
-        let mut points: Vec<DVec2> = self.flat().into_iter().next().unwrap_or_default();
-        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-        let mut hull: Vec<DVec2> = Vec::new();
-        for pass in [points.clone(), points.into_iter().rev().collect()] {
-            let begin = hull.len();
-            for point in pass {
-                while hull.len() > begin + 1
-                    && (hull[hull.len() - 1] - hull[hull.len() - 2]).perp_dot(point - hull[hull.len() - 1])
-                        <= 0.0
-                {
-                    hull.pop();
-                }
-                hull.push(point);
-            }
-            hull.pop();
-        }
+        let points = self.flat().into_iter().next().unwrap_or_default();
+        let line: LineString = points.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
+        let hull = line.convex_hull();
+        let mut hull: Vec<DVec2> = hull.exterior().0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
+        hull.pop();
+        // From its westernmost corner on, so that the sum does not depend on where the outline begins.
+        let west = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
+        let first = (0..hull.len()).min_by(|&a, &b| west(&hull[a], &hull[b])).unwrap_or(0);
+        hull.rotate_left(first);
         let whole = twice_area(&hull) / 2.0;
         if whole > 0.0 { self.area() / whole } else { 0.0 }
     }

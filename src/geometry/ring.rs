@@ -143,7 +143,7 @@ fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, norma
     let slope = heading.dot(normal);
     // A mitre of 160 degrees is already six times as long as the section is wide.
     if slope < 0.17 {
-        return Err(Error::new(format!("the way turns back on itself at station {number}"))
+        return Err(Error::geometry(format!("the way turns back on itself at station {number}"))
             .help("turn in several steps with some length between them, or begin a new run"));
     }
     let (x, y) = pose.axes();
@@ -198,7 +198,7 @@ fn refuse_infinite(number: usize, station: &Station) -> Result<()> {
         "scale" => format!("({}, {})", value.x, value.y),
         _ => format!("({}, {}, {})", value.x, value.y, value.z),
     };
-    Err(Error::new(format!("the {name} of station {number} is {text}")).help("give numbers up to 1e9"))
+    Err(Error::geometry(format!("the {name} of station {number} is {text}")).help("give numbers up to 1e9"))
 }
 
 /// Whether all of a vector is a number that is not too great.

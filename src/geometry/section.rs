@@ -6,7 +6,7 @@ use glam::DVec2;
 
 use super::skin::Skin;
 use super::{cap, outline};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// The greatest number of points of a cross-section.
 pub const MOST_POINTS: usize = 10_000;
@@ -245,7 +245,7 @@ pub(super) fn refuse_too_many(points: usize) -> Result<()> {
     if points <= MOST_POINTS {
         return Ok(());
     }
-    Err(Error::new(format!("a cross-section of {points} points is too fine"))
+    Err(Error::limit(Limit::Size, format!("a cross-section of {points} points is too fine"))
         .help(format!("give at most {MOST_POINTS} points")))
 }
 

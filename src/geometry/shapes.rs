@@ -15,7 +15,7 @@ impl Section {
     /// Fails with fewer than 3 `sides`.
     pub fn regular(sides: usize) -> Result<Self> {
         if sides < 3 {
-            return Err(Error::new(format!("a regular cross-section of {sides} sides has no area"))
+            return Err(Error::geometry(format!("a regular cross-section of {sides} sides has no area"))
                 .help("give at least 3 sides"));
         }
         refuse_too_many(sides)?;
@@ -28,7 +28,7 @@ impl Section {
     /// Fails with fewer than 2 `points` or if `inner` is not more than 0.
     pub fn star(points: usize, inner: f64) -> Result<Self> {
         if points < 2 || !inner.is_finite() || inner <= 0.0 {
-            return Err(Error::new(format!(
+            return Err(Error::geometry(format!(
                 "a star of {points} points with its notches at {inner} m has no area"
             ))
             .help("give at least 2 points and notches at more than 0 m from the centre"));
@@ -62,7 +62,7 @@ impl Section {
             let message = format!(
                 "corners of {radius} m in {steps} steps do not fit a rectangle of {width} by {height} m"
             );
-            return Err(Error::new(message).help(
+            return Err(Error::geometry(message).help(
                 "give a radius of more than 0 and at most half of the shorter side, and at least 1 step",
             ));
         }
@@ -106,7 +106,7 @@ fn refuse_flat(width: f64, height: f64) -> Result<()> {
     if width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0 {
         return Ok(());
     }
-    Err(Error::new(format!("a rectangle of {width} by {height} m has no area"))
+    Err(Error::geometry(format!("a rectangle of {width} by {height} m has no area"))
         .help("give a width and a height of more than 0 m"))
 }
 

@@ -2,7 +2,7 @@
 
 use smallvec::{SmallVec, smallvec};
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// Lengths (m) that differ by less are the same.
 pub const SAME: f64 = 1e-9;
@@ -115,7 +115,7 @@ impl Sizes {
 }
 
 fn too_many() -> Error {
-    Error::new(format!("there are more than {MOST} separate sizes that it could have"))
+    Error::limit(Limit::Size, format!("there are more than {MOST} separate sizes that it could have"))
         .help("let the size of a part vary, or repeat it less often")
 }
 

@@ -46,7 +46,7 @@ impl Span {
         if from.x * to.x < 0.0 || from.y * to.y < 0.0 {
             let message =
                 format!("the scale changes its sign between stations {} and {}", a.station, b.station);
-            return Err(Error::new(message).help(
+            return Err(Error::geometry(message).help(
                 "put a station of scale 0 between them, or twist by 180 degrees instead of scaling by -1",
             ));
         }

@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use glam::{DVec2, DVec3, Vec2, Vec3, Vec3A, Vec4};
 
 use super::ring::MOST;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::{Normal, Part, Triangles};
 
 /// The greatest number of sides of a strand.
@@ -91,7 +91,7 @@ impl Strand {
     pub fn begin(sides: usize, position: DVec3, side: DVec3, radius: f64) -> Result<Self> {
         refuse_infinite(position, radius)?;
         if !(3..=MOST_SIDES).contains(&sides) {
-            return Err(Error::new(format!("a round tube of {sides} sides cannot be made"))
+            return Err(Error::argument(format!("a round tube of {sides} sides cannot be made"))
                 .help(format!("give 3 to {MOST_SIDES} sides, or sweep a cross-section")));
         }
         let side = if side.is_finite() { side.normalize_or_zero().as_vec3a() } else { Vec3A::ZERO };
@@ -129,8 +129,11 @@ impl Strand {
         }
         let most = part.positions.len().max(part.triangles.len());
         if most > Triangles::MOST_BEFORE - 8 * self.vertices() {
-            return Err(Error::new(format!("a mesh holds no more than {} vertices or triangles", u32::MAX))
-                .help("draw fewer branches or fewer sides, or begin another mesh"));
+            return Err(Error::limit(
+                Limit::Size,
+                format!("a mesh holds no more than {} vertices or triangles", u32::MAX),
+            )
+            .help("draw fewer branches or fewer sides, or begin another mesh"));
         }
         // For the most that one place and the end can add: two rings and two caps, or the faces of two tips.
         part.make_room(4 * self.vertices(), 2 * self.vertices());
@@ -314,7 +317,7 @@ fn refuse_infinite(position: DVec3, radius: f64) -> Result<()> {
         return Ok(());
     }
     let DVec3 { x, y, z } = position;
-    Err(Error::new(format!("a branch goes to ({x}, {y}, {z}) with a radius of {radius}"))
+    Err(Error::geometry(format!("a branch goes to ({x}, {y}, {z}) with a radius of {radius}"))
         .help("give a place and a radius in metres, within 1e9 of the origin"))
 }
 

@@ -8,7 +8,7 @@ use super::ring::{NOTHING, Ring};
 use super::skin::Skin;
 use super::span::{Shading, Span};
 use super::{Lengthwise, Section, SweepOptions, Swept};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::{Normal, Part};
 
 /// A sweep that is being built.
@@ -95,8 +95,11 @@ impl<'a> Surface<'a> {
         if most <= u32::MAX as usize {
             return Ok(());
         }
-        Err(Error::new(format!("the sweep needs up to {most} vertices, and a mesh holds {}", u32::MAX))
-            .help("give fewer steps or points, or begin another mesh"))
+        Err(Error::limit(
+            Limit::Size,
+            format!("the sweep needs up to {most} vertices, and a mesh holds {}", u32::MAX),
+        )
+        .help("give fewer steps or points, or begin another mesh"))
     }
 
     /// Adds the faces between the rings; the result is v at the end.
@@ -312,11 +315,14 @@ fn pairs(rings: &[Ring], closed: bool) -> impl Iterator<Item = [&Ring; 2]> {
 fn no_area(a: &Ring, b: &Ring, point: usize) -> Error {
     let (from, to) = (a.station, b.station);
     let message = format!("between stations {from} and {to} the face after point {} has no area", point + 1);
-    Error::new(message)
+    Error::geometry(message)
         .help("leave some length between the stations, or centre the cross-section differently")
 }
 
 fn crossing(a: &Ring, b: &Ring) -> Error {
-    Error::new(format!("the outlines at stations {} and {} are at one place and cross", a.station, b.station))
-        .help("leave some length between the stations, or end the run there and begin a new one")
+    Error::geometry(format!(
+        "the outlines at stations {} and {} are at one place and cross",
+        a.station, b.station
+    ))
+    .help("leave some length between the stations, or end the run there and begin a new one")
 }

@@ -86,9 +86,8 @@ pub fn sweep(
     options: &SweepOptions,
 ) -> Result<Swept> {
     if !options.v.is_finite() {
-        return Err(
-            Error::new(format!("the texture of the sweep begins at {}", options.v)).help("give a finite v")
-        );
+        return Err(Error::argument(format!("the texture of the sweep begins at {}", options.v))
+            .help("give a finite v"));
     }
     let mut rings_of = rings(section, stations, options.closed)?;
     let mut section = Cow::Borrowed(section);
@@ -102,7 +101,7 @@ pub fn sweep(
         }
     }
     if divided == [true; 2] && section.divided_at_levels(0)?.points().count() != section.points().count() {
-        return Err(Error::new(
+        return Err(Error::geometry(
             "a run has a ridge along x and another along y, which do not fit this cross-section",
         )
         .help("make two runs, or use a rectangle"));

@@ -61,7 +61,7 @@ enum Reached {
 
 impl Applier {
     pub(crate) fn new(pass: Arc<Interpreting>, machine: &Machine, begin: Mark) -> Result<Self> {
-        let missing = || Error::new("the system has no object");
+        let missing = || Error::script("the system has no object");
         let objects = pass.plan.objects.clone().ok_or_else(missing)?;
         let methods = objects.read(begin.chain, |object| Ok(object.kind().methods))?;
         let (calls, numbers, counts) =
@@ -317,7 +317,7 @@ impl Applier {
                 }
                 call(object, &values).map(|_| ())
             }
-            _ => Err(Error::new("this method cannot be recorded")),
+            _ => Err(Error::internal("this method cannot be recorded")),
         }
     }
 

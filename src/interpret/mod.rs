@@ -14,7 +14,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::derive::{Job, Plan, Use};
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, Limit, Place, Result};
 use crate::rules::{Chain, END, Mark, Symbol, module_brief};
 use crate::script::{Flusher, Machine, write_column};
 use crate::warning::Warning;
@@ -193,7 +193,7 @@ impl Interpreting {
             let mut flusher = machine.current.flusher.borrow_mut();
             match flusher.as_mut().and_then(|flusher| flusher.applier()) {
                 Some(applier) => act(applier),
-                None => Err(Error::new("nothing is being interpreted")),
+                None => Err(Error::internal("nothing is being interpreted")),
             }
         };
         let (calls, numbers, counts) = prelude.recorded().map_err(lua)?;
@@ -346,8 +346,11 @@ impl Interpreting {
     fn count_triangles(&self, machine_limit: usize, more: usize) -> Result<()> {
         let total = self.triangles.fetch_add(more, Ordering::Relaxed) + more;
         if total > machine_limit {
-            return Err(Error::new(format!("the system draws more than {machine_limit} triangles"))
-                .help("draw with fewer sides, derive fewer steps, or raise the limit: --triangle-limit N"));
+            return Err(Error::limit(
+                Limit::Triangles,
+                format!("the system draws more than {machine_limit} triangles"),
+            )
+            .help("draw with fewer sides, derive fewer steps, or raise the limit: --triangle-limit N"));
         }
         Ok(())
     }

@@ -17,7 +17,7 @@ impl State {
     /// Does what `text`, a page's message, asks for. Returns what that page alone is answered; what takes longer
     /// comes through `page`.
     pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Say> {
-        let refused = |id: Option<u64>, error: &Error| Some(Say::Refused { id, text: error.to_string() });
+        let refused = |id: Option<u64>, error: &Error| Some(Say::refused(id, error));
         match message::read(text) {
             Err(refused) => Some(*refused),
             Ok(Ask::Pick(pick)) => Some(trace::pick(self, &pick)),
@@ -41,7 +41,7 @@ impl State {
                     inner.cancelled(self, run);
                 }
                 let idle = !waiting && !running;
-                idle.then(|| Say::Refused { id: None, text: "nothing is running".into() })
+                idle.then(|| Say::refused(None, &Error::unavailable("nothing is running")))
             }
             Ok(Ask::Set { params }) => {
                 self.change(Cause::Parameters, |inner| inner.wish.set(&params, inner.params.as_deref()))
@@ -65,7 +65,7 @@ impl State {
     pub(super) fn change(&self, cause: Cause, change: impl FnOnce(&mut Inner) -> Result<()>) -> Option<Say> {
         let mut inner = self.lock();
         if let Err(error) = change(&mut inner) {
-            return Some(Say::Refused { id: None, text: error.to_string() });
+            return Some(Say::refused(None, &error));
         }
         let same = inner.finished.as_ref() == Some(&inner.wish.inputs(inner.generation));
         let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.quiet);
@@ -87,7 +87,9 @@ impl State {
     /// Opens a line of a file in the editor. Fails if there is no editor or the file is none of the script's.
     fn open(&self, file: &str, line: usize) -> Result<()> {
         let Some(editor) = &self.editor else {
-            return Err(Error::new("no editor was named").help("start with --editor 'code -g {file}:{line}'"));
+            return Err(
+                Error::usage("no editor was named").help("start with --editor 'code -g {file}:{line}'")
+            );
         };
         editor.open(&self.own_file(file)?, line.max(1))
     }
@@ -115,7 +117,9 @@ impl State {
             (None, _) if name == self.script_name() => Ok(script),
             // A file in another folder by its name alone, if there is no other one of that name.
             (None, [path]) if !name.is_empty() => Ok((*path).clone()),
-            (None, _) => Err(Error::new(format!("{name:?} is not a file of the script"))),
+            (None, _) => {
+                Err(Error::not_found("file", name, [], format!("{name:?} is not a file of the script")))
+            }
         }
     }
 

@@ -45,7 +45,7 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
     let stem = stem.trim_matches(['.', ' ']);
     let stem = if stem.is_empty() { "model" } else { stem };
     let name = format!("{stem}.{}", format.extension());
-    let failed = |error: std::io::Error| Error::new(format!("cannot write a temporary file: {error}"));
+    let failed = |error: std::io::Error| Error::system(format!("cannot write a temporary file: {error}"));
     let folder = tempfile::tempdir().map_err(failed)?;
     let mut written = Files::new(stop);
     written.scene(scene, &folder.path().join(&name), picture)?;
@@ -66,12 +66,12 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
         .large_file(true);
     for (name, path) in files {
         stop.check()?;
-        archive.start_file(name, options).map_err(|error| Error::new(error.to_string()))?;
+        archive.start_file(name, options).map_err(|error| Error::internal(error.to_string()))?;
         // A large model in memory besides its archive would be too much.
         let mut file = BufReader::with_capacity(1 << 18, File::open(&path).map_err(failed)?);
         std::io::copy(&mut file, &mut archive).map_err(failed)?;
     }
-    let bytes = archive.finish().map_err(|error| Error::new(error.to_string()))?.into_inner();
+    let bytes = archive.finish().map_err(|error| Error::internal(error.to_string()))?.into_inner();
     Ok(Download { name: format!("{stem}.{}.zip", format.extension()), media_type: "application/zip", bytes })
 }
 
@@ -86,7 +86,7 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
             .parse()
             .ok()
             .filter(|number: &f64| number.is_finite())
-            .ok_or_else(|| Error::new(format!("{name} is a number, not {value:?}")))?;
+            .ok_or_else(|| Error::argument(format!("{name} is a number, not {value:?}")))?;
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded before")]
         let pixels = number.clamp(1.0, f64::from(LARGEST)).round() as u32;
         match name {
@@ -95,7 +95,7 @@ pub(super) fn picture(query: &str) -> Result<Picture> {
             "width" => picture.width = pixels,
             "height" => picture.height = pixels,
             _ => {
-                return Err(Error::new(format!("a picture has no {name:?}"))
+                return Err(Error::argument(format!("a picture has no {name:?}"))
                     .help("it has azimuth, elevation, width and height"));
             }
         }

@@ -111,7 +111,7 @@ impl Live {
     /// Starts a server. Fails if the port, or every port that was tried, is taken.
     pub fn start(settings: Settings) -> Result<Self> {
         let listener = listen(settings.port)?;
-        let failed = |error: std::io::Error| Error::new(format!("cannot start the server: {error}"));
+        let failed = |error: std::io::Error| Error::system(format!("cannot start the server: {error}"));
         listener.set_nonblocking(true).map_err(failed)?;
         let port = listener.local_addr().map_err(failed)?.port();
         let lasting = settings.token.is_none() && settings.port != Some(0);
@@ -194,7 +194,7 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
         Err(error) => error,
     };
     if error.kind() != ErrorKind::AddrInUse {
-        return Err(Error::new(format!("cannot listen on port {first}: {error}"))
+        return Err(Error::system(format!("cannot listen on port {first}: {error}"))
             .help("choose another one: --port N, or 0 for any that is free"));
     }
     let next = (first.saturating_add(1)..=first.saturating_add(TRIES)).find_map(|port| bind(port).ok());
@@ -203,7 +203,7 @@ fn listen(port: Option<u16>) -> Result<TcpListener> {
         (_, next) => {
             let free =
                 next.and_then(|listener| listener.local_addr().ok()).map_or(0, |address| address.port());
-            Err(Error::new(format!("port {first} is in use"))
+            Err(Error::system(format!("port {first} is in use"))
                 .help(format!("another server may be running; to use another port: --port {free}")))
         }
     }

@@ -40,12 +40,12 @@ impl Editor {
             }
         }
         if quote.is_some() {
-            return Err(Error::new(format!("a quote does not end in --editor {text:?}"))
+            return Err(Error::usage(format!("a quote does not end in --editor {text:?}"))
                 .help("write the command as for a shell, such as --editor 'code -g {file}:{line}'"));
         }
         if words.first().is_none_or(|program| program.is_empty()) {
             return Err(
-                Error::new("--editor names no program").help("such as --editor 'code -g {file}:{line}'")
+                Error::usage("--editor names no program").help("such as --editor 'code -g {file}:{line}'")
             );
         }
         if !words.iter().any(|word| word.contains("{file}")) {
@@ -66,7 +66,7 @@ impl Editor {
         let words = self.words(file, line);
         let Some((program, arguments)) = words.split_first() else { return Ok(()) };
         start(Command::new(program).args(arguments)).map_err(|error| {
-            Error::new(format!("cannot start the editor {program}: {error}"))
+            Error::system(format!("cannot start the editor {program}: {error}"))
                 .help("name a program that a shell would find: --editor 'code -g {file}:{line}'")
         })
     }
@@ -103,7 +103,7 @@ pub fn browse(address: &str) -> Result<()> {
         Command::new("xdg-open")
     };
     start(command.arg(address)).map_err(|error| {
-        Error::new(format!("cannot open a browser: {error}")).help("open the address yourself")
+        Error::system(format!("cannot open a browser: {error}")).help("open the address yourself")
     })
 }
 

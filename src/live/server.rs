@@ -8,6 +8,7 @@ use axum::extract::{FromRequestParts, Request};
 use axum::http::header::{self, HeaderMap, HeaderName, HeaderValue};
 use axum::http::{Method, StatusCode};
 use axum::response::{IntoResponse, Response};
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
 use tokio::sync::Semaphore;
 
 use super::Token;
@@ -46,7 +47,7 @@ struct Waiting(Arc<Stop>);
 
 impl Drop for Waiting {
     fn drop(&mut self) {
-        self.0.stop(Error::new("nobody waits for it any more"));
+        self.0.stop(Error::stopped("nobody waits for it any more"));
     }
 }
 
@@ -216,38 +217,23 @@ async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
 
 /// `name` without the escapes of addresses; `None` if that is no text or leads to another folder.
 fn decoded(name: &str) -> Option<String> {
-    let mut bytes = Vec::with_capacity(name.len());
-    let mut rest = name.as_bytes();
-    while let [first, tail @ ..] = rest {
-        rest = tail;
-        if *first != b'%' {
-            bytes.push(*first);
-            continue;
-        }
-        let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
-        // A sign would be read as a part of the number.
-        if digits.starts_with('+') {
-            return None;
-        }
-        bytes.push(u8::from_str_radix(digits, 16).ok()?);
-        rest = &rest[2..];
+    let is_escape = |rest: &str| rest.len() >= 2 && rest.bytes().take(2).all(|it| it.is_ascii_hexdigit());
+    if !name.split('%').skip(1).all(is_escape) {
+        return None;
     }
-    let name = String::from_utf8(bytes).ok()?;
+    let name = percent_decode_str(name).decode_utf8().ok()?.into_owned();
     let leads_away = name.contains(['/', '\\', '\0']) || name.starts_with("..") || name.len() > 255;
     (!leads_away).then_some(name)
 }
+
+/// What is escaped in the name of a file in a header.
+const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.');
 
 /// Has a browser keep a file under `name`.
 fn disposition(name: &str) -> HeaderValue {
     let plain: String =
         name.chars().map(|it| if it.is_ascii_graphic() && it != '"' { it } else { '_' }).collect();
-    let escaped: String = name
-        .bytes()
-        .map(|byte| match byte {
-            b'a'..=b'z' | b'A'..=b'Z' | b'0'..=b'9' | b'-' | b'_' | b'.' => char::from(byte).to_string(),
-            _ => format!("%{byte:02X}"),
-        })
-        .collect();
+    let escaped = utf8_percent_encode(name, ESCAPED);
     let text = format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{escaped}");
     HeaderValue::from_str(&text).unwrap_or(HeaderValue::from_static("attachment"))
 }

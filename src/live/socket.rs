@@ -11,6 +11,7 @@ use tokio::time::timeout;
 
 use super::message::Say;
 use super::state::State;
+use crate::error::Error;
 
 /// The largest message (bytes) that a page may send.
 const LARGEST: usize = 64 << 10;
@@ -53,7 +54,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
             message = socket.recv() => { heard = Instant::now(); match message {
                 Some(Ok(Message::Text(text))) => answer(&mut socket, &state, &later, text).await,
                 Some(Ok(Message::Binary(_))) => {
-                    let refused = Say::Refused { id: None, text: "a message is text".into() };
+                    let refused = Say::refused(None, &Error::argument("a message is text"));
                     send(&mut socket, refused.to_text().into()).await
                 }
                 Some(Ok(Message::Ping(_) | Message::Pong(_))) => true,
@@ -94,8 +95,8 @@ async fn answer(
         Ok(Some(say)) => send(socket, say.to_text().into()).await,
         Ok(None) => true,
         Err(_) => {
-            let text = "internal error; this is a mistake in Burgeon".into();
-            send(socket, Say::Refused { id: None, text }.to_text().into()).await
+            let error = Error::internal("internal error; this is a mistake in Burgeon");
+            send(socket, Say::refused(None, &error).to_text().into()).await
         }
     }
 }

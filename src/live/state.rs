@@ -285,7 +285,7 @@ impl State {
     /// Ends the variations that are being made, for they are of no use any more.
     fn stop_variations(&self, why: &str) {
         if let Some(stop) = self.variations.lock().unwrap_or_else(PoisonError::into_inner).take() {
-            stop.stop(Error::new(why));
+            stop.stop(Error::stopped(why));
         }
     }
 
@@ -302,7 +302,7 @@ impl State {
         }
         self.stop_variations("the script has changed");
         let mut inner = self.lock();
-        std::mem::take(&mut inner.aside).stop(Error::new("the script has changed"));
+        std::mem::take(&mut inner.aside).stop(Error::stopped("the script has changed"));
         inner.generation += 1;
         inner.post(Due { cause: Cause::Save, files, at: change.at });
         self.wake.notify_all();
@@ -313,7 +313,7 @@ impl State {
         self.stop_variations("the server ends");
         let mut inner = self.lock();
         inner.over = true;
-        inner.aside.stop(Error::new("the server ends"));
+        inner.aside.stop(Error::stopped("the server ends"));
         inner.stop("the server ends");
         self.wake.notify_all();
     }
@@ -357,7 +357,7 @@ impl Inner {
     pub(super) fn stop(&self, why: &str) -> bool {
         let Some(running) = &self.running else { return false };
         running.cancelled.store(true, Ordering::Release);
-        running.session.stop.stop(Error::new(why));
+        running.session.stop.stop(Error::stopped(why));
         !running.quiet
     }
 

@@ -32,14 +32,14 @@ impl Token {
     pub fn random() -> Result<Self> {
         let mut bytes = [0; LENGTH];
         getrandom::fill(&mut bytes)
-            .map_err(|error| Error::new(format!("the system gives no random numbers: {error}")))?;
+            .map_err(|error| Error::system(format!("the system gives no random numbers: {error}")))?;
         Ok(Self(hexadecimal(&bytes)))
     }
 
     /// One that was made before: at least 32 digits from 0 to 9 and a to f.
     pub fn from_text(text: &str) -> Result<Self> {
         if !DIGITS.contains(&text.len()) || !is_hexadecimal(text) {
-            return Err(Error::new("a token has 32 to 256 digits from 0 to 9 and a to f"));
+            return Err(Error::usage("a token has 32 to 256 digits from 0 to 9 and a to f"));
         }
         Ok(Self(text.to_owned()))
     }

@@ -38,22 +38,21 @@ fn names(presets: &Presets) -> Vec<String> {
 /// that asked is answered.
 pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> Option<Say> {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
-    let done =
-        match action {
-            "save" => save(state, name, replace).map(Some),
-            "delete" => Presets::remove(&state.script, name).map(Some),
-            "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
-                Ok(preset) => {
-                    return state.change(Cause::Preset, |inner| {
-                        inner.wish.load(&preset);
-                        Ok(())
-                    });
-                }
-                Err(error) => Err(error),
-            },
-            _ => Err(Error::new(format!("{action:?} cannot be done with a preset"))
-                .help("save, load or delete it")),
-        };
+    let done = match action {
+        "save" => save(state, name, replace).map(Some),
+        "delete" => Presets::remove(&state.script, name).map(Some),
+        "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
+            Ok(preset) => {
+                return state.change(Cause::Preset, |inner| {
+                    inner.wish.load(&preset);
+                    Ok(())
+                });
+            }
+            Err(error) => Err(error),
+        },
+        _ => Err(Error::argument(format!("{action:?} cannot be done with a preset"))
+            .help("save, load or delete it")),
+    };
     match done {
         Ok(presets) => {
             let mut inner = state.lock();
@@ -64,7 +63,7 @@ pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> 
             state.say(&Say::Presets { names: known.clone(), chosen: inner.wish.preset() });
             None
         }
-        Err(error) => Some(Say::Refused { id: None, text: error.to_string() }),
+        Err(error) => Some(Say::refused(None, &error)),
     }
 }
 
@@ -84,7 +83,7 @@ pub(super) fn presets_changed(state: &State) {
             known.clone_from(&names);
             Say::Presets { names, chosen }
         }
-        Err(error) => Say::Refused { id: None, text: error.to_string() },
+        Err(error) => Say::refused(None, &error),
     };
     state.say(&say);
 }
@@ -92,13 +91,13 @@ pub(super) fn presets_changed(state: &State) {
 /// Saves the values that are set and used, and the seed.
 fn save(state: &State, name: &str, replace: bool) -> Result<Presets> {
     if !replace && Presets::read(&state.script)?.names().any(|known| known == name) {
-        return Err(Error::new(format!("there is a preset called {name} already"))
+        return Err(Error::argument(format!("there is a preset called {name} already"))
             .help("choose another name, or say that it is to be replaced"));
     }
     let preset = {
         let inner = state.lock();
         let Some(params) = &inner.params else {
-            return Err(Error::new("a preset is saved when the script runs without an error"));
+            return Err(Error::unavailable("a preset is saved when the script runs without an error"));
         };
         let params = inner.wish.used(params);
         Preset { name: name.to_owned(), seed: Some(inner.wish.seed()), params, ..Preset::default() }
@@ -138,18 +137,20 @@ pub(super) fn variations(
         if let (Over::Param { name, .. }, Some(params)) = (&over, &params)
             && !params.iter().any(|param| param.name == *name)
         {
-            return Err(Error::new(format!("the script has no parameter called {name}")));
+            let names = params.iter().map(|param| param.name.as_str());
+            let message = format!("the script has no parameter called {name}");
+            return Err(Error::not_found("parameter", name, names, message));
         }
         Variations::new(&state.script, &options, &over)
     };
     let variations = match begin() {
         Ok(variations) => variations,
-        Err(error) => return Some(Say::Refused { id: Some(id), text: error.to_string() }),
+        Err(error) => return Some(Say::refused(Some(id), &error)),
     };
     let stop = Arc::clone(&variations.stop);
     let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
     if let Some(before) = before {
-        before.stop(Error::new("others are made"));
+        before.stop(Error::stopped("others are made"));
     }
     let state = Arc::clone(state);
     let make = move || {
@@ -162,7 +163,7 @@ pub(super) fn variations(
         };
         let of = variations.len();
         let (over, ended) = channel::<()>();
-        let (running, page, gone) = (&variations, &page, || stop.stop(Error::new("the page has gone")));
+        let (running, page, gone) = (&variations, &page, || stop.stop(Error::stopped("the page has gone")));
         let tell = move || {
             // It ends with the other end of the channel.
             while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
@@ -188,13 +189,12 @@ pub(super) fn variations(
             && !stop.is_stopped()
         {
             // The page may have gone.
-            let _ =
-                page.blocking_send(Say::Refused { id: Some(id), text: error.to_string() }.to_text().into());
+            let _ = page.blocking_send(Say::refused(Some(id), &error).to_text().into());
         }
     };
     match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
         Ok(_) => None,
-        Err(error) => Some(Say::Refused { id: Some(id), text: format!("cannot start a thread: {error}") }),
+        Err(error) => Some(Say::refused(Some(id), &Error::system(format!("cannot start a thread: {error}")))),
     }
 }
 
@@ -235,6 +235,6 @@ pub(super) fn over(
             Ok(Over::Seeds(seeds.collect::<Result<_>>()?))
         }
         (None, Some(name), Some(values)) => Ok(Over::Param { name, values }),
-        _ => Err(Error::new("variations have seeds, or a param and its values")),
+        _ => Err(Error::argument("variations have seeds, or a param and its values")),
     }
 }

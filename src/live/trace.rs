@@ -85,7 +85,8 @@ pub(super) fn highlight(state: &State, id: u64, file: &str, line: usize) -> Say 
         let lines = std::fs::read_to_string(&path).map_or(0, |text| text.lines().count());
         if !(1..=lines).contains(&line) {
             let number = if lines == 1 { "1 line".to_owned() } else { format!("{lines} lines") };
-            return Err(Error::new(format!("{file} has {number}, so there is no line {line}")));
+            let message = format!("{file} has {number}, so there is no line {line}");
+            return Err(Error::not_found("line", line, [], message));
         }
         let name = state.engine_name(&path);
         let scene = &shown.run.scene;
@@ -110,16 +111,16 @@ pub(super) fn chain(state: &State, id: u64, system: usize, chain: usize, module:
             let ([before, at, after], of) = engine::around(derived, chain, module);
             Say::Chain { id, system, chain, module, of, text: Around { before, at, after } }
         }
-        None => refused(id, &Error::new(format!("there is no chain {chain} of system {system}"))),
+        None => refused(id, &Error::unavailable(format!("there is no chain {chain} of system {system}"))),
     }
 }
 
 /// The present model, and how to run the script as it was run for it. Fails if the script has changed since.
 fn present(state: &State) -> Result<(Arc<Shown>, Options)> {
     let inner = state.lock();
-    let Some(shown) = inner.shown.clone() else { return Err(Error::new("there is no model yet")) };
+    let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("there is no model yet")) };
     if inner.generation != shown.inputs.generation {
-        return Err(Error::new("the script has changed since this model was made")
+        return Err(Error::unavailable("the script has changed since this model was made")
             .help("repair the script, so that there is a new one"));
     }
     let mut options = work::options(state, &shown.inputs);
@@ -172,5 +173,5 @@ fn tell_made(state: &State, shown: &Shown, made: &engine::Made) -> Made {
 }
 
 fn refused(id: u64, error: &Error) -> Say {
-    Say::Refused { id: Some(id), text: error.to_string() }
+    Say::refused(Some(id), error)
 }

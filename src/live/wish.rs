@@ -8,7 +8,7 @@ use std::collections::BTreeMap;
 use serde_json::{Map, Value};
 
 use super::message::Knob;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::presets::Presets;
 use crate::script::{Options, Param, Preset, Setting};
 
@@ -67,7 +67,7 @@ impl Wish {
                 Value::String(text) => Some(text.clone()),
                 Value::Number(_) | Value::Bool(_) => Some(value.to_string()),
                 _ => {
-                    return Err(Error::new(format!(
+                    return Err(Error::argument(format!(
                         "the value of {name} must be text, a number or a switch"
                     )));
                 }
@@ -78,11 +78,9 @@ impl Wish {
                     param.accept(text)?;
                 }
                 (Some(_), None, Some(params)) => {
-                    let error = Error::new(format!("the script has no parameter called {name}"));
-                    return Err(match nearest(name, params.iter().map(|param| param.name.as_str())) {
-                        Some(near) => error.help(format!("did you mean {near}?")),
-                        None => error,
-                    });
+                    let names = params.iter().map(|param| param.name.as_str());
+                    let message = format!("the script has no parameter called {name}");
+                    return Err(Error::not_found("parameter", name, names, message));
                 }
                 _ => {}
             }
@@ -175,7 +173,7 @@ pub(super) fn seed(value: &Value) -> Result<u64> {
         Value::String(text) => text.trim().parse().ok(),
         other => other.as_u64(),
     };
-    seed.ok_or_else(|| Error::new(format!("a seed is a whole number from 0 to {}", u64::MAX)))
+    seed.ok_or_else(|| Error::argument(format!("a seed is a whole number from 0 to {}", u64::MAX)))
 }
 
 #[cfg(test)]

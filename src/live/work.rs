@@ -12,7 +12,7 @@ use super::message::{Cause, Model, Say};
 use super::state::{Due, Inner, Running, Shown, State};
 use super::wish::Inputs;
 use super::{Told, describe};
-use crate::error::{Error, Result};
+use crate::error::{Error, ErrorKind, Limit, Result};
 use crate::export::gltf::{self, Layout};
 use crate::presets::Presets;
 use crate::run::{Run, run_session};
@@ -181,7 +181,7 @@ fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<Ato
     let mut inner = state.lock();
     let cancelled = Arc::new(AtomicBool::new(inner.over || inner.due.is_some()));
     if cancelled.load(Ordering::Acquire) {
-        session.stop.stop(Error::new("there is something newer"));
+        session.stop.stop(Error::stopped("there is something newer"));
     }
     inner.running = Some(Running {
         run: job.map_or(0, |job| job.run),
@@ -220,7 +220,7 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
     let cancelled = register(state, Some(job), &session);
     let made = run_session(&session).and_then(|run| {
         if cancelled.load(Ordering::Acquire) {
-            return Err(Error::new("there is something newer"));
+            return Err(Error::stopped("there is something newer"));
         }
         let (file, mut message) =
             rayon::join(|| encode(&run), || describe::describe(state, job, &session, &run));
@@ -257,7 +257,7 @@ fn encode(run: &Run) -> Result<(File, Duration)> {
             nothing(format!("the model takes {} MB, more than a page can show", glb.len() / 1_000_000))
         }
         // The scene is sound, or the run would have failed: it is too large for any file.
-        Err(error) if error.message().contains("GiB") => nothing(error.to_string()),
+        Err(error) if *error.kind() == ErrorKind::Limit(Limit::Format) => nothing(error.to_string()),
         Err(error) => return Err(error),
     };
     Ok((file, begin.elapsed()))
@@ -265,7 +265,7 @@ fn encode(run: &Run) -> Result<(File, Duration)> {
 
 fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
     let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-    Error::new(format!("internal error: {}", text.unwrap_or("without a message")))
+    Error::internal(format!("internal error: {}", text.unwrap_or("without a message")))
         .help("this is a mistake in Burgeon; please report it with the script")
 }
 
@@ -320,7 +320,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             let remarks = (!report.is_clean())
                 .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
             for text in remarks.into_iter().chain(note) {
-                state.say(&Say::Refused { id: None, text: text.clone() });
+                state.say(&Say::note(text.clone()));
                 told.push(Told::Note(text));
             }
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
@@ -361,7 +361,7 @@ impl Inner {
             .collect();
         let mut told = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
-            state.say(&Say::Refused { id: None, text: text.clone() });
+            state.say(&Say::note(text.clone()));
             told.push(Told::Note(text.clone()));
         }
         self.left_out = texts.into_iter().collect();

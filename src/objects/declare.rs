@@ -1,7 +1,7 @@
 //! How an object type says what scripts can do with it: said once, in the type's own file.
 
 use super::{Boxed, Object, Table, Value};
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 
 /// A type of object.
 pub struct Kind {
@@ -87,14 +87,10 @@ impl Kind {
 
     /// The error for a name that is no method, with the nearest one that is.
     pub fn unknown_method(&self, name: &str) -> Error {
-        let error = Error::new(format!("{} has no method or field called {name}", self.name));
-        match nearest(name, self.methods.iter().map(|method| method.name)) {
-            Some(near) => error.help(format!("did you mean {near}?")),
-            None => error.help(format!(
-                "it has {}",
-                self.methods.iter().map(|method| method.name).collect::<Vec<_>>().join(", ")
-            )),
-        }
+        let names: Vec<&str> = self.methods.iter().map(|method| method.name).collect();
+        let message = format!("{} has no method or field called {name}", self.name);
+        Error::not_found("method", name, names.iter().copied(), message)
+            .help(format!("it has {}", names.join(", ")))
     }
 }
 
@@ -102,21 +98,18 @@ impl Kind {
 pub fn refuse_unknown(kind: &str, fields: &[Field], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
         let super::Key::Name(name) = key else {
-            return Err(Error::new(format!(
+            return Err(Error::argument(format!(
                 "{kind} takes named fields, but was given {value} without a name"
             ))
             .help(format!("write {kind} {{ {} = {value} }}", fields.first().map_or("name", |f| f.name)))
             .of_script());
         };
         if !fields.iter().any(|field| field.name == &**name) {
-            let error = Error::new(format!("{kind} has no field called {name}")).of_script();
-            return Err(match nearest(name, fields.iter().map(|field| field.name)) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None => error.help(format!(
-                    "it has {}",
-                    fields.iter().map(|field| field.name).collect::<Vec<_>>().join(", ")
-                )),
-            });
+            let names: Vec<&str> = fields.iter().map(|field| field.name).collect();
+            let message = format!("{kind} has no field called {name}");
+            return Err(Error::not_found("field", name, names.iter().copied(), message)
+                .help(format!("it has {}", names.join(", ")))
+                .of_script());
         }
     }
     Ok(())
@@ -290,7 +283,7 @@ impl<'a> Arguments<'a> {
 
     pub fn end(&self) -> Result<()> {
         if self.values.len() > self.taken {
-            return Err(Error::new(format!(
+            return Err(Error::argument(format!(
                 "{}:{} takes {} arguments, not {}",
                 self.kind,
                 self.method,
@@ -356,7 +349,7 @@ pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
 
 #[cold]
 fn wrong_type() -> Error {
-    Error::new("the method belongs to another type of object")
+    Error::script("the method belongs to another type of object")
         .help("call it with a colon: this:method()")
         .of_script()
 }

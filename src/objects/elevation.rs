@@ -35,12 +35,12 @@ impl ElevationOptions {
     pub(crate) fn wanted(self) -> Result<Wanted> {
         let bounds = self.bounds.map(|edges| {
             <[f64; 4]>::try_from(edges).map_err(|edges| {
-                Error::new(format!("elevation: bounds has {} numbers, not 4", edges.len()))
+                Error::argument(format!("elevation: bounds has {} numbers, not 4", edges.len()))
                     .help("write { west, south, east, north }")
             })
         });
         if let Some(encoding) = self.encoding.as_deref().filter(|encoding| *encoding != TERRAIN_RGB) {
-            return Err(Error::new(format!("elevation: there is no encoding {encoding:?}"))
+            return Err(Error::argument(format!("elevation: there is no encoding {encoding:?}"))
                 .help(format!("write encoding = {TERRAIN_RGB:?}, or leave it out")));
         }
         Ok(Wanted {
@@ -92,7 +92,7 @@ impl Elevation {
         first: None,
         methods: Self::METHODS,
         construct: |_: &Table| {
-            Err(Error::new("an elevation is made of a file").help("write elevation(\"N43E007.hgt\")"))
+            Err(Error::argument("an elevation is made of a file").help("write elevation(\"N43E007.hgt\")"))
         },
     };
 
@@ -113,7 +113,7 @@ impl Elevation {
 
     fn outside(&self, place: DVec3) -> Error {
         let (low, high) = (self.relief.low(), self.relief.high());
-        Error::new(format!(
+        Error::argument(format!(
             "elevation: {:.1}, {:.1} lies outside of {}, which reaches from {:.1}, {:.1} to {:.1}, {:.1}",
             place.x,
             place.y,

@@ -134,7 +134,7 @@ methods! {
         /// Turns the extruding direction to `direction`.
         pub fn direction(&mut self, direction: Vector) -> Result<()> {
             if direction.0.length_squared() < 1e-24 {
-                return Err(Error::new("extruder:direction: direction has no length").help("give a vector that is not zero"));
+                return Err(Error::argument("extruder:direction: direction has no length").help("give a vector that is not zero"));
             }
             self.state.frame.face(direction.0);
             Ok(())
@@ -257,7 +257,7 @@ fn shaded(section: Section, smooth: bool) -> Section {
 fn check_resolution(along: u32, around: u32) -> Result<()> {
     for (name, count) in [("along", along), ("around", around)] {
         if count > 4096 {
-            return Err(Error::new(format!("extruder: {name} must be at most 4096, and is {count}")));
+            return Err(Error::argument(format!("extruder: {name} must be at most 4096, and is {count}")));
         }
     }
     Ok(())
@@ -278,7 +278,7 @@ impl Extruder {
     pub fn new(options: Options) -> Result<Self> {
         check_resolution(options.along, options.around)?;
         if options.heading.0.length_squared() < 1e-24 {
-            return Err(Error::new("extruder: heading has no length"));
+            return Err(Error::argument("extruder: heading has no length"));
         }
         let section = if options.shape.is_empty() {
             Section::regular(options.sides as usize)?

@@ -17,7 +17,9 @@ impl Features {
         fields: &[],
         first: None,
         methods: &[],
-        construct: |_: &Table| Err(Error::new("a source is made of a file").help("write source(\"a.gpkg\")")),
+        construct: |_: &Table| {
+            Err(Error::argument("a source is made of a file").help("write source(\"a.gpkg\")"))
+        },
     };
 }
 
@@ -46,7 +48,7 @@ impl Shape {
         fields: &[],
         first: None,
         methods: &[],
-        construct: |_: &Table| Err(Error::new("a geometry is what a feature has")),
+        construct: |_: &Table| Err(Error::argument("a geometry is what a feature has")),
     };
 
     /// That of the feature with this number, from 0; `None` if there is none. Its plan may be made `ahead`.

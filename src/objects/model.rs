@@ -40,7 +40,7 @@ impl Model {
         first: None,
         methods: Self::METHODS,
         construct: |_: &Table| {
-            Err(Error::new("a model is what derive returns, or a file")
+            Err(Error::argument("a model is what derive returns, or a file")
                 .help("write local model = system:derive(), or model(\"window.glb\")"))
         },
     };

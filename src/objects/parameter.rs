@@ -45,7 +45,7 @@ impl Expected {
     /// The error: `name` of `owner` is not as expected. What a feature has may be right with another one.
     pub fn refuse(&self, owner: &str, name: &str, value: &Value) -> Error {
         let found = self.found.clone().unwrap_or_else(|| shown(value));
-        Error::new(format!("{owner}: {name} must be {}, not {found}", self.what)).of_data()
+        Error::argument(format!("{owner}: {name} must be {}, not {found}", self.what)).of_data()
     }
 }
 

@@ -57,7 +57,7 @@ impl Surface {
     pub fn material(&self) -> Result<Material> {
         for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
             if !(0.0..=1.0).contains(&factor) {
-                return Err(Error::new(format!("material: {name} must be from 0 to 1, not {factor}")));
+                return Err(Error::argument(format!("material: {name} must be from 0 to 1, not {factor}")));
             }
         }
         let texture = match (&self.texture, self.texture_size.as_slice()) {
@@ -66,7 +66,7 @@ impl Surface {
                 Some(Texture { path: path.into(), size: [*width, *height], content: None })
             }
             _ => {
-                return Err(Error::new(
+                return Err(Error::argument(
                     "material: texture_size must be { width, height } in metres, above 0",
                 ));
             }

@@ -154,7 +154,7 @@ methods! {
         /// Turns the heading to `direction`.
         pub fn face(&mut self, direction: Vector) -> Result<()> {
             if direction.0.length_squared() < 1e-24 {
-                return Err(Error::new("turtle:face: direction has no length").help("give a vector that is not zero"));
+                return Err(Error::argument("turtle:face: direction has no length").help("give a vector that is not zero"));
             }
             self.state.frame.face(direction.0);
             Ok(())
@@ -169,7 +169,7 @@ methods! {
         /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
         pub fn width(&mut self, width: f64) -> Result<()> {
             if width < 0.0 {
-                return Err(Error::new(format!("turtle:width: width must not be negative, and is {width}")));
+                return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
             }
             self.state.width = width;
             Ok(())
@@ -184,7 +184,7 @@ methods! {
         pub fn paint(&mut self, number: u32) -> Result<()> {
             let color = (number as usize).checked_sub(1).and_then(|index| self.options.palette.get(index));
             let Some(color) = color else {
-                return Err(Error::new(format!("turtle:paint: the palette has no colour number {number}"))
+                return Err(Error::argument(format!("turtle:paint: the palette has no colour number {number}"))
                     .help(format!("it has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}", self.options.palette.len())));
             };
             self.paint_with(*color);
@@ -273,7 +273,7 @@ methods! {
 
 #[cold]
 fn no_polygon(method: &str) -> Error {
-    Error::new(format!("turtle:{method}: no polygon has been begun")).help("begin it with BeginPolygon()")
+    Error::script(format!("turtle:{method}: no polygon has been begun")).help("begin it with BeginPolygon()")
 }
 
 impl Turtle {
@@ -290,13 +290,19 @@ impl Turtle {
     /// A turtle at its beginning.
     pub fn new(options: Options) -> Result<Self> {
         if !(3..=64).contains(&options.sides) {
-            return Err(Error::new(format!("turtle: sides must be from 3 to 64, not {}", options.sides)));
+            return Err(Error::argument(format!(
+                "turtle: sides must be from 3 to 64, not {}",
+                options.sides
+            )));
         }
         if options.width < 0.0 {
-            return Err(Error::new(format!("turtle: width must not be negative, and is {}", options.width)));
+            return Err(Error::argument(format!(
+                "turtle: width must not be negative, and is {}",
+                options.width
+            )));
         }
         if options.heading.0.length_squared() < 1e-24 {
-            return Err(Error::new("turtle: heading has no length"));
+            return Err(Error::argument("turtle: heading has no length"));
         }
         let mut drawing = Drawing::default();
         let state = State::begin(&options, &mut drawing);
@@ -428,8 +434,11 @@ impl Object for Turtle {
     fn end(&mut self) -> Result<()> {
         self.lift();
         if let Some(open) = self.polygons.first() {
-            return Err(Error::new(format!("a polygon of {} corners is still open at the end", open.len()))
-                .help("end it with EndPolygon()"));
+            return Err(Error::script(format!(
+                "a polygon of {} corners is still open at the end",
+                open.len()
+            ))
+            .help("end it with EndPolygon()"));
         }
         Ok(())
     }

@@ -270,8 +270,13 @@ impl Whose {
     /// A number of a `what` that it has. Fails if it has not so many.
     fn number(&self, what: &str, index: f64) -> Result<usize> {
         if !(1.0..=self.count).contains(&index) {
-            return Err(Error::new(format!("universe:{what}: there is no {what} number {index}"))
-                .help(format!("there are {}, from 1", self.count)));
+            return Err(Error::not_found(
+                "number",
+                index,
+                [],
+                format!("universe:{what}: there is no {what} number {index}"),
+            )
+            .help(format!("there are {}, from 1", self.count)));
         }
         whole(index)
     }
@@ -287,7 +292,7 @@ fn whole(number: f64) -> Result<usize> {
     if number.fract() == 0.0 && number.abs() < 9_007_199_254_740_992.0 {
         return Ok((number as i64) as usize);
     }
-    Err(Error::new(format!("universe: {number} is no whole number below 2^53"))
+    Err(Error::argument(format!("universe: {number} is no whole number below 2^53"))
         .help("galaxies, stars and planets are numbered"))
 }
 

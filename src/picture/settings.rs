@@ -87,15 +87,16 @@ impl Picture {
         let fits = |size: u32| (1..=Self::LARGEST).contains(&size);
         if !fits(self.width) || !fits(self.height) {
             let message = format!("a picture cannot be {} x {} pixels", self.width, self.height);
-            return Err(
-                Error::new(message).help(format!("give a width and a height from 1 to {}", Self::LARGEST))
-            );
+            return Err(Error::argument(message)
+                .help(format!("give a width and a height from 1 to {}", Self::LARGEST)));
         }
         if self.azimuth.is_some_and(|angle| !angle.is_finite()) {
-            return Err(Error::new("the camera's azimuth is not a number").help("give degrees from north"));
+            return Err(
+                Error::argument("the camera's azimuth is not a number").help("give degrees from north")
+            );
         }
         if self.elevation.is_some_and(|angle| !(-90.0..=90.0).contains(&angle)) {
-            return Err(Error::new("the camera's elevation is outside -90 to 90 degrees")
+            return Err(Error::argument("the camera's elevation is outside -90 to 90 degrees")
                 .help("give degrees above the horizon"));
         }
         Ok(())

@@ -6,7 +6,7 @@
 use super::extent::Extent;
 use super::points;
 use super::texture::Texture;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::{Material, Part, Scene};
 use crate::stop::Stop;
 use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3A};
@@ -111,7 +111,7 @@ impl<'a> Stage<'a> {
                     .and_then(|length| count.checked_add(length))
                     .filter(|count| *count < u32::MAX)
                     .ok_or_else(|| {
-                        Error::new("the scene has more than 4294 million triangles")
+                        Error::limit(Limit::Size, "the scene has more than 4294 million triangles")
                             .help("draw a part of it, or simplify the meshes")
                     })?;
             }
@@ -247,7 +247,8 @@ fn check(scene: &Scene) -> Result<()> {
 }
 
 fn broken(message: String) -> Error {
-    Error::new(message).help("count indices from 0 and add meshes, materials and corners before naming them")
+    Error::internal(message)
+        .help("count indices from 0 and add meshes, materials and corners before naming them")
 }
 
 #[cfg(test)]

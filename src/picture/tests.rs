@@ -264,7 +264,7 @@ fn the_shadow_of_what_is_cut_out_has_its_holes() {
 #[test]
 fn a_picture_that_nobody_waits_for_is_given_up() {
     let stop = Stop::default();
-    stop.stop(crate::Error::new("the page has gone"));
+    stop.stop(crate::Error::stopped("the page has gone"));
     let error = render_within(&boxes(&[DVec3::ZERO]), None, &small(), &stop).unwrap_err();
     assert_eq!(error.message(), "the page has gone");
 }

@@ -36,11 +36,11 @@ impl Texture {
         let name = texture.path.display();
         if !texture.size.iter().all(|side| side.is_finite() && *side > 0.0) {
             let [width, height] = texture.size;
-            return Err(Error::new(format!("the texture {name} measures {width} m by {height} m"))
+            return Err(Error::argument(format!("the texture {name} measures {width} m by {height} m"))
                 .help("give the width and height of one repetition in metres"));
         }
         let image = open(texture).map_err(|error| {
-            Error::new(format!("the texture {name} cannot be read: {error}"))
+            Error::data(format!("the texture {name} cannot be read: {error}"))
                 .help("check the path; a texture is a PNG or JPEG file")
         })?;
         let pixels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();

@@ -170,10 +170,7 @@ impl Reader<'_> {
         let name = self.name("a module's name")?;
         let symbol = self.symbols.find(&name).map_err(|error| {
             let text = format!("{} in the pattern \"{}\"", error.message(), self.text.trim());
-            match error.remedy() {
-                Some(help) => Error::new(text).help(help),
-                None => Error::new(text),
-            }
+            error.saying(text)
         })?;
         if self.peek() != Some('(') {
             return Ok(Item { symbol, bound: 0 });
@@ -247,7 +244,7 @@ impl Reader<'_> {
         if self.text.chars().count() > before.saturating_sub(AROUND) + 2 * AROUND {
             line.push_str("...");
         }
-        Error::new(format!(
+        Error::syntax(format!(
             "malformed pattern: {found} at character {}\n    {line}\n    {}^",
             before + 1,
             " ".repeat(column)
@@ -256,6 +253,6 @@ impl Reader<'_> {
     }
 
     fn error(&self, message: &str, help: &str) -> Error {
-        Error::new(format!("malformed pattern \"{}\": {message}", self.text.trim())).help(help)
+        Error::syntax(format!("malformed pattern \"{}\": {message}", self.text.trim())).help(help)
     }
 }

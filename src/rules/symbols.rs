@@ -3,7 +3,7 @@
 use rustc_hash::FxHashMap;
 
 use super::chain::Symbol;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Limit, Result};
 
 /// The first number that a declared symbol may have; those below are the brackets and the end of a chain.
 pub const FIRST_SYMBOL: Symbol = 3;
@@ -29,14 +29,14 @@ impl Signature {
     /// Checks the names. A parameter whose name ends in `?` may be left out, as may those after it.
     pub fn new(name: &str, parameters: &[String]) -> Result<Self> {
         if !is_name(name) {
-            return Err(Error::new(format!("{name:?} cannot be a module's name"))
+            return Err(Error::argument(format!("{name:?} cannot be a module's name"))
                 .help("a name is a letter followed by letters, digits and underscores"));
         }
         if parameters.len() > MOST_PARAMETERS {
-            return Err(Error::new(format!(
-                "module {name} has {} parameters, of at most {MOST_PARAMETERS}",
-                parameters.len()
-            ))
+            return Err(Error::limit(
+                Limit::Size,
+                format!("module {name} has {} parameters, of at most {MOST_PARAMETERS}", parameters.len()),
+            )
             .help("put what belongs together into one table parameter"));
         }
         let required =
@@ -45,14 +45,16 @@ impl Signature {
         for (index, parameter) in parameters.iter().enumerate() {
             let bare = parameter.strip_suffix('?').unwrap_or(parameter);
             if !is_name(bare) {
-                return Err(Error::new(format!("{parameter:?} cannot be the name of a parameter of {name}"))
-                    .help("a name is a letter followed by letters, digits and underscores"));
+                return Err(Error::argument(format!(
+                    "{parameter:?} cannot be the name of a parameter of {name}"
+                ))
+                .help("a name is a letter followed by letters, digits and underscores"));
             }
             if names.iter().any(|known| known == bare) {
-                return Err(Error::new(format!("module {name} has two parameters called {bare}")));
+                return Err(Error::argument(format!("module {name} has two parameters called {bare}")));
             }
             if index >= required && !parameter.ends_with('?') {
-                return Err(Error::new(format!(
+                return Err(Error::argument(format!(
                     "module {name}: {bare} follows an optional parameter, so it must be optional too"
                 ))
                 .help(format!("write \"{bare}?\"")));
@@ -117,13 +119,13 @@ impl Symbols {
                 return Ok(symbol);
             }
             if usize::from(symbol - FIRST_SYMBOL) >= self.standard {
-                return Err(Error::new(format!("module {} is declared already", known.usage()))
+                return Err(Error::script(format!("module {} is declared already", known.usage()))
                     .help("declare it once, or give the other module another name"));
             }
         }
         let symbol = u16::try_from(self.signatures.len() + usize::from(FIRST_SYMBOL)).ok();
         let symbol = symbol.filter(|_| self.signatures.len() < MOST_MODULES).ok_or_else(|| {
-            Error::new("more than 65,000 modules are declared")
+            Error::limit(Limit::Size, "more than 65,000 modules are declared")
                 .help("declare fewer, and tell them apart by a parameter")
         })?;
         self.by_name.insert(signature.name.clone(), symbol);
@@ -144,11 +146,8 @@ impl Symbols {
     /// The symbol called `name`; unknown ones are an error with the nearest known one.
     pub fn find(&self, name: &str) -> Result<Symbol> {
         self.by_name.get(name).copied().ok_or_else(|| {
-            let error = Error::new(format!("unknown symbol {name}"));
-            match nearest(name, self.names()) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None => error.help(format!("declare it: local {name} = module(\"{name}\")")),
-            }
+            Error::not_found("symbol", name, self.names(), format!("unknown symbol {name}"))
+                .help(format!("declare it: local {name} = module(\"{name}\")"))
         })
     }
 

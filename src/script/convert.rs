@@ -6,7 +6,7 @@ use mlua::{Lua, LuaString, Value as LuaValue};
 
 use super::handles::{DerivedHandle, ObjectHandle};
 use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::objects::terrain::System;
 use crate::objects::{Key, Shape, Table, Value};
 
@@ -46,9 +46,10 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
         LuaValue::String(text) => Value::Text(owned(text)),
         LuaValue::Table(table) => {
             if depth > DEEPEST {
-                return Err(Error::new(format!(
-                    "a table is nested more than {DEEPEST} deep, or contains itself"
-                )));
+                return Err(Error::limit(
+                    Limit::Size,
+                    format!("a table is nested more than {DEEPEST} deep, or contains itself"),
+                ));
             }
             let metatable = table.metatable();
             if let Some(shape) = metatable.as_ref().and_then(|metatable| shape_of(table, metatable)) {
@@ -68,7 +69,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
             }
             let mut entries = Vec::new();
             for pair in table.pairs::<LuaValue, LuaValue>() {
-                let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
+                let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
                 let key = match key {
                     LuaValue::Integer(index) => Key::Index(index),
                     #[allow(clippy::cast_possible_truncation, reason = "whole numbers that fit are kept")]
@@ -77,7 +78,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                     }
                     LuaValue::String(name) => Key::Name(owned(&name)),
                     other => {
-                        return Err(Error::new(format!("a table has a {} as a key", other.type_name()))
+                        return Err(Error::argument(format!("a table has a {} as a key", other.type_name()))
                             .help("keys of such tables are names or whole numbers"));
                     }
                 };
@@ -93,7 +94,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                 }
                 Some(metatable) => match metatable.raw_get::<Option<String>>(CLASS) {
                     Ok(Some(class)) => Some(class.into()),
-                    _ => return Err(Error::new("a table with a metatable cannot be passed on")),
+                    _ => return Err(Error::argument("a table with a metatable cannot be passed on")),
                 },
                 None => None,
             };
@@ -112,12 +113,12 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
             } else if let (Ok(system), Manner::Field) = (data.borrow::<SystemHandle>(), manner) {
                 Value::Object(Arc::new(System { index: system.give() }))
             } else {
-                return Err(Error::new("this object cannot be passed on"));
+                return Err(Error::argument("this object cannot be passed on"));
             }
         }
         LuaValue::Vector(_) => return Err(no_module()),
         other => {
-            return Err(Error::new(format!("a {} cannot be passed on", other.type_name()))
+            return Err(Error::argument(format!("a {} cannot be passed on", other.type_name()))
                 .help("pass numbers, booleans, strings, tables of these, or objects"));
         }
     })
@@ -128,7 +129,7 @@ fn owned(text: &LuaString) -> Arc<str> {
 }
 
 fn no_module() -> Error {
-    Error::new("a module cannot be passed on")
+    Error::argument("a module cannot be passed on")
         .help("pass its parameters on, and make the module where it belongs into the chain")
 }
 

@@ -1,6 +1,6 @@
 //! What scripts get of data files: which they may read, and how a run reads each of them once.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex, PoisonError};
 
@@ -25,7 +25,6 @@ pub(crate) struct Data {
 struct Known {
     /// The projection and the origin, which the first source decides.
     frame: Option<Frame>,
-    told: BTreeSet<String>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     models: BTreeMap<PathBuf, Result<Arc<Model>>>,
     edits: BTreeMap<PathBuf, Result<EditFile>>,
@@ -68,7 +67,7 @@ impl Data {
     pub(crate) fn model(&self, session: &Session, name: &str) -> Result<Arc<Model>> {
         let example = "write model(\"window.glb\")";
         if name.is_empty() {
-            return Err(Error::new("model needs the name of a file").help(example));
+            return Err(Error::argument("model needs the name of a file").help(example));
         }
         let path = find(session, "model", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
@@ -94,9 +93,8 @@ impl Data {
         wanted: &WantedHeights,
     ) -> Result<Elevation> {
         if name.is_empty() {
-            return Err(
-                Error::new("elevation needs the name of a file").help("write elevation(\"N43E007.hgt\")")
-            );
+            return Err(Error::argument("elevation needs the name of a file")
+                .help("write elevation(\"N43E007.hgt\")"));
         }
         let path = find(session, "file of heights", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
@@ -115,14 +113,16 @@ impl Data {
     /// The changes of the ground that `edits(name)` means.
     pub(crate) fn edits(&self, session: &Session, name: &str) -> Result<EditFile> {
         if name.is_empty() {
-            return Err(Error::new("edits needs the name of a file").help("write edits(\"ground.json\")"));
+            return Err(
+                Error::argument("edits needs the name of a file").help("write edits(\"ground.json\")")
+            );
         }
         let path = find(session, "file of edits", name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let budget = known.budget(session);
         let read = || -> Result<EditFile> {
             let text = String::from_utf8(read_file(&path, name, "name a .json file", &budget)?)
-                .map_err(|_| Error::new(format!("{name} is not text, so it holds no edits of a terrain")))?;
+                .map_err(|_| Error::data(format!("{name} is not text, so it holds no edits of a terrain")))?;
             Ok(EditFile { name: name.to_owned(), text: text.into() })
         };
         known.edits.entry(path.clone()).or_insert_with(read).clone()
@@ -151,10 +151,6 @@ fn read_heights(
     let kept = raster.as_ref().map_or(0, |raster| raster.heights.len() * size_of::<f32>());
     budget.settle(before, kept);
     let raster = raster?;
-    if raster.filled > 0 && known.told.insert(format!("filled {name}")) && !session.options.quiet {
-        let all = raster.columns * raster.rows;
-        eprintln!("{name}: filled {} of {all} heights, which are missing, from around them", raster.filled);
-    }
     Ok(Elevation::new(Arc::new(Relief::new(raster, &mut known.frame)?)))
 }
 
@@ -176,7 +172,7 @@ fn read_model(session: &Session, path: &Path, name: &str, budget: &Budget) -> Re
 
 /// The content of a file, for which memory is taken.
 fn read_file(path: &Path, name: &str, remedy: &str, budget: &Budget) -> Result<Vec<u8>> {
-    let cannot = |why: &dyn std::fmt::Display| Error::new(format!("cannot read {name}: {why}"));
+    let cannot = |why: &dyn std::fmt::Display| Error::file(path, format!("cannot read {name}: {why}"));
     let (_, meta) = crate::files::open(path).map_err(|error| cannot(&error).help(remedy))?;
     if meta.len() > LARGEST {
         return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));
@@ -190,7 +186,9 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
     let (name, layer) = split_name(text);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
     if name.is_empty() {
-        return Err(Error::new("source needs the name of a file").help("write source(\"village.geojson\")"));
+        return Err(
+            Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
+        );
     }
     let path = find(session, "data file", name)?;
     let cache = session.options.cache.as_deref();
@@ -220,15 +218,15 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
 
 /// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
 /// `--data`.
-fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
+fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
     let outside = || {
-        Error::new(format!("the {what} {name} lies outside the script's folder")).help(
+        Error::file(name, format!("the {what} {name} lies outside the script's folder")).help(
             "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
         )
     };
     let relative = Path::new(name);
     if is_absolute(relative) {
-        return Err(Error::new(format!("the {what} {name} is named by a path from the root"))
+        return Err(Error::file(name, format!("the {what} {name} is named by a path from the root"))
             .help("name it from the script's folder, or from one that is given: --data FOLDER"));
     }
     let roots = || std::iter::once(session.root()).chain(session.data_roots().iter().map(PathBuf::as_path));
@@ -259,11 +257,9 @@ fn find(session: &Session, what: &str, name: &str) -> Result<PathBuf> {
     if !inside {
         return Err(outside());
     }
-    let error = Error::new(format!("there is no {what} {name}"));
-    Err(match near {
-        Some(near) => error.help(format!("did you mean {near}?")),
-        None if session.data_roots().is_empty() => error
-            .help("it is looked for from the script's folder; other folders are given with --data FOLDER"),
-        None => error.help("it is looked for from the script's folder and from those given with --data"),
-    })
+    let error = Error::not_found(what, name, near.as_deref(), format!("there is no {what} {name}"));
+    Err(error.help(match session.data_roots().is_empty() {
+        true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
+        false => "it is looked for from the script's folder and from those given with --data",
+    }))
 }

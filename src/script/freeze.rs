@@ -33,12 +33,12 @@ pub(crate) fn freeze<'a>(
     stateless: &FxHashSet<usize>,
     functions: impl IntoIterator<Item = &'a Reached>,
 ) -> Result<Frozen> {
-    let unexpected = |error: mlua::Error| Error::new(error.to_string());
+    let unexpected = |error: mlua::Error| Error::internal(error.to_string());
     let mut frozen = Frozen(Vec::new());
     let mut seen = FxHashSet::default();
     for reached in functions {
         let refuse = |what: &str| {
-            Err(Error::new(format!("the rule reaches {what}, which remembers from one module to the next"))
+            Err(Error::scope(format!("the rule reaches {what}, which remembers from one module to the next"))
                 .help("make it inside the rule, or carry what it remembers in a parameter of a module")
                 .at(reached.place.clone())
                 .rule(&reached.name))

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use crate::derive::Derived;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::objects::Object;
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
@@ -79,7 +79,7 @@ impl Objects {
 }
 
 fn no_object() -> Error {
-    Error::new("the system has no object").help("give it one: lsystem { object = turtle() }")
+    Error::script("the system has no object").help("give it one: lsystem { object = turtle() }")
 }
 
 /// An object as a value of a script; read-only.
@@ -99,7 +99,7 @@ impl UserData for ObjectHandle {
             |_, this, (name, _): (LuaValue, LuaValue)| -> mlua::Result<()> {
                 let (kind, name) = (this.0.kind().name, name.to_string().unwrap_or_default());
                 Err(mlua::Error::external(
-                    Error::new(format!("{name} of a {kind} cannot be assigned"))
+                    Error::script(format!("{name} of a {kind} cannot be assigned"))
                         .help(format!("its fields are given when it is made: {kind} {{ {name} = ... }}")),
                 ))
             },
@@ -171,11 +171,9 @@ impl DerivedHandle {
                 Ok(LuaValue::Table(table))
             }
             _ => {
-                let error = Error::new(format!("a derived system has no field called {name}"));
-                Err(mlua::Error::external(match nearest(name, FIELDS) {
-                    Some(near) => error.help(format!("did you mean {near}?")),
-                    None => error.help(format!("it has {}", FIELDS.join(", "))),
-                }))
+                let message = format!("a derived system has no field called {name}");
+                let error = Error::not_found("field", name, FIELDS, message);
+                Err(mlua::Error::external(error.help(format!("it has {}", FIELDS.join(", ")))))
             }
         }
     }

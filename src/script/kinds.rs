@@ -75,7 +75,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     }
     let mut table = ValueTable::clone(&*named_fields(kind.name, two)?);
     if table.get(first).is_some() {
-        return Err(Error::new(format!("{} is given its {first} twice", kind.name)));
+        return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
     }
     table.entries.push((Key::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))
@@ -91,6 +91,6 @@ pub(super) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTab
 }
 
 pub(super) fn no_table(what: &str, given: &LuaValue) -> Error {
-    Error::new(format!("{what} takes a table of named fields, not a {}", given.type_name()))
+    Error::argument(format!("{what} takes a table of named fields, not a {}", given.type_name()))
         .help(format!("write {what} {{ name = value }}"))
 }

@@ -90,7 +90,7 @@ impl Library {
     /// The machine that this library belongs to, once it is complete.
     pub(crate) fn machine(&self) -> Result<std::rc::Rc<Machine>> {
         let machine = self.machine.borrow().as_ref().and_then(std::rc::Weak::upgrade);
-        machine.ok_or_else(|| Error::new("this cannot be used while the machine is being made"))
+        machine.ok_or_else(|| Error::internal("this cannot be used while the machine is being made"))
     }
 
     pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
@@ -136,13 +136,13 @@ impl Library {
         };
         let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
         let LuaValue::Table(exports) = exports else {
-            return Err(Error::new(format!("{name} returns no table"))
+            return Err(Error::script(format!("{name} returns no table"))
                 .help("end it with: return { name = value, ... }, the names that scripts get"));
         };
         let globals = machine.lua().globals();
         for pair in exports.pairs::<String, LuaValue>() {
             let (name, value) = pair.map_err(|_| {
-                Error::new(format!("{name} returns a table with keys that are no names"))
+                Error::script(format!("{name} returns a table with keys that are no names"))
                     .help("return { name = value, ... }")
             })?;
             if name.starts_with(char::is_lowercase) {
@@ -242,8 +242,9 @@ impl Library {
                 let known = KINDS.iter().find(|known| known.name == kind);
                 let method =
                     known.and_then(|known| known.methods.iter().position(|known| known.name == method));
-                let method = method
-                    .ok_or_else(|| mlua::Error::external(Error::new(format!("{kind} has no such method"))))?;
+                let method = method.ok_or_else(|| {
+                    mlua::Error::external(Error::internal(format!("{kind} has no such method")))
+                })?;
                 library.standard.borrow_mut().push(Standard { kind, symbol, method });
                 Ok(())
             })?,
@@ -281,7 +282,7 @@ impl Library {
                 library.at_top_level("param").map_err(mlua::Error::external)?;
                 let LuaValue::String(name) = name else {
                     return Err(mlua::Error::external(
-                        Error::new("param begins with a name")
+                        Error::argument("param begins with a name")
                             .help("write param(\"height\", { default = 3 })"),
                     ));
                 };
@@ -370,7 +371,7 @@ impl Library {
                         Value::Table(options) => ElevationOptions::from_table(&options)?,
                         other => {
                             let what = other.describe();
-                            return Err(Error::new(format!(
+                            return Err(Error::argument(format!(
                                 "elevation takes a table of options, not {what}"
                             ))
                             .help("write elevation(\"N43E007.hgt\", { crs = 4326 })"));

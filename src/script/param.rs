@@ -1,7 +1,7 @@
 //! `param`: the values of a script that a person may change without editing it.
 
 use super::preset::Preset;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::objects::{Color, Parameter, Table, Value};
 
 /// A declared parameter and the value it has in this run.
@@ -95,11 +95,9 @@ impl Param {
                 crate::objects::Key::Index(index) => index.to_string(),
             };
             if !FIELDS.contains(&key.as_str()) {
-                let error = Error::new(format!("param {name} has no field called {key}"));
-                return Err(match nearest(&key, FIELDS) {
-                    Some(near) => error.help(format!("did you mean {near}?")),
-                    None => error.help(format!("it has {}", FIELDS.join(", "))),
-                });
+                let message = format!("param {name} has no field called {key}");
+                return Err(Error::not_found("field", &key, FIELDS, message)
+                    .help(format!("it has {}", FIELDS.join(", "))));
             }
         }
         let number = |field: &str| -> Result<Option<f64>> {
@@ -121,18 +119,18 @@ impl Param {
         if let (Some(min), Some(max)) = (min, max)
             && min > max
         {
-            return Err(Error::new(format!("param {name}: min {min} is above max {max}")));
+            return Err(Error::argument(format!("param {name}: min {min} is above max {max}")));
         }
         if step.is_some_and(|step| step <= 0.0) {
-            return Err(Error::new(format!("param {name}: step must be above 0")));
+            return Err(Error::argument(format!("param {name}: step must be above 0")));
         }
         let (default, control) = match (options.get("default"), options.get("choices")) {
             (None, _) => {
-                return Err(Error::new(format!("param {name} has no default"))
+                return Err(Error::argument(format!("param {name} has no default"))
                     .help(format!("write param(\"{name}\", {{ default = ... }})")));
             }
             (Some(default), Some(_)) if !matches!(default, Value::Text(_)) => {
-                return Err(Error::new(format!(
+                return Err(Error::argument(format!(
                     "param {name}: choices are strings, so the default must be one, not {default}"
                 )));
             }
@@ -152,7 +150,7 @@ impl Param {
                 (Setting::Number(*default), Control::Number { min, max, step })
             }
             (Some(other), _) => {
-                return Err(Error::new(format!(
+                return Err(Error::argument(format!(
                     "param {name}: default must be a number, a boolean or a string, not {}",
                     other.describe()
                 )));
@@ -167,8 +165,8 @@ impl Param {
             text: text("text")?,
         };
         param.check(&param.default).map_err(|error| {
-            Error::new(format!("the default of {}", error.message()))
-                .help(error.remedy().unwrap_or("change the default or its bounds"))
+            let message = format!("the default of {}", error.message());
+            error.saying(message).help("change the default or its bounds")
         })?;
         Ok(param)
     }
@@ -197,7 +195,7 @@ impl Param {
 
     fn read(&self, given: &str) -> Result<Setting> {
         let refuse = |what: &str| {
-            Err(Error::new(format!("param {} must be {what}, not {given:?}", self.name))
+            Err(Error::argument(format!("param {} must be {what}, not {given:?}", self.name))
                 .help(format!("its default is {}", self.default)))
         };
         match &self.control {
@@ -236,7 +234,9 @@ impl Param {
                         (None, Some(max)) => format!("it ends at {max}"),
                         (None, None) => String::new(),
                     };
-                    return Err(Error::new(format!("param {name} is {shown}, out of its range")).help(range));
+                    return Err(
+                        Error::argument(format!("param {name} is {shown}, out of its range")).help(range)
+                    );
                 }
                 if let Some(step) = step {
                     let steps = (number - min.unwrap_or(0.0)) / step;
@@ -247,7 +247,7 @@ impl Param {
                             .filter(|near| max.is_none_or(|max| *near <= max))
                             .map(|near| Value::Number(near).to_string())
                             .collect();
-                        return Err(Error::new(format!(
+                        return Err(Error::argument(format!(
                             "param {name} is {shown}, between two steps of {step}"
                         ))
                         .help(format!("choose {}", near.join(" or "))));
@@ -256,7 +256,7 @@ impl Param {
                 Ok(())
             }
             (Control::Choice(choices), Setting::Text(choice)) if !choices.contains(choice) => {
-                Err(Error::new(format!("param {name} is {choice:?}, which is no choice"))
+                Err(Error::argument(format!("param {name} is {choice:?}, which is no choice"))
                     .help(format!("choose one of {}", choices.join(", "))))
             }
             _ => Ok(()),

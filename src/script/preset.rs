@@ -1,7 +1,7 @@
 //! A preset: values of a script's parameters and a seed, under a name.
 
 use super::param::{Param, Setting};
-use crate::error::{Error, Place, nearest};
+use crate::error::{Error, Place};
 
 /// Values of a script's parameters and a seed, under a name.
 ///
@@ -40,19 +40,16 @@ impl Preset {
     /// The error for the value of a parameter `name` that `script` does not have.
     pub(crate) fn outdated(&self, name: &str, script: &str, params: &[Param]) -> Error {
         let preset = &self.name;
-        let error =
-            Error::new(format!("preset {preset} sets {name}, but {script} has no parameter called {name}"));
         let names = params.iter().map(|param| param.name.as_str());
-        let help = match nearest(name, names) {
-            Some(near) => format!("if {near} is meant, rename it in the preset; otherwise remove it there"),
-            None => format!("remove {name} from the preset, or declare it again: param(\"{name}\", ...)"),
-        };
-        error.help(help).at(self.place_of(name))
+        let message = format!("preset {preset} sets {name}, but {script} has no parameter called {name}");
+        Error::not_found("parameter", name, names, message)
+            .help(format!("remove {name} from the preset, or declare it again: param(\"{name}\", ...)"))
+            .at(self.place_of(name))
     }
 
     /// An `error` that the value of the parameter `name` led to.
     pub(crate) fn refused(&self, name: &str, error: &Error) -> Error {
-        let said = Error::new(format!("preset {}: {}", self.name, error.message()));
+        let said = Error::of(error.kind().clone(), format!("preset {}: {}", self.name, error.message()));
         let said = match error.remedy() {
             Some(help) => said.help(format!("{help}; change the preset")),
             None => said.help("change the preset"),

@@ -29,7 +29,7 @@ pub(super) fn require(library: &Library, session: &Session, name: &str) -> Resul
             .chain([&path])
             .map(|file| file.strip_prefix(session.root()).unwrap_or(file).display().to_string())
             .collect();
-        return Err(Error::new(format!("files require each other in a circle: {}", cycle.join(" -> ")))
+        return Err(Error::script(format!("files require each other in a circle: {}", cycle.join(" -> ")))
             .help("move what both need into a third file"));
     }
     let source = session.source(&path, &shown, &library.globals())?;
@@ -50,14 +50,13 @@ pub(super) fn require(library: &Library, session: &Session, name: &str) -> Resul
 /// The file that `require(name)` means, and its name for messages.
 fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)> {
     let outside = || {
-        Error::new(format!("require(\"{name}\") leads outside the script's folder"))
+        Error::file(name, format!("require(\"{name}\") leads outside the script's folder"))
             .help("a script reads only files in its own folder and below it")
     };
     let bare = name.strip_suffix(".lua").unwrap_or(name);
     if bare.is_empty() || bare.ends_with(['/', '.']) {
-        return Err(
-            Error::new("require needs the name of a file").help("write require(\"facade\") for facade.lua")
-        );
+        return Err(Error::argument("require needs the name of a file")
+            .help("write require(\"facade\") for facade.lua"));
     }
     let relative = PathBuf::from(format!("{bare}.lua"));
     if is_absolute(&relative) {
@@ -80,6 +79,7 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
             return Ok((path.clone(), shown.display().to_string()));
         }
     }
-    Err(Error::new(format!("require(\"{name}\") finds no file {}", relative.display()))
+    let message = format!("require(\"{name}\") finds no file {}", relative.display());
+    Err(Error::not_found("file", name, [], message)
         .help("the name is a path from the requiring file or from the script's folder"))
 }

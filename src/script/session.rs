@@ -14,7 +14,7 @@ use super::drawn::Drawn;
 use super::options::Options;
 use super::param::Param;
 use crate::derive::Trace;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::rules::Values;
 use crate::stop::Stop;
 use crate::warning::{Warning, Warnings};
@@ -318,7 +318,8 @@ impl Session {
 fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
     let bytes = crate::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
-        Error::new(format!("{name} is not a text file")).help("scripts are UTF-8 text; check the file's name")
+        Error::file(path, format!("{name} is not a text file"))
+            .help("scripts are UTF-8 text; check the file's name")
     })?;
     Ok(Reading::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
 }
@@ -327,7 +328,8 @@ fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
 fn data_root(folder: &Path) -> Result<PathBuf> {
     let found = folder.canonicalize().ok().filter(|found| found.is_dir());
     found.ok_or_else(|| {
-        Error::new(format!("there is no folder {}", folder.display()))
+        let shown = folder.display();
+        Error::not_found("folder", &shown, [], format!("there is no folder {shown}"))
             .help("--data names a folder of data files")
     })
 }
@@ -337,10 +339,11 @@ fn read_stdlib(path: &Path) -> Result<(String, String)> {
     let name = path.display().to_string();
     let remedy = "--stdlib names a Lua file; without it the built-in one is used";
     let bytes = crate::files::read(path, LARGEST).map_err(|error| {
-        Error::new(format!("cannot read the standard library {name}: {error}")).help(remedy)
+        Error::file(path, format!("cannot read the standard library {name}: {error}")).help(remedy)
     })?;
-    let text = String::from_utf8(bytes)
-        .map_err(|_| Error::new(format!("the standard library {name} is not a text file")).help(remedy))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Error::file(path, format!("the standard library {name} is not a text file")).help(remedy)
+    })?;
     let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
     Ok((name, text))
 }
@@ -349,19 +352,21 @@ fn read_stdlib(path: &Path) -> Result<(String, String)> {
 fn unreadable(path: &Path, error: &std::io::Error) -> Error {
     let shown = path.display();
     match error.kind() {
-        std::io::ErrorKind::NotFound => Error::new(format!("there is no script {shown}"))
-            .help("check the path, or make one: burgeon new NAME"),
+        std::io::ErrorKind::NotFound => {
+            Error::not_found("script", &shown, [], format!("there is no script {shown}"))
+                .help("check the path, or make one: burgeon new NAME")
+        }
         std::io::ErrorKind::IsADirectory => {
-            Error::new(format!("{shown} is a folder")).help("name a script in it")
+            Error::file(path, format!("{shown} is a folder")).help("name a script in it")
         }
         std::io::ErrorKind::FileTooLarge => {
-            Error::new(format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
+            Error::limit(Limit::Size, format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
                 .help("divide it; other files of its folder come in with require")
         }
         std::io::ErrorKind::InvalidInput => {
-            Error::new(format!("cannot read {shown}: {error}")).help("scripts are text files")
+            Error::file(path, format!("cannot read {shown}: {error}")).help("scripts are text files")
         }
-        _ => Error::new(format!("cannot read {shown}: {error}")),
+        _ => Error::file(path, format!("cannot read {shown}: {error}")),
     }
 }
 

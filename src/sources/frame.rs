@@ -32,7 +32,8 @@ impl Crs {
         let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };
         let found = u16::try_from(code).ok().and_then(crs_definitions::from_code);
         let found = found.ok_or_else(|| {
-            Error::new(format!("the coordinate system EPSG:{code} is not known")).help(REMEDY)
+            let message = format!("the coordinate system EPSG:{code} is not known");
+            Error::not_found("coordinate system", code, [], message).help(REMEDY)
         })?;
         let definition = Cow::Borrowed(found.proj4);
         Ok(Self { code: Some(found.code), name: format!("EPSG:{}", found.code), definition })
@@ -81,7 +82,8 @@ impl Crs {
 
     fn projection(&self) -> Result<Proj> {
         let cannot = |why: String| {
-            Error::new(format!("the coordinate system {} cannot be used: {why}", self.name())).help(REMEDY)
+            Error::argument(format!("the coordinate system {} cannot be used: {why}", self.name()))
+                .help(REMEDY)
         };
         if self.definition.contains("+proj=geocent") {
             return Err(cannot("it counts from the centre of the earth".into()));
@@ -164,7 +166,7 @@ impl Frame {
             } else {
                 let mut point = (x, y, 0.0);
                 transform(&source, &Crs::epsg(4326)?.projection()?, &mut point).map_err(|error| {
-                    Error::new(format!("{shown} cannot be projected: {error}")).help(REMEDY)
+                    Error::data(format!("{shown} cannot be projected: {error}")).help(REMEDY)
                 })?;
                 [point.0.to_degrees(), point.1.to_degrees()]
             };
@@ -173,12 +175,12 @@ impl Frame {
             (crs.name(), crs.definition.into_owned(), Some(middle))
         };
         let projection = Proj::from_proj_string(&definition)
-            .map_err(|error| Error::new(format!("{name} cannot be used: {error}")).help(REMEDY))?;
+            .map_err(|error| Error::argument(format!("{name} cannot be used: {error}")).help(REMEDY))?;
         let mut frame = Self { name, origin: [0.0; 2], middle, definition, projection };
         let centre = frame.passage(crs)?.enter([x, y]);
         frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
         if frame.origin.iter().any(|value| !value.is_finite()) {
-            return Err(Error::new(format!("{shown} cannot be projected to {}", frame.name)).help(REMEDY));
+            return Err(Error::data(format!("{shown} cannot be projected to {}", frame.name)).help(REMEDY));
         }
         Ok(frame)
     }
@@ -213,11 +215,11 @@ impl Frame {
             let [x, y] = passage.enter([at[0], at[1]]);
             let at = format!("{}, {}", at[0], at[1]);
             Some(if x.is_finite() && y.is_finite() {
-                Error::new(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
+                Error::data(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
                     "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
                 )
             } else {
-                Error::new(format!("{feature} cannot be projected from {} to {}, at {at}", crs.name(), self.name))
+                Error::data(format!("{feature} cannot be projected from {} to {}, at {at}", crs.name(), self.name))
                     .help(REMEDY)
             })
         })
@@ -285,7 +287,7 @@ fn refuse_odd_degrees(crs: &Crs, table: &mut Table) -> Result<()> {
         let id = shown(&feature.id);
         let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
         let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
-        Some(Error::new(message).help(help))
+        Some(Error::data(message).help(help))
     })
 }
 
@@ -330,7 +332,7 @@ fn centre(crs: &Crs, table: &Table, mut counts: impl FnMut(&Feature) -> bool) ->
     if middle.iter().all(|value| value.is_finite()) {
         Ok((middle, (high[0] - low[0]).max(high[1] - low[1]) / 2.0))
     } else {
-        Err(Error::new(format!("{} has no features", table.shown)))
+        Err(Error::data(format!("{} has no features", table.shown)))
     }
 }
 

@@ -44,7 +44,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &Wanted) -> Re
     let text = match std::str::from_utf8(bytes) {
         Ok(text) if !bytes.iter().take(1000).any(|byte| *byte == 0) => text,
         _ => {
-            return Err(Error::new(format!("{name} is a binary file, neither GeoJSON nor a GeoPackage"))
+            return Err(Error::data(format!("{name} is a binary file, neither GeoJSON nor a GeoPackage"))
                 .help("convert it: ogr2ogr out.gpkg FILE"));
         }
     };
@@ -156,7 +156,7 @@ impl Reader<'_> {
         let error = match kind {
             "FeatureCollection" if head.features => return Ok(()),
             "FeatureCollection" => {
-                Error::new(format!("{name} is not GeoJSON: its FeatureCollection has no features"))
+                Error::data(format!("{name} is not GeoJSON: its FeatureCollection has no features"))
                     .help("it needs \"features\": [ ... ]")
             }
             "Feature" if !head.features => {
@@ -168,9 +168,9 @@ impl Reader<'_> {
                 let number = self.number();
                 return self.add(number.to_string(), parts, Vec::new());
             }
-            "Topology" => Error::new(format!("{name} is TopoJSON, not GeoJSON"))
+            "Topology" => Error::data(format!("{name} is TopoJSON, not GeoJSON"))
                 .help("convert it: ogr2ogr out.geojson FILE"),
-            _ => Error::new(format!("{name} is JSON, but not GeoJSON"))
+            _ => Error::data(format!("{name} is JSON, but not GeoJSON"))
                 .help("it needs \"type\": \"FeatureCollection\" and \"features\": [ ... ]"),
         };
         if alone {
@@ -253,7 +253,7 @@ impl Reader<'_> {
     }
 
     fn refuse(&mut self, id: String, why: &str) -> Result<()> {
-        let error = Error::new(format!("feature {} of {} {why}", shown(&id), self.name))
+        let error = Error::data(format!("feature {} of {} {why}", shown(&id), self.name))
             .help("points, lines, polygons, multi-geometries and collections of these are read");
         self.table.refuse(id, error)
     }
@@ -266,7 +266,7 @@ impl Reader<'_> {
 
     fn refuse_line(&mut self, line: usize, why: &str) -> Result<()> {
         let number = self.number();
-        let error = Error::new(format!("line {line} of {} {why}", self.name))
+        let error = Error::data(format!("line {line} of {} {why}", self.name))
             .help("a sequence has one feature to a line, or a separator (RS) before each");
         self.table.refuse(number.to_string(), error)
     }
@@ -291,10 +291,10 @@ fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
     let at = format!("line {}, column {}", error.line(), error.column());
     if error.is_eof() {
         let why = if text.trim_ascii().is_empty() { "it is empty" } else { "the file is cut short" };
-        return Error::new(format!("{name} is not GeoJSON: it ends at {at}, where more should follow"))
+        return Error::data(format!("{name} is not GeoJSON: it ends at {at}, where more should follow"))
             .help(format!("{why}; get it again"));
     }
-    Error::new(format!("{name} is not GeoJSON: {} ({at})", words(error)))
+    Error::data(format!("{name} is not GeoJSON: {} ({at})", words(error)))
         .help("GeoJSON is described in RFC 7946")
 }
 
@@ -309,7 +309,7 @@ fn system(crs: Option<&Value>) -> Result<Crs> {
         _ => {
             let crs = crs.to_string();
             let crs = shown(&crs);
-            Err(Error::new(format!("the coordinate system {crs} of GeoJSON's crs member is not known"))
+            Err(Error::data(format!("the coordinate system {crs} of GeoJSON's crs member is not known"))
                 .help("name it: source(file, { crs = 4326 })"))
         }
     }

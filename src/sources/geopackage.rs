@@ -49,12 +49,14 @@ fn watched<T: Send + 'static>(
         // Nobody may wait any more.
         let _ = done.send(work(connection));
     });
-    begun.map_err(|error| Error::new(format!("cannot start a thread: {error}")))?;
+    begun.map_err(|error| Error::system(format!("cannot start a thread: {error}")))?;
     loop {
         match result.recv_timeout(PERIOD) {
             // What was interrupted does not say why.
             Ok(done) => return done.map_err(|error| budget.check().err().unwrap_or(error)),
-            Err(RecvTimeoutError::Disconnected) => return Err(Error::new("the database gave no answer")),
+            Err(RecvTimeoutError::Disconnected) => {
+                return Err(Error::internal("the database gave no answer"));
+            }
             Err(RecvTimeoutError::Timeout) => {
                 if let Err(over) = budget.check() {
                     interrupt.interrupt();
@@ -115,7 +117,7 @@ impl GeoPackage {
             .map_err(error)?;
         let layers = described(&connection).map_err(|error| match error {
             rusqlite::Error::SqliteFailure(_, Some(text)) if text.starts_with("no such table") => {
-                Error::new(format!("{name} is an SQLite database, but no GeoPackage"))
+                Error::data(format!("{name} is an SQLite database, but no GeoPackage"))
                     .help("a GeoPackage has the tables gpkg_contents and gpkg_geometry_columns")
             }
             error => broken(&name, &error),
@@ -140,7 +142,7 @@ impl GeoPackage {
         let name = self.name.clone();
         let error = |error: rusqlite::Error| broken(&name, &error);
         let Some(position) = self.layers.iter().position(|known| known.table == layer) else {
-            return Err(Error::new(format!("{name} has no layer called {layer}")));
+            return Err(Error::not_found("layer", layer, [], format!("{name} has no layer called {layer}")));
         };
         let described = self.layers.swap_remove(position);
         let label = format!("{name}:{}", shown(layer));
@@ -163,7 +165,7 @@ impl GeoPackage {
             let key = row.get_ref(0).ok().and_then(id_text).unwrap_or_else(|| count.to_string());
             let id = id.and_then(|id| id_text(row.get_ref(id + 2).ok()?)).unwrap_or_else(|| key.clone());
             let wrong = |why: &str| {
-                Error::new(format!("the geometry of feature {} of {label} {why}", shown(&id)))
+                Error::data(format!("the geometry of feature {} of {label} {why}", shown(&id)))
                     .help("points, lines, polygons, curves, surfaces and collections of these are read")
             };
             let parts = match row.get_ref(1).map_err(error)? {
@@ -264,18 +266,18 @@ fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>>
     let remedy = "name its EPSG code: source(file, { crs = 3067 })";
     Ok(match found {
         _ if number == 0 || number == -1 => {
-            Err(Error::new("the layer has no coordinate system").help(remedy))
+            Err(Error::data("the layer has no coordinate system").help(remedy))
         }
         Some((_, Some(organization), Some(code))) if organization.eq_ignore_ascii_case("epsg") => {
             Crs::epsg(u32::try_from(code).unwrap_or(0))
         }
         Some((name, ..)) => {
             let name = name.unwrap_or_default();
-            Err(Error::new(format!("the layer's coordinate system \"{}\" is none of EPSG's", shown(&name)))
+            Err(Error::data(format!("the layer's coordinate system \"{}\" is none of EPSG's", shown(&name)))
                 .help(remedy))
         }
         None => {
-            Err(Error::new(format!("the layer's coordinate system {number} is not described in the file"))
+            Err(Error::data(format!("the layer's coordinate system {number} is not described in the file"))
                 .help(remedy))
         }
     })
@@ -351,7 +353,7 @@ fn words(error: &rusqlite::Error) -> String {
 }
 
 fn broken(name: &str, error: &rusqlite::Error) -> Error {
-    Error::new(format!("cannot read {name}: {}", words(error)))
+    Error::data(format!("cannot read {name}: {}", words(error)))
         .help("the file is damaged or cut short; get it again")
 }
 
@@ -361,7 +363,7 @@ fn refused(shown: &str, wanted: &Wanted, error: &rusqlite::Error) -> Error {
     match &wanted.condition {
         Some(condition) if !text.contains("malformed") => {
             let condition: String = condition.chars().take(200).collect();
-            Error::new(format!("where {condition:?} of {shown}: {text}"))
+            Error::argument(format!("where {condition:?} of {shown}: {text}"))
                 .help("write an SQL condition on the layer's columns, such as where = \"height > 10\"")
         }
         _ => broken(shown, error),

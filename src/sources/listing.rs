@@ -113,7 +113,7 @@ fn missing(path: &Path, error: Error) -> Error {
     };
     match (wanted, path.exists()) {
         (Some(wanted), false) => match nearest_file(folder, &wanted) {
-            Some(near) => Error::new(error.message()).help(format!("did you mean {near}?")),
+            Some(near) => Error::not_found("data file", wanted, [near.as_str()], error.message()),
             None => error,
         },
         _ => error,

@@ -28,7 +28,7 @@ pub use listing::{AttributeListing, LayerListing, Listing};
 pub use table::{Attribute, Feature, Geometry, Kind, Table};
 
 use crate::budget::Budget;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::text::{listed, shown};
 
 /// The extensions of data files.
@@ -88,12 +88,14 @@ impl Source {
     pub fn open_within(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
         let cannot = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => {
-                Error::new(format!("there is no data file {name}")).help("check the path")
+                Error::not_found("data file", name, [], format!("there is no data file {name}"))
+                    .help("check the path")
             }
             std::io::ErrorKind::IsADirectory => {
-                Error::new(format!("{name} is a folder")).help("name a .geojson or .gpkg file in it")
+                Error::file(path, format!("{name} is a folder")).help("name a .geojson or .gpkg file in it")
             }
-            _ => Error::new(format!("cannot read {name}: {error}")).help("name a .geojson or .gpkg file"),
+            _ => Error::file(path, format!("cannot read {name}: {error}"))
+                .help("name a .geojson or .gpkg file"),
         };
         let (mut file, meta) = crate::files::open(path).map_err(cannot)?;
         let mut head = Vec::new();
@@ -102,8 +104,11 @@ impl Source {
             return Ok(Self::GeoPackage(geopackage::GeoPackage::open(path, name, wanted)?));
         }
         if meta.len() > geojson::LARGEST {
-            return Err(Error::new(format!("{name} is larger than {} MB", geojson::LARGEST / 1_000_000))
-                .help("convert it to a GeoPackage, of which a part can be read"));
+            return Err(Error::limit(
+                Limit::Size,
+                format!("{name} is larger than {} MB", geojson::LARGEST / 1_000_000),
+            )
+            .help("convert it to a GeoPackage, of which a part can be read"));
         }
         wanted.budget.check()?;
         let _held = wanted.budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
@@ -135,7 +140,7 @@ impl Source {
         let mut table = match self {
             Self::GeoPackage(package) => package.read(&layer, wanted)?,
             Self::GeoJson(_) if wanted.condition.is_some() => {
-                return Err(Error::new(format!("{name} is GeoJSON, which takes no where"))
+                return Err(Error::argument(format!("{name} is GeoJSON, which takes no where"))
                     .help("where is for GeoPackages; take what you need out of source(...).features in Lua: source(chosen)"));
             }
             Self::GeoJson(mut table) => {
@@ -157,12 +162,14 @@ impl Source {
             let what = &table.shown;
             return Err(match (&wanted.condition, wanted.limit) {
                 (_, Some(0)) => {
-                    Error::new(format!("limit = 0 leaves no feature of {what}")).help("leave limit out")
+                    Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out")
                 }
-                (Some(condition), _) => Error::new(format!("no feature of {what} meets where {condition}"))
+                (Some(condition), _) => Error::data(format!("no feature of {what} meets where {condition}"))
                     .help("burgeon sources FILE lists attributes and their values"),
-                (None, _) if table.empty > 0 => Error::new(format!("{what} has no features with a geometry")),
-                (None, _) => Error::new(format!("{what} has no features")),
+                (None, _) if table.empty > 0 => {
+                    Error::data(format!("{what} has no features with a geometry"))
+                }
+                (None, _) => Error::data(format!("{what} has no features")),
             }
             .help("check the file: burgeon sources FILE"));
         }
@@ -174,18 +181,16 @@ impl Source {
 fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
     let list = listed(layers.iter().map(String::as_str));
     match (wanted, layers) {
-        (_, []) => Err(Error::new(format!("{name} has no layers of features"))
+        (_, []) => Err(Error::data(format!("{name} has no layers of features"))
             .help("it holds no features table; was it written as a GeoPackage of features?")),
         (None, [only]) => Ok(only.clone()),
-        (None, _) => Err(Error::new(format!("{name} has several layers"))
+        (None, _) => Err(Error::argument(format!("{name} has several layers"))
             .help(format!("name one behind a colon: \"{name}:{}\"; it has {list}", shown(&layers[0])))),
         (Some(wanted), _) if layers.iter().any(|layer| layer == wanted) => Ok(wanted.to_owned()),
         (Some(wanted), _) => {
-            let error = Error::new(format!("{name} has no layer called {}", shown(wanted)));
-            Err(match crate::error::nearest(wanted, layers.iter().map(String::as_str)) {
-                Some(near) => error.help(format!("did you mean {near}? It has {list}")),
-                None => error.help(format!("it has {list}")),
-            })
+            let message = format!("{name} has no layer called {}", shown(wanted));
+            Err(Error::not_found("layer", wanted, layers.iter().map(String::as_str), message)
+                .help(format!("it has {list}")))
         }
     }
 }

@@ -7,7 +7,7 @@ use rustc_hash::FxHashMap;
 
 use super::Crs;
 use crate::budget::Budget;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::text::{listed, shown};
 
 /// The kinds of geometry.
@@ -221,7 +221,7 @@ impl Table {
             let endless = feature.geometry.points().any(|point| point.iter().any(|it| !it.is_finite()));
             endless.then(|| {
                 let id = shown(&feature.id);
-                Error::new(format!("feature {id} of {name} has a coordinate that is not a finite number"))
+                Error::data(format!("feature {id} of {name} has a coordinate that is not a finite number"))
                     .help("repair the file, or leave the feature out")
             })
         })
@@ -248,11 +248,9 @@ impl Table {
     /// The number of the attribute `name`, and an error that lists those that there are if there is none.
     pub(super) fn column(&self, name: &str) -> Result<usize> {
         self.names.iter().position(|known| known == name).ok_or_else(|| {
-            let error = Error::new(format!("{} has no attribute called {}", self.shown, shown(name)));
-            match nearest(name, self.names.iter().map(String::as_str)) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None => error.help(format!("it has {}", listed(self.names.iter().map(String::as_str)))),
-            }
+            let names = || self.names.iter().map(String::as_str);
+            let message = format!("{} has no attribute called {}", self.shown, shown(name));
+            Error::not_found("attribute", name, names(), message).help(format!("it has {}", listed(names())))
         })
     }
 
@@ -280,7 +278,7 @@ impl Table {
             .collect();
         self.features.retain(|feature| feature.geometry.kind() == kind);
         if self.features.is_empty() && !there.is_empty() {
-            return Err(Error::new(format!(
+            return Err(Error::argument(format!(
                 "{} has geometries of kind {}, none of kind {}",
                 self.shown,
                 there.join(" and "),

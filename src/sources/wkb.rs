@@ -1,6 +1,9 @@
 //! Geometries as bytes: GeoPackage's header, and well-known binary in both byte orders with Z and M.
 //!
 //! Curves become lines: their straight parts stay as they are, their arcs are divided.
+//!
+//! The reader is our own, since it must be bounded: 13 bytes that claim 2^32 points make geozero ask for the memory
+//! of all of them, which ends the program. Here room is made for what is there.
 
 use super::{DEEPEST, Geometry, arc};
 use crate::budget::Budget;

@@ -184,12 +184,12 @@ impl Edits {
     /// Adds an edit after all others. Fails for one that cannot be, or that reaches nothing of the world.
     pub fn add(&mut self, world: &World, edit: Edit) -> Result<()> {
         if let Some(fault) = edit.fault() {
-            return Err(Error::new(format!("the ground cannot be changed so: {fault}")));
+            return Err(Error::argument(format!("the ground cannot be changed so: {fault}")));
         }
         let (low, high) = edit.bounds();
         let (corner, far) = (world.corner, world.corner + world.size);
         if low.x > far.x || low.y > far.y || high.x < corner.x || high.y < corner.y {
-            return Err(Error::new(format!("({}, {}) is outside the terrain", low.x, low.y))
+            return Err(Error::argument(format!("({}, {}) is outside the terrain", low.x, low.y))
                 .help(format!("it reaches from ({}, {}) to ({}, {}) m", corner.x, corner.y, far.x, far.y)));
         }
         let cell = smallest(world, low, high);
@@ -254,11 +254,11 @@ impl Edits {
     /// Reads the text of a file called `name`, which holds edits of `world`.
     pub fn from_json(text: &str, name: &str, world: &World) -> Result<Self> {
         let file: File = serde_json::from_str(text).map_err(|error| {
-            Error::new(format!("{name} holds no edits of a terrain: {error}"))
+            Error::data(format!("{name} holds no edits of a terrain: {error}"))
                 .help("such a file is written by burgeon run --edits FILE")
         })?;
         if file.format != FORMAT {
-            return Err(Error::new(format!("{name} is of the kind {:?}, not {FORMAT:?}", file.format)));
+            return Err(Error::data(format!("{name} is of the kind {:?}, not {FORMAT:?}", file.format)));
         }
         let here = Stamp::of(world);
         if file.world != here {
@@ -266,14 +266,14 @@ impl Edits {
                 let key = stamp.key.as_ref().map(|key| format!(", drawn from {key}")).unwrap_or_default();
                 format!("{} m from ({}, {}) on{key}", stamp.size, stamp.corner[0], stamp.corner[1])
             };
-            return Err(Error::new(format!("{name} holds edits of another world: {}", shown(&file.world)))
+            return Err(Error::data(format!("{name} holds edits of another world: {}", shown(&file.world)))
                 .help(format!("this one is {}", shown(&here))));
         }
         let mut kept: Vec<Kept> = file.cells.into_values().flatten().collect();
         kept.sort_by_key(|kept| kept.order);
         let mut edits = Self::default();
         for Kept { edit, .. } in kept {
-            edits.add(world, edit).map_err(|error| Error::new(format!("{name}: {}", error.message())))?;
+            edits.add(world, edit).map_err(|error| Error::data(format!("{name}: {}", error.message())))?;
         }
         Ok(edits)
     }

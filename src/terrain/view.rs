@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::block::Area;
 use super::tile::Place;
 use super::world::World;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// The most heights that may be expanded at once.
 pub const MOST_HEIGHTS: u64 = 1 << 26;
@@ -53,7 +53,7 @@ impl View {
         let to = eye - world.corner;
         if !(0.0..=world.size).contains(&to.x) || !(0.0..=world.size).contains(&to.y) {
             let (low, high) = (world.corner, world.corner + world.size);
-            return Err(Error::new(format!("the focus ({}, {}) is outside the terrain", eye.x, eye.y))
+            return Err(Error::argument(format!("the focus ({}, {}) is outside the terrain", eye.x, eye.y))
                 .help(format!("it reaches from ({}, {}) to ({}, {}) m", low.x, low.y, high.x, high.y)));
         }
         let level = self.level(world)?;
@@ -91,7 +91,7 @@ impl View {
         let whole = level.round();
         if !(0.0..=30.0).contains(&whole) || (level - whole).abs() > 1e-6 {
             let near = world.size / whole.clamp(0.0, 30.0).exp2();
-            return Err(Error::new(format!(
+            return Err(Error::argument(format!(
                 "view: cells of {} m do not divide a world of {} m",
                 self.cell, world.size
             ))
@@ -99,10 +99,10 @@ impl View {
         }
         let deepest = self.rings.iter().map(|ring| ring.levels).max().unwrap_or(0);
         if whole as u32 + deepest > DEEPEST {
-            return Err(Error::new(format!(
-                "view: cells are divided {} times in all",
-                whole as u32 + deepest
-            ))
+            return Err(Error::limit(
+                Limit::Size,
+                format!("view: cells are divided {} times in all", whole as u32 + deepest),
+            )
             .help(format!("divide them at most {DEEPEST} times")));
         }
         Ok(whole as u32)
@@ -118,8 +118,11 @@ pub(super) fn too_many(heights: u64) -> Error {
     let bytes = heights as f64 * 8.0;
     let units = [("PB", 1e15), ("TB", 1e12), ("GB", 1e9), ("MB", 1e6)];
     let (unit, size) = units.into_iter().find(|(_, size)| bytes >= *size).unwrap_or(("bytes", 1.0));
-    Error::new(format!("terrain: that would be {heights} heights, which take {:.1} {unit}", bytes / size))
-        .help(format!("at most {MOST_HEIGHTS} are expanded at once: use fewer levels, or focus on a part"))
+    Error::limit(
+        Limit::Size,
+        format!("terrain: that would be {heights} heights, which take {:.1} {unit}", bytes / size),
+    )
+    .help(format!("at most {MOST_HEIGHTS} are expanded at once: use fewer levels, or focus on a part"))
 }
 
 impl Fit {

@@ -67,11 +67,11 @@ pub struct Tables;
 
 impl Divide for Tables {
     fn begin(&self, _: usize) -> Result<Begin> {
-        Err(Error::new("only a script knows what its systems begin with"))
+        Err(Error::internal("only a script knows what its systems begin with"))
     }
 
     fn divide(&self, _: usize, _: &Block, _: Area, _: bool) -> Result<Block> {
-        Err(Error::new("only a script can divide cells by the rules of a system"))
+        Err(Error::internal("only a script can divide cells by the rules of a system"))
     }
 }
 

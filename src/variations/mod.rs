@@ -170,7 +170,7 @@ impl Variations {
                 self.each(
                     |number| {
                         let ran = waiting[number].lock().unwrap_or_else(PoisonError::into_inner).take();
-                        let ran = ran.unwrap_or_else(|| Err(Error::new("it was made twice")))?;
+                        let ran = ran.unwrap_or_else(|| Err(Error::internal("it was made twice")))?;
                         self.photograph(number, ran, &extent, picture)
                     },
                     |number, made| take(self.cell(number, made)),
@@ -198,7 +198,7 @@ impl Variations {
         let run = run?;
         if run.systems.is_empty() {
             let script = self.script.display();
-            return Err(Error::new(format!("{script} makes nothing to show, for it derives no system"))
+            return Err(Error::script(format!("{script} makes nothing to show, for it derives no system"))
                 .help("end it with system:derive()"));
         }
         let modules = run.systems.iter().map(|system| system.modules()).sum();
@@ -309,7 +309,7 @@ fn every_value(param: &Param) -> Result<Vec<String>> {
     match &param.control {
         Control::Choice(choices) => Ok(choices.clone()),
         Control::Switch => Ok(vec!["false".to_owned(), "true".to_owned()]),
-        _ => Err(Error::new(format!("param {} has no list of choices", param.name))
+        _ => Err(Error::argument(format!("param {} has no list of choices", param.name))
             .help(format!("say which values: {}=LOW..HIGH:STEP or {}=A,B,C", param.name, param.name))),
     }
 }
@@ -406,7 +406,7 @@ s:derive()
         let stop = Arc::clone(&variations.stop);
         let stopper = std::thread::spawn(move || {
             std::thread::sleep(std::time::Duration::from_millis(100));
-            stop.stop(Error::new("enough"));
+            stop.stop(Error::stopped("enough"));
         });
         let begin = std::time::Instant::now();
         let error = variations.make(&Picture::default(), Framing::Each, |_| panic!("a cell")).unwrap_err();

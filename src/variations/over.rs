@@ -1,6 +1,6 @@
 //! What changes from one variation to the next, and how it is written: `1..16`, `twist=0..90:10`, `kind=a,b`.
 
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::objects::Value;
 
 /// The most variations that are made at once.
@@ -26,7 +26,7 @@ impl Over {
         let help = "write a range such as 1..16, or numbers such as 3,7,12";
         let number = |text: &str| {
             let parsed = text.trim().parse::<u64>();
-            parsed.map_err(|_| Error::new(format!("{:?} is no seed", text.trim())).help(help))
+            parsed.map_err(|_| Error::argument(format!("{:?} is no seed", text.trim())).help(help))
         };
         let mut seeds = Vec::new();
         for item in text.split(',') {
@@ -35,7 +35,7 @@ impl Over {
                 None => (number(item)?, number(item)?),
             };
             if from > to {
-                return Err(Error::new(format!("the range {from}..{to} is empty"))
+                return Err(Error::argument(format!("the range {from}..{to} is empty"))
                     .help(format!("write {to}..{from}")));
             }
             check_count((to - from).saturating_add(1) as f64 + seeds.len() as f64, "take fewer seeds")?;
@@ -53,11 +53,11 @@ impl Over {
         };
         let form = "write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C";
         if name.is_empty() {
-            return Err(Error::new("the parameter has no name").help(form));
+            return Err(Error::argument("the parameter has no name").help(form));
         }
         let values = match values {
             None => Vec::new(),
-            Some("") => return Err(Error::new(format!("{name} has no values")).help(form)),
+            Some("") => return Err(Error::argument(format!("{name} has no values")).help(form)),
             Some(values) => match values.split_once("..") {
                 Some((low, high)) if !values.contains(',') && (is_number(low) || is_number(high)) => {
                     range(low, high)?
@@ -73,7 +73,7 @@ fn list(text: &str, form: &str) -> Result<Vec<String>> {
     let values: Vec<String> = text.split(',').map(|value| value.trim().to_owned()).collect();
     check_count(values.len() as f64, "take fewer values")?;
     if values.iter().any(String::is_empty) {
-        return Err(Error::new(format!("{text:?} leaves a value empty")).help(form));
+        return Err(Error::argument(format!("{text:?} leaves a value empty")).help(form));
     }
     Ok(values)
 }
@@ -88,17 +88,17 @@ fn range(low: &str, high: &str) -> Result<Vec<String>> {
     let (high, step) = high.split_once(':').unwrap_or((high, "1"));
     let number = |text: &str, what: &str| match text.trim().parse::<f64>() {
         Ok(number) if number.is_finite() => Ok(number),
-        _ => Err(Error::new(format!("{:?} is no number for the {what} of a range", text.trim()))
+        _ => Err(Error::argument(format!("{:?} is no number for the {what} of a range", text.trim()))
             .help("write LOW..HIGH:STEP, such as 0..90:10")),
     };
     let (low, high, step) = (number(low, "beginning")?, number(high, "end")?, number(step, "step")?);
     if step <= 0.0 {
-        return Err(Error::new(format!("the step {step} does not lead from {low} to {high}"))
+        return Err(Error::argument(format!("the step {step} does not lead from {low} to {high}"))
             .help("give a step above 0"));
     }
     if low > high {
         return Err(
-            Error::new(format!("the range {low}..{high} is empty")).help(format!("write {high}..{low}"))
+            Error::argument(format!("the range {low}..{high} is empty")).help(format!("write {high}..{low}"))
         );
     }
     // The last value counts although it may be a rounding error away.
@@ -118,10 +118,12 @@ fn rounded(number: f64) -> f64 {
 pub(super) fn check_count(count: f64, help: &str) -> Result<()> {
     if count > MOST as f64 {
         let many = if count < 1e9 { format!("{count} variations") } else { "so many variations".to_owned() };
-        return Err(Error::new(format!("{many} are more than {MOST}, the most at once")).help(help));
+        return Err(
+            Error::limit(Limit::Size, format!("{many} are more than {MOST}, the most at once")).help(help)
+        );
     }
     if count < 1.0 {
-        return Err(Error::new("there is nothing to vary").help("give a seed or a value"));
+        return Err(Error::argument("there is nothing to vary").help("give a seed or a value"));
     }
     Ok(())
 }

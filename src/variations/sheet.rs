@@ -3,7 +3,7 @@
 use image::{Rgba, RgbaImage, imageops};
 
 use super::letters::{LINE, draw, fitted, width, wrapped};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::picture::{Background, Picture};
 
 /// What a sheet shows when it is not much wider than high.
@@ -54,10 +54,13 @@ impl Sheet {
         };
         let size = [wide, high].map(|side| u32::try_from(side).unwrap_or(u32::MAX));
         if size.iter().any(|side| *side > Picture::LARGEST) {
-            return Err(Error::new(format!(
-                "the sheet would be {wide} x {high} pixels, more than {} on a side",
-                Picture::LARGEST
-            ))
+            return Err(Error::limit(
+                Limit::Size,
+                format!(
+                    "the sheet would be {wide} x {high} pixels, more than {} on a side",
+                    Picture::LARGEST
+                ),
+            )
             .help("take smaller cells, --size WIDTHxHEIGHT, or fewer of them"));
         }
         Ok(Self { columns, rows, cell, size, margin, letters })

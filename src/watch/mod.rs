@@ -149,7 +149,7 @@ impl Watch {
         let thread = std::thread::Builder::new()
             .name("burgeon watch".to_owned())
             .spawn(watch)
-            .map_err(|error| Error::new(format!("cannot start a thread to watch files: {error}")))?;
+            .map_err(|error| Error::system(format!("cannot start a thread to watch files: {error}")))?;
         Ok(Self { signals, thread: Some(thread) })
     }
 

@@ -228,7 +228,7 @@ fn what_was_just_written_in_part_is_read_again() {
     });
     let read = || match fs::read_to_string(&path).unwrap() {
         text if text == "{}" => Ok(text),
-        text => Err(Error::new(text)),
+        text => Err(Error::data(text)),
     };
     assert_eq!(settled(&path, read).unwrap(), "{}");
     writer.join().unwrap();

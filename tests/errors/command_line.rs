@@ -234,7 +234,7 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.gtlf"]), @r"
     error: invalid value 'model.gtlf' for '--output <FILE>': cannot write model.gtlf: .gtlf is not a format
-      help: did you mean .gltf? the formats are .glb, .gltf, .obj, .png and .svg
+      help: did you mean .gltf?
 
     For more information, try '--help'.
     ");

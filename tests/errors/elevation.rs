@@ -398,7 +398,7 @@ print(#s:derive(1).chains)
 }
 
 #[test]
-fn heights_are_asked_in_rules_and_holes_are_told_once() {
+fn heights_are_asked_in_rules_and_holes_are_told_where_the_file_is_asked_for() {
     let script = r#"
 local ground = elevation("holes.asc")
 assert(elevation("holes.asc"):height({ 0.5, 0.5 }) == ground:height({ 0.5, 0.5 }))
@@ -413,8 +413,17 @@ print(ground:low().z, ground:high().z, ground:high().x, ground:step(), tostring(
         folder().with("in/s.lua", script).with("in/holes.asc", grid("cellsize 1\nnodata_value 0", "4 8 0 6"));
     let said = folder.burgeon(&["run", "in/s.lua", "--json"]).done();
     assert_snapshot!(said.stderr, @r#"
-    holes.asc: filled 1 of 4 heights, which are missing, from around them
     B(4) B(8)
     4	8	2	1	elevation
+    "#);
+    let warnings: Vec<String> = said.json()["warnings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|told| format!("{}: {} ({})", told["line"], told["message"].as_str().unwrap(), told["code"]))
+        .collect();
+    assert_snapshot!(warnings.join("\n"), @r#"
+    2: holes.asc: filled 1 of 4 heights, which are missing, from around them ("warning.data")
+    3: holes.asc: filled 1 of 4 heights, which are missing, from around them ("warning.data")
     "#);
 }

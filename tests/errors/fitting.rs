@@ -122,7 +122,7 @@ fn a_target_or_a_file_that_cannot_be_is_refused_before_the_search() {
     let folder = Folder::new().with("mine.lua", "local n = 3\n").with("folder.lua/a.txt", "");
     assert_snapshot!(folder.refuses(&["fit", "mountain", "-o", "rules.lua"]), @r"
     error: there is no target mountain
-      help: did you mean mountains? there are hill, ridge, crater, plain, mountains
+      help: did you mean mountains?
     ");
     assert_snapshot!(folder.refuses(&["fit", "heights.tif", "-o", "rules.lua"]), @r"
     error: there is no target heights.tif

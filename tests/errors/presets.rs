@@ -76,7 +76,7 @@ fn a_preset_that_does_not_fit_the_script_any_more_is_told_with_its_line() {
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"flors\": 60 } } }", &["--preset", "tall"]), @r#"
     error: tower.presets.json:2: preset tall sets flors, but tower.lua has no parameter called flors
       | "flors": 60 } } }
-      help: if floors is meant, rename it in the preset; otherwise remove it there
+      help: did you mean floors?
     "#);
     assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\"wings\": 2 } } }", &["--preset", "tall"]), @r#"
     error: tower.presets.json:2: preset tall sets wings, but tower.lua has no parameter called wings

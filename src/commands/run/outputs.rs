@@ -26,7 +26,7 @@ impl Run {
         self.check_text(self.edits.as_deref(), "edits", "the edits", "ground.json")?;
         self.heights.as_deref().map_or(Ok(()), export::heights::check_name)?;
         if self.script.json && self.report.as_deref() == Some(Path::new(STANDARD)) {
-            return Err(Error::new("standard output cannot take both a report and the JSON document")
+            return Err(Error::usage("standard output cannot take both a report and the JSON document")
                 .help("name a file: --report report.json; the document has the counts"));
         }
         let beside = self.output.iter().filter_map(|output| match Format::of(output) {
@@ -55,11 +55,11 @@ impl Run {
             |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
         let shown = path.display();
         if same(path, &self.script.script) {
-            return Err(Error::new(format!("{what} would overwrite the script {shown}"))
+            return Err(Error::usage(format!("{what} would overwrite the script {shown}"))
                 .help(format!("name another file: --{flag} {example}, or - for standard output")));
         }
         if path.is_dir() {
-            return Err(Error::new(format!("cannot write {shown}: it is a folder"))
+            return Err(Error::file(path, format!("cannot write {shown}: it is a folder"))
                 .help(format!("name a file in it, such as {}", path.join(example).display())));
         }
         Ok(())
@@ -73,7 +73,7 @@ impl Run {
         let written = self.output.iter().map(|path| path.as_path()).chain(self.named());
         match written.filter(|path| Some(*path) != self.edits.as_deref()).find(is_read) {
             Some(path) => {
-                Err(Error::new(format!("{} would be overwritten, and the script reads it", path.display()))
+                Err(Error::usage(format!("{} would be overwritten, and the script reads it", path.display()))
                     .help("name another file"))
             }
             None => Ok(()),
@@ -84,7 +84,7 @@ impl Run {
     pub(super) fn write(&self, run: &burgeon::Run, session: &Session) -> Result<()> {
         if run.systems.is_empty() && !self.output.is_empty() {
             let script = self.script.script.display();
-            return Err(Error::new(format!("{script} makes nothing to write, for it derives no system"))
+            return Err(Error::script(format!("{script} makes nothing to write, for it derives no system"))
                 .help("end it with system:derive()"));
         }
         self.check_inputs(session)?;
@@ -146,9 +146,9 @@ fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     });
     match (terrains.next(), terrains.next()) {
         (Some(terrain), None) => Ok(terrain),
-        (None, _) => Err(Error::new("there is no terrain to write the heights or the edits of")
+        (None, _) => Err(Error::script("there is no terrain to write the heights or the edits of")
             .help("write lsystem({ object = terrain({ ... }) }):derive()")),
-        _ => Err(Error::new("there are several terrains to write the heights or the edits of")
+        _ => Err(Error::script("there are several terrains to write the heights or the edits of")
             .help("keep one of them in the script")),
     }
 }

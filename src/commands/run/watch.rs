@@ -31,7 +31,7 @@ impl Now {
     fn stop(&self, wake: &Sender<()>) {
         self.stale.store(true, Ordering::Release);
         if let Some(session) = &*self.session.lock().unwrap_or_else(PoisonError::into_inner) {
-            session.stop.stop(Error::new("there is something newer"));
+            session.stop.stop(Error::stopped("there is something newer"));
         }
         // Nobody waits any more at the end.
         let _ = wake.send(());
@@ -69,7 +69,7 @@ pub(super) fn again_and_again(command: &Run) -> Result<()> {
             Ok(session) => {
                 *now.session.lock().unwrap_or_else(PoisonError::into_inner) = Some(Arc::clone(session));
                 if now.is_stale() {
-                    session.stop.stop(Error::new("there is something newer"));
+                    session.stop.stop(Error::stopped("there is something newer"));
                 }
                 command.make(session, begin, &|| now.is_stale())
             }

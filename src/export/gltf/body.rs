@@ -3,7 +3,7 @@
 use super::super::check::shown;
 use super::corners::Corners;
 use super::weld::Welded;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::{Normal, Part};
 use crate::stop::Stop;
 use glam::Vec3;
@@ -430,7 +430,10 @@ pub(super) fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
 pub(super) fn within_limit(bytes: u64) -> Result<u32> {
     u32::try_from(bytes).map_err(|_| {
         let gigabytes = bytes as f64 / f64::from(1 << 30);
-        Error::new(format!("the model takes {gigabytes:.1} GiB, and glTF files end at 4 GiB"))
-            .help("write it in parts, with less detail, or with more instances of fewer meshes")
+        Error::limit(
+            Limit::Format,
+            format!("the model takes {gigabytes:.1} GiB, and glTF files end at 4 GiB"),
+        )
+        .help("write it in parts, with less detail, or with more instances of fewer meshes")
     })
 }

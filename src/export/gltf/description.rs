@@ -206,7 +206,7 @@ impl<'a> Description<'a> {
             text.push(b"}".to_vec());
             Ok(text)
         };
-        written().map_err(|error| Error::new(format!("cannot write glTF: {error}")))
+        written().map_err(|error| Error::internal(format!("cannot write glTF: {error}")))
     }
 }
 

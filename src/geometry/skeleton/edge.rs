@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use glam::{DVec2, I64Vec2};
 
 use super::Pace;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// Cells of the lattice to a metre: corners move by less than 2e-10 m.
 pub(super) const CELLS: f64 = (1u64 << 32) as f64;
@@ -20,7 +20,7 @@ pub(super) fn snapped(rings: &[Vec<DVec2>]) -> Result<(Vec<Vec<I64Vec2>>, DVec2)
     let middle = low.midpoint(high).round();
     let reach = (high - low).max_element() * CELLS;
     if !points().all(|point| point.is_finite()) || reach > MOST {
-        return Err(Error::new("the outline is too large for a roof"));
+        return Err(Error::limit(Limit::Size, "the outline is too large for a roof"));
     }
     let snap = |point: &DVec2| ((*point - middle) * CELLS).round().as_i64vec2();
     Ok((rings.iter().map(|ring| ring.iter().map(snap).collect()).collect(), middle))
@@ -74,6 +74,11 @@ impl Direction {
     /// Whether two parallel directions are one.
     pub(super) fn agrees(self, other: Self) -> bool {
         self.0.signum() == other.0.signum()
+    }
+
+    /// Whether another one is parallel to it and the same way.
+    pub(super) fn runs_as(self, other: Self) -> bool {
+        self.agrees(other) && self.turn(other) == Ordering::Equal
     }
 
     /// The order of the angles from the negative x axis, counter-clockwise. Exact.

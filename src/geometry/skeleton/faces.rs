@@ -38,7 +38,8 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleto
     coarsen(&peaks, edges.len(), &mut faces);
     widen(&mut peaks, edges.len(), &edges, &faces);
     verify(rings, &edges, &peaks, &faces)?;
-    Ok(Skeleton { peaks, faces })
+    let paces = edges.iter().map(|edge| edge.pace).collect();
+    Ok(Skeleton { peaks, faces, paces })
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.
@@ -63,14 +64,14 @@ fn chain(mut borders: Borders) -> Result<Vec<usize>> {
     while at != first {
         ring.push(at);
         let Some(next) = borders[..left].iter().position(|border| border[0] == at) else {
-            return Err(Error::new("a face of the roof is not closed"));
+            return Err(Error::geometry("a face of the roof is not closed"));
         };
         at = borders[next][1];
         left -= 1;
         borders.swap(next, left);
     }
     if left > 0 {
-        return Err(Error::new("a face of the roof is in several pieces"));
+        return Err(Error::geometry("a face of the roof is in several pieces"));
     }
     Ok(ring)
 }
@@ -85,10 +86,10 @@ fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<u
     let mut sum = 0.0;
     for (edge, face) in edges.iter().zip(faces) {
         if face.len() < 3 {
-            return Err(Error::new("a face of the roof has no corners but its edge's"));
+            return Err(Error::geometry("a face of the roof has no corners but its edge's"));
         }
         if face.iter().any(|&peak| edge.ahead(peaks[peak].at, peaks[peak].time).abs() > OFF_PLANE) {
-            return Err(Error::new("a face of the roof is not flat"));
+            return Err(Error::geometry("a face of the roof is not flat"));
         }
         let area = twice_area(face.iter().map(|&peak| peaks[peak].at));
         // What stands upright may be off its plane by as much as borders are short.
@@ -96,15 +97,15 @@ fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<u
         let (low, high) =
             along.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
         if area < -MERGED * (high - low) || (edge.pace.moves() && area <= 0.0) {
-            return Err(Error::new("a face of the roof is turned over"));
+            return Err(Error::geometry("a face of the roof is turned over"));
         }
         sum += area;
         if !monotone(edge, peaks, face) && (even || crosses_itself(edge, peaks, face)) {
-            return Err(Error::new("a face of the roof overlaps itself"));
+            return Err(Error::geometry("a face of the roof overlaps itself"));
         }
     }
     if (sum - whole).abs() > 1e-6 * whole {
-        return Err(Error::new("the faces of the roof do not cover the plan"));
+        return Err(Error::geometry("the faces of the roof do not cover the plan"));
     }
     Ok(())
 }

@@ -97,7 +97,7 @@ impl Wavefront {
                 return Ok(());
             }
         }
-        Err(Error::new("edges in one line do not come to rest"))
+        Err(Error::geometry("edges in one line do not come to rest"))
     }
 
     /// Cuts what meets and pairs it anew: the new corners.
@@ -131,7 +131,7 @@ impl Wavefront {
         for rays in rays.chunk_by(|a, b| a.meeting == b.meeting) {
             let next = |index: usize| &rays[(index + 1) % rays.len()];
             if (0..rays.len()).any(|index| rays[index].leaves == next(index).leaves) {
-                return Err(Error::new("the edges that meet in a place do not enclose areas"));
+                return Err(Error::geometry("the edges that meet in a place do not enclose areas"));
             }
             // Each that leaves is followed by the one that arrives across the area between them, counter-clockwise.
             for (number, ray) in rays.iter().enumerate().filter(|(_, ray)| ray.leaves) {

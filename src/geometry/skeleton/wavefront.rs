@@ -76,6 +76,7 @@ impl Corner {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Front {
     pub line: Line,
+    pub direction: Direction,
     pub edge: usize,
 }
 
@@ -125,14 +126,36 @@ impl Wavefront {
         self.begin(rings, paces)?;
         for _ in 0..16 * paces.len() + 64 {
             let Some(mut when) = self.gather() else {
-                if self.corners.iter().any(|corner| corner.alive) {
-                    return Err(Error::new("the wavefront is left with corners that meet nothing"));
+                if !self.corners.iter().any(|corner| corner.alive) {
+                    return Ok(());
                 }
-                return Ok(());
+                self.move_on()?;
+                continue;
             };
             self.resolve(&mut when)?;
         }
-        Err(Error::new("the wavefront does not end"))
+        Err(Error::geometry("the wavefront does not end"))
+    }
+
+    /// Lets the edges around areas that nothing sweeps begin to move, a little later than all that has happened.
+    fn move_on(&mut self) -> Result<()> {
+        let last = self.last.map_or(0.0, |last| last.high());
+        let rest = ((last * STEPS).floor() + 1.0) / STEPS;
+        let mut found = false;
+        for index in 0..self.corners.len() {
+            let Corner { alive, edges: [_, edge], .. } = self.corners[index];
+            let Pace { speed, rest: known } = self.traced.edges[edge].pace;
+            if alive && (speed <= 0.0 || known == f64::INFINITY) {
+                self.traced.edges[edge].pace = Pace { speed: 1.0, rest };
+                self.expect(When::at(rest), What::Start(short(edge)));
+                found = true;
+            }
+        }
+        if found {
+            Ok(())
+        } else {
+            Err(Error::geometry("the wavefront is left with corners that meet nothing"))
+        }
     }
 
     /// Puts the wavefront on the polygon, whatever it was before.
@@ -165,14 +188,15 @@ impl Wavefront {
         for (ring, index) in rings.iter().flat_map(|ring| (0..ring.len()).map(move |index| (ring, index))) {
             let (from, to) = (ring[index], ring[(index + 1) % ring.len()]);
             if from == to {
-                return Err(Error::new("two corners of the outline are in one place"));
+                return Err(Error::geometry("two corners of the outline are in one place"));
             }
             let pace = paces.get(self.through.len()).copied().unwrap_or_default();
             let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
-            let line = self.lines.add(Direction(to - from), from, speed, 0.0);
+            let direction = Direction(to - from);
+            let line = self.lines.add(direction, from, speed, 0.0);
             let normal = self.lines.line(line).normal;
             let level = normal.dot(metres(from));
-            self.current.push(Front { line: *self.lines.line(line), edge: self.through.len() });
+            self.current.push(Front { line: *self.lines.line(line), direction, edge: self.through.len() });
             self.traced.edges.push(Edge { along: -normal.perp(), level, pace, line });
             self.through.push(from);
         }
@@ -186,7 +210,9 @@ impl Wavefront {
                 self.traced.peaks.push(Peak { at: at.at, time: 0.0 });
                 let corner = self.corner(edges, first + index, &at, &When::at(0.0));
                 if self.corners[corner].kind == Kind::Rushing {
-                    return Err(Error::new("two edges in one line turn back or move at different speeds"));
+                    return Err(Error::geometry(
+                        "two edges in one line turn back or move at different speeds",
+                    ));
                 }
                 self.corners[corner].before = first + before;
                 self.corners[corner].after = first + after;
@@ -381,5 +407,7 @@ impl Wavefront {
     }
 }
 
+/// Edges that begin to move as nothing else does so at a time of which there are so many to a metre.
+const STEPS: f64 = 64.0;
 /// Before all that may happen.
 const ANY: (f64, usize) = (f64::NEG_INFINITY, 0);

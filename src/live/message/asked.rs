@@ -4,6 +4,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 use super::Say;
+use crate::error::Error;
 
 /// What a page says.
 #[derive(Debug, Clone, Deserialize)]
@@ -100,16 +101,16 @@ pub struct Pick {
 
 /// Reads a page's message. Fails with what is to be told to the page.
 pub fn read(text: &str) -> Result<Ask, Box<Say>> {
-    let refuse = |id: Option<u64>, text: String| Err(Box::new(Say::Refused { id, text }));
+    let refuse = |id: Option<u64>, error: Error| Err(Box::new(Say::refused(id, &error)));
     let value: Value = match serde_json::from_str(text) {
         Ok(value @ Value::Object(_)) => value,
-        Ok(_) => return refuse(None, "a message is a JSON object with a type".into()),
-        Err(error) => return refuse(None, format!("a message is a JSON object: {error}")),
+        Ok(_) => return refuse(None, Error::argument("a message is a JSON object with a type")),
+        Err(error) => return refuse(None, Error::syntax(format!("a message is a JSON object: {error}"))),
     };
     let id = value.get("id").and_then(Value::as_u64);
     match serde_json::from_value(value) {
         Ok(ask) => Ok(ask),
-        Err(error) => refuse(id, format!("cannot read this message: {error}")),
+        Err(error) => refuse(id, Error::argument(format!("cannot read this message: {error}"))),
     }
 }
 
@@ -143,8 +144,10 @@ mod tests {
             let refused = read(text).unwrap_err();
             assert!(matches!(*refused, Say::Refused { id: None, .. }), "{text}");
         }
-        let Say::Refused { id, text } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else { panic!() };
-        assert_eq!(id, Some(9));
+        let Say::Refused { id, text, code } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else {
+            panic!()
+        };
+        assert_eq!((id, code), (Some(9), Some("argument")));
         assert!(text.contains("mesh"), "{text}");
         assert!(read(&"[".repeat(100_000)).is_err());
     }

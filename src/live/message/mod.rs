@@ -18,6 +18,8 @@ use std::collections::BTreeMap;
 use serde::Serialize;
 use serde_json::Value;
 
+use crate::error::Error;
+
 /// What the server says.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
@@ -61,7 +63,7 @@ pub enum Say {
         cause: Cause,
         /// All problems as text.
         text: String,
-        /// Each problem: `{ message, file, line, excerpt, rule, module, step, help }`, absent where unknown; the excerpt is
+        /// Each problem: `{ code, message, file, line, excerpt, rule, module, step, help }`, absent where unknown; the excerpt is
         /// of lines `{ line, text }`. Of very many problems only the first ones.
         errors: Vec<Value>,
         /// How many problems there are.
@@ -133,6 +135,8 @@ pub enum Say {
     Refused {
         /// The message's id, if it had one.
         id: Option<u64>,
+        /// The [code](crate::error::ErrorKind::code) of the error; none for a note about something that was done.
+        code: Option<&'static str>,
         /// Why, and what can be done.
         text: String,
     },
@@ -174,6 +178,16 @@ pub enum Cause {
 }
 
 impl Say {
+    /// What is said of a message that led to `error`.
+    pub fn refused(id: Option<u64>, error: &Error) -> Self {
+        Self::Refused { id, code: Some(error.kind().code()), text: error.to_string() }
+    }
+
+    /// What is said of something that was done, though not wholly.
+    pub fn note(text: String) -> Self {
+        Self::Refused { id: None, code: None, text }
+    }
+
     /// The message as it travels. Texts that no page could show are cut.
     pub fn to_text(&self) -> String {
         bounded::to_text(self)

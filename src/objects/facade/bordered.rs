@@ -40,7 +40,7 @@ pub static KIND: Kind = Kind {
 
 fn make(options: &Options) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
-        return Err(Error::new("bordered: there is no wall between the margins")
+        return Err(Error::argument("bordered: there is no wall between the margins")
             .help("write bordered { wall = panel { }, left = 0.5 }"));
     };
     let columns = split(options.left, &wall, 0, options.right)?;

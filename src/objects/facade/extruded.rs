@@ -53,11 +53,11 @@ const FURTHEST: f64 = 100.0;
 
 fn make(options: &Options) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
-        return Err(Error::new("extruded: there is no wall to extrude")
+        return Err(Error::argument("extruded: there is no wall to extrude")
             .help("write extruded { wall = panel { }, depth = 0.3 }"));
     };
     if options.depth.abs() > FURTHEST {
-        return Err(Error::new(format!("extruded: depth is {} m", options.depth))
+        return Err(Error::argument(format!("extruded: depth is {} m", options.depth))
             .help(format!("give metres from -{FURTHEST} to {FURTHEST}")));
     }
     let model = options.model.clone();

@@ -34,7 +34,9 @@ pub static KIND: Kind = Kind {
 
 fn make(options: &Options) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
-        return Err(Error::new("grid: there is no wall to repeat").help("write grid { wall = panel { } }"));
+        return Err(
+            Error::argument("grid: there is no wall to repeat").help("write grid { wall = panel { } }")
+        );
     };
     let counts = [options.columns, options.rows].map(|count| count.low..=count.high);
     let sizes =

@@ -2,7 +2,7 @@
 
 use super::size::Size;
 use super::wall::{Rule, Wall, range};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::geometry::{Share, Split};
 use crate::objects::{Kind, Surface, Table};
 
@@ -38,15 +38,15 @@ fn make(options: &Options) -> Result<Wall> {
         "horizontal" => false,
         "vertical" => true,
         other => {
-            return Err(Error::new(format!("list: direction is {other:?}"))
+            return Err(Error::argument(format!("list: direction is {other:?}"))
                 .help("there are \"horizontal\" and \"vertical\""));
         }
     };
     let Some(first) = options.walls.first() else {
-        return Err(Error::new("list: there are no walls").help("write list({ panel { }, panel { } })"));
+        return Err(Error::argument("list: there are no walls").help("write list({ panel { }, panel { } })"));
     };
     if options.walls.len() > MOST {
-        return Err(Error::new(format!("list: there are {} walls", options.walls.len()))
+        return Err(Error::limit(Limit::Size, format!("list: there are {} walls", options.walls.len()))
             .help(format!("give at most {MOST}, or repeat one with grid")));
     }
     let (along, across) = (usize::from(upwards), usize::from(!upwards));
@@ -66,7 +66,7 @@ fn make(options: &Options) -> Result<Wall> {
                 range(&wall.0.sizes[across], side),
                 range(&common, side)
             );
-            return Err(Error::new(message).help("put a margin around one of them: bordered { ... }"));
+            return Err(Error::argument(message).help("put a margin around one of them: bordered { ... }"));
         }
         common = both;
     }

@@ -63,12 +63,13 @@ impl Template {
 
     fn new(options: &Options) -> Result<Self> {
         let Some(wall) = options.wall.clone() else {
-            return Err(Error::new("template: there is no wall").help("write template { wall = panel { } }"));
+            return Err(
+                Error::argument("template: there is no wall").help("write template { wall = panel { } }")
+            );
         };
         if !(0.0..=1e9).contains(&options.weight) {
-            return Err(
-                Error::new(format!("template: weight is {}", options.weight)).help("give a number from 0 on")
-            );
+            return Err(Error::argument(format!("template: weight is {}", options.weight))
+                .help("give a number from 0 on"));
         }
         let material = options.material.material()?;
         let inner = Inner { wall, keywords: options.keywords.clone(), material, weight: options.weight };
@@ -112,7 +113,7 @@ impl Facade {
 
     fn new(options: FacadeOptions) -> Result<Self> {
         if options.templates.is_empty() {
-            return Err(Error::new("facade: there are no templates")
+            return Err(Error::argument("facade: there are no templates")
                 .help("write facade({ template { wall = panel { } } })"));
         }
         Ok(Self(Templates(options.templates.into())))

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::fixture::Fixture;
 use super::size::Size;
 use super::{bordered, extruded, grid, list, panel};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::geometry::{Sizes, Split};
 use crate::objects::{Expected, Kind, Object, Parameter, Surface, Value};
 use crate::scene::Material;
@@ -80,15 +80,18 @@ impl Wall {
         let name = rule.kind().name;
         let depth = 1 + rule.parts().iter().map(|wall| wall.0.depth).max().unwrap_or(0);
         if depth > DEEPEST {
-            return Err(Error::new(format!("{name}: more than {DEEPEST} walls are within one another"))
-                .help("repeat a wall with grid or list"));
+            return Err(Error::limit(
+                Limit::Size,
+                format!("{name}: more than {DEEPEST} walls are within one another"),
+            )
+            .help("repeat a wall with grid or list"));
         }
         let own = own.map(Option::unwrap_or_default);
         let mut sizes = of_parts;
         for ((sizes, own), side) in sizes.iter_mut().zip(&own).zip(["wide", "high"]) {
             let both = sizes.and(&own.sizes());
             if both.is_empty() {
-                return Err(Error::new(format!(
+                return Err(Error::argument(format!(
                     "{name}: it can never fit: its parts are {}, and it must be {}",
                     range(sizes, side),
                     range(&own.sizes(), side)

@@ -165,7 +165,8 @@ impl Footprint {
         if (1..=count).contains(&number) {
             return Ok(number - 1);
         }
-        Err(Error::new(format!("footprint:{method}: there is no edge {number}")).help(if count == 0 {
+        let message = format!("footprint:{method}: there is no edge {number}");
+        Err(Error::not_found("edge", number, [], message).help(if count == 0 {
             "the footprint has no geometry".to_owned()
         } else {
             format!("it has the edges 1 to {count}, those of holes after those of the outer ring")
@@ -228,7 +229,7 @@ impl Footprint {
         let count = self.plan.given();
         match self.options.edge_keywords.0.keys().find(|number| !(1..=count).contains(*number)) {
             None => Ok(()),
-            Some(number) => Err(Error::new(format!("footprint: edge_keywords names edge {number}"))
+            Some(number) => Err(Error::argument(format!("footprint: edge_keywords names edge {number}"))
                 .help(format!("the geometry has the edges 1 to {count}"))),
         }
     }

@@ -21,7 +21,7 @@ use super::{
     Color, Drawing, Gather, Kind, Note, Object, Parameter, Shape, Streets, Surface, Table, Terrain, Value,
     Vector,
 };
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::geometry::Plan;
 use crate::scene::{Material, Scene};
 use crate::sources::Geometry;
@@ -338,11 +338,11 @@ impl Footprint {
     /// Fails if nothing can be built, or `what` comes too late.
     fn check_open(&self, what: &str) -> Result<()> {
         if self.plan.rings().is_empty() {
-            return Err(Error::new(format!("footprint:{what}: the footprint has no geometry"))
+            return Err(Error::script(format!("footprint:{what}: the footprint has no geometry"))
                 .help("make it with one: footprint(feature.geometry)"));
         }
         if self.shell.closed {
-            return Err(Error::new(format!("footprint:{what}: the building has its roof already"))
+            return Err(Error::script(format!("footprint:{what}: the building has its roof already"))
                 .help("the roof comes last"));
         }
         Ok(())
@@ -362,17 +362,14 @@ fn check_height(what: &str, height: f64) -> Result<()> {
     if height > 0.0 && height <= HIGHEST {
         return Ok(());
     }
-    let error = Error::new(format!("{what} is {} m", Value::Number(height)));
+    let error = Error::argument(format!("{what} is {} m", Value::Number(height)));
     Err(error.help(format!("give metres above 0, up to {HIGHEST}")).of_data())
 }
 
 /// The error for a kind that there is not.
 fn unknown(what: &str, kind: &str, known: &[&'static str]) -> Error {
-    let error = Error::new(format!("{what} has no kind called {kind:?}"));
-    match nearest(kind, known.iter().copied()) {
-        Some(near) => error.help(format!("did you mean {near:?}?")),
-        None => error.help(format!("there are {}", known.join(", "))),
-    }
+    Error::not_found("kind", kind, known.iter().copied(), format!("{what} has no kind called {kind:?}"))
+        .help(format!("there are {}", known.join(", ")))
 }
 
 /// The edges of rings, each with its two points.

@@ -32,7 +32,7 @@ impl Footprint {
     pub(super) fn lay(&mut self, kind: &str, material: Option<Surface>) -> Result<()> {
         self.check_open("groundwork")?;
         if self.shell.begun {
-            return Err(Error::new("footprint:groundwork: the building has been begun already")
+            return Err(Error::script("footprint:groundwork: the building has been begun already")
                 .help("the groundwork comes first"));
         }
         let (low, high) = self.plan.ground();

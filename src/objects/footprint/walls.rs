@@ -4,7 +4,7 @@ use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::sides::material_of;
 use super::{Footprint, Height, along, check_height, edges};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::geometry::{SAME, fill};
 use crate::objects::facade::lay::MOST;
 use crate::objects::facade::template::BLIND;
@@ -62,9 +62,11 @@ impl Footprint {
     pub(super) fn raise(&mut self, options: &Walls) -> Result<()> {
         self.check_open("walls")?;
         let Some(Height(height)) = options.height.or(self.options.height) else {
-            return Err(Error::new("footprint:walls: neither the walls nor the footprint have a height")
-                .help("write this:walls { height = 6 }")
-                .of_data());
+            return Err(Error::argument(
+                "footprint:walls: neither the walls nor the footprint have a height",
+            )
+            .help("write this:walls { height = 6 }")
+            .of_data());
         };
         check_height("footprint:walls: height", height)?;
         if !self.shell.begun {
@@ -98,7 +100,7 @@ impl Footprint {
             }
             (Some(templates), None) => self.draw_facades(templates, plain, options.expand, from, to),
             (Some(_), Some(_)) => {
-                Err(Error::new("footprint:walls: there are both templates and a photo")
+                Err(Error::argument("footprint:walls: there are both templates and a photo")
                     .help("give one of them"))
             }
         }
@@ -155,9 +157,10 @@ impl Footprint {
             let over = Rectangle { at: DVec2::ZERO, size: frontage.size };
             let Some(template) = chosen.filter(|template| laid.lay(template.wall(), over, 0.0)) else {
                 if laid.too_many {
-                    return Err(Error::new(format!(
-                        "footprint:walls: a frontage has more than {MOST} faces"
-                    ))
+                    return Err(Error::limit(
+                        Limit::Size,
+                        format!("footprint:walls: a frontage has more than {MOST} faces"),
+                    )
                     .help("repeat fewer or larger walls in its template"));
                 }
                 if !blind {

@@ -142,7 +142,7 @@ impl<'a> Columns<'a> {
     fn whole(&self, index: Index<Accessor>) -> Result<Vec<u32>> {
         let (accessor, component) = self.described(index, 1)?;
         if matches!(component, ComponentType::F32 | ComponentType::I8 | ComponentType::I16) {
-            return Err(Error::new(format!("accessor {} has no whole numbers", index.value())));
+            return Err(Error::data(format!("accessor {} has no whole numbers", index.value())));
         }
         let mut items = Vec::new();
         self.each(accessor, component.size(), size_of::<u32>(), |bytes| {
@@ -168,9 +168,9 @@ impl<'a> Columns<'a> {
     fn described(&self, index: Index<Accessor>, count: usize) -> Result<(&'a Accessor, ComponentType)> {
         let number = index.value();
         let accessor =
-            self.root.get(index).ok_or_else(|| Error::new(format!("there is no accessor {number}")))?;
+            self.root.get(index).ok_or_else(|| Error::data(format!("there is no accessor {number}")))?;
         if accessor.sparse.is_some() {
-            return Err(Error::new(format!("accessor {number} is sparse, which is not read")));
+            return Err(Error::data(format!("accessor {number} is sparse, which is not read")));
         }
         let fits = match &accessor.type_ {
             Checked::Valid(kind) => kind.multiplicity() == count && *kind != Type::Mat2,
@@ -178,16 +178,16 @@ impl<'a> Columns<'a> {
         };
         match &accessor.component_type {
             Checked::Valid(component) if fits => Ok((accessor, component.0)),
-            _ => Err(Error::new(format!("accessor {number} has items of another type than is read"))),
+            _ => Err(Error::data(format!("accessor {number} has items of another type than is read"))),
         }
     }
 
     /// Calls `take` with the bytes of each item, for which `kept` bytes are asked for.
     fn each(&self, accessor: &Accessor, size: usize, kept: usize, mut take: impl FnMut(&[u8])) -> Result<()> {
-        let outside = || Error::new("an accessor reaches outside of its view");
+        let outside = || Error::data("an accessor reaches outside of its view");
         // Without a view all numbers are 0, which is no shape.
         let view = accessor.buffer_view.ok_or_else(outside)?;
-        let (bytes, stride) = self.bytes.view(self.root, view).map_err(Error::new)?;
+        let (bytes, stride) = self.bytes.view(self.root, view).map_err(Error::data)?;
         let stride = stride.unwrap_or(size).max(1);
         let offset =
             usize::try_from(accessor.byte_offset.map_or(0, |offset| offset.0)).map_err(|_| outside())?;

@@ -33,7 +33,7 @@ pub(super) fn places(columns: &mut Columns<'_>, node: &Node) -> Result<Option<Ve
     let mut known = lengths.into_iter().flatten();
     let Some(count) = known.next() else { return Ok(None) };
     if known.any(|other| other != count) {
-        return Err(Error::new("its instances have columns of different lengths"));
+        return Err(Error::data("its instances have columns of different lengths"));
     }
     let _held = columns.budget.hold(count.saturating_mul(OBJECT))?;
     let vector = |values: [f32; 3]| DVec3::from(values.map(f64::from));

@@ -19,7 +19,7 @@ use glam::{DAffine3, DMat3, DMat4, DQuat, DVec3};
 use gltf_json::{Index, Root, scene::Node};
 
 use crate::budget::Budget;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::{Instance, Mesh, Scene};
 use bytes::{Bytes, Columns};
 use look::Look;
@@ -76,7 +76,7 @@ pub(crate) fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
     };
     model.nodes(&start, DAffine3::IDENTITY, 0)?;
     if model.scene.instances.is_empty() {
-        return Err(Error::new(format!("the model {name} has no triangles"))
+        return Err(Error::data(format!("the model {name} has no triangles"))
             .help("export it with its meshes; lines, points and other scenes are not read"));
     }
     Ok(model.scene)
@@ -90,7 +90,7 @@ fn damaged(name: &str, budget: &Budget, error: &Error) -> Error {
 
 /// The error for a file that is damaged.
 fn broken(name: &str, why: impl std::fmt::Display) -> Error {
-    Error::new(format!("the model {name} cannot be read: {why}"))
+    Error::data(format!("the model {name} cannot be read: {why}"))
         .help("export it again as glTF 2.0 (.glb), and check that it was copied whole")
 }
 
@@ -129,7 +129,7 @@ fn check_extensions(root: &Root, name: &str) -> Result<()> {
     let known = |needed: &str| needed.starts_with("KHR_materials_") || needed == instances::EXTENSION;
     let unknown = root.extensions_required.iter().find(|needed| !known(needed));
     let Some(needed) = unknown else { return Ok(()) };
-    Err(Error::new(format!("the model {name} needs the extension {needed}, which is not read")).help(
+    Err(Error::data(format!("the model {name} needs the extension {needed}, which is not read")).help(
         "export it without compression of meshes and textures, and without extensions that readers must know",
     ))
 }
@@ -224,8 +224,11 @@ impl Import<'_> {
     }
 
     fn too_many(&self) -> Error {
-        Error::new(format!("the model {} has more than {} triangles", self.name, self.limit))
-            .help("simplify it, or raise the limit: --triangle-limit N")
+        Error::limit(
+            Limit::Triangles,
+            format!("the model {} has more than {} triangles", self.name, self.limit),
+        )
+        .help("simplify it, or raise the limit: --triangle-limit N")
     }
 
     /// The mesh of the scene for one of the file; `None` if it has no triangles.
@@ -243,8 +246,8 @@ impl Import<'_> {
                     None => look::plain(),
                 };
             let shapes = shape::shapes(&mut self.columns, primitive, look.set).map_err(|error| {
-                let place = Error::new(format!("{} (mesh {})", error.message(), index.value()));
-                damaged(self.name, self.columns.budget, &place)
+                let noted = error.noting(&format!("mesh {}", index.value()));
+                damaged(self.name, self.columns.budget, &noted)
             })?;
             for Shape { tint, part } in shapes {
                 let material = self.scene.material(&look.tinted(tint));

@@ -7,7 +7,7 @@ use gltf_json::{Accessor, Index};
 
 use super::bytes::{Columns, MANY};
 use super::tints;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::scene::{Normal, Part};
 
 /// The farthest (m) that a point may be from the model's origin.
@@ -34,7 +34,7 @@ pub(super) fn shapes(columns: &mut Columns<'_>, primitive: &Primitive, set: u32)
     let normals = attribute(Semantic::Normals).map(|normals| columns.triples(normals)).transpose()?;
     let same = |length: usize| length == positions.len();
     if !uvs.as_ref().is_none_or(|uvs| same(uvs.len())) || !normals.as_ref().is_none_or(|it| same(it.len())) {
-        return Err(Error::new("it has not as many normals or texture coordinates as points"));
+        return Err(Error::data("it has not as many normals or texture coordinates as points"));
     }
     let triangles = triangles(columns, primitive, &positions)?;
     let mut shapes = Vec::new();
@@ -59,7 +59,8 @@ fn triangles(
     primitive: &Primitive,
     positions: &[[f32; 3]],
 ) -> Result<Vec<[u32; 3]>> {
-    let count = u32::try_from(positions.len()).map_err(|_| Error::new("it has more than 2^32 points"))?;
+    let count = u32::try_from(positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "it has more than 2^32 points"))?;
     let indices = primitive.indices.map(|indices| columns.indices(indices)).transpose()?;
     let length = indices.as_ref().map_or(positions.len(), |indices| indices.len());
     let corner = |at: usize| match &indices {
@@ -81,7 +82,7 @@ fn triangles(
         _ => return Ok(Vec::new()),
     };
     if let Some(odd) = (0..length).map(corner).find(|corner| *corner >= count) {
-        return Err(Error::new(format!("a triangle has point {odd}, and there are {count}")));
+        return Err(Error::data(format!("a triangle has point {odd}, and there are {count}")));
     }
     let budget = columns.budget;
     let _held = budget.hold(length.saturating_mul(size_of::<[u32; 3]>()))?;
@@ -93,7 +94,7 @@ fn triangles(
         let corners = places.map(corner);
         let points = corners.map(|corner| z_up(Vec3::from(positions[corner as usize])));
         if let Some(point) = points.iter().find(|point| !point.abs().cmple(Vec3::splat(FARTHEST)).all()) {
-            return Err(Error::new(format!("a point lies at {}, {}, {}", point.x, point.y, point.z)));
+            return Err(Error::data(format!("a point lies at {}, {}, {}", point.x, point.y, point.z)));
         }
         // What has no area shows nothing, and has no normal.
         if area_vector(points).length_squared() > 0.0 {
@@ -130,7 +131,7 @@ impl Given<'_> {
             // v points up here, and down in a file.
             part.uvs = used().map(|point| Vec2::new(uvs[point][0], 1.0 - uvs[point][1])).collect();
             if part.uvs.iter().any(|uv| !uv.abs().cmple(Vec2::splat(FARTHEST)).all()) {
-                return Err(Error::new("a texture coordinate is no number"));
+                return Err(Error::data("a texture coordinate is no number"));
             }
         }
         match self.normals {

@@ -4,6 +4,7 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 
 use super::*;
 use crate::picture::Picture;
+use crate::random::Stream;
 use crate::scene::{Material, Part, Texture};
 
 /// A box of 2 m by 3 m by 4 m that stands twice, once turned and at half its size, with an image on it.
@@ -65,8 +66,9 @@ fn written(name: &str) -> (tempfile::TempDir, Vec<u8>) {
 }
 
 fn read_in(folder: &std::path::Path, content: &[u8], triangles: usize) -> Result<Scene> {
-    let mut beside =
-        |name: &str| std::fs::read(folder.join(name)).map_err(|error| Error::new(format!("{name}: {error}")));
+    let mut beside = |name: &str| {
+        std::fs::read(folder.join(name)).map_err(|error| Error::other(format!("{name}: {error}")))
+    };
     let budget = &Budget::default();
     read(content, &mut Wanted { name: "box.glb", triangles, budget, beside: &mut beside })
 }
@@ -297,12 +299,11 @@ fn colours_of_points_become_materials() {
 }
 
 /// Random numbers that are the same each time.
-struct Dice(u64);
+struct Dice(Stream);
 
 impl Dice {
     fn roll(&mut self, sides: usize) -> usize {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 33) as usize % sides.max(1)
+        self.0.below(sides)
     }
 }
 
@@ -359,12 +360,12 @@ fn changed_descriptions_neither_panic_nor_take_more_than_they_may() {
     let length = u32::from_le_bytes(content[12..16].try_into().unwrap()) as usize;
     let whole: serde_json::Value = serde_json::from_slice(&content[20..20 + length]).unwrap();
     let body = &content[20 + length + 8..];
-    let (mut dice, mut good, mut bad) = (Dice(7), 0, 0);
+    let (mut dice, mut good, mut bad) = (Dice(Stream::new(7)), 0, 0);
     for _ in 0..3000 {
         let mut changed = whole.clone();
         (0..=dice.roll(4)).for_each(|_| mutate(&mut changed, &mut dice));
         let budget = Budget::within(std::time::Duration::from_secs(20), 20_000_000);
-        let mut beside = |name: &str| Err(Error::new(format!("there is no {name}")));
+        let mut beside = |name: &str| Err(Error::other(format!("there is no {name}")));
         let mut wanted = Wanted { name: "a", triangles: 2000, budget: &budget, beside: &mut beside };
         let begin = std::time::Instant::now();
         match read(&glb(&changed.to_string(), body, true), &mut wanted) {
@@ -399,7 +400,7 @@ fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
     };
     let told = |content: &[u8], seconds: f64, memory: usize, triangles: usize| {
         let budget = Budget::within(std::time::Duration::from_secs_f64(seconds), memory);
-        let mut beside = |name: &str| Err(Error::new(name));
+        let mut beside = |name: &str| Err(Error::other(name));
         let begin = std::time::Instant::now();
         let read = read(content, &mut Wanted { name: "a", triangles, budget: &budget, beside: &mut beside });
         assert!(begin.elapsed().as_secs_f64() < seconds + 5.0, "{:?}", begin.elapsed());

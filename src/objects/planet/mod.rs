@@ -79,7 +79,7 @@ methods! {
         pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
             let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
             if eye.length() < radius * (1.0 - DEEP) {
-                return Err(Error::new(format!(
+                return Err(Error::argument(format!(
                     "planet: the focus ({x}, {y}, {z}) is inside the planet, {:.0} m from its middle",
                     eye.length()
                 ))
@@ -144,24 +144,23 @@ impl Planet {
     /// A planet of which nothing is expanded.
     pub fn new(options: Options) -> Result<Self> {
         if !(options.radius > 0.0 && options.radius <= 1e9) {
-            return Err(Error::new(format!("planet: radius is {} m", options.radius))
+            return Err(Error::argument(format!("planet: radius is {} m", options.radius))
                 .help("give a length above 0 and up to 1e9 m"));
         }
         if options.error < 0.0 {
-            return Err(
-                Error::new("planet: error is below 0").help("give a part of a cell's size, such as 0.05")
-            );
+            return Err(Error::argument("planet: error is below 0")
+                .help("give a part of a cell's size, such as 0.05"));
         }
         if !(DETAIL..=DEEPEST).contains(&options.levels) {
-            return Err(Error::new(format!("planet: levels is {}", options.levels))
+            return Err(Error::argument(format!("planet: levels is {}", options.levels))
                 .help(format!("divide its faces from {DETAIL} to {DEEPEST} times")));
         }
         if !(0.0..=100.0).contains(&options.closeness) {
-            return Err(Error::new(format!("planet: closeness is {}", options.closeness))
+            return Err(Error::argument(format!("planet: closeness is {}", options.closeness))
                 .help("give a number from 0 to 100, such as 3"));
         }
         if options.axis.0.length() <= 0.0 {
-            return Err(Error::new("planet: axis has no direction").help("write axis = { 0, 0, 1 }"));
+            return Err(Error::argument("planet: axis has no direction").help("write axis = { 0, 0, 1 }"));
         }
         if options.rules.0.is_empty() {
             return Err(rules::none("planet"));
@@ -197,13 +196,13 @@ impl Planet {
 
 fn towards(direction: Vector) -> Result<DVec3> {
     direction.0.try_normalize().ok_or_else(|| {
-        Error::new("planet: the direction has no length")
+        Error::argument("planet: the direction has no length")
             .help("give a place seen from its middle, such as { 1, 0, 0 }")
     })
 }
 
 fn nothing() -> Error {
-    Error::new("planet: nothing is expanded yet").help("it is from the end of the first pass on")
+    Error::script("planet: nothing is expanded yet").help("it is from the end of the first pass on")
 }
 
 impl std::fmt::Debug for Planet {

@@ -13,15 +13,15 @@ use crate::terrain::{Layer, Measured, Rules, World};
 /// The world that `options` describe. Fails for what cannot be.
 pub(super) fn world(options: &Options) -> Result<World> {
     if !(options.size > 0.0 && options.size <= 1e9) {
-        return Err(Error::new(format!("terrain: size is {} m", options.size))
+        return Err(Error::argument(format!("terrain: size is {} m", options.size))
             .help("give a length above 0 and up to 1e9 m"));
     }
     if options.error.is_some_and(|error| error < 0.0) {
-        return Err(Error::new("terrain: error is below 0").help("give metres from 0 on"));
+        return Err(Error::argument("terrain: error is below 0").help("give metres from 0 on"));
     }
     let masks = options.covers.iter().map(|cover| &cover.on);
     if masks.chain(options.plants.iter().map(|plants| &plants.on)).any(|mask| !mask.latitude.is_empty()) {
-        return Err(Error::new("terrain: flat ground has no latitude")
+        return Err(Error::argument("terrain: flat ground has no latitude")
             .help("tell by height or slope where something is, or make a planet"));
     }
     if options.rules.0.is_empty() && options.elevation.is_none() {
@@ -59,7 +59,7 @@ pub(super) fn world(options: &Options) -> Result<World> {
 /// The pairs of heights (m) of a change, in order.
 fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
     let wrong = |what: String| {
-        Error::new(format!("terrain: {what}"))
+        Error::argument(format!("terrain: {what}"))
             .help("write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights")
     };
     let pair = |pair: &Vec<f64>| <[f64; 2]>::try_from(pair.as_slice()).ok();
@@ -85,7 +85,7 @@ fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
         let at = corner + sides[side].lerp(sides[(side + 1) % 4], part) * size;
         if elevation.height_at(at).is_none() {
             let (low, high) = (elevation.low(), elevation.high());
-            return Err(Error::new(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(
+            return Err(Error::argument(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(
                 format!(
                     "it reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) m: make the terrain smaller, or move it with position",
                     low.x, low.y, high.x, high.y

@@ -23,7 +23,9 @@ impl EditFile {
         fields: &[],
         first: None,
         methods: &[],
-        construct: |_: &Table| Err(Error::new("edits come from a file").help("write edits(\"ground.json\")")),
+        construct: |_: &Table| {
+            Err(Error::argument("edits come from a file").help("write edits(\"ground.json\")"))
+        },
     };
 }
 

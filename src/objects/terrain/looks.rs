@@ -128,7 +128,7 @@ pub(in crate::objects) fn material(
     let side = u32::try_from(across).unwrap_or(0);
     encoder
         .write_image(bytes, side, side, ExtendedColorType::Rgb8)
-        .map_err(|error| Error::new(format!("an image of the ground cannot be written: {error}")))?;
+        .map_err(|error| Error::internal(format!("an image of the ground cannot be written: {error}")))?;
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
     let whole = size * across as f64 / (across - 1) as f64;
     let texture =

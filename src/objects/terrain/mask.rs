@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::objects::{Expected, Parameter, Table, Value};
 use crate::terrain::{Ground, World, octaves, octaves_around};
 
@@ -126,12 +126,10 @@ impl Mask {
         else {
             return Ok(());
         };
-        let error = Error::new(format!("{kind}: no rule makes {unknown}"));
         let known: Vec<&str> = names().filter(|name| !name.is_empty()).collect();
-        Err(match nearest(unknown, known.iter().copied()) {
-            Some(near) => error.help(format!("did you mean {near}?")),
-            None => error.help(format!("the cells are {}", known.join(", "))),
-        })
+        let message = format!("{kind}: no rule makes {unknown}");
+        Err(Error::not_found("cell", unknown, known.iter().copied(), message)
+            .help(format!("the cells are {}", known.join(", "))))
     }
 
     /// How much (0 to 1) of it there is at a spot; masks with other `seed`s have other patches.

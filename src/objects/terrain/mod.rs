@@ -151,7 +151,7 @@ methods! {
         /// bed is dug when the pass ends. There is none from a place under water.
         pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
             if !(width > 0.0 && width <= self.options.size) {
-                return Err(Error::new(format!("terrain:river: width is {width} m")).help("give metres above 0"));
+                return Err(Error::argument(format!("terrain:river: width is {width} m")).help("give metres above 0"));
             }
             let at = source.0.truncate();
             let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
@@ -266,7 +266,7 @@ impl Terrain {
     }
 
     fn nothing(&self, at: DVec2) -> Error {
-        let error = Error::new(format!("terrain: nothing is expanded at ({}, {})", at.x, at.y));
+        let error = Error::script(format!("terrain: nothing is expanded at ({}, {})", at.x, at.y));
         if self.ground.heights() == 0 {
             return error.help(
                 "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
@@ -306,7 +306,7 @@ impl Terrain {
             let water = self.options.water.as_ref().map(|water| water.level);
             self.drainage = Some(Drainage::new(&self.ground.map()?, water));
         }
-        self.drainage.as_mut().ok_or_else(|| Error::new("terrain: there are no ways down"))
+        self.drainage.as_mut().ok_or_else(|| Error::internal("terrain: there are no ways down"))
     }
 
     fn change(&mut self, edit: Edit) -> Result<()> {

@@ -6,7 +6,7 @@ use glam::{DAffine3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
 use super::mask::{Mask, Spot};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::objects::{Drawing, Expected, Model, Parameter, Table, Value};
 use crate::random::Stream;
 use crate::rules::Key;
@@ -72,8 +72,11 @@ impl Plants {
         let area: f64 = ground.tiles().iter().map(|tile| tile.bounds(world).1.powi(2)).sum();
         let count = area / (cell * cell);
         if count > MOST {
-            return Err(Error::new(format!("plants: up to {count:.0} models would be scattered"))
-                .help(format!("at most {MOST} are: lower the density, or show less of the terrain")));
+            return Err(Error::limit(
+                Limit::Size,
+                format!("plants: up to {count:.0} models would be scattered"),
+            )
+            .help(format!("at most {MOST} are: lower the density, or show less of the terrain")));
         }
         for tile in ground.tiles() {
             let (corner, size) = tile.bounds(world);

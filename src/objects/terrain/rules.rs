@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use crate::error::nearest;
+use crate::error::{did_you_mean, nearest};
 use crate::objects::{Expected, Key, Kind, Object, Parameter, Table, Value};
 use crate::rules::Symbol;
 use crate::terrain::{Draw, Layer, Quadrants, RuleTable, Rules};
@@ -50,7 +50,7 @@ impl System {
         fields: &[],
         first: None,
         methods: &[],
-        construct: |_: &Table| Err(crate::error::Error::new("a system is made with lsystem")),
+        construct: |_: &Table| Err(crate::error::Error::argument("a system is made with lsystem")),
     };
 }
 
@@ -183,7 +183,7 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
         let found = names.iter().position(|known| *known == **text).and_then(|at| Symbol::try_from(at).ok());
         *into = found.ok_or_else(|| {
             let near = nearest(text, names.iter().map(String::as_str));
-            let near = near.map(|near| format!(" (did you mean {near}?)")).unwrap_or_default();
+            let near = near.map(|near| format!(" ({})", did_you_mean(near))).unwrap_or_default();
             Expected::new(format!(
                 "a table with a rule for each symbol: the rule for {name} has {text}, which has none{near}"
             ))
@@ -286,7 +286,7 @@ impl RuleLayers {
 
 /// The error of a `kind` of object without rules.
 pub(in crate::objects) fn none(kind: &str) -> crate::error::Error {
-    crate::error::Error::new(format!("{kind}: there are no rules")).help(
+    crate::error::Error::argument(format!("{kind}: there are no rules")).help(
         "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
     )
 }
@@ -301,14 +301,9 @@ impl RuleLayer {
                 let start = match &self.start {
                     None => 0,
                     Some(start) => names.clone().position(|name| name == start).ok_or_else(|| {
-                        let error = crate::error::Error::new(format!(
-                            "{kind}: there is no rule for {start}, the start"
-                        ));
-                        match nearest(start, names.clone()) {
-                            Some(near) => error.help(format!("did you mean {near}?")),
-                            None => error
-                                .help(format!("there are {}", names.clone().collect::<Vec<_>>().join(", "))),
-                        }
+                        let message = format!("{kind}: there is no rule for {start}, the start");
+                        crate::error::Error::not_found("rule", start, names.clone(), message)
+                            .help(format!("there are {}", names.clone().collect::<Vec<_>>().join(", ")))
                     })?,
                 };
                 (Rules::Table(Arc::clone(table)), start, rest)

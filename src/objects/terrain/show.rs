@@ -14,7 +14,7 @@ impl Terrain {
     pub(super) fn draw(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let ground = &self.ground;
         if ground.heights() == 0 {
-            return Err(Error::new("terrain: nothing of it is expanded").help(
+            return Err(Error::script("terrain: nothing of it is expanded").help(
                 "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
             ));
         }

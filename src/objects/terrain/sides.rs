@@ -10,7 +10,7 @@ use crate::scene::Part;
 pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()> {
     let lowest = rim.iter().flatten().map(|at| at.z).fold(f64::INFINITY, f64::min);
     if lowest <= base {
-        return Err(Error::new(format!("terrain: base is {base} m, above the ground at its rim"))
+        return Err(Error::argument(format!("terrain: base is {base} m, above the ground at its rim"))
             .help(format!("give a height below {lowest:.1} m")));
     }
     let middle = rim.iter().flatten().sum::<DVec3>() / (rim.len().max(1) * 2) as f64;

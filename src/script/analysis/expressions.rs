@@ -143,7 +143,7 @@ impl Walk<'_> {
     /// Refuses weak tables: what they still hold depends on when memory was cleaned up.
     fn refuse_weak(&mut self, token: &TokenReference, name: &str) {
         if name == "__mode" {
-            let error = Error::new("what a weak table holds is not certain");
+            let error = Error::script("what a weak table holds is not certain");
             self.problem(token, error.help("leave __mode out: memory is given back when the run ends"));
         }
     }
@@ -155,7 +155,8 @@ impl Walk<'_> {
         {
             let name = format!("{}.{}", text_of(table), text_of(name));
             if let Some(instead) = instead_of(&name) {
-                self.problem(table, Error::new(format!("unknown name {name}")).help(instead));
+                let error = Error::not_found("name", &name, [], format!("unknown name {name}"));
+                self.problem(table, error.help(instead));
             }
         }
     }
@@ -206,7 +207,7 @@ impl Walk<'_> {
         if few || many {
             self.problem(
                 name,
-                Error::new(format!("{} has {}, not {given}", signature.name, signature.count()))
+                Error::argument(format!("{} has {}, not {given}", signature.name, signature.count()))
                     .help(format!("it was declared as {}", signature.usage())),
             );
         }

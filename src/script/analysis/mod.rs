@@ -20,7 +20,7 @@ use std::time::Duration;
 use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
-use crate::error::{Error, Place};
+use crate::error::{Error, Limit, Place};
 use crate::rules::Signature;
 pub(crate) use quiet::has_metatables;
 use walk::{Facts, Walk};
@@ -108,7 +108,7 @@ impl Reading {
         // A thread that has ended already needs no globals.
         let _ = self.globals.send(globals.clone());
         self.analysis.recv_timeout(PATIENCE).unwrap_or_else(|_| {
-            let error = Error::new(format!("reading {} takes too long", self.file))
+            let error = Error::limit(Limit::Time, format!("reading {} takes too long", self.file))
                 .help("nest strings such as `a {`b`}` less deeply, or divide the file");
             unread(&self.text, vec![error])
         })
@@ -127,7 +127,7 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     }
     let refuse = |line: usize| {
         let place = Place { file: file.to_owned(), line };
-        let error = Error::new("this part of Luau's syntax is not known to Burgeon")
+        let error = Error::syntax("this part of Luau's syntax is not known to Burgeon")
             .help("write it in another way; attributes in brackets, such as @[native], are not needed");
         unread(text, vec![error.at(Some(place))])
     };

@@ -9,7 +9,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::Globals;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
-use crate::error::{Error, Place, nearest};
+use crate::error::{Error, Place};
 use crate::rules::Signature;
 
 /// What the first walk learned about the variables, in the order of their declaration.
@@ -252,7 +252,7 @@ impl<'a> Walk<'a> {
         let function = self.functions.len() - 1;
         let text = text_of(name);
         if text.starts_with("__") {
-            let error = Error::new(format!("a variable cannot be called {text}"));
+            let error = Error::script(format!("a variable cannot be called {text}"));
             self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
         }
         self.variables.push(Variable {
@@ -305,11 +305,11 @@ impl<'a> Walk<'a> {
         let found = self.find(&name).map(|variable| (variable.id, variable.function));
         let Some((id, owner)) = found else {
             if self.globals.names.contains(&name) {
-                let error = Error::new(format!("{name} is Burgeon's own and cannot be assigned"));
+                let error = Error::scope(format!("{name} is Burgeon's own and cannot be assigned"));
                 self.problem(token, error.help("choose another name: local ..."));
                 return;
             }
-            let error = Error::new(format!("{name} is assigned, but it is no local variable"));
+            let error = Error::scope(format!("{name} is assigned, but it is no local variable"));
             self.problem(token, match rule {
                 Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
                 None => error.help(format!("scripts have no globals of their own; write: local {name} = ...")),
@@ -337,7 +337,7 @@ impl<'a> Walk<'a> {
                 };
                 self.problem(
                     token,
-                    Error::new(format!("{what} assigns {name}, a variable from outside it")).help(help),
+                    Error::scope(format!("{what} assigns {name}, a variable from outside it")).help(help),
                 );
             }
             return;
@@ -363,16 +363,16 @@ impl<'a> Walk<'a> {
         if self.globals.names.contains(&name) {
             return;
         }
-        let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
-        let near = nearest(&name, locals.chain(self.globals.names.iter().map(String::as_str)));
-        let error = Error::new(format!("unknown name {name}"));
+        let message = format!("unknown name {name}");
         if let Some(instead) = instead_of(&name) {
-            return self.problem(token, error.help(instead));
+            return self.problem(token, Error::not_found("name", &name, [], message).help(instead));
         }
-        let error = match (near, name.starts_with(|c: char| c.is_ascii_uppercase())) {
-            (Some(near), _) => error.help(format!("did you mean {near}?")),
-            (None, true) => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
-            (None, false) => error.help(format!("declare it: local {name} = ...")),
+        let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
+        let known = locals.chain(self.globals.names.iter().map(String::as_str));
+        let error = Error::not_found("name", &name, known, message);
+        let error = match name.starts_with(|c: char| c.is_ascii_uppercase()) {
+            true => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
+            false => error.help(format!("declare it: local {name} = ...")),
         };
         self.problem(token, error);
     }

@@ -96,7 +96,7 @@ impl Current {
     /// Draws number `index` of an application's stream.
     pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
         let keys = self.keys.borrow();
-        let key = keys.get(application).ok_or_else(|| Error::new("random is not available here"))?;
+        let key = keys.get(application).ok_or_else(|| Error::scope("random is not available here"))?;
         let mut stream = key.stream();
         for _ in 0..self.used.get() + index {
             stream.uniform();
@@ -114,13 +114,13 @@ impl Current {
         place: impl FnOnce() -> Option<Place>,
     ) -> Result<Value> {
         let methods = self.methods.borrow();
-        let method = methods.get(method).ok_or_else(|| Error::new("there is no such method"))?;
+        let method = methods.get(method).ok_or_else(|| Error::internal("there is no such method"))?;
         let chain = match self.flusher.borrow().as_ref() {
             Some(flusher) => flusher.chain(),
             None => self.chains.borrow().get(application).copied().unwrap_or(0) as usize,
         };
         let objects = self.objects.borrow();
-        let objects = objects.as_ref().ok_or_else(|| Error::new("this is only known within rules"))?;
+        let objects = objects.as_ref().ok_or_else(|| Error::scope("this is only known within rules"))?;
         match method.call {
             Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),

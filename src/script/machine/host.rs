@@ -6,7 +6,7 @@ use std::sync::LazyLock;
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
 use super::current::Current;
-use crate::error::Error;
+use crate::error::{Error, Limit};
 use crate::objects::{Call, Value};
 use crate::rules::{DEEPEST, module_text};
 use crate::script::convert::{to_lua, to_value};
@@ -28,7 +28,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             let value = to_value(&value, true).map_err(mlua::Error::external)?;
             match crate::rules::Boxed::unpack(state.session.values.pack(value)) {
                 crate::rules::Boxed::Handle(handle) => Ok(handle),
-                _ => Err(mlua::Error::external(Error::new("this value cannot be a parameter"))),
+                _ => Err(mlua::Error::external(Error::argument("this value cannot be a parameter"))),
             }
         })?,
     )?;
@@ -79,8 +79,11 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             let limit = state.session.options.limits.modules;
             if modules > limit {
                 return Err(mlua::Error::external(
-                    Error::new(format!("one application of a rule made more than {limit} modules"))
-                        .help("look for a loop that never ends, or raise the limit: --module-limit N"),
+                    Error::limit(
+                        Limit::Modules,
+                        format!("one application of a rule made more than {limit} modules"),
+                    )
+                    .help("look for a loop that never ends, or raise the limit: --module-limit N"),
                 ));
             }
             Ok(())
@@ -92,7 +95,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         lua.create_function(move |_, (phase, application, drawn): (u8, usize, usize)| match phase {
             TOP => Ok(state.top.borrow_mut().uniform()),
             GUARD => Err(mlua::Error::external(
-                Error::new("a guard draws no random numbers")
+                Error::scope("a guard draws no random numbers")
                     .help("draw in the successor, or give the rules weights: { weight = 2 }"),
             )),
             _ => state.draw(application, drawn).map_err(mlua::Error::external),
@@ -135,7 +138,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
             let (_, method) = name.split_once(':').unwrap_or(("", &name));
             let LuaValue::UserData(data) = &object else {
                 return Err(mlua::Error::external(
-                    Error::new(format!("{name} needs its object"))
+                    Error::argument(format!("{name} needs its object"))
                         .help(format!("call it with a colon: object:{method}()")),
                 ));
             };
@@ -148,7 +151,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
                     let answer = read(&*handle.0, &values(&arguments)?).map_err(mlua::Error::external)?;
                     to_lua(lua, &answer, false)
                 }
-                Call::Write { .. } => Err(mlua::Error::external(Error::new(format!(
+                Call::Write { .. } => Err(mlua::Error::external(Error::scope(format!(
                     "{name} changes the object, and only interpretation rules may"
                 )))),
             }

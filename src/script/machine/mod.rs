@@ -24,7 +24,7 @@ use super::library::{Library, Quiet};
 use super::session::Session;
 use super::system::tell_unseen;
 use crate::derive::Crew;
-use crate::error::{Error, Place, Result};
+use crate::error::{Error, ErrorKind, Limit, Place, Result};
 use crate::rules::{Symbol, Symbols};
 use crate::warning::Warning;
 use begun::Begun;
@@ -33,9 +33,7 @@ use prelude::Prelude;
 /// The name of the machine's own Lua code in tracebacks.
 const OWN: &str = "burgeon";
 
-/// What an error says until the limit is known.
-const OUT_OF_MEMORY: &str = "out of memory";
-/// What Luau says.
+/// What Luau says when there is no memory left.
 const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
 
 /// A virtual machine that runs a script and the rules it declares.
@@ -80,8 +78,8 @@ impl Machine {
                 epoch: Cell::new(0),
             }))
         };
-        let machine =
-            build().map_err(|error| Error::new(format!("the virtual machine did not start: {error}")))?;
+        let machine = build()
+            .map_err(|error| Error::internal(format!("the virtual machine did not start: {error}")))?;
         machine.library.set_machine(&machine);
         machine.prelude.keep_features(&machine.lua).map_err(|error| machine.translate(error))?;
         machine.library.install(&machine)?;
@@ -97,7 +95,10 @@ impl Machine {
     /// Runs the script's main file, and tells what it has declared in vain.
     pub fn run(&self) -> Result<()> {
         let session = &self.session;
-        let path = session.script().canonicalize().map_err(|error| Error::new(error.to_string()))?;
+        let path = session
+            .script()
+            .canonicalize()
+            .map_err(|error| Error::file(session.script(), error.to_string()))?;
         let source =
             session.source(&path, &session.script().display().to_string(), &self.library.globals())?;
         let problems = session.problems();
@@ -188,15 +189,16 @@ impl Machine {
 
     /// What a Lua error means: the place and the remedy taken out of its text.
     pub(crate) fn translate(&self, error: mlua::Error) -> Error {
+        let out_of_memory = is_out_of_memory(&error);
         let translated = translate(&error);
         let exhausted = protected::exhausted();
         let limit = self.session.options.limits.memory / 1_000_000;
         match self.session.stop.check() {
             Err(reason) => translated.because(&reason),
-            Ok(()) if translated.message() == OUT_OF_MEMORY => {
+            Ok(()) if out_of_memory => {
                 translated
                     .at(exhausted)
-                    .because(&Error::new(format!("the script needs more than {limit} MB of memory")).help(
+                    .because(&Error::limit(Limit::Memory, format!("the script needs more than {limit} MB of memory")).help(
                     "look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES",
                 ))
             }
@@ -208,7 +210,7 @@ impl Machine {
     pub(crate) fn refuse_in_rules(&self, what: &str) -> Result<()> {
         match self.prelude.phase.call::<u8>(()) {
             Ok(0) => Ok(()),
-            _ => Err(Error::new(format!("{what} belongs at the top level of the script, not in a rule"))
+            _ => Err(Error::scope(format!("{what} belongs at the top level of the script, not in a rule"))
                 .help("make it before derive, and let the rule use it")),
         }
     }
@@ -235,26 +237,44 @@ fn compiler() -> Compiler {
     Compiler::new().set_optimization_level(2).set_type_info_level(1).set_debug_level(1)
 }
 
+/// Whether Lua had no memory left.
+fn is_out_of_memory(error: &mlua::Error) -> bool {
+    match error {
+        mlua::Error::CallbackError { cause, .. } | mlua::Error::WithContext { cause, .. } => {
+            is_out_of_memory(cause)
+        }
+        mlua::Error::MemoryError(_) => true,
+        mlua::Error::RuntimeError(message) => message.contains(OUT_OF_MEMORY_IN_LUA),
+        _ => false,
+    }
+}
+
 fn translate(error: &mlua::Error) -> Error {
     match error {
         mlua::Error::CallbackError { traceback, cause } => translate(cause).at(place_in_traceback(traceback)),
         mlua::Error::ExternalError(inner) => match inner.downcast_ref::<Error>() {
             Some(error) => error.clone(),
-            None => Error::new(inner.to_string()),
+            None => Error::script(inner.to_string()),
         },
         mlua::Error::WithContext { cause, .. } => translate(cause),
-        mlua::Error::MemoryError(_) => Error::new(OUT_OF_MEMORY),
-        mlua::Error::SyntaxError { message, .. } => parse(message),
+        mlua::Error::MemoryError(_) => Error::limit(Limit::Memory, OUT_OF_MEMORY_IN_LUA),
+        mlua::Error::SyntaxError { message, .. } => parse(message).in_kind(ErrorKind::Syntax),
         mlua::Error::RuntimeError(message) => parse(message),
         other => parse(&other.to_string()),
     }
 }
 
-/// Takes `file:line: message`, a remedy behind the character 1 and a traceback apart; the character 2 at the end of
-/// the remedy says that data may be at fault.
+/// Takes `file:line: message`, a remedy behind the character 1, a kind behind the character 3 and a traceback apart; the
+/// character 2 at the end of the remedy says that data may be at fault.
 fn parse(text: &str) -> Error {
     let (text, traceback) = text.split_once("\nstack traceback:").unwrap_or((text, ""));
     let text = text.trim_end();
+    let (text, kind) = match text.split_once('\u{3}') {
+        Some((text, "argument")) => (text, ErrorKind::Argument),
+        Some((text, "limit.size")) => (text, ErrorKind::Limit(Limit::Size)),
+        Some((text, "scope")) => (text, ErrorKind::Scope),
+        _ => (text, ErrorKind::Script),
+    };
     let (text, help) = match text.split_once('\u{1}') {
         Some((text, help)) => (text, Some(help)),
         None => (text, None),
@@ -263,16 +283,13 @@ fn parse(text: &str) -> Error {
         Some((place, message)) => (place, message),
         None => (None, text),
     };
-    if message.contains(OUT_OF_MEMORY_IN_LUA) {
-        return Error::new(OUT_OF_MEMORY).at(place);
-    }
     if place.is_none() && is_no_text(message) {
-        return Error::new("the script raised an error that is no text")
+        return Error::script("the script raised an error that is no text")
             .at(place_in_traceback(traceback))
             .help("write error(\"what is wrong\")");
     }
     // What a function of Luau's library refuses has no place of its own.
-    let error = Error::new(message).at(place).at(place_in_traceback(traceback));
+    let error = Error::of(kind, message).at(place).at(place_in_traceback(traceback));
     match help {
         Some(help) => {
             let error = if help.ends_with('\u{2}') { error.of_data() } else { error };
@@ -281,7 +298,7 @@ fn parse(text: &str) -> Error {
                 help => error.help(help),
             }
         }
-        None if message.contains("modify a readonly table") => error.help(
+        None if message.contains("modify a readonly table") => error.in_kind(ErrorKind::Scope).help(
             "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
         ),
         None if message.contains("stack overflow") => error.help("look for a function that calls itself without end"),
@@ -342,7 +359,10 @@ fn place_in_traceback(traceback: &str) -> Option<Place> {
 
 /// Copies a column into the beginning of a buffer, which is long enough.
 pub(crate) fn write_column<T: bytemuck::Pod>(buffer: Buffer, column: &[T]) -> Result<()> {
-    buffer.cursor().write_all(bytemuck::cast_slice(column)).map_err(|error| Error::new(error.to_string()))
+    buffer
+        .cursor()
+        .write_all(bytemuck::cast_slice(column))
+        .map_err(|error| Error::internal(error.to_string()))
 }
 
 /// Replaces `column` by the first `count` items of a buffer.
@@ -356,5 +376,5 @@ pub(crate) fn read_column<T: bytemuck::Pod + Default>(
     buffer
         .cursor()
         .read_exact(bytemuck::cast_slice_mut(column))
-        .map_err(|error| Error::new(error.to_string()))
+        .map_err(|error| Error::internal(error.to_string()))
 }

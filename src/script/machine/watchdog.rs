@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 use mlua::{Lua, ffi};
 
 use crate::derive::grouped;
-use crate::error::Error;
+use crate::error::{Error, Limit};
 use crate::script::session::Session;
 
 /// How often the watchdog looks whether a stop was asked for.
@@ -91,8 +91,10 @@ impl Watchdog {
 
 /// What a run is told whose time is over.
 fn overdue(session: &Session) -> Error {
-    let error =
-        Error::new(format!("the run took longer than {} s", session.options.limits.time.as_secs_f64()));
+    let error = Error::limit(
+        Limit::Time,
+        format!("the run took longer than {} s", session.options.limits.time.as_secs_f64()),
+    );
     match session.progress.counts() {
         (0, ..) => error.help("look for a loop that never ends, or raise the limit: --time-limit SECONDS"),
         (step, _, modules) => error.help(format!(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
 use crate::derive::{Axiom, Job, Remark};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::objects::{Ahead, Footprint, Object, Value};
 use crate::rules::{CLOSE, Chain, DEEPEST, END, Key, OPEN, Symbol};
 use crate::script::convert::to_value;
@@ -56,7 +56,7 @@ impl System {
                 axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
                 axiom.features.push(None);
             }
-            None => return Err(Error::new("the system has no axiom").help("write system:axiom(A(1))")),
+            None => return Err(Error::script("the system has no axiom").help("write system:axiom(A(1))")),
             Some(DeclaredAxiom::Modules(modules)) => {
                 builder.list(modules, key)?;
                 builder.push(END, &[], key);
@@ -138,7 +138,7 @@ impl System {
             if let (Some(object), Some(expected)) = (&object, &self.object)
                 && object.kind().name != expected.kind().name
             {
-                return Err(Error::new(format!(
+                return Err(Error::argument(format!(
                     "feature {id} got a {} where the system's object is a {}",
                     object.kind().name,
                     expected.kind().name
@@ -237,7 +237,7 @@ impl Builder<'_> {
                     Ok(value) => value.describe().to_owned(),
                     Err(_) => format!("a {}", item.type_name()),
                 };
-                return Err(Error::new(format!("an axiom is made of modules, but one item is {what}"))
+                return Err(Error::argument(format!("an axiom is made of modules, but one item is {what}"))
                     .help("write system:axiom(A(1), { B() })"));
             };
             let is_module = self
@@ -248,9 +248,10 @@ impl Builder<'_> {
                 .map_err(|error| self.machine.translate(error))?;
             if !is_module {
                 if depth == DEEPEST {
-                    return Err(Error::new(format!(
-                        "branches are nested more than {DEEPEST} deep, or a branch contains itself"
-                    ))
+                    return Err(Error::limit(
+                        Limit::Size,
+                        format!("branches are nested more than {DEEPEST} deep, or a branch contains itself"),
+                    )
                     .help("let a rule make the rest: each step adds to what is there"));
                 }
                 let inner: Vec<LuaValue> = table

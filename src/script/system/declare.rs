@@ -3,7 +3,7 @@
 use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::derive::grouped;
-use crate::error::{Error, Place, Result, nearest};
+use crate::error::{Error, Limit, Place, Result};
 use crate::objects::Value;
 use crate::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
 use crate::script::analysis::{analyse, unmarked};
@@ -21,7 +21,7 @@ impl System {
             matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
         if is_source {
             let (Some(LuaValue::Function(function)), 2) = (arguments.get(1).cloned(), arguments.len()) else {
-                return Err(Error::new(
+                return Err(Error::argument(
                     "axiom(source, function) takes a function that makes each feature's chain",
                 ));
             };
@@ -40,11 +40,14 @@ impl System {
     ) -> Result<()> {
         let usage = "write system:rule(\"A(x)\", function(this, x) return ... end)";
         let Some(LuaValue::String(text)) = arguments.first().cloned() else {
-            return Err(Error::new("a rule begins with a pattern").help(usage));
+            return Err(Error::argument("a rule begins with a pattern").help(usage));
         };
         if self.rules.len() == MOST_RULES {
-            return Err(Error::new(format!("a system has at most {} rules", grouped(MOST_RULES)))
-                .help("let one rule stand for many: carry what tells them apart in a parameter"));
+            return Err(Error::limit(
+                Limit::Size,
+                format!("a system has at most {} rules", grouped(MOST_RULES)),
+            )
+            .help("let one rule stand for many: carry what tells them apart in a parameter"));
         }
         let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
         let name = pattern.text.clone();
@@ -53,13 +56,13 @@ impl System {
             (3, Some(LuaValue::Table(options))) => Some(options.clone()),
             (3, _) => {
                 return Err(named(
-                    Error::new("the options of a rule are a table").help("write { weight = 2 }"),
+                    Error::argument("the options of a rule are a table").help("write { weight = 2 }"),
                 ));
             }
             (2, _) => None,
             (count, _) => {
                 return Err(named(
-                    Error::new(format!("rule takes 2 or 3 arguments, not {count}")).help(usage),
+                    Error::argument(format!("rule takes 2 or 3 arguments, not {count}")).help(usage),
                 ));
             }
         };
@@ -82,7 +85,7 @@ impl System {
             other => {
                 let what = other.map_or("nothing", |value| value.type_name());
                 return Err(named(
-                    Error::new(format!("the successor must be a function or a string, not {what}"))
+                    Error::argument(format!("the successor must be a function or a string, not {what}"))
                         .help(usage),
                 ));
             }
@@ -105,23 +108,23 @@ impl System {
     ) -> Result<()> {
         let usage = "write system:interpret(\"A(x)\", function(this, x) ... end)";
         let LuaValue::String(text) = pattern else {
-            return Err(Error::new("an interpretation begins with a pattern").help(usage));
+            return Err(Error::argument("an interpretation begins with a pattern").help(usage));
         };
         let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
         let name = pattern.text.clone();
         if !pattern.left.is_empty() || !pattern.right.is_empty() {
-            return Err(Error::new("an interpretation has no contexts")
+            return Err(Error::argument("an interpretation has no contexts")
                 .rule(&name)
                 .help("contexts are for rules; carry what is needed in a parameter of the module"));
         }
         let LuaValue::Function(rule) = rule else {
-            return Err(Error::new("an interpretation needs a function").rule(&name).help(usage));
+            return Err(Error::argument("an interpretation needs a function").rule(&name).help(usage));
         };
         check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
         let item = pattern.predecessor;
         if let Some(known) = self.interpretations.iter().find(|known| known.symbol == item.symbol) {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
-            return Err(Error::new(format!("{name} is interpreted already{line}"))
+            return Err(Error::script(format!("{name} is interpreted already{line}"))
                 .rule(&name)
                 .help("a module has one interpretation; join the two functions"));
         }
@@ -160,27 +163,25 @@ fn may_ask(session: &Session, function: &Function) -> bool {
 fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
     let (mut weight, mut guard) = (None, None);
     for pair in options.pairs::<LuaValue, LuaValue>() {
-        let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
+        let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
         let key = key.to_string().unwrap_or_default();
         match (key.as_str(), value) {
             ("weight", value) => match to_value(&value, false)? {
                 Value::Number(number) if number >= 0.0 && number.is_finite() => weight = Some(number),
                 other => {
-                    return Err(Error::new(format!("weight must be a number from 0, not {other}"))
+                    return Err(Error::argument(format!("weight must be a number from 0, not {other}"))
                         .help("a rule of weight 0 is never chosen"));
                 }
             },
             ("when", LuaValue::Function(function)) => guard = Some(function),
             ("when", other) => {
-                return Err(Error::new(format!("when must be a function, not a {}", other.type_name()))
+                return Err(Error::argument(format!("when must be a function, not a {}", other.type_name()))
                     .help("write { when = function(this, x) return x > 0 end }"));
             }
             (other, _) => {
-                let error = Error::new(format!("a rule has no option called {other}"));
-                return Err(match nearest(other, ["weight", "when"]) {
-                    Some(near) => error.help(format!("did you mean {near}?")),
-                    None => error.help("it has weight and when"),
-                });
+                let message = format!("a rule has no option called {other}");
+                return Err(Error::not_found("option", other, ["weight", "when"], message)
+                    .help("it has weight and when"));
             }
         }
     }
@@ -195,8 +196,10 @@ fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Resul
     if taken > given {
         let formals = std::iter::once("this").chain(pattern.formals.iter().map(String::as_str));
         let formals: Vec<&str> = formals.collect();
-        return Err(Error::new(format!("{what} takes {taken} parameters, but the pattern gives {given}"))
-            .help(format!("write function({})", formals.join(", "))));
+        return Err(Error::argument(format!(
+            "{what} takes {taken} parameters, but the pattern gives {given}"
+        ))
+        .help(format!("write function({})", formals.join(", "))));
     }
     Ok(())
 }
@@ -233,16 +236,14 @@ fn compile_successor(
         text.push_str(&format!("local {name} = module(\"{name}\"{parameters}) "));
     }
     let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
-    text.push_str(&format!("local __system = nil; __system:rule(\"\", function(this{formals}) {body}\nend)"));
+    text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));
     drop(symbols);
     let analysis = analyse(file, &text, &library.globals());
     machine.session.note(&analysis);
-    let problems: Vec<Error> =
-        analysis.problems.into_iter().filter(|problem| !problem.message().contains("__system")).collect();
-    if !problems.is_empty() {
-        return Err(Error::several(problems));
+    if !analysis.problems.is_empty() {
+        return Err(Error::several(analysis.problems));
     }
-    let text = analysis.text.replacen("local __system = nil; __system:rule(\"\", ", "return (", 1);
+    let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
     let chunk = machine.load(file, &text)?;
     let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
     let begin = successor.info().line_defined;

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
 use crate::derive::derive;
-use crate::error::{Error, Place, Result, nearest};
+use crate::error::{Error, Place, Result};
 use crate::objects::{Object, Value};
 use crate::rules::Symbol;
 use crate::script::convert::to_value;
@@ -49,7 +49,7 @@ impl SystemHandle {
             given: Cell::new(false),
         };
         for pair in options.into_iter().flat_map(Table::pairs::<LuaValue, LuaValue>) {
-            let (key, value) = pair.map_err(|error| Error::new(error.to_string()))?;
+            let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
             let key = key.to_string().unwrap_or_default();
             match (key.as_str(), value) {
                 ("object", value) => system.object = Some(prototype(library, value)?),
@@ -57,7 +57,7 @@ impl SystemHandle {
                     system.last_only = true
                 }
                 ("interpret", _) => {
-                    return Err(Error::new("lsystem: interpret must be \"last\"")
+                    return Err(Error::argument("lsystem: interpret must be \"last\"")
                         .help("leave it out to interpret after every step"));
                 }
                 #[allow(
@@ -69,15 +69,13 @@ impl SystemHandle {
                     Value::Number(seed) if seed.fract() == 0.0 && (0.0..9e15).contains(&seed) => {
                         system.seed = Some(seed as u64);
                     }
-                    _ => return Err(Error::new("lsystem: seed must be a whole number from 0")),
+                    _ => return Err(Error::argument("lsystem: seed must be a whole number from 0")),
                 },
                 (other, _) => {
                     let known = ["object", "interpret", "seed"];
-                    let error = Error::new(format!("lsystem has no field called {other}"));
-                    return Err(match nearest(other, known) {
-                        Some(near) => error.help(format!("did you mean {near}?")),
-                        None => error.help(format!("it has {}", known.join(", "))),
-                    });
+                    let message = format!("lsystem has no field called {other}");
+                    return Err(Error::not_found("field", other, known, message)
+                        .help(format!("it has {}", known.join(", "))));
                 }
             }
         }
@@ -120,7 +118,7 @@ impl SystemHandle {
 
 /// The error for what an axiom's function may not do while it makes the chains.
 fn in_axiom(what: &str) -> Error {
-    Error::new(format!("{what} belongs outside of the function that makes each feature's chain"))
+    Error::scope(format!("{what} belongs outside of the function that makes each feature's chain"))
         .help("put it before derive, and let the function use it")
 }
 
@@ -136,9 +134,11 @@ fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
     match value {
         LuaValue::UserData(data) => match data.borrow::<ObjectHandle>() {
             Ok(handle) => Ok(Arc::clone(&handle.0)),
-            Err(_) => Err(Error::new("lsystem: object must be an object").help("write object = turtle()")),
+            Err(_) => {
+                Err(Error::argument("lsystem: object must be an object").help("write object = turtle()"))
+            }
         },
-        _ => Err(Error::new("lsystem: object must be an object").help("write object = turtle()")),
+        _ => Err(Error::argument("lsystem: object must be an object").help("write object = turtle()")),
     }
 }
 
@@ -203,7 +203,7 @@ impl UserData for SystemHandle {
                 }
                 other => {
                     return Err(mlua::Error::external(
-                        Error::new(format!("derive takes a whole number of steps from 0, not {other}"))
+                        Error::argument(format!("derive takes a whole number of steps from 0, not {other}"))
                             .help("leave it out to derive until no rule applies"),
                     ));
                 }
@@ -214,16 +214,14 @@ impl UserData for SystemHandle {
         });
         methods.add_meta_function("__newindex", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
             Err(mlua::Error::external(
-                Error::new(format!("a system has no field {name} to assign"))
+                Error::script(format!("a system has no field {name} to assign"))
                     .help("its object, interpret and seed are given to lsystem"),
             ))
         });
         methods.add_meta_function("__index", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
-            let error = Error::new(format!("a system has no method called {name}"));
-            Err(mlua::Error::external(match nearest(&name, METHODS) {
-                Some(near) => error.help(format!("did you mean {near}?")),
-                None => error.help(format!("it has {}", METHODS.join(", "))),
-            }))
+            let message = format!("a system has no method called {name}");
+            let error = Error::not_found("method", &name, METHODS, message);
+            Err(mlua::Error::external(error.help(format!("it has {}", METHODS.join(", ")))))
         });
     }
 }
@@ -251,9 +249,8 @@ fn named_symbols(library: &Library, names: &MultiValue) -> Result<Vec<Symbol>> {
                 }
             }
             _ => {
-                return Err(
-                    Error::new("ignore and consider take names of modules").help("write ignore(\"Turn\")")
-                );
+                return Err(Error::argument("ignore and consider take names of modules")
+                    .help("write ignore(\"Turn\")"));
             }
         }
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::lazy;
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::objects::{Ahead, Features, Table as ValueTable, Value};
 use crate::script::machine::{Machine, native, write_column};
 use crate::sources::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
@@ -28,7 +28,7 @@ impl SourceHandle {
         let options = crate::script::convert::to_value(options, false)?;
         match (what, &options) {
             (LuaValue::Table(features), Value::Nil) => Ok(Self::List(features.clone())),
-            (LuaValue::Table(_), _) => Err(Error::new("a list of features takes no options")
+            (LuaValue::Table(_), _) => Err(Error::argument("a list of features takes no options")
                 .help("choose among them in Lua: where, limit and the like are for files")),
             (LuaValue::String(text), Value::Nil) => {
                 Self::load(machine, &text.to_string_lossy(), Wanted::default())
@@ -37,10 +37,10 @@ impl SourceHandle {
                 Self::load(machine, &text.to_string_lossy(), wanted(options)?)
             }
             (LuaValue::String(_), other) => {
-                Err(Error::new(format!("source takes a table of options, not {}", other.describe()))
+                Err(Error::argument(format!("source takes a table of options, not {}", other.describe()))
                     .help("write source(\"town.gpkg:buildings\", { limit = 100 })"))
             }
-            _ => Err(Error::new("source takes the name of a data file or a list of features")
+            _ => Err(Error::argument("source takes the name of a data file or a list of features")
                 .help("write source(\"village.geojson\") or source({ { id = \"a\", ... }, ... })")),
         }
     }
@@ -96,11 +96,9 @@ impl SourceHandle {
             (Self::Layer(layer), "crs") => Ok(LuaValue::String(lua.create_string(&layer.crs)?)),
             (Self::Layer(layer), "origin") => frozen(lua.create_sequence_from(layer.origin)?),
             _ => {
-                let error = Error::new(format!("a source has no field called {name}"));
-                Err(mlua::Error::external(match nearest(name, FIELDS) {
-                    Some(near) => error.help(format!("did you mean {near}?")),
-                    None => error.help(format!("it has {}", FIELDS.join(", "))),
-                }))
+                let message = format!("a source has no field called {name}");
+                let error = Error::not_found("field", name, FIELDS, message);
+                Err(mlua::Error::external(error.help(format!("it has {}", FIELDS.join(", ")))))
             }
         }
     }
@@ -131,7 +129,7 @@ impl UserData for SourceHandle {
             MetaMethod::NewIndex,
             |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
                 Err(mlua::Error::external(
-                    Error::new(format!("{name} of a source cannot be assigned"))
+                    Error::script(format!("{name} of a source cannot be assigned"))
                         .help("make a list of what you need, and a source of it: source(list)"),
                 ))
             },
@@ -342,12 +340,12 @@ fn wanted(options: &ValueTable) -> Result<Wanted> {
         let name = match key {
             crate::objects::Key::Name(name) => name,
             crate::objects::Key::Index(_) => {
-                return Err(Error::new("source takes named options").help("write { limit = 100 }"));
+                return Err(Error::argument("source takes named options").help("write { limit = 100 }"));
             }
         };
         let text = |example: &str| match value {
             Value::Text(text) => Ok(Some(text.to_string())),
-            other => Err(Error::new(format!("source: {name} must be a text, not {}", other.describe()))
+            other => Err(Error::argument(format!("source: {name} must be a text, not {}", other.describe()))
                 .help(format!("write {{ {name} = {example} }}"))),
         };
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
@@ -355,8 +353,10 @@ fn wanted(options: &ValueTable) -> Result<Wanted> {
             Value::Number(number) if number.fract() == 0.0 && (0.0..=4e9).contains(number) => {
                 Ok(*number as u32)
             }
-            other => Err(Error::new(format!("source: {name} must be a whole number from 0, not {other}"))
-                .help(format!("write {{ {name} = {example} }}"))),
+            other => {
+                Err(Error::argument(format!("source: {name} must be a whole number from 0, not {other}"))
+                    .help(format!("write {{ {name} = {example} }}")))
+            }
         };
         match &**name {
             "where" => wanted.condition = text("\"height > 10\"")?,
@@ -369,19 +369,15 @@ fn wanted(options: &ValueTable) -> Result<Wanted> {
                 let known = Kind::ALL.into_iter().find(|known| known.name() == kind);
                 wanted.kind = Some(known.ok_or_else(|| {
                     let names = Kind::ALL.map(Kind::name);
-                    let error = Error::new(format!("source: there is no kind {kind:?} of geometry"));
-                    match nearest(&kind, names) {
-                        Some(near) => error.help(format!("did you mean {near}?")),
-                        None => error.help(format!("it is one of {}", names.join(", "))),
-                    }
+                    let message = format!("source: there is no kind {kind:?} of geometry");
+                    Error::not_found("kind", &kind, names, message)
+                        .help(format!("it is one of {}", names.join(", ")))
                 })?);
             }
             other => {
-                let error = Error::new(format!("source has no option called {other}"));
-                return Err(match nearest(other, OPTIONS) {
-                    Some(near) => error.help(format!("did you mean {near}?")),
-                    None => error.help(format!("it has {}", OPTIONS.join(", "))),
-                });
+                let message = format!("source has no option called {other}");
+                return Err(Error::not_found("option", other, OPTIONS, message)
+                    .help(format!("it has {}", OPTIONS.join(", "))));
             }
         }
     }

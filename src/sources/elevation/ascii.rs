@@ -51,7 +51,7 @@ impl Header {
 /// many come last.
 pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
-        Error::new(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
+        Error::data(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
     })?;
     let mut header = Header::default();
     let mut lines = text.lines().enumerate().peekable();
@@ -68,13 +68,16 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
             let known = value.and_then(|value| header.set(&first.to_ascii_lowercase(), value));
             if known.is_none() {
                 let line = shorten(line);
-                return Err(Error::new(format!("{name} has {line:?} in line {}, in its header", number + 1))
-                    .help(REMEDY));
+                return Err(Error::data(format!(
+                    "{name} has {line:?} in line {}, in its header",
+                    number + 1
+                ))
+                .help(REMEDY));
             }
         }
         lines.next();
     }
-    let lacks = |what: &str| Error::new(format!("{name} has no {what} in its header")).help(REMEDY);
+    let lacks = |what: &str| Error::data(format!("{name} has no {what} in its header")).help(REMEDY);
     let columns = whole(name, "ncols", header.columns.ok_or_else(|| lacks("ncols"))?)?;
     let rows = whole(name, "nrows", header.rows.ok_or_else(|| lacks("nrows"))?)?;
     check_size(name, columns, rows)?;
@@ -109,7 +112,7 @@ fn heights<'a>(
             budget.tick()?;
             let value: f64 = word.parse().map_err(|_| {
                 let word = shorten(word);
-                Error::new(format!("{name} has {word:?} in line {}, which is no height", number + 1))
+                Error::data(format!("{name} has {word:?} in line {}, which is no height", number + 1))
                     .help("write heights with a point, such as 12.5")
             })?;
             heights.push(if Some(value) == missing { f32::NAN } else { narrow(value) });
@@ -119,7 +122,7 @@ fn heights<'a>(
         }
     }
     match heights.len() {
-        found if found < expected => Err(Error::new(format!(
+        found if found < expected => Err(Error::data(format!(
             "{name} is cut short: it has {found} of {expected} heights ({length} bytes)"
         ))
         .help("get it again")),
@@ -133,7 +136,7 @@ fn whole(name: &str, what: &str, value: f64) -> Result<usize> {
     if value.fract() == 0.0 && (0.0..1e15).contains(&value) {
         return Ok(value as usize);
     }
-    Err(Error::new(format!("{name} has {what} {value}, which is no number of heights")).help(REMEDY))
+    Err(Error::data(format!("{name} has {what} {value}, which is no number of heights")).help(REMEDY))
 }
 
 /// The beginning of a text that may be long.

@@ -15,12 +15,12 @@ const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), E
 /// What begins as a zip, a TIFF, a PNG or an ASCII grid is read as that; the extension tells the others.
 pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
     if bytes.is_empty() {
-        return Err(Error::new(format!("{name} is empty")).help("get it again"));
+        return Err(Error::data(format!("{name} is empty")).help("get it again"));
     }
     let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let is_png = bytes.starts_with(b"\x89PNG");
     if !is_png && (wanted.low.is_some() || wanted.high.is_some() || wanted.terrain_rgb) {
-        return Err(Error::new(format!("{name} is no PNG, so it takes no low, high or encoding"))
+        return Err(Error::argument(format!("{name} is no PNG, so it takes no low, high or encoding"))
             .help("its heights are metres already; leave these options out"));
     }
     match bytes {
@@ -32,10 +32,10 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Re
         _ if matches!(&*extension, "r64" | "f64") => raw::read::<8>(bytes, name),
         _ if extension == "asc" || begins_with(bytes, b"ncols") => ascii::read(bytes, name),
         _ if matches!(&*extension, "png" | "tif" | "tiff" | "zip") => {
-            Err(Error::new(format!("{name} does not begin as a .{extension} file does"))
+            Err(Error::data(format!("{name} does not begin as a .{extension} file does"))
                 .help("get it again, or give it the extension of what it is"))
         }
-        _ => Err(Error::new(format!("{name} is in no format of heights that is known")).help(KNOWN)),
+        _ => Err(Error::data(format!("{name} is in no format of heights that is known")).help(KNOWN)),
     }
 }
 

@@ -10,7 +10,7 @@ use super::super::Crs;
 use super::meaning::Meaning;
 use super::raster::{DEFLATED, Found, Grid, can_hold, cannot_hold, check_size, count};
 use crate::budget::Budget;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// The most bytes that one becomes which is packed by LZW: a code of 12 bits stands for less than 4,096; and by any
 /// other way.
@@ -80,7 +80,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     check_size(name, columns, rows)?;
     let color = tiff.colortype().map_err(damaged)?;
     if color.num_samples() != 1 {
-        return Err(Error::new(format!("{name} has {} bands, where heights are one", color.num_samples()))
+        return Err(Error::data(format!("{name} has {} bands, where heights are one", color.num_samples()))
             .help("take out the one of heights: gdal_translate -b 1 IN OUT.tif"));
     }
     check_whole(&mut tiff, bytes, name)?;
@@ -137,7 +137,7 @@ fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
         let ends = offsets.iter().zip(&sizes).map(|(offset, size)| offset.saturating_add(*size));
         let (end, length) = (ends.max().unwrap_or(0), bytes.len());
         if end > length as u64 {
-            return Err(Error::new(format!("{name} is cut short: it has {length} of {end} bytes"))
+            return Err(Error::data(format!("{name} is cut short: it has {length} of {end} bytes"))
                 .help("get it again"));
         }
     }
@@ -151,7 +151,7 @@ fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> 
     let (width, height) = tiff.chunk_dimensions();
     let [width, height] = [width, height].map(|side| side as usize);
     if width == 0 || height == 0 {
-        return Err(Error::new(format!("{name} has strips or tiles without extent")).help("get it again"));
+        return Err(Error::data(format!("{name} has strips or tiles without extent")).help("get it again"));
     }
     let tag = match tiff.get_chunk_type() {
         ChunkType::Strip => Tag::StripByteCounts,
@@ -198,7 +198,7 @@ fn samples(
             // The unpacked bytes, and heights of them.
             let _held = budget.hold(width.saturating_mul(height).saturating_mul(12))?;
             let number = u32::try_from(top / height * across + column)
-                .map_err(|_| Error::new(format!("{name} has too many strips")))?;
+                .map_err(|_| Error::data(format!("{name} has too many strips")))?;
             let (found_width, _) = tiff.chunk_data_dimensions(number);
             let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
             let values = numbers(values, meaning, name)?;
@@ -226,13 +226,13 @@ fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<
         DecodingResult::I32(values) => all(&values, meaning),
         DecodingResult::U32(values) => all(&values, meaning),
         DecodingResult::U8(_) | DecodingResult::I8(_) => {
-            return Err(Error::new(format!(
+            return Err(Error::data(format!(
                 "{name} has samples of 8 bits, whose 256 levels would make steps"
             ))
             .help("export it with 16 bits or floats"));
         }
         _ => {
-            return Err(Error::new(format!("{name} has samples of a type that is not read"))
+            return Err(Error::data(format!("{name} has samples of a type that is not read"))
                 .help("convert it: gdal_translate -ot Float32 IN OUT.tif"));
         }
     })
@@ -250,7 +250,7 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>>
         ([dx, dy, ..], [column, row, _, x, y, ..], _) => ([x - column * dx, y + row * dy], [*dx, *dy]),
         (_, _, [a, b, _, x, c, d, _, y, ..]) => {
             if *b != 0.0 || *c != 0.0 {
-                return Err(Error::new(format!("{name} is turned: its columns do not run north"))
+                return Err(Error::data(format!("{name} is turned: its columns do not run north"))
                     .help("straighten it: gdalwarp IN OUT.tif"));
             }
             ([*x, *y], [*a, -*d])
@@ -296,9 +296,9 @@ impl Keys {
             (Some(keys::OWN), Some(middle)) => Ok(Some(Crs::around(middle))),
             (Some(code), _) if code != keys::OWN => Crs::epsg(code.into())
                 .map(Some)
-                .map_err(|error| Error::new(format!("{name}: {}", error.message())).help(NAME_IT)),
+                .map_err(|error| Error::data(format!("{name}: {}", error.message())).help(NAME_IT)),
             _ => {
-                Err(Error::new(format!("{name} has a coordinate system that is none of EPSG's"))
+                Err(Error::data(format!("{name} has a coordinate system that is none of EPSG's"))
                     .help(NAME_IT))
             }
         }
@@ -324,12 +324,14 @@ const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or c
 fn damaged(name: &str, error: &TiffError) -> Error {
     match error {
         TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
-            Error::new(format!("{name} is cut short")).help("get it again")
+            Error::data(format!("{name} is cut short")).help("get it again")
         }
-        TiffError::LimitsExceeded => Error::new(format!("{name} has a strip or a tag that is too large"))
-            .help("write it with tiles: gdal_translate -co TILED=YES IN OUT.tif"),
-        TiffError::UnsupportedError(_) => Error::new(format!("{name} is a TIFF of a kind that is not read"))
+        TiffError::LimitsExceeded => {
+            Error::limit(Limit::Size, format!("{name} has a strip or a tag that is too large"))
+                .help("write it with tiles: gdal_translate -co TILED=YES IN OUT.tif")
+        }
+        TiffError::UnsupportedError(_) => Error::data(format!("{name} is a TIFF of a kind that is not read"))
             .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
-        _ => Error::new(format!("{name} is a damaged TIFF")).help("get it again"),
+        _ => Error::data(format!("{name} is a damaged TIFF")).help("get it again"),
     }
 }

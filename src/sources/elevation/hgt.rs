@@ -30,7 +30,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &Wanted) -> Result<F
 /// Fails if it is damaged, holds no tile or several, and as [`read`] does.
 pub(super) fn unzip<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Result<Found<'a>> {
     let damaged = move || {
-        Error::new(format!("{name} cannot be unpacked"))
+        Error::data(format!("{name} cannot be unpacked"))
             .help("the file is damaged or cut short; get it again")
     };
     let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged())?;
@@ -39,11 +39,11 @@ pub(super) fn unzip<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Resu
     let tile = match (tiles.next(), tiles.len()) {
         (Some(tile), 0) => tile,
         (None, _) => {
-            return Err(Error::new(format!("{name} holds no .hgt file"))
+            return Err(Error::data(format!("{name} holds no .hgt file"))
                 .help("unpack it, and name the file of heights itself"));
         }
         (Some(_), more) => {
-            return Err(Error::new(format!("{name} holds {} .hgt files", more + 1))
+            return Err(Error::data(format!("{name} holds {} .hgt files", more + 1))
                 .help("unpack it, and name the one that is meant"));
         }
     };
@@ -51,7 +51,7 @@ pub(super) fn unzip<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Resu
     let unpacked = archive.by_name(&tile).map_err(|_| damaged())?.size();
     let unpacked = usize::try_from(unpacked).unwrap_or(usize::MAX);
     if unpacked == 0 {
-        return Err(Error::new(format!("{shown} is empty")).help("get it again"));
+        return Err(Error::data(format!("{shown} is empty")).help("get it again"));
     }
     let [columns, rows] = size(unpacked, &shown, wanted)?;
     if !can_hold(bytes.len(), DEFLATED, unpacked) {
@@ -94,8 +94,10 @@ fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
     }
     check_size(name, side, side)?;
     if wanted.bounds.is_none() {
-        return Err(Error::new(format!("{name} has {side} x {side} heights, which no tile of a degree has"))
-            .help("tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs"));
+        return Err(Error::data(format!(
+            "{name} has {side} x {side} heights, which no tile of a degree has"
+        ))
+        .help("tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs"));
     }
     Ok([side, side])
 }
@@ -108,7 +110,7 @@ fn place(
 ) -> Result<(Option<Grid>, Result<Option<Crs>>)> {
     let corner = corner(name);
     if corner.is_none() && wanted.bounds.is_none() {
-        return Err(Error::new(format!("{name} does not tell where it lies"))
+        return Err(Error::data(format!("{name} does not tell where it lies"))
             .help("name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs"));
     }
     let step = [columns, rows].map(|side| 1.0 / count(side - 1));
@@ -118,14 +120,14 @@ fn place(
 fn not_square(bytes: usize, name: &str) -> Error {
     let size = |[columns, rows]: &[usize; 2]| columns * rows * 2;
     match SIZES[..2].iter().find(|sides| size(sides) > bytes) {
-        Some(sides) => Error::new(format!(
+        Some(sides) => Error::data(format!(
             "{name} is not square: it has {bytes} of the {} bytes of {} x {} heights",
             size(sides),
             sides[0],
             sides[1]
         ))
         .help("it is cut short; get it again"),
-        None => Error::new(format!("{name} is not square: it has {bytes} bytes of 16-bit heights"))
+        None => Error::data(format!("{name} is not square: it has {bytes} bytes of 16-bit heights"))
             .help("get it again: a tile has 3601 x 3601 heights"),
     }
 }

@@ -123,7 +123,8 @@ fn the_place_is_asked_for_and_memory_taken_before_heights_are_unpacked() {
     let raster = Raster::read(&with, "a.tif", &Wanted::default(), &small(90)).unwrap();
     assert!(raster.heights.len() == 9_000_000 && raster.heights.iter().all(|height| *height == 7.0));
     // And no time.
-    let over = Budget::new(usize::MAX, || Err(crate::Error::new("the time is over")));
+    let over =
+        Budget::new(usize::MAX, || Err(crate::Error::limit(crate::error::Limit::Time, "the time is over")));
     for (name, bytes) in samples() {
         let error = Raster::read(&bytes, name, &wanted(name), &over).unwrap_err();
         assert_eq!(error.message(), "the time is over", "{name}");

@@ -29,7 +29,7 @@ impl Meaning {
             (scale, offset) => (scale.unwrap_or(1.0), offset.unwrap_or(0.0)),
         };
         if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
-            return Err(Error::new(format!(
+            return Err(Error::data(format!(
                 "{name} has heights with the scale {scale} and the offset {offset}"
             ))
             .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
@@ -110,7 +110,7 @@ fn named(unit: &str, name: &str) -> Result<f64> {
 }
 
 fn unknown(unit: &str, name: &str) -> Error {
-    Error::new(format!("{name} has heights in a unit that is not known ({unit})"))
+    Error::data(format!("{name} has heights in a unit that is not known ({unit})"))
         .help("convert it to metres")
 }
 

@@ -8,7 +8,7 @@ use super::raster::{DEFLATED, Found, can_hold, cannot_hold, check_size};
 use super::raw::narrow;
 use super::{MOST, Wanted};
 use crate::budget::Budget;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 
 /// The names of the texts in a PNG that tell heights (m).
 pub(crate) mod text {
@@ -95,11 +95,11 @@ impl Samples {
         };
         let (low, high) = (wanted.low.or_else(|| told(text::LOW)), wanted.high.or_else(|| told(text::HIGH)));
         let (Some(low), Some(high)) = (low, high) else {
-            return Err(Error::new(format!("{name} does not tell the heights of black and white"))
+            return Err(Error::argument(format!("{name} does not tell the heights of black and white"))
                 .help("name them (m): elevation(file, { low = 0, high = 1200, ... })"));
         };
         if !(low.is_finite() && high.is_finite() && low < high) {
-            return Err(Error::new(format!("{name} cannot lie between low = {low} and high = {high}"))
+            return Err(Error::argument(format!("{name} cannot lie between low = {low} and high = {high}"))
                 .help("low is the height (m) of black, high the greater one of white"));
         }
         Ok((heights, Some([low, (high - low) / 65535.0])))
@@ -122,16 +122,16 @@ fn parts(name: &str, form: (ColorType, BitDepth), wanted: &Wanted) -> Result<usi
     match (wanted.terrain_rgb, form) {
         (true, (ColorType::Rgb, BitDepth::Eight)) => Ok(3),
         (true, (ColorType::Rgba, BitDepth::Eight)) => Ok(4),
-        (true, _) => Err(Error::new(format!("{name} has no colours of 8 bits that could be heights"))
+        (true, _) => Err(Error::data(format!("{name} has no colours of 8 bits that could be heights"))
             .help("leave encoding out, if it is grey; get the tile as .pngraw, if it has a palette")),
         (false, (ColorType::Grayscale, BitDepth::Sixteen)) => Ok(2),
         (false, (ColorType::GrayscaleAlpha, BitDepth::Sixteen)) => Ok(4),
         (false, _) if colored => {
-            Err(Error::new(format!("{name} is a PNG in colours, not in grey of 16 bits"))
+            Err(Error::data(format!("{name} is a PNG in colours, not in grey of 16 bits"))
                 .help("if its colours are heights as Mapbox encodes them, say encoding = \"terrain-rgb\""))
         }
         (false, _) => {
-            Err(Error::new(format!("{name} is a PNG of 8 bits or less, whose 256 levels would make steps"))
+            Err(Error::data(format!("{name} is a PNG of 8 bits or less, whose 256 levels would make steps"))
                 .help("export it with 16 bits, or as a GeoTIFF"))
         }
     }
@@ -153,11 +153,15 @@ fn damaged(name: &str, bytes: &[u8], error: &DecodingError) -> Error {
     match error {
         DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
             let length = bytes.len();
-            Error::new(format!("{name} is cut short: it ends after {length} bytes, where more should follow"))
-                .help("get it again")
+            Error::data(format!(
+                "{name} is cut short: it ends after {length} bytes, where more should follow"
+            ))
+            .help("get it again")
         }
-        DecodingError::LimitsExceeded => Error::new(format!("{name} takes too much memory to unpack"))
-            .help("cut out a part of it, or write it without texts and profiles"),
-        _ => Error::new(format!("{name} is a damaged PNG")).help("get it again"),
+        DecodingError::LimitsExceeded => {
+            Error::limit(Limit::Size, format!("{name} takes too much memory to unpack"))
+                .help("cut out a part of it, or write it without texts and profiles")
+        }
+        _ => Error::data(format!("{name} is a damaged PNG")).help("get it again"),
     }
 }

@@ -7,7 +7,7 @@ use std::path::Path;
 use super::super::Crs;
 use super::{MOST, Wanted, fill, format};
 use crate::budget::Budget;
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::warning::{Warning, WarningKind};
 
 /// The largest file (bytes).
@@ -81,14 +81,14 @@ pub(super) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 
 /// Refuses sizes that cannot be meant, before room is made for them.
 pub(super) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
     if columns < 2 || rows < 2 {
-        return Err(Error::new(format!("{name} has {columns} x {rows} heights"))
+        return Err(Error::data(format!("{name} has {columns} x {rows} heights"))
             .help("at least 2 x 2 are needed to know what is in between"));
     }
     if columns.checked_mul(rows).is_none_or(|all| all > MOST) {
-        return Err(Error::new(format!(
-            "{name} has {columns} x {rows} heights, more than {} million",
-            MOST / 1_000_000
-        ))
+        return Err(Error::limit(
+            Limit::Size,
+            format!("{name} has {columns} x {rows} heights, more than {} million", MOST / 1_000_000),
+        )
         .help("cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS"));
     }
     Ok(())
@@ -107,7 +107,7 @@ pub(super) const DEFLATED: usize = 1040;
 
 /// The error for a file that says it has more heights than it can hold.
 pub(super) fn cannot_hold(name: &str, bytes: usize, columns: usize, rows: usize) -> Error {
-    Error::new(format!("{name} is cut short: its {bytes} bytes cannot hold {columns} x {rows} heights"))
+    Error::data(format!("{name} is cut short: its {bytes} bytes cannot hold {columns} x {rows} heights"))
         .help("get it again")
 }
 
@@ -118,17 +118,18 @@ impl Raster {
     /// tell where it lies and `wanted` does not either, which is known before any heights are read; and if reading takes
     /// more than the `budget`.
     pub fn open(path: &Path, name: &str, wanted: &Wanted, budget: &Budget) -> Result<Self> {
-        let cannot = |error: std::io::Error| Error::new(format!("cannot read {name}: {error}"));
+        let cannot = |error: std::io::Error| Error::file(path, format!("cannot read {name}: {error}"));
         let meta = path.metadata().map_err(cannot)?;
         if meta.is_dir() {
-            return Err(Error::new(format!("{name} is a folder")).help("name a file of heights in it"));
+            return Err(Error::file(path, format!("{name} is a folder")).help("name a file of heights in it"));
         }
         if !meta.is_file() {
-            return Err(Error::new(format!("{name} is not a file")).help("name a file of heights"));
+            return Err(Error::file(path, format!("{name} is not a file")).help("name a file of heights"));
         }
         if meta.len() > LARGEST {
             let most = LARGEST / 1_000_000;
-            return Err(Error::new(format!("{name} is larger than {most} MB")).help("cut out a part of it"));
+            return Err(Error::limit(Limit::Size, format!("{name} is larger than {most} MB"))
+                .help("cut out a part of it"));
         }
         let _held = budget.hold(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
         let mut bytes = Vec::new();
@@ -142,7 +143,7 @@ impl Raster {
         let Found { columns, rows, grid, crs, heights } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
             Some(code) => Some(Crs::epsg(code).map_err(|error| {
-                Error::new(format!("elevation: {}", error.message()))
+                Error::not_found("coordinate system", code, [], format!("elevation: {}", error.message()))
                     .help("name the right one: elevation(file, { crs = 4326 })")
             })?),
             None => crs?,
@@ -152,7 +153,7 @@ impl Raster {
             None => grid,
         };
         let grid = grid.ok_or_else(|| {
-            Error::new(format!("{name} does not tell where it lies")).help(
+            Error::data(format!("{name} does not tell where it lies")).help(
                 "name its edges: elevation(file, { bounds = { west, south, east, north } }), in metres of the run, \
                  or in the coordinate system crs",
             )
@@ -177,13 +178,24 @@ impl Raster {
 
     /// What people should know of how it was read.
     pub(crate) fn warnings(&self) -> Vec<Warning> {
-        let Self { name, columns, rows, surplus, .. } = self;
-        let what = if *surplus == 1 { "number" } else { "numbers" };
-        let text =
-            format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
-        let warning =
-            Warning::new(WarningKind::Data, text).help("they are left out; correct ncols and nrows");
-        if *surplus > 0 { vec![warning] } else { Vec::new() }
+        let Self { name, columns, rows, surplus, filled, .. } = self;
+        let mut warnings = Vec::new();
+        if *filled > 0 {
+            let all = columns * rows;
+            let text =
+                format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
+            warnings.push(
+                Warning::new(WarningKind::Data, text).help("fill them in the file, if that is too rough"),
+            );
+        }
+        if *surplus > 0 {
+            let what = if *surplus == 1 { "number" } else { "numbers" };
+            let text =
+                format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
+            let warning = Warning::new(WarningKind::Data, text);
+            warnings.push(warning.help("they are left out; correct ncols and nrows"));
+        }
+        warnings
     }
 
     /// Its lowest and its highest height (m).
@@ -199,8 +211,10 @@ fn check_bounds(bounds: [f64; 4]) -> Result<[f64; 4]> {
     if bounds.iter().all(|edge| edge.is_finite()) && west < east && south < north {
         return Ok(bounds);
     }
-    Err(Error::new(format!("elevation: bounds = {{ {west}, {south}, {east}, {north} }} enclose nothing"))
-        .help("write { west, south, east, north }, with west below east and south below north"))
+    Err(Error::argument(format!(
+        "elevation: bounds = {{ {west}, {south}, {east}, {north} }} enclose nothing"
+    ))
+    .help("write { west, south, east, north }, with west below east and south below north"))
 }
 
 /// Refuses coordinates that cannot be.
@@ -209,7 +223,7 @@ fn check_grid(name: &str, grid: &Grid, columns: usize, rows: usize, crs: Option<
     let [dx, dy] = grid.step;
     let last = [x + dx * count(columns - 1), y - dy * count(rows - 1)];
     if [x, y, dx, dy, last[0], last[1]].iter().any(|value| !value.is_finite()) || dx <= 0.0 || dy <= 0.0 {
-        return Err(Error::new(format!(
+        return Err(Error::data(format!(
             "{name} lies at {x}, {y} with steps of {dx}, {dy}, which is nowhere"
         ))
         .help("name its edges: elevation(file, { bounds = { west, south, east, north } })"));
@@ -217,11 +231,11 @@ fn check_grid(name: &str, grid: &Grid, columns: usize, rows: usize, crs: Option<
     if crs.is_some_and(Crs::is_geographic) {
         // A pole may be half a step away.
         if y > 90.0 + dy || last[1] < -90.0 - dy || x < -360.0 - dx || last[0] > 540.0 + dx {
-            return Err(Error::new(format!("{name} lies at {x}, {y}, which is no longitude and latitude"))
+            return Err(Error::data(format!("{name} lies at {x}, {y}, which is no longitude and latitude"))
                 .help("name the coordinate system of the file: elevation(file, { crs = 3067 })"));
         }
     } else if dx < FINEST || dy < FINEST {
-        return Err(Error::new(format!("{name} has steps of {dx} x {dy} m, less than a millimetre"))
+        return Err(Error::data(format!("{name} has steps of {dx} x {dy} m, less than a millimetre"))
             .help("if these are degrees, say so: elevation(file, { crs = 4326 })"));
     }
     Ok(())
@@ -241,7 +255,7 @@ fn check_heights(name: &str, columns: usize, heights: &mut [f32]) -> Result<()> 
                 true => format!("a height of {height} m"),
                 false => "an infinite height".to_owned(),
             };
-            return Err(Error::new(format!("{name} has {what} in row {row}, column {column}"))
+            return Err(Error::data(format!("{name} has {what} in row {row}, column {column}"))
                 .help("if it marks missing data, say so in the file: gdal_translate -a_nodata VALUE"));
         }
         known |= !height.is_nan();
@@ -249,6 +263,6 @@ fn check_heights(name: &str, columns: usize, heights: &mut [f32]) -> Result<()> 
     if known {
         return Ok(());
     }
-    Err(Error::new(format!("{name} has no data: all its heights are missing"))
+    Err(Error::data(format!("{name} has no data: all its heights are missing"))
         .help("get another part, or look at it in a viewer of maps"))
 }

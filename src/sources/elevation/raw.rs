@@ -9,7 +9,7 @@ pub(super) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result
     let side = (bytes.len() / SIZE).isqrt();
     if side * side * SIZE != bytes.len() {
         let next = side + 1;
-        return Err(Error::new(format!(
+        return Err(Error::data(format!(
             "{name} is not square: it has {} of the {} bytes of {next} x {next} floats",
             bytes.len(),
             next * next * SIZE

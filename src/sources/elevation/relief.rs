@@ -83,7 +83,7 @@ impl Relief {
                 DVec2::new((x - first[0]) / step[0], (first[1] - y) / step[1])
             };
             Way::Bent(Lattice::over(low, high, unit, exact).ok_or_else(|| {
-                Error::new(format!(
+                Error::data(format!(
                     "{} cannot be projected from {} to {}",
                     raster.name,
                     crs.name(),
@@ -289,7 +289,7 @@ fn check_near(raster: &Raster, low: DVec2, high: DVec2) -> Result<()> {
         return Ok(());
     }
     let [west, south, ..] = raster.bounds();
-    Err(Error::new(format!(
+    Err(Error::data(format!(
         "{} lies more than 2,000 km from the middle, or reaches so far, at {west}, {south}",
         raster.name
     ))

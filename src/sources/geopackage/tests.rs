@@ -4,6 +4,7 @@ use rusqlite::Connection;
 
 use super::super::{Geometry, Layer, Source, Wanted};
 use super::*;
+use crate::random::Stream;
 
 /// A blob of a GeoPackage of a type, with a number of items, and points.
 fn blob(kind: u32, count: Option<u32>, points: &[[f64; 2]]) -> Vec<u8> {
@@ -65,11 +66,8 @@ fn changed_bytes_neither_panic_nor_take_long() {
     let path = folder.path().join("a.gpkg");
     package(&path, 3067, [385_423.0, 6_671_463.0], 40.0);
     let whole = std::fs::read(&path).unwrap();
-    let (mut state, mut good, mut bad) = (5u64, 0, 0);
-    let mut dice = |sides: usize| {
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (state >> 33) as usize % sides
-    };
+    let (mut stream, mut good, mut bad) = (Stream::new(5), 0, 0);
+    let mut dice = |sides: usize| stream.below(sides);
     // What says something stands in few places.
     let places: Vec<usize> = (0..whole.len()).filter(|at| whole[*at] != 0).collect();
     for case in 0..400 {

@@ -1,6 +1,6 @@
 //! Height maps to be fitted: five that are known by name, and any other as its heights.
 
-use crate::error::{Error, Result, nearest};
+use crate::error::{Error, Result};
 use crate::terrain::octaves;
 
 /// How many cells across the maps are that are known by name.
@@ -28,11 +28,13 @@ impl Target {
         check_across(across)?;
         if heights.len() != across * across {
             let count = heights.len();
-            return Err(Error::new(format!("{count} heights do not fill a target of {across} cells across"))
-                .help(format!("it has {}", across * across)));
+            return Err(Error::argument(format!(
+                "{count} heights do not fill a target of {across} cells across"
+            ))
+            .help(format!("it has {}", across * across)));
         }
         if heights.iter().any(|height| !height.is_finite()) {
-            return Err(Error::new("a target has a height that is no finite number")
+            return Err(Error::argument("a target has a height that is no finite number")
                 .help("fill the gaps of the height map first"));
         }
         Ok(Self { across, heights })
@@ -45,12 +47,8 @@ impl Target {
         let names = || NAMED.iter().map(|(name, _)| *name);
         let Some((_, height)) = NAMED.iter().find(|(known, _)| *known == name) else {
             let all = names().collect::<Vec<_>>().join(", ");
-            return Err(Error::new(format!("there is no target {name}")).help(
-                match nearest(name, names()) {
-                    Some(near) => format!("did you mean {near}? there are {all}"),
-                    None => format!("there are {all}"),
-                },
-            ));
+            let message = format!("there is no target {name}");
+            return Err(Error::not_found("target", name, names(), message).help(format!("there are {all}")));
         };
         let middle = |cell: usize| (number(cell) + 0.5) / number(ACROSS);
         let heights =
@@ -66,8 +64,10 @@ impl Target {
     pub fn resample(columns: usize, rows: usize, heights: &[f64], across: usize) -> Result<Self> {
         if columns == 0 || rows == 0 || columns.checked_mul(rows) != Some(heights.len()) {
             let count = heights.len();
-            return Err(Error::new(format!("{count} heights are not {columns} columns and {rows} rows"))
-                .help("give as many heights as there are cells"));
+            return Err(Error::argument(format!(
+                "{count} heights are not {columns} columns and {rows} rows"
+            ))
+            .help("give as many heights as there are cells"));
         }
         check_across(across)?;
         let (east, south) = (weights(columns, across), weights(rows, across));
@@ -107,7 +107,7 @@ fn check_across(across: usize) -> Result<()> {
     if across.is_power_of_two() && (2..=2048).contains(&across) {
         return Ok(());
     }
-    Err(Error::new(format!("a target of {across} cells across cannot be divided into quadrants"))
+    Err(Error::argument(format!("a target of {across} cells across cannot be divided into quadrants"))
         .help("its cells across are a power of two from 2 to 2048"))
 }
 

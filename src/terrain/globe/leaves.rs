@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::sphere::{direction, side};
-use crate::error::{Error, Result};
+use crate::error::{Error, Limit, Result};
 use crate::terrain::tile::Place;
 use crate::terrain::view::MOST_HEIGHTS;
 use crate::terrain::world::World;
@@ -65,8 +65,11 @@ impl Tree {
         if !may || distance(radius, sight, leaf) >= sight.closeness * size {
             self.leaves.push(leaf);
             if (self.leaves.len() as u64) << (2 * DETAIL) > MOST_HEIGHTS {
-                return Err(Error::new(format!("planet: that would be more than {MOST_HEIGHTS} heights"))
-                    .help("lower closeness or levels: most of it is far away"));
+                return Err(Error::limit(
+                    Limit::Size,
+                    format!("planet: that would be more than {MOST_HEIGHTS} heights"),
+                )
+                .help("lower closeness or levels: most of it is far away"));
             }
             return Ok(Link::Leaf(self.leaves.len() - 1));
         }

@@ -84,26 +84,26 @@ impl Detail {
     pub(super) fn check(&self) -> Result<()> {
         let what = "a detail of footprint:roof";
         if self.model.is_none() {
-            return Err(Error::new(format!("{what} has no model")).help("give it what derive returned"));
+            return Err(Error::argument(format!("{what} has no model")).help("give it what derive returned"));
         }
         if !PLACES.contains(&self.on.as_str()) {
-            return Err(Error::new(format!("{what} stands on {:?}", self.on))
+            return Err(Error::argument(format!("{what} stands on {:?}", self.on))
                 .help(format!("there are {}", PLACES.join(", "))));
         }
         let positive = [("every", self.every.unwrap_or(1.0)), ("scale", self.scale)];
         if let Some((name, number)) = positive.into_iter().find(|(_, number)| !(1e-3..=1e4).contains(number))
         {
-            return Err(Error::new(format!("{what}: {name} is {number}")).help("give 0.001 to 10000"));
+            return Err(Error::argument(format!("{what}: {name} is {number}")).help("give 0.001 to 10000"));
         }
         let lengths = [("margin", self.margin), ("offset", self.offset.unwrap_or(0.0))];
         if let Some((name, number)) = lengths.into_iter().find(|(_, number)| !(0.0..=1e4).contains(number)) {
-            return Err(Error::new(format!("{what}: {name} is {number} m")).help("give 0 to 10000 m"));
+            return Err(Error::argument(format!("{what}: {name} is {number} m")).help("give 0 to 10000 m"));
         }
         if !(0.0..=1.0).contains(&self.chance) {
-            return Err(Error::new(format!("{what}: chance is {}", self.chance)).help("give 0 to 1"));
+            return Err(Error::argument(format!("{what}: chance is {}", self.chance)).help("give 0 to 1"));
         }
         if !(1..=100).contains(&self.rows) || self.flap == 0 {
-            return Err(Error::new(format!("{what}: rows is {} and flap is {}", self.rows, self.flap))
+            return Err(Error::argument(format!("{what}: rows is {} and flap is {}", self.rows, self.flap))
                 .help("give 1 to 100 rows, and count flaps from 1"));
         }
         Ok(())

@@ -53,12 +53,13 @@ pub(super) fn shape(options: &Roof) -> Result<Shape> {
         None if options.slab > 0.0 => Eaves::Slab,
         None => Eaves::Closed,
         Some(eaves) => {
-            let error = Error::new(format!("footprint:roof: eaves has no kind called {eaves:?}"));
+            let message = format!("footprint:roof: eaves has no kind called {eaves:?}");
+            let error = Error::not_found("kind", eaves, EAVES, message);
             return Err(error.help(format!("there are {}", EAVES.join(", "))));
         }
     };
     if eaves == Eaves::Closed && options.slab > 0.0 {
-        return Err(Error::new("footprint:roof: closed eaves have no slab").help("use eaves = \"slab\""));
+        return Err(Error::argument("footprint:roof: closed eaves have no slab").help("use eaves = \"slab\""));
     }
     let juts_out = options.overhang > 0.0;
     // What would be thin as paper gets a thickness.
@@ -77,17 +78,19 @@ fn check(options: &Roof) -> Result<()> {
         check_height("footprint:roof: height", height)?;
     }
     if !(options.slope > 0.0 && options.slope <= 85.0) {
-        return Err(Error::new(format!("footprint:roof: slope is {} degrees", options.slope))
+        return Err(Error::argument(format!("footprint:roof: slope is {} degrees", options.slope))
             .help("give degrees above 0, up to 85"));
     }
     for (name, length) in [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)]
     {
         if !(0.0..=100.0).contains(&length) {
-            return Err(Error::new(format!("footprint:roof: {name} is {length} m")).help("give 0 to 100 m"));
+            return Err(
+                Error::argument(format!("footprint:roof: {name} is {length} m")).help("give 0 to 100 m")
+            );
         }
     }
     if !(0.05..=100.0).contains(&options.border_width) {
-        return Err(Error::new(format!("footprint:roof: border_width is {} m", options.border_width))
+        return Err(Error::argument(format!("footprint:roof: border_width is {} m", options.border_width))
             .help("give 0.05 to 100 m"));
     }
     Ok(())

@@ -69,7 +69,7 @@ fn a_roof_that_fails_is_replaced_over_a_simpler_outline_then_by_a_deck() {
     ] {
         let mut make = |shape: &Shape, support: &Support<'_>| {
             let refused = support.walls[0].len() > least && matches!(shape.surface, Faces::Sloped(..));
-            if refused { Err(Error::new("too hard")) } else { shape.cover_on(support) }
+            if refused { Err(Error::other("too hard")) } else { shape.cover_on(support) }
         };
         let made = replace::cover(&hip(), "hip", &Support::new(&walls, 3.0), &mut make);
         assert_eq!(made.replaced.as_ref().map(|(what, _)| what.as_str()), what);
@@ -104,7 +104,7 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
         let mut make = |shape: &Shape, support: &Support<'_>| {
             let many = support.walls.iter().map(Vec::len).sum::<usize>() >= corners;
             let refused = (many || all) && matches!(shape.surface, Faces::Sloped(..));
-            if refused { Err(Error::new("too hard")) } else { shape.cover_on(support) }
+            if refused { Err(Error::other("too hard")) } else { shape.cover_on(support) }
         };
         let made = replace::cover(&hip(), "hip", &Support::new(&walls, 3.0), &mut make);
         let what = made.replaced.expect("something in place of the roof").0;

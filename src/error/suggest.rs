@@ -1,0 +1,44 @@
+//! "Did you mean": the name that was meant by one that is not there.
+
+/// Characters that a misspelt name may have: a longer one is no name at all, and comparing it takes long.
+const LONGEST_NEAR: usize = 100;
+
+/// The remedy that proposes a name.
+pub fn did_you_mean(near: &str) -> String {
+    format!("did you mean {near}?")
+}
+
+/// The nearest of `known` to a misspelt `name`, if one is near enough to be meant.
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+    if name.len() > LONGEST_NEAR {
+        return None;
+    }
+    let lower = name.to_lowercase();
+    // Every name of one letter is one letter away from every other.
+    let limit = match name.chars().count() {
+        0 | 1 => 0,
+        length => (length / 3).max(1),
+    };
+    known
+        .into_iter()
+        .map(|candidate| (strsim::osa_distance(&lower, &candidate.to_lowercase()), candidate))
+        .filter(|(distance, _)| *distance <= limit)
+        .min_by_key(|(distance, candidate)| (*distance, candidate.len()))
+        .map(|(_, candidate)| candidate)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_name_is_found_and_a_far_one_is_not() {
+        assert_eq!(nearest("Flor", ["Floor", "Slab"]), Some("Floor"));
+        assert_eq!(nearest("smoth", ["sides", "smooth"]), Some("smooth"));
+        assert_eq!(nearest("window", ["sides", "smooth"]), None);
+        assert_eq!(nearest("m", ["n", "max"]), None);
+        assert_eq!(nearest("nothing", ["string"]), None);
+        assert_eq!(nearest("a", ["A"]), Some("A"));
+        assert_eq!(nearest("lenght", ["length", "height"]), Some("length"));
+    }
+}
