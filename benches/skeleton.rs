@@ -137,6 +137,8 @@ fn is_closed(rings: &[Vec<DVec3>]) -> bool {
     let geometry = burgeon::objects::Rings(rings.to_vec()).into_value();
     let Ok(mut house) = Footprint::kind().make(&table(&[("geometry", geometry)])) else { return false };
     house.begin();
+    // A ring that crosses itself has been untangled; what is asked is whether it gets its roof then.
+    let untangled = house.notes().len();
     for (method, argument) in [
         ("groundwork", Value::Text("extruded".into())),
         ("walls", Value::Table(Arc::new(table(&[("height", Value::Number(3.0))])))),
@@ -150,7 +152,7 @@ fn is_closed(rings: &[Vec<DVec3>]) -> bool {
             return false;
         }
     }
-    let replaced = !house.notes().is_empty();
+    let replaced = house.notes().len() > untangled;
     let Some(drawing) = house.drawing_mut() else { return false };
     let mut uses: HashMap<[[u32; 3]; 2], u32> = HashMap::new();
     for part in drawing.parts() {

@@ -208,8 +208,7 @@ impl Shape {
             if failed {
                 continue;
             }
-            let mut patches = patches(&rings, &paces, &profile, base, points.clone());
-            patches.retain(|patch| patch.kind != PatchKind::Gable || rakes[patch.edge].is_none());
+            let mut patches = patches(&rings, &paces, &profile, base, points.clone(), &rakes);
             rim.close(&mut patches, &rakes, is_plate.then_some(faces));
             return Ok(self.finished(patches, support, &over, outset, hipped));
         }
@@ -305,10 +304,13 @@ fn give_way(astray: &[usize], walls: &[Vec<DVec2>], distances: &[f64], most: &mu
     }
 }
 
-/// Whether the face over an edge that stands still goes on beyond the edge's ends.
+/// Whether the face over an edge that stands still goes on beyond the edge's ends, or the edge has had to move.
 fn strays(skeleton: &Skeleton, edge: usize, pace: Pace) -> bool {
     if pace.moves() {
         return false;
+    }
+    if skeleton.paces[edge] != pace {
+        return true;
     }
     let face = &skeleton.faces[edge];
     let [from, to] = [face[0], face[1]].map(|peak| skeleton.peaks[peak].at);

@@ -9,6 +9,10 @@ use crate::scene::Part;
 
 /// Triangles that are less wide than this (m) are thin.
 const WIDE: f64 = 0.01;
+/// Triangles that are less wide than this (m) are slivers.
+const SLIVER: f64 = 1e-3;
+/// The most corners of a ring whose triangles are chosen anew where there are slivers.
+const MOST: usize = 200;
 /// The most corners of a small ring.
 const SMALL: usize = 16;
 
@@ -29,7 +33,7 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
         [_] => match star(&flats) {
             Some(apex) => fan(flats.len(), apex).collect(),
             None => match cap::triangulate(&[flats.to_vec()]) {
-                Ok(triangles) => triangles.into(),
+                Ok(triangles) => without_slivers(&flats, triangles.into()),
                 // It almost touches itself.
                 Err(_) => fan(flats.len(), widest(&flats)).collect(),
             },
@@ -53,6 +57,52 @@ pub(crate) fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: 
     #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
     part.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|corner| corner as u32 + base)));
     Ok(())
+}
+
+/// The triangles of a ring, or others where some of them are slivers and others need not be: those whose thinnest is
+/// the widest.
+///
+/// Method: dynamic programming over the parts of the ring beyond each diagonal (G. Klincsek, "Minimal triangulations of
+/// polygonal domains", 1980).
+fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
+    let count = ring.len();
+    let thinnest = triangles.iter().map(|&triangle| width(ring, triangle)).fold(f64::INFINITY, f64::min);
+    if thinnest >= SLIVER || count > MOST {
+        return triangles;
+    }
+    // For each diagonal the least width beyond it and the corner of the triangle there.
+    let mut best = vec![(f64::INFINITY, 0); count * count];
+    for step in 2..count {
+        for from in 0..count - step {
+            let to = from + step;
+            let least = |tip: usize| {
+                let sides = best[from * count + tip].0.min(best[tip * count + to].0);
+                if sides > 0.0 { sides.min(width(ring, [from, tip, to])) } else { sides }
+            };
+            let tips = (from + 1..to).map(|tip| (least(tip), tip));
+            best[from * count + to] =
+                tips.fold((f64::NEG_INFINITY, 0), |best, other| if other.0 > best.0 { other } else { best });
+        }
+    }
+    if best[count - 1].0 <= thinnest {
+        return triangles;
+    }
+    let (mut found, mut pending) = (Corners::new(), vec![[0, count - 1]]);
+    while let Some([from, to]) = pending.pop() {
+        if to > from + 1 {
+            let tip = best[from * count + to].1;
+            found.push([from, tip, to]);
+            pending.extend([[from, tip], [tip, to]]);
+        }
+    }
+    found
+}
+
+/// How wide a triangle is (m), negative if it is clockwise.
+fn width(points: &[DVec2], triangle: [usize; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|corner| points[corner]);
+    let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
+    (b - a).perp_dot(c - a) / longest.sqrt()
 }
 
 /// The triangles between a corner of a ring and all edges that it is not on.

@@ -13,6 +13,9 @@ mod plate;
 mod row_tests;
 mod shape;
 mod shed;
+#[cfg(test)]
+mod sliver_tests;
+mod subdivision;
 mod support;
 #[cfg(test)]
 mod tests;

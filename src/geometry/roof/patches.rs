@@ -2,12 +2,18 @@
 
 use glam::{DVec2, DVec3};
 
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
 use super::super::skeleton::{Pace, Skeleton};
+use super::overhang::Rake;
+use super::plate::is_at;
 use super::shape::{Profile, between};
-use super::{Patch, PatchKind};
+use super::subdivision::{Corners, Piece};
+use super::{Patch, PatchKind, edges};
 
 /// Corners that are as near to a level of the profile as this (m) are on it.
-const ON_LEVEL: f64 = 2e-3;
+pub(super) const ON_LEVEL: f64 = 2e-3;
 
 /// The peaks of a skeleton with their times (m); those near a level are on it.
 pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) -> Vec<DVec3> {
@@ -30,29 +36,48 @@ pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) ->
 /// The slopes, gables and steps of a roof over `skeleton` with the top of the walls at `base` (m).
 ///
 /// They join without gaps: corners of neighbours are equal to the last bit. `points` are those of [`leveled`]. What is
-/// upright below a slope beyond the walls is left out.
+/// upright below a slope beyond the walls is left out, and gables over edges with a `rake`.
 pub(super) fn patches(
     faces: &[Vec<usize>],
     paces: &[Pace],
     profile: &Profile,
     base: f64,
     mut points: Vec<DVec3>,
+    rakes: &[Option<Rake>],
 ) -> Vec<Patch> {
-    let mut patches = Vec::with_capacity(faces.len() * profile.corners.len());
+    let levels: Vec<f64> = profile.corners.iter().map(|corner| corner.x).collect();
+    let passes = points.len();
+    let spans: Vec<Spans> = paces.iter().map(|pace| spans(profile, pace)).collect();
+    let pieces = cut(faces, &spans, &mut points, |edge, number| {
+        let is_upright = !paces[edge].moves_at(spans[edge][number].low);
+        let is_border = number == 0 && profile.first > 1;
+        // What is below the slopes of a plate has been drawn with its rim.
+        let is_below = paces[edge].moves_at(profile.beyond()) || (profile.beyond() > 0.0 && number == 0);
+        is_upright && !is_border && (is_below || rakes[edge].is_some())
+    });
+    let corners = Corners { points: &points, outline: faces.len(), passes, levels: &levels };
+    let pieces = corners.subdivide(pieces);
+    let mut patches = Vec::with_capacity(pieces.len());
+    let mut rest = pieces.as_slice();
     for (edge, (face, pace)) in faces.iter().zip(paces).enumerate() {
         let along = (points[face[1]] - points[face[0]]).truncate().normalize_or_zero();
-        let spans = spans(profile, pace);
-        let first = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
-        let mut pieces = vec![face.clone()];
-        for (number, &Span { line: [from, to], low, high }) in spans.iter().enumerate() {
-            let flap = number.saturating_sub(first);
+        let lowest = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
+        for (number, &Span { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
+            let flap = number.saturating_sub(lowest);
             let patch = |kind, ring| Patch { kind, edge, flap, along, rings: vec![ring] };
-            if from.x >= to.x {
-                for piece in &pieces {
-                    let [a, b] = [points[piece[0]].truncate(), points[piece[1]].truncate()];
-                    let [low, high] = [base + from.y, base + to.y];
-                    let ring = vec![a.extend(low), b.extend(low), b.extend(high), a.extend(high)];
-                    patches.push(patch(PatchKind::Fascia, ring));
+            let is_step = spans[edge][number].is_step();
+            let count = rest
+                .partition_point(|piece| (piece.edge, piece.number) <= (edge, number + usize::from(is_step)));
+            if is_step {
+                // What is above it begins along it.
+                for [a, b] in rest[..count].iter().flat_map(|piece| edges(&piece.ring)) {
+                    let [a, b] = [points[a], points[b]];
+                    if is_at(a, from.x) && is_at(b, from.x) {
+                        let ([a, b], [low, high]) =
+                            ([a.truncate(), b.truncate()], [base + from.y, base + to.y]);
+                        let ring = vec![a.extend(low), b.extend(low), b.extend(high), a.extend(high)];
+                        patches.push(patch(PatchKind::Fascia, ring));
+                    }
                 }
                 continue;
             }
@@ -62,24 +87,52 @@ pub(super) fn patches(
                 _ if pace.moves_at(low) => PatchKind::Slope,
                 _ => PatchKind::Gable,
             };
-            let last = number + 1 == spans.len();
-            let is_eaves = kind == PatchKind::Gable && pace.moves_at(profile.beyond());
+            let raise = |&index: &usize| {
+                let point = points[index];
+                point.truncate().extend(base + between(from, to, point.z))
+            };
+            // Of a gable that has been drawn otherwise, the lowest part stands for where it begins.
+            let is_left_out =
+                kind == PatchKind::Gable && (pace.moves_at(profile.beyond()) || rakes[edge].is_some());
+            for piece in rest[..count].iter().filter(|_| !is_left_out) {
+                patches.push(patch(kind, piece.ring.iter().map(raise).collect()));
+            }
+            rest = &rest[count..];
+        }
+    }
+    patches
+}
+
+/// The pieces of all faces between the levels of their spans, by edge and span; borders pass a level in one point for both
+/// neighbours.
+fn cut(
+    faces: &[Vec<usize>],
+    spans: &[Spans],
+    points: &mut Vec<DVec3>,
+    is_fixed: impl Fn(usize, usize) -> bool,
+) -> Vec<Piece> {
+    let mut passes = FxHashMap::default();
+    let mut all = Vec::with_capacity(faces.len());
+    for (edge, face) in faces.iter().enumerate() {
+        let mut pieces = vec![face.clone()];
+        for (number, span) in spans[edge].iter().enumerate().filter(|(_, span)| !span.is_step()) {
+            let last = number + 1 == spans[edge].len();
             let mut above = Vec::new();
+            let is_fixed = is_fixed(edge, number);
             for piece in pieces {
-                let below = if last { piece } else { divide(&piece, high, &mut points, &mut above) };
-                let raise = |&index: &usize| {
-                    let point = points[index];
-                    point.truncate().extend(base + between(from, to, point.z))
-                };
-                if below.len() > 2 && !is_eaves {
-                    patches.push(patch(kind, below.iter().map(raise).collect()));
+                let ring =
+                    if last { piece } else { divide(&piece, span.high, points, &mut passes, &mut above) };
+                if ring.len() > 2 {
+                    all.push(Piece { edge, number, ring, is_fixed });
                 }
             }
             pieces = above;
         }
     }
-    patches
+    all
 }
+
+type Spans = SmallVec<[Span; 4]>;
 
 /// A part of a profile's interval.
 struct Span {
@@ -90,9 +143,16 @@ struct Span {
     high: f64,
 }
 
+impl Span {
+    /// Whether it is upright.
+    fn is_step(&self) -> bool {
+        self.line[0].x >= self.line[1].x
+    }
+}
+
 /// The intervals of the profile, divided where the edge begins to move.
-fn spans(profile: &Profile, pace: &Pace) -> Vec<Span> {
-    let mut spans = Vec::with_capacity(profile.corners.len());
+fn spans(profile: &Profile, pace: &Pace) -> Spans {
+    let mut spans = Spans::new();
     for pair in profile.corners.windows(2) {
         let (line, low, high) = ([pair[0], pair[1]], pair[0].x, pair[1].x);
         if pace.speed > 0.0 && low < pace.rest && pace.rest < high {
@@ -110,17 +170,23 @@ pub(super) fn at_level(low: DVec3, high: DVec3, level: f64) -> DVec3 {
 }
 
 /// The part of `piece` up to `level`; the parts beyond are added to `above`. Each begins with its lowest edge.
-fn divide(piece: &[usize], level: f64, points: &mut Vec<DVec3>, above: &mut Vec<Vec<usize>>) -> Vec<usize> {
+fn divide(
+    piece: &[usize],
+    level: f64,
+    points: &mut Vec<DVec3>,
+    passes: &mut FxHashMap<[usize; 2], usize>,
+    above: &mut Vec<Vec<usize>>,
+) -> Vec<usize> {
     let mut ring = Vec::with_capacity(piece.len() + 2);
     for (index, &a) in piece.iter().enumerate() {
         ring.push(a);
         let b = piece[(index + 1) % piece.len()];
-        // From the same end for both neighbours, so that they agree to the last bit.
-        let [low, high] =
-            if points[a].z < points[b].z { [points[a], points[b]] } else { [points[b], points[a]] };
-        if low.z < level && high.z > level {
-            ring.push(points.len());
-            points.push(at_level(low, high, level));
+        let [low, high] = if points[a].z < points[b].z { [a, b] } else { [b, a] };
+        if points[low].z < level && points[high].z > level {
+            ring.push(*passes.entry([low, high]).or_insert_with(|| {
+                points.push(at_level(points[low], points[high], level));
+                points.len() - 1
+            }));
         }
     }
     let mut below = Vec::with_capacity(ring.len());

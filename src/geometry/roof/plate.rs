@@ -75,7 +75,7 @@ fn stand_still(rings: &[Vec<usize>], points: &mut [DVec3], rests: &[f64]) {
 }
 
 #[allow(clippy::float_cmp, reason = "levels are copies")]
-fn is_at(point: DVec3, level: f64) -> bool {
+pub(super) fn is_at(point: DVec3, level: f64) -> bool {
     point.z == level
 }
 

@@ -9,7 +9,7 @@ use super::*;
 use crate::scene::Part;
 
 pub(super) const HEIGHT: f64 = 3.0;
-const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];
+pub(super) const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];
 
 /// Walls of 3 m over a floor, and `cover` on them.
 pub(super) fn building(walls: &[Vec<DVec2>], cover: &Cover) -> Part {

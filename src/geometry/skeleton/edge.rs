@@ -76,6 +76,11 @@ impl Direction {
         self.0.signum() == other.0.signum()
     }
 
+    /// Whether another one is parallel to it and the same way.
+    pub(super) fn runs_as(self, other: Self) -> bool {
+        self.agrees(other) && self.turn(other) == Ordering::Equal
+    }
+
     /// The order of the angles from the negative x axis, counter-clockwise. Exact.
     pub(super) fn compare(self, other: Self) -> Ordering {
         let upper = |way: I64Vec2| way.y > 0 || (way.y == 0 && way.x > 0);

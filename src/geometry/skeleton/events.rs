@@ -2,6 +2,7 @@
 
 use std::cmp::{Ordering, Reverse};
 
+use super::edge::Direction;
 use super::lines::When;
 use super::wavefront::{Front, Kind, Wavefront};
 
@@ -91,6 +92,7 @@ impl Wavefront {
     /// Foresees the first edge whose line a reflex corner reaches after (time, edge) `last`.
     ///
     /// Few of these lines are reached where the edge is, so the next ones are kept for then.
+    #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
     pub(super) fn expect_split(&mut self, index: usize, last: (f64, usize)) {
         let corner = &self.corners[index];
         if corner.kind != Kind::Reflex {
@@ -99,6 +101,7 @@ impl Wavefront {
         let [a, b] = corner.pair();
         let pair = if self.lines.turn(a, b) == Ordering::Less { [b, a] } else { [a, b] };
         let [l, m] = pair.map(|line| *self.lines.line(line));
+        let own = pair.map(|line| (self.lines.direction(line), self.lines.line(line).speed));
         // What the sums over three lines, by which they meet, have of two.
         let cross = l.normal.perp_dot(m.normal);
         let levels = l.normal * m.level - m.normal * l.level;
@@ -106,16 +109,19 @@ impl Wavefront {
         let noise = self.lines.noise();
         let slack = noise[0] + l.slack + m.slack;
         let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
-        for &Front { line: edge, edge: number } in &self.current {
+        for &Front { line: edge, direction, edge: number } in &self.current {
             let rate = edge.speed * cross + edge.normal.perp_dot(speeds);
             if rate < -noise[1] {
                 continue;
             }
             let sum = edge.level * cross + edge.normal.perp_dot(levels);
             let slack = slack + edge.slack;
-            // Most lines are reached too late to be divided for it.
-            if rate > FAST && -sum * (1.0 - 1e-6) - 3.0 * slack > found[FORESEEN - 1].0 * rate {
-                continue;
+            // Most lines are reached too late, or have been, to be divided for it.
+            if rate > FAST {
+                let off = sum.abs() * 1e-6 + 3.0 * slack;
+                if -sum - off > found[FORESEEN - 1].0 * rate || off - sum < self.now * rate {
+                    continue;
+                }
             }
             let low = if rate > 2.0 * noise[1] {
                 let time = -sum / rate;
@@ -125,10 +131,12 @@ impl Wavefront {
                 }
                 time - slack
             } else {
-                let line = self.traced.edges[number].line;
-                if pair.iter().any(|&own| self.lines.are_alike(own, line)) || corner.edges.contains(&number) {
+                let is_alike =
+                    |&(own, speed): &(Direction, f64)| speed == edge.speed && own.runs_as(direction);
+                if own.iter().any(is_alike) || corner.edges.contains(&number) {
                     continue;
                 }
+                let line = self.traced.edges[number].line;
                 let Some(mut when) = self.lines.nearing([pair[0], pair[1], line], false) else { continue };
                 self.lines.refine(&mut when);
                 if when.high() < self.now {

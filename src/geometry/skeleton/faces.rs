@@ -38,7 +38,8 @@ pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleto
     coarsen(&peaks, edges.len(), &mut faces);
     widen(&mut peaks, edges.len(), &edges, &faces);
     verify(rings, &edges, &peaks, &faces)?;
-    Ok(Skeleton { peaks, faces })
+    let paces = edges.iter().map(|edge| edge.pace).collect();
+    Ok(Skeleton { peaks, faces, paces })
 }
 
 /// The closed ring that directed borders form, beginning with the first of them.

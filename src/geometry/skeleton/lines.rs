@@ -194,11 +194,9 @@ impl Lines {
 
     /// Whether two lines are parallel and move the same way at the same speed.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
-    pub(super) fn are_alike(&self, line: usize, other: usize) -> bool {
+    fn are_alike(&self, line: usize, other: usize) -> bool {
         let [one, two] = [self.directions[line], self.directions[other]];
-        self.lines[line].speed == self.lines[other].speed
-            && one.agrees(two)
-            && one.turn(two) == Ordering::Equal
+        self.lines[line].speed == self.lines[other].speed && one.runs_as(two)
     }
 
     fn exact_rate(&mut self, lines: [usize; 3]) -> Ordering {

@@ -71,6 +71,9 @@ pub struct Skeleton {
     pub peaks: Vec<Peak>,
     /// Indices into `peaks`, counter-clockwise; each begins with the edge itself.
     pub faces: Vec<Vec<usize>>,
+    /// How the edges have moved: as they were to, but for those that had to begin as nothing else would have swept an
+    /// area between them.
+    pub paces: Vec<Pace>,
 }
 
 impl Skeleton {
@@ -86,7 +89,8 @@ impl Skeleton {
     /// the rest. Ties: what happens at exactly one time and place is resolved at once, the edges that meet there are
     /// sorted around it and paired anew, whatever the kind of the events; at other places of that time it changes
     /// nothing. Between edges in one line that move alike the border runs straight on from where they met; at
-    /// different speeds the faster one sweeps what the slower one has left.
+    /// different speeds the faster one sweeps what the slower one has left. Around an area where all edges stand still
+    /// for ever, these begin to move once nothing else does.
     ///
     /// Afterwards borders and spikes of less than 1 mm are closed where the faces stay a map of the plane. Fails if
     /// the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no

@@ -76,6 +76,7 @@ impl Corner {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Front {
     pub line: Line,
+    pub direction: Direction,
     pub edge: usize,
 }
 
@@ -125,14 +126,36 @@ impl Wavefront {
         self.begin(rings, paces)?;
         for _ in 0..16 * paces.len() + 64 {
             let Some(mut when) = self.gather() else {
-                if self.corners.iter().any(|corner| corner.alive) {
-                    return Err(Error::geometry("the wavefront is left with corners that meet nothing"));
+                if !self.corners.iter().any(|corner| corner.alive) {
+                    return Ok(());
                 }
-                return Ok(());
+                self.move_on()?;
+                continue;
             };
             self.resolve(&mut when)?;
         }
         Err(Error::geometry("the wavefront does not end"))
+    }
+
+    /// Lets the edges around areas that nothing sweeps begin to move, a little later than all that has happened.
+    fn move_on(&mut self) -> Result<()> {
+        let last = self.last.map_or(0.0, |last| last.high());
+        let rest = ((last * STEPS).floor() + 1.0) / STEPS;
+        let mut found = false;
+        for index in 0..self.corners.len() {
+            let Corner { alive, edges: [_, edge], .. } = self.corners[index];
+            let Pace { speed, rest: known } = self.traced.edges[edge].pace;
+            if alive && (speed <= 0.0 || known == f64::INFINITY) {
+                self.traced.edges[edge].pace = Pace { speed: 1.0, rest };
+                self.expect(When::at(rest), What::Start(short(edge)));
+                found = true;
+            }
+        }
+        if found {
+            Ok(())
+        } else {
+            Err(Error::geometry("the wavefront is left with corners that meet nothing"))
+        }
     }
 
     /// Puts the wavefront on the polygon, whatever it was before.
@@ -169,10 +192,11 @@ impl Wavefront {
             }
             let pace = paces.get(self.through.len()).copied().unwrap_or_default();
             let speed = if pace.rest > 0.0 { 0.0 } else { pace.speed };
-            let line = self.lines.add(Direction(to - from), from, speed, 0.0);
+            let direction = Direction(to - from);
+            let line = self.lines.add(direction, from, speed, 0.0);
             let normal = self.lines.line(line).normal;
             let level = normal.dot(metres(from));
-            self.current.push(Front { line: *self.lines.line(line), edge: self.through.len() });
+            self.current.push(Front { line: *self.lines.line(line), direction, edge: self.through.len() });
             self.traced.edges.push(Edge { along: -normal.perp(), level, pace, line });
             self.through.push(from);
         }
@@ -383,5 +407,7 @@ impl Wavefront {
     }
 }
 
+/// Edges that begin to move as nothing else does so at a time of which there are so many to a metre.
+const STEPS: f64 = 64.0;
 /// Before all that may happen.
 const ANY: (f64, usize) = (f64::NEG_INFINITY, 0);

@@ -9,6 +9,9 @@ pub mod bordered;
 pub mod extruded;
 pub mod fixture;
 pub mod grid;
+pub mod join;
+#[cfg(test)]
+mod join_tests;
 pub mod lay;
 pub mod list;
 pub mod panel;
@@ -18,6 +21,7 @@ pub mod template;
 mod tests;
 pub mod wall;
 
+pub use join::{FaceMesh, Joiner};
 pub use lay::{Face, Laid, Rectangle};
 pub use template::{Facade, Template, Templates};
 pub use wall::Wall;
