@@ -87,7 +87,7 @@ fn main() {
     damaged("models", &std::fs::read(path("made.glb")).unwrap(), 2000, |bytes| {
         std::fs::write(path("a.glb"), bytes).unwrap();
         let limits = Limits { time: Duration::from_secs(20), triangles: 100_000, ..Limits::default() };
-        burgeon::run(&path("read.lua"), Options { limits, quiet: true, ..Options::default() }).is_ok()
+        burgeon::run(&path("read.lua"), Options { limits, ..Options::default() }).is_ok()
     });
 
     for count in [10_000, 40_000, 160_000] {

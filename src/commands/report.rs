@@ -213,6 +213,15 @@ pub(crate) fn print_all(content: impl FnOnce(&mut BufWriter<Standard>) -> io::Re
     }
 }
 
+/// Writes what a script prints. On a terminal, it takes the place of the progress that may stand in the line.
+pub(crate) fn printed(text: &str) {
+    let line = match io::stderr().is_terminal() {
+        true => format!("\r\u{1b}[2K{}\n", escaped_lines(text)),
+        false => format!("{text}\n"),
+    };
+    let _ = io::stderr().write_all(line.as_bytes());
+}
+
 /// Writes to standard error.
 pub(crate) fn eprint(text: &str) {
     let _ = io::stderr().write_all(escaped_lines(text).as_bytes());

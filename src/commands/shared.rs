@@ -5,9 +5,11 @@ use std::time::Duration;
 
 use burgeon::picture::{Background, Look, Picture};
 use burgeon::presets::Presets;
-use burgeon::script::{Limits, Options};
+use burgeon::script::{Limits, Options, Print};
 use burgeon::{Error, Result};
 use clap::{Args, ValueEnum};
+
+use super::report;
 
 /// How a script is run.
 #[derive(Args)]
@@ -113,6 +115,7 @@ impl ScriptFlags {
             data: self.data.clone(),
             strict: self.strict,
             stdlib: self.stdlib.clone(),
+            print: Some(Print::new(report::printed)),
             ..Options::default()
         })
     }

@@ -141,7 +141,7 @@ impl<'a> Document<'a> {
         let materials = material::write(checked, images, textures, &mut description.root, &mut body);
         let meshes = mesh::write(checked, arrays, &materials, &mut description, &mut body, stop);
         stop.check()?;
-        let placed = place::write(checked, &meshes, &mut description, &mut body);
+        let placed = place::write(checked, &meshes, arrays, &mut description, &mut body);
         if arrays.small {
             material::use_extension(&mut description.root, QUANTIZATION);
             description.root.extensions_required.push(QUANTIZATION.into());

@@ -23,6 +23,7 @@ mod surface;
 mod sweep;
 #[cfg(test)]
 mod sweep_tests;
+mod union;
 
 pub use face::{face, sphere};
 pub use frame::Frame;
@@ -33,3 +34,4 @@ pub use section::{MOST_POINTS, Section, SectionPoint};
 pub use sizes::{SAME, Share, Sizes, Split};
 pub use strand::{MOST_SIDES, Strand, tube};
 pub use sweep::{Lengthwise, SweepOptions, Swept, sweep};
+pub use union::{Cell, Crossing, Union};

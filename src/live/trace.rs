@@ -124,7 +124,7 @@ fn present(state: &State) -> Result<(Arc<Shown>, Options)> {
             .help("repair the script, so that there is a new one"));
     }
     let mut options = work::options(state, &shown.inputs);
-    options.quiet = true;
+    options.print = None;
     options.profile = false;
     options.limits.time = options.limits.time.min(PATIENCE);
     options.stop = Some(Arc::clone(&inner.aside));

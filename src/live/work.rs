@@ -397,7 +397,7 @@ fn wants_last_step(state: &State) -> Option<Inputs> {
 /// Runs the script without a limit of steps, only to count them; `None` if it was stopped for something newer.
 fn last_step(state: &State, inputs: &Inputs) -> Option<usize> {
     let mut options = options(state, inputs);
-    options.quiet = true;
+    options.print = None;
     options.profile = false;
     let limits = &mut options.limits;
     limits.time = limits.time.min(IDLE_LIMITS.time);

@@ -1,7 +1,6 @@
 //! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
 
 use std::cell::RefCell;
-use std::io::IsTerminal;
 use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 
@@ -13,13 +12,13 @@ use super::convert::{class_key, to_field, to_lua};
 use super::handles::ObjectHandle;
 use super::kinds::{install_kind, named_fields, no_table};
 use super::machine::{Machine, compile, native};
+use super::options::Print;
 use super::param::Param;
 use super::require::require;
 use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
 use crate::error::{Error, Place, Result};
 use crate::objects::{Elevation, ElevationOptions, KINDS, Kind, Model, Value};
 use crate::rules::{Signature, Symbol, Symbols};
-use crate::text::escaped_lines;
 use crate::warning::{Warning, WarningKind};
 
 /// The standard library, which every script has, compiled once for all machines.
@@ -300,12 +299,13 @@ impl Library {
             })?,
         )?;
         globals.raw_set("lod", machine.session.options.lod)?;
-        let quiet = machine.session.options.quiet;
+        let hook = machine.session.options.print.clone();
         globals.raw_set(
             "print",
-            lua.create_function(
-                move |lua, values: MultiValue| if quiet { Ok(()) } else { print(lua, &values) },
-            )?,
+            lua.create_function(move |lua, values: MultiValue| match &hook {
+                Some(hook) => print(lua, &values, hook),
+                None => Ok(()),
+            })?,
         )?;
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
@@ -415,18 +415,13 @@ fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symb
     Ok((symbol, constructor))
 }
 
-fn print(lua: &Lua, values: &MultiValue) -> mlua::Result<()> {
+fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
     if lua.app_data_ref::<Quiet>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
     let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
-    // On a terminal, what is printed takes the place of the progress that may stand in the line.
-    let (clear, text) = match std::io::stderr().is_terminal() {
-        true => ("\r\u{1b}[2K", escaped_lines(&texts.join("\t")).into_owned()),
-        false => ("", texts.join("\t")),
-    };
-    eprintln!("{clear}{text}");
+    hook.take(&texts.join("\t"));
     Ok(())
 }
 

@@ -1,5 +1,6 @@
 //! How a script is to be run, and how much it may use.
 
+use std::fmt;
 use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 use std::time::Duration;
@@ -29,6 +30,27 @@ impl Default for Limits {
     }
 }
 
+/// Takes what scripts print, call by call, from any thread.
+#[derive(Clone)]
+pub struct Print(Arc<dyn Fn(&str) + Send + Sync>);
+
+impl Print {
+    /// Hands each text that is printed to `take`, without a line break at its end.
+    pub fn new(take: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self(Arc::new(take))
+    }
+
+    pub(crate) fn take(&self, text: &str) {
+        (self.0)(text);
+    }
+}
+
+impl fmt::Debug for Print {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Print")
+    }
+}
+
 /// How a script is to be run.
 #[derive(Debug, Clone)]
 pub struct Options {
@@ -50,8 +72,8 @@ pub struct Options {
     pub limits: Limits,
     /// Whether to stop before deriving, after all declarations have been read.
     pub check: bool,
-    /// Whether `print` says nothing.
-    pub quiet: bool,
+    /// Takes what scripts print; without it, nobody does.
+    pub print: Option<Print>,
     /// Ends this run, too, when it is stopped.
     pub stop: Option<Arc<Stop>>,
     /// Folders besides the script's whose data files it may read.
@@ -101,7 +123,7 @@ impl Default for Options {
             batch: 4096,
             limits: Limits::default(),
             check: false,
-            quiet: false,
+            print: None,
             stop: None,
             data: Vec::new(),
             cache: None,

@@ -104,7 +104,7 @@ impl Variations {
     /// Fails if there are none or more than [`MOST`], and if the script has no such parameter or refuses one of
     /// the values. A script that fails is told by its cells.
     pub fn new(script: &Path, options: &Options, over: &Over) -> Result<Self> {
-        let options = Options { quiet: true, ..options.clone() };
+        let options = Options { print: None, ..options.clone() };
         let plans: Vec<Plan> = match over {
             Over::Seeds(seeds) => seeds
                 .iter()

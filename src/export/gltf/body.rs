@@ -72,6 +72,7 @@ pub(super) enum Block<'a> {
     ShortFaces(Arc<Corners<'a>>, usize, usize),
     LongFaces(Arc<Corners<'a>>, usize, usize),
     Floats(Vec<f32>),
+    Shorts(Vec<i16>),
     Bytes(&'a [u8]),
 }
 
@@ -301,6 +302,7 @@ impl Block<'_> {
             Self::ShortFaces(_, _, triangles) => triangles * 6,
             Self::LongFaces(_, _, triangles) => triangles * 12,
             Self::Floats(floats) => floats.len() * 4,
+            Self::Shorts(shorts) => shorts.len() * 2,
             Self::Bytes(bytes) => bytes.len(),
         };
         bytes as u64
@@ -323,6 +325,7 @@ impl Block<'_> {
                 corners.faces(*faces).part.triangles.len()
             }
             Self::Floats(floats) => floats.len(),
+            Self::Shorts(shorts) => shorts.len(),
             Self::Bytes(bytes) => bytes.len(),
         }
     }
@@ -370,6 +373,7 @@ impl Block<'_> {
                 put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize])));
             }
             Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
+            Self::Shorts(shorts) => out.extend_from_slice(bytemuck::cast_slice(&shorts[range])),
             Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),
         }
     }
@@ -406,10 +410,15 @@ fn byte_normal(normal: Normal) -> [i8; 4] {
 }
 
 /// A unit vector as parts of 32767, and a zero.
-#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
 fn short_normal(normal: Normal) -> [i16; 4] {
-    let [x, y, z] = y_up(normal.vector()).to_array().map(|it| nearest(it * 32767.0));
-    [x as i16, y as i16, z as i16, 0]
+    let [x, y, z] = y_up(normal.vector()).to_array().map(short);
+    [x, y, z, 0]
+}
+
+/// A number from -1 to 1 as a part of 32767.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+pub(super) fn short(number: f32) -> i16 {
+    nearest(number * 32767.0) as i16
 }
 
 /// Texture coordinates in metres, v upwards, as parts of the image, v downwards.

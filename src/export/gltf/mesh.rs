@@ -67,7 +67,7 @@ pub(super) struct Arrays {
     /// Whether surfaces without a texture have texture coordinates too, in metres.
     pub(super) measured: bool,
     /// Whether normals are integers, which `KHR_mesh_quantization` allows, and parts of flat triangles are [`Welded`]
-    /// unless they have texture coordinates: a viewer waits for each byte.
+    /// unless they have texture coordinates: a viewer waits for each byte. It reads turns of instances as they are.
     pub(super) small: bool,
 }
 

@@ -1,11 +1,11 @@
 //! Where meshes stand: a node for each instance, or one node for many.
 
-use super::super::check::Checked;
+use super::super::check::{Checked, Measured};
+use super::body::{Block, Body, short};
 use super::decompose::{Steps, Trs, decompose, y_up};
-use super::description::{Description, Feature, Node};
+use super::description::{Accessor, Description, Feature, Node};
 use super::material::use_extension;
-use super::mesh::accessor;
-use super::{body::Block, body::Body};
+use super::mesh::{Arrays, accessor};
 use crate::scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;
@@ -35,6 +35,12 @@ struct Kind<'a> {
 /// `features` of the scene's extras, or -1.
 const FEATURE: &str = "_FEATURE_ID_0";
 
+/// The most (radians, 0.0036 degrees) that a turn is off if each number of its quaternion is a part of 32767.
+const ROUNDING: f64 = 6.2e-5;
+
+/// The most (m) that rounding a turn may move a point of what is turned.
+const UNSEEN: f64 = 1e-3;
+
 #[derive(Default)]
 struct Group {
     count: usize,
@@ -42,6 +48,15 @@ struct Group {
     translations: Vec<f32>,
     rotations: Vec<f32>,
     scales: Vec<f32>,
+    /// The largest factor of a scale.
+    largest: f64,
+}
+
+/// The numbers of an attribute of instances, all that each has after another.
+enum Column {
+    Floats(Vec<f32>),
+    /// Whole numbers, or parts of 32767.
+    Shorts(Vec<i16>, bool),
 }
 
 /// Where an instance of the scene is in a document.
@@ -68,6 +83,7 @@ pub(super) struct Placed<'a> {
 pub(super) fn write<'a>(
     checked: &Checked<'a>,
     meshes: &[Option<usize>],
+    arrays: Arrays,
     description: &mut Description<'a>,
     body: &mut Body<'a>,
 ) -> Placed<'a> {
@@ -109,7 +125,8 @@ pub(super) fn write<'a>(
     }
     for ((kind, group), members) in groups.into_iter().zip(members) {
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
-            let node = together(kind, group, mesh, description, body);
+            let reach = if arrays.small { f64::INFINITY } else { reach(checked, kind.mesh) };
+            let node = together(kind, group, (mesh, reach), description, body);
             nodes.push(node);
             for (shared, number) in members.into_iter().enumerate() {
                 places[number] = Some(Place { node, shared: Some(shared) });
@@ -171,7 +188,33 @@ impl Group {
         self.translations.extend((translation.as_vec3() + 0.0).to_array());
         self.rotations.extend(quaternion(rotation));
         self.scales.extend((scale.as_vec3() + 0.0).to_array());
+        self.largest = self.largest.max(scale.abs().max_element());
         true
+    }
+}
+
+/// How far (m) the points of a mesh are from its origin at most.
+fn reach(checked: &Checked<'_>, mesh: usize) -> f64 {
+    let furthest = |part: &Measured| part.low.abs().max(part.high.abs()).as_dvec3().length();
+    checked.parts[mesh].iter().map(furthest).fold(0.0, f64::max)
+}
+
+impl Column {
+    /// Turns of what reaches so far (m), as parts of 32767 unless that could be seen.
+    fn rotations(floats: Vec<f32>, reach: f64) -> Self {
+        if reach * ROUNDING > UNSEEN {
+            return Self::Floats(floats);
+        }
+        Self::Shorts(floats.into_iter().map(short).collect(), true)
+    }
+
+    /// Whole numbers in the smallest type that has room for them.
+    #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+    fn whole(floats: Vec<f32>) -> Self {
+        if floats.iter().any(|number| *number > f32::from(i16::MAX)) {
+            return Self::Floats(floats);
+        }
+        Self::Shorts(floats.into_iter().map(|number| number as i16).collect(), false)
     }
 }
 
@@ -201,32 +244,38 @@ fn alone<'a>(
     }
 }
 
-/// A node for all instances of a group.
+/// A node for all instances of a group; `mesh` is its number with how far (m) it reaches.
 fn together<'a>(
     kind: Kind<'a>,
     group: Group,
-    mesh: usize,
+    (mesh, reach): (usize, f64),
     description: &mut Description<'a>,
     body: &mut Body<'a>,
 ) -> usize {
     use_extension(&mut description.root, INSTANCING);
     description.root.extensions_required = vec![INSTANCING.into()];
     let mut attributes = serde_json::Map::new();
-    let mut add = |key: &str, floats: Vec<f32>, width: usize, kind: Type, default: &[f32]| {
-        if floats.chunks(width).any(|item| item != default) {
-            let count = floats.len() / width;
-            let view = body.add(Block::Floats(floats));
-            let array = accessor((view, 0), ComponentType::F32, kind, count);
-            attributes.insert(key.into(), description.accessor(array).into());
-        }
+    let count = group.translations.len() / 3;
+    let mut add = |key: &str, column: Column, kind: Type| {
+        let (block, component, normalized) = match column {
+            Column::Floats(floats) => (Block::Floats(floats), ComponentType::F32, false),
+            Column::Shorts(shorts, normalized) => (Block::Shorts(shorts), ComponentType::I16, normalized),
+        };
+        let array = Accessor { normalized, ..accessor((body.add(block), 0), component, kind, count) };
+        attributes.insert(key.into(), description.accessor(array).into());
     };
+    let differs = |floats: &[f32], default: &[f32]| floats.chunks(default.len()).any(|item| item != default);
     if group.features.iter().any(|feature| *feature >= 0.0) {
-        add(FEATURE, group.features, 1, Type::Scalar, &[]);
+        add(FEATURE, Column::whole(group.features), Type::Scalar);
     }
     // No default, since one array has to be there to tell the number of instances.
-    add("TRANSLATION", group.translations, 3, Type::Vec3, &[]);
-    add("ROTATION", group.rotations, 4, Type::Vec4, &[0.0, 0.0, 0.0, 1.0]);
-    add("SCALE", group.scales, 3, Type::Vec3, &[1.0, 1.0, 1.0]);
+    add("TRANSLATION", Column::Floats(group.translations), Type::Vec3);
+    if differs(&group.rotations, &[0.0, 0.0, 0.0, 1.0]) {
+        add("ROTATION", Column::rotations(group.rotations, reach * group.largest), Type::Vec4);
+    }
+    if differs(&group.scales, &[1.0, 1.0, 1.0]) {
+        add("SCALE", Column::Floats(group.scales), Type::Vec3);
+    }
     description.node(Node {
         mesh: Some(mesh),
         name: kind.name,
@@ -263,4 +312,38 @@ fn unless<const N: usize>(default: [f32; N], value: [f32; N]) -> Option<[f32; N]
 fn quaternion(rotation: DQuat) -> [f32; 4] {
     let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
     rotation.as_quat().to_array().map(|number| number + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_turn_in_short_numbers_is_off_by_less_than_five_thousandths_of_a_degree(
+            numbers in proptest::array::uniform4(-1.0_f64..1.0)
+        ) {
+            prop_assume!(DQuat::from_array(numbers).length() > 0.1);
+            let meant = DQuat::from_array(numbers).normalize();
+            let Column::Shorts(shorts, true) = Column::rotations(quaternion(meant).to_vec(), 1.0) else {
+                panic!("short numbers")
+            };
+            let read: Vec<f64> = shorts.iter().map(|number| f64::from(*number) / 32767.0).collect();
+            let off = (meant.inverse() * DQuat::from_slice(&read).normalize()).to_scaled_axis().length();
+            let off = off.min(std::f64::consts::TAU - off);
+            prop_assert!(off <= ROUNDING && off.to_degrees() < 0.005, "{off}");
+        }
+    }
+
+    #[test]
+    fn what_reaches_far_keeps_its_turn_and_what_has_a_high_number_keeps_it() {
+        let turn = quaternion(DQuat::from_rotation_y(0.7)).to_vec();
+        assert!(matches!(Column::rotations(turn.clone(), 16.0), Column::Shorts(..)));
+        assert!(matches!(Column::rotations(turn, 17.0), Column::Floats(_)));
+        assert!(
+            matches!(Column::whole(vec![-1.0, 32767.0]), Column::Shorts(shorts, false) if shorts == [-1, 32767])
+        );
+        assert!(matches!(Column::whole(vec![-1.0, 32768.0]), Column::Floats(_)));
+    }
 }

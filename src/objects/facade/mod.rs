@@ -9,6 +9,9 @@ pub mod bordered;
 pub mod extruded;
 pub mod fixture;
 pub mod grid;
+pub mod join;
+#[cfg(test)]
+mod join_tests;
 pub mod lay;
 pub mod list;
 pub mod panel;
@@ -21,6 +24,7 @@ pub mod wall;
 pub use bordered::KIND as BORDERED;
 pub use extruded::KIND as EXTRUDED;
 pub use grid::KIND as GRID;
+pub use join::{FaceMesh, Joiner};
 pub use lay::{Face, Laid, Rectangle};
 pub use list::KIND as LIST;
 pub use panel::KIND as PANEL;

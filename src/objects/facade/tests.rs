@@ -8,26 +8,26 @@ use proptest::prelude::*;
 use super::*;
 use crate::objects::{Key, Kind, Table, Value};
 
-fn table(fields: &[(&str, Value)]) -> Table {
+pub(super) fn table(fields: &[(&str, Value)]) -> Table {
     let entries = fields.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
     Table { class: None, entries: entries.collect() }
 }
 
-fn list(values: &[Value]) -> Value {
+pub(super) fn list(values: &[Value]) -> Value {
     let entries = (1..).map(Key::Index).zip(values.iter().cloned()).collect();
     Value::Table(Arc::new(Table { class: None, entries }))
 }
 
-fn sizes(values: &[f64]) -> Value {
+pub(super) fn sizes(values: &[f64]) -> Value {
     list(&values.iter().map(|value| Value::Number(*value)).collect::<Vec<_>>())
 }
 
-fn text(text: &str) -> Value {
+pub(super) fn text(text: &str) -> Value {
     Value::Text(text.into())
 }
 
 /// A wall by the rule of `kind`, or why there is none.
-fn make(kind: &Kind, fields: &[(&str, Value)]) -> Result<Value, String> {
+pub(super) fn make(kind: &Kind, fields: &[(&str, Value)]) -> Result<Value, String> {
     match (kind.construct)(&table(fields)) {
         Ok(wall) => Ok(Value::Object(Arc::from(wall))),
         Err(error) => Err(error.message().to_owned()),
@@ -39,13 +39,13 @@ fn refused(kind: &Kind, fields: &[(&str, Value)]) -> String {
     make(kind, fields).err().unwrap_or_default()
 }
 
-fn wall(value: &Value) -> Wall {
+pub(super) fn wall(value: &Value) -> Wall {
     let Value::Object(object) = value else { panic!("a wall") };
     let any: &dyn std::any::Any = &**object;
     any.downcast_ref::<Wall>().expect("a wall").clone()
 }
 
-fn panel(width: &[f64], height: &[f64]) -> Value {
+pub(super) fn panel(width: &[f64], height: &[f64]) -> Value {
     make(&PANEL, &[("width", sizes(width)), ("height", sizes(height))]).expect("a panel")
 }
 

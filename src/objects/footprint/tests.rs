@@ -191,7 +191,7 @@ fn facades_cover_their_walls_and_leave_party_walls_plain() {
             let [a, b, c] = corners.map(|corner| part.positions[corner as usize].as_dvec3());
             let area = (b - a).cross(c - a) / 2.0;
             // Walls of the south side look towards -y; those that lie back by 0.2 m are glass.
-            if area.y < -1e-9 && area.z.abs() < 1e-9 && a.z < 6.0 {
+            if area.y < -1e-9 && area.z.abs() < 1e-9 && a.z.min(b.z).min(c.z) < 6.0 {
                 let south = house.plan.flat()[0][0].y;
                 let depth = [a.y, b.y, c.y].map(|y| ((y - south) * 1000.0).round());
                 match depth {
@@ -215,6 +215,32 @@ fn facades_cover_their_walls_and_leave_party_walls_plain() {
         })
     });
     assert_eq!(plain.count(), 4);
+}
+
+#[test]
+fn textures_run_on_in_metres_over_the_joined_faces_of_a_facade() {
+    let house = with_facades(3);
+    let corner = house.plan.flat()[0][0];
+    let mut count = 0;
+    for part in house.drawing.parts() {
+        for corners in &part.triangles {
+            let on_south = |vertex: &u32| {
+                let at = part.positions[*vertex as usize].as_dvec3();
+                (at.y - corner.y).abs() < 1e-6 && (-1e-6..=6.0).contains(&at.z)
+            };
+            let normal = part.normals[corners[0] as usize].vector();
+            if normal.y > -0.99 || !corners.iter().all(on_south) {
+                continue;
+            }
+            for vertex in corners.map(|vertex| vertex as usize) {
+                let (at, uv) = (part.positions[vertex].as_dvec3(), part.uvs[vertex].as_dvec2());
+                assert!(uv.distance(DVec2::new(at.x - corner.x, at.z)) < 1e-5, "{at} has {uv}");
+                count += 1;
+            }
+        }
+    }
+    // In each of two storeys a window with its wall.
+    assert_eq!(count, 2 * 3 * (6 + 2));
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::error::{Error, Limit, Result};
 use crate::geometry::{SAME, fill};
 use crate::objects::facade::lay::MOST;
 use crate::objects::facade::template::BLIND;
-use crate::objects::facade::{Face, Laid, Rectangle, Template, Templates};
+use crate::objects::facade::{Face, FaceMesh, Joiner, Laid, Rectangle, Template, Templates};
 use crate::objects::{Color, Note, Surface};
 use crate::random::Stream;
 use crate::scene::{Material, Part};
@@ -133,7 +133,7 @@ impl Footprint {
         for frontage in self.frontages(from, to) {
             let (right, up) = (DVec3::new(frontage.size.x, 0.0, 0.0), DVec3::new(0.0, frontage.size.y, 0.0));
             let face = Face { at: DVec3::ZERO, right, up, material: None, stretched: true };
-            frontage.draw(self.drawing.part(part), &face, photo);
+            frontage.draw(self.drawing.part(part), &face, &FaceMesh::of(&face), photo);
         }
     }
 
@@ -146,6 +146,7 @@ impl Footprint {
         to: f64,
     ) -> Result<()> {
         let mut laid = Laid::default();
+        let mut joiner = Joiner::spare();
         // Parts by the addresses of materials, which templates keep where they are.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
         let mut without: Vec<DVec2> = Vec::new();
@@ -168,7 +169,7 @@ impl Footprint {
                 frontage.fill(self.drawing.part(plain))?;
                 continue;
             };
-            self.draw_laid(&laid, template, frontage, &mut parts);
+            self.draw_laid(&laid, template, frontage, &mut parts, &mut joiner);
             let material: *const Material = material_of(&laid, template.material());
             if let Some((_, part)) = parts.iter().find(|(known, _)| *known == material) {
                 self.note_part(edge, *part);
@@ -186,6 +187,7 @@ impl Footprint {
                 }
             }
         }
+        joiner.retire();
         if let Some(first) = without.first() {
             let why = format!(
                 "no template fits {} of {} frontages, the first {:.2} m wide and {:.2} m high",
@@ -215,26 +217,30 @@ impl Footprint {
         frontages.iter().zip(&keywords).enumerate().map(choose).collect()
     }
 
-    fn draw_laid(
+    fn draw_laid<'a>(
         &mut self,
-        laid: &Laid<'_>,
-        template: &Template,
+        laid: &Laid<'a>,
+        template: &'a Template,
         frontage: &Frontage,
         parts: &mut Vec<(*const Material, usize)>,
+        joiner: &mut Joiner,
     ) {
-        for face in &laid.faces {
-            let material = face.material.unwrap_or_else(|| template.material());
+        let material_of = |face: &Face<'a>| face.material.unwrap_or_else(|| template.material());
+        let part_of = |face: &Face<'a>| {
+            let material = material_of(face);
             let address: *const Material = material;
-            let part = match parts.iter().find(|(known, _)| *known == address) {
-                Some((_, part)) => *part,
-                None => {
-                    let part = self.drawing.material(material);
-                    parts.push((address, part));
-                    part
-                }
-            };
-            frontage.draw(self.drawing.part(part), face, material);
-        }
+            let known = parts.iter().find(|(known, _)| *known == address).map(|(_, part)| *part);
+            known.unwrap_or_else(|| {
+                let part = self.drawing.material(material);
+                parts.push((address, part));
+                part
+            })
+        };
+        let of_faces: Vec<usize> = laid.faces.iter().map(part_of).collect();
+        joiner.join(&laid.faces, &of_faces, |number, mesh| {
+            let face = &laid.faces[number];
+            frontage.draw(self.drawing.part(of_faces[number]), face, mesh, material_of(face));
+        });
     }
 
     fn frontages(&self, from: f64, to: f64) -> Vec<Frontage> {
@@ -302,24 +308,23 @@ impl Frontage {
         fill(part, &[vec![a, b, b + up, a + up]], self.axes.x_axis, origin)
     }
 
-    /// Adds a face with its texture coordinates (m).
-    fn draw(&self, part: &mut Part, face: &Face<'_>, material: &Material) {
+    /// Adds `mesh`, which is like `face`, with its texture coordinates (m).
+    fn draw(&self, part: &mut Part, face: &Face<'_>, mesh: &FaceMesh, material: &Material) {
         let Ok(base) = u32::try_from(part.positions.len()) else { return };
-        let corners = [face.at, face.at + face.right, face.at + face.right + face.up, face.at + face.up];
         let normal = (self.axes * face.right.cross(face.up)).normalize_or_zero().as_vec3();
         let (size, lies) =
             (material.texture.as_ref().map_or([1.0; 2], |texture| texture.size), face.up.y == 0.0);
-        part.make_room(4, 2);
-        for (index, mut corner) in corners.into_iter().enumerate() {
+        part.make_room(mesh.corners.len(), mesh.triangles.len());
+        for &given in &mesh.corners {
+            let mut corner = given;
             if corner.z > 0.0 && corner.x < SAME {
                 corner.x -= corner.z * self.miters[0];
             } else if corner.z > 0.0 && corner.x > self.size.x - SAME {
                 corner.x += corner.z * self.miters[1];
             }
             let uv = if face.stretched {
-                let across = [0.0, 1.0, 1.0, 0.0][index];
-                let above = [0.0, 0.0, 1.0, 1.0][index];
-                DVec2::new(across * size[0], above * size[1])
+                let part = |way: DVec3| (given - face.at).dot(way) / way.length_squared();
+                DVec2::new(part(face.right) * size[0], part(face.up) * size[1])
             } else if lies {
                 self.passed + DVec2::new(corner.x, corner.y + corner.z)
             } else {
@@ -330,8 +335,7 @@ impl Frontage {
             part.normals.push(normal.into());
             part.uvs.push(uv.as_vec2());
         }
-        part.triangles.push([base, base + 1, base + 2]);
-        part.triangles.push([base, base + 2, base + 3]);
+        part.triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|corner| base + corner)));
     }
 }
 
