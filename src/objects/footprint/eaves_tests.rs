@@ -187,3 +187,31 @@ fn depth(ring: &[DVec3], at: DVec2) -> f64 {
         .map(|[a, b]| (b - a).truncate().normalize_or_zero().perp_dot(at - a.truncate()))
         .fold(f64::INFINITY, f64::min)
 }
+
+#[test]
+fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
+    let ring = |corners: &[(f64, f64)]| vec![corners.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()];
+    let angle: Vec<Vec<DVec3>> = ring(&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]);
+    let recess = ring(&[(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)]);
+    // It touches one of the two walls of the inner corner, which are as far out as one another.
+    let beside = ring(&[(5.05, 7.), (12., 7.), (12., 12.), (5.05, 12.)]);
+    let notes = |rings: &[&Vec<Vec<DVec3>>]| {
+        let objects = rings.iter().map(|rings| Box::new(on((*rings).clone(), 6.0)) as Box<dyn Object>);
+        let mut objects: Vec<_> = objects.collect();
+        neighbors::gather(&mut objects);
+        let any: &mut dyn std::any::Any = &mut *objects[0];
+        let house = any.downcast_mut::<Footprint>().expect("a footprint");
+        house.begin();
+        house.walls(None).expect("walls");
+        let roof = [("kind", text("hip")), ("overhang", number(0.6))];
+        house.roof(Some(Arc::new(table(&roof)))).expect("a roof");
+        house.notes.iter().map(|note| format!("{}: {}", note.what, note.why)).collect::<Vec<_>>()
+    };
+    assert_eq!(notes(&[&angle]), [""; 0]);
+    assert_eq!(
+        notes(&[&angle, &beside]),
+        ["a smaller overhang over some edges, as a neighbour is near: 0 m in place of 0.6 m over edge 3"]
+    );
+    let within = notes(&[&recess, &ring(&[(30., 0.), (40., 0.), (40., 5.), (30., 5.)])]);
+    assert!(within.len() == 1 && within[0].contains("as there is no room: "), "{within:?}");
+}

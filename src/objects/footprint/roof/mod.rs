@@ -89,9 +89,18 @@ impl Footprint {
         if made.cover.hipped {
             note(format!("hips in place of gables of a {} roof", options.kind), String::new());
         }
-        if !made.cover.tight.is_empty() {
-            let why = tight(&made.cover, options.overhang, &self.plan);
-            note("a smaller overhang over some edges, as there is no room".into(), why);
+        // Without neighbours some edges would have more: what is over them gives way for these.
+        let is_limited = !made.cover.tight.is_empty() && reach.iter().any(|reach| *reach < furthest);
+        let alone = if is_limited { shape.cover_on(&Support { reach: &[], ..support }).ok() } else { None };
+        let has_more = |cover: &Cover, edge: usize| cover.overhangs[edge] > made.cover.overhangs[edge];
+        let is_beside = |edge: &usize| alone.as_ref().is_some_and(|alone| has_more(alone, *edge));
+        let (beside, within): (Vec<usize>, Vec<usize>) =
+            made.cover.tight.iter().partition(|edge| is_beside(edge));
+        for (edges, cause) in [(beside, "a neighbour is near"), (within, "there is no room")] {
+            if !edges.is_empty() {
+                let why = tight(&edges, &made.cover.overhangs, options.overhang, &self.plan);
+                note(format!("a smaller overhang over some edges, as {cause}"), why);
+            }
         }
         self.draw(options, &made.cover.patches).map_err(Error::of_data)?;
         if self.detail < 3 {
@@ -145,15 +154,16 @@ impl Footprint {
 /// The most edges that a note names.
 const NAMED: usize = 8;
 
-/// How far a roof juts out over the edges where it should do so more, by the numbers that they were given with.
-fn tight(cover: &Cover, overhang: f64, plan: &Plan) -> String {
-    let found = cover.tight.iter().map(|&edge| cover.overhangs[edge]);
+/// How far a roof with these `overhangs` juts out over `edges`, where it should do so more, by the numbers that they
+/// were given with.
+fn tight(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
+    let found = edges.iter().map(|&edge| overhangs[edge]);
     let (least, most) =
         found.fold((f64::INFINITY, 0.0f64), |(least, most), by| (least.min(by), most.max(by)));
     let range = if least < most { format!("{least} to {most}") } else { format!("{most}") };
     let given = plan.given_edges();
     let mut edges: Vec<usize> =
-        cover.tight.iter().filter_map(|&edge| given.get(edge)).flatten().map(|edge| edge + 1).collect();
+        edges.iter().filter_map(|&edge| given.get(edge)).flatten().map(|edge| edge + 1).collect();
     edges.sort_unstable();
     let named: Vec<String> = edges.iter().take(NAMED).map(usize::to_string).collect();
     let more = edges.len() - named.len();
