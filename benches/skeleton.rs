@@ -17,7 +17,7 @@ use burgeon::sources::{Geometry, Layer, Source, Wanted};
 use glam::{DVec2, DVec3, Vec3};
 
 #[allow(dead_code, reason = "the tests use the rest")]
-#[path = "../src/geometry/skeleton/samples.rs"]
+#[path = "../crates/geometry/src/skeleton/samples.rs"]
 mod samples;
 
 use samples::{FAMILIES, Family, Random};

@@ -13,7 +13,7 @@ use burgeon::script::Options as RunOptions;
 use burgeon::{Result, export};
 use glam::DVec3;
 
-burgeon::fields! {
+burgeon::kit::fields! {
     /// What `beads { ... }` takes.
     pub struct Options for "beads" {
         /// Radius of a bead (m).
@@ -31,7 +31,7 @@ pub struct Beads {
     drawing: Drawing,
 }
 
-burgeon::methods! {
+burgeon::kit::methods! {
     Beads = "beads" {
         /// Adds a bead on top.
         pub fn add(&mut self) -> Result<()> {

@@ -72,38 +72,22 @@
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
-mod budget;
-pub mod derive;
-pub mod error;
-pub mod export;
-mod files;
-pub mod geometry;
-mod interpret;
-#[macro_use]
-pub mod kit;
+pub use burgeon_base::{Budget, Error, Held, Result, Stop, Warning, WarningKind, error, text, warning};
+pub use burgeon_data as sources;
+pub use burgeon_engine::run::{Check, Run, RunTimes, check, run, run_session};
+pub use burgeon_engine::{derive, script, trace};
+pub use burgeon_export as export;
+pub use burgeon_export::picture;
+pub use burgeon_geometry as geometry;
+pub use burgeon_kit as kit;
 #[cfg(feature = "live")]
-pub mod live;
-mod memory;
-pub mod objects;
-pub mod picture;
-pub mod presets;
-mod run;
-pub mod scene;
-pub mod script;
-pub mod sources;
-mod stop;
-pub mod terrain;
-pub mod text;
-pub mod trace;
-pub mod variations;
-pub mod warning;
-pub mod watch;
-
-pub use budget::{Budget, Held};
-pub use error::{Error, Result};
-pub use run::{Check, Run, RunTimes, check, run, run_session};
-pub use stop::Stop;
-pub use warning::{Warning, WarningKind};
+pub use burgeon_live as live;
+pub use burgeon_objects as objects;
+pub use burgeon_presets as presets;
+pub use burgeon_scene as scene;
+pub use burgeon_terrain as terrain;
+pub use burgeon_variations as variations;
+pub use burgeon_watch as watch;
 
 /// How a script is run unless something else is said, with all the types of objects that come with Burgeon.
 pub fn options() -> script::Options {

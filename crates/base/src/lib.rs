@@ -1,0 +1,18 @@
+//! What all of Burgeon stands on: errors and warnings, limits on foreign input, and files.
+//!
+//! Comes in: nothing of Burgeon. Goes out: an [`Error`] with its place, rule and remedy, a [`Warning`] that a run
+//! collects, a [`Budget`] for whoever reads foreign bytes, and a [`Stop`] that ends work nobody waits for. It never
+//! prints.
+
+pub mod budget;
+pub mod error;
+pub mod files;
+pub mod memory;
+pub mod stop;
+pub mod text;
+pub mod warning;
+
+pub use budget::{Budget, Held};
+pub use error::{Error, Result};
+pub use stop::Stop;
+pub use warning::{Warning, WarningKind};

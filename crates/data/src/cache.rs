@@ -1,0 +1,116 @@
+//! Layers and rasters as they were read last, for runs that follow one another.
+
+use std::fmt;
+use std::path::Path;
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::elevation::{Raster, Wanted as WantedHeights};
+use super::{Frame, Layer, Wanted};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+
+/// How many layers are kept.
+const MOST: usize = 16;
+/// How many rasters are kept, which may be large.
+const MOST_RASTERS: usize = 2;
+
+/// Layers and rasters by the content of their files: one that is saved anew is read anew, and only then.
+#[derive(Default)]
+pub struct Cache {
+    kept: Mutex<Vec<(String, Arc<Layer>, Frame)>>,
+    rasters: Mutex<Vec<(String, Arc<Raster>)>>,
+}
+
+impl fmt::Debug for Cache {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Cache")
+    }
+}
+
+impl Cache {
+    /// What tells a layer from all others; `None` if that cannot be told.
+    ///
+    /// `frame` is that of the run so far, into which the layer is brought.
+    pub fn key(path: &Path, wanted: &Wanted, frame: Option<&Frame>) -> Option<String> {
+        let mut log = path.as_os_str().to_owned();
+        log.push("-wal");
+        // Changes that another program makes stand elsewhere.
+        if std::fs::metadata(&log).is_ok_and(|meta| meta.len() > 0) {
+            return None;
+        }
+        let content = hash(path).ok()?;
+        let frame = frame.map(|frame| (&frame.name, frame.origin));
+        Some(format!("{} {} {wanted:?} {frame:?}", content.to_hex(), path.display()))
+    }
+
+    /// The layer with this key, and the frame that it is in.
+    pub fn get(&self, key: &str) -> Option<(Arc<Layer>, Frame)> {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = kept.iter().find(|(known, ..)| known == key);
+        found.map(|(_, layer, frame)| (Arc::clone(layer), frame.clone()))
+    }
+
+    /// Keeps a layer; the oldest goes when there are many.
+    pub fn keep(&self, key: String, layer: &Arc<Layer>, frame: &Frame) {
+        let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        if kept.len() >= MOST {
+            kept.remove(0);
+        }
+        kept.push((key, Arc::clone(layer), frame.clone()));
+    }
+    /// The raster in the file at `path`, called `name`; read, unless it is kept. The oldest goes when there are many.
+    pub fn raster(
+        &self,
+        path: &Path,
+        name: &str,
+        wanted: &WantedHeights,
+        budget: &Budget,
+    ) -> Result<Arc<Raster>> {
+        // What is no file is left to the reader, which says so.
+        let Ok(content) = hash(path) else { return Raster::open(path, name, wanted, budget).map(Arc::new) };
+        let key = format!("{} {name} {wanted:?}", content.to_hex());
+        let mut kept = self.rasters.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, raster)) = kept.iter().find(|(known, _)| *known == key) {
+            return Ok(Arc::clone(raster));
+        }
+        if kept.len() >= MOST_RASTERS {
+            kept.remove(0);
+        }
+        let raster = Arc::new(Raster::open(path, name, wanted, budget)?);
+        kept.push((key, Arc::clone(&raster)));
+        Ok(raster)
+    }
+}
+
+/// What tells a file's content from all others.
+fn hash(path: &Path) -> std::io::Result<blake3::Hash> {
+    let (file, _) = burgeon_base::files::open(path)?;
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(file)?;
+    Ok(hasher.finalize())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_raster_is_read_anew_when_its_file_or_what_is_wanted_has_changed() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.r32");
+        let cache = Cache::default();
+        let read = |height: f32, east: f64| {
+            std::fs::write(&path, [height.to_le_bytes(); 4].concat()).unwrap();
+            let bounds = Some([0.0, 0.0, east, 1.0]);
+            let wanted = WantedHeights { bounds, ..WantedHeights::default() };
+            cache.raster(&path, "a.r32", &wanted, &Budget::default()).unwrap()
+        };
+        let first = read(1.0, 1.0);
+        assert!(Arc::ptr_eq(&first, &read(1.0, 1.0)));
+        assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
+        assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
+        let error =
+            cache.raster(folder.path(), "a", &WantedHeights::default(), &Budget::default()).unwrap_err();
+        assert_eq!(error.message(), "a is a folder");
+    }
+}

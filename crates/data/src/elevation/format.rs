@@ -1,0 +1,46 @@
+//! Which format a file of heights is in, and its reader.
+
+use std::path::Path;
+
+use super::raster::Found;
+use super::{Wanted, ascii, geotiff, hgt, png, raw};
+use burgeon_base::error::{Error, Result};
+
+/// The formats that are read.
+const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), ESRI ASCII grids (.asc), PNG, \
+                     and raw floats (.r32, .r64)";
+
+/// Reads `bytes`, the content of the file called `name`.
+///
+/// What begins as a zip, a TIFF, a PNG or an ASCII grid is read as that; the extension tells the others.
+pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
+    if bytes.is_empty() {
+        return Err(Error::data(format!("{name} is empty")).help("get it again"));
+    }
+    let extension = Path::new(name).extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    let is_png = bytes.starts_with(b"\x89PNG");
+    if !is_png && (wanted.low.is_some() || wanted.high.is_some() || wanted.terrain_rgb) {
+        return Err(Error::argument(format!("{name} is no PNG, so it takes no low, high or encoding"))
+            .help("its heights are metres already; leave these options out"));
+    }
+    match bytes {
+        _ if is_png => png::read(bytes, name, wanted),
+        [b'P', b'K', 3 | 5, ..] => hgt::unzip(bytes, name, wanted),
+        [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => geotiff::read(bytes, name),
+        _ if extension == "hgt" => hgt::read(bytes, name, wanted),
+        _ if matches!(&*extension, "r32" | "f32") => raw::read::<4>(bytes, name),
+        _ if matches!(&*extension, "r64" | "f64") => raw::read::<8>(bytes, name),
+        _ if extension == "asc" || begins_with(bytes, b"ncols") => ascii::read(bytes, name),
+        _ if matches!(&*extension, "png" | "tif" | "tiff" | "zip") => {
+            Err(Error::data(format!("{name} does not begin as a .{extension} file does"))
+                .help("get it again, or give it the extension of what it is"))
+        }
+        _ => Err(Error::data(format!("{name} is in no format of heights that is known")).help(KNOWN)),
+    }
+}
+
+/// Whether the first word of a text is `word`, in upper or lower case.
+fn begins_with(bytes: &[u8], word: &[u8]) -> bool {
+    let text = bytes.trim_ascii_start();
+    text.get(..word.len()).is_some_and(|start| start.eq_ignore_ascii_case(word))
+}

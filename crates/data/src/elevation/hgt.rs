@@ -1,0 +1,148 @@
+//! SRTM tiles (`.hgt`): a square of big-endian 16-bit heights of a degree, named after its corner; zipped or not.
+
+use std::io::{Cursor, Read};
+
+use super::super::Crs;
+use super::Wanted;
+use super::raster::{DEFLATED, Found, Grid, can_hold, cannot_hold, check_size, count};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+
+/// What stands for a height that is not known.
+const MISSING: i16 = -32768;
+/// How many heights the published tiles have, from west to east and from north to south: of three seconds, of one, of
+/// two by one where the north is, and of a half.
+const SIZES: [[usize; 2]; 4] = [[1201, 1201], [3601, 3601], [1801, 3601], [7201, 7201]];
+
+/// Reads a tile called `name`. Its samples lie on the degrees, the first and the last included.
+///
+/// Fails if neither its name nor `wanted` tells where it lies, and if it has another size than tiles have: a square of
+/// any, where `wanted` tells.
+pub(super) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &Wanted) -> Result<Found<'a>> {
+    let [columns, rows] = size(bytes.len(), name, wanted)?;
+    let (grid, crs) = place(name, wanted, [columns, rows])?;
+    let heights = move |_: &Budget| Ok(bytes.chunks_exact(2).map(height).collect());
+    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
+}
+
+/// Reads the one tile in a zip, and unpacks nothing else.
+///
+/// Fails if it is damaged, holds no tile or several, and as [`read`] does.
+pub(super) fn unzip<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Result<Found<'a>> {
+    let damaged = move || {
+        Error::data(format!("{name} cannot be unpacked"))
+            .help("the file is damaged or cut short; get it again")
+    };
+    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged())?;
+    let is_tile = |entry: &&str| entry.to_ascii_lowercase().ends_with(".hgt");
+    let mut tiles = archive.file_names().filter(is_tile).map(str::to_owned).collect::<Vec<_>>().into_iter();
+    let tile = match (tiles.next(), tiles.len()) {
+        (Some(tile), 0) => tile,
+        (None, _) => {
+            return Err(Error::data(format!("{name} holds no .hgt file"))
+                .help("unpack it, and name the file of heights itself"));
+        }
+        (Some(_), more) => {
+            return Err(Error::data(format!("{name} holds {} .hgt files", more + 1))
+                .help("unpack it, and name the one that is meant"));
+        }
+    };
+    let shown = format!("{tile} in {name}");
+    let unpacked = archive.by_name(&tile).map_err(|_| damaged())?.size();
+    let unpacked = usize::try_from(unpacked).unwrap_or(usize::MAX);
+    if unpacked == 0 {
+        return Err(Error::data(format!("{shown} is empty")).help("get it again"));
+    }
+    let [columns, rows] = size(unpacked, &shown, wanted)?;
+    if !can_hold(bytes.len(), DEFLATED, unpacked) {
+        return Err(cannot_hold(name, bytes.len(), columns, rows));
+    }
+    let (grid, crs) = place(&shown, wanted, [columns, rows])?;
+    let heights = move |budget: &Budget| {
+        let mut entry = archive.by_name(&tile).map_err(|_| damaged())?;
+        let mut heights = Vec::new();
+        let mut row = vec![0; columns * 2];
+        for _ in 0..rows {
+            budget.tick()?;
+            entry.read_exact(&mut row).map_err(|_| damaged())?;
+            heights.extend(row.chunks_exact(2).map(height));
+        }
+        // What an entry says of its size need not be true.
+        match entry.read(&mut [0]) {
+            Ok(0) => Ok(heights),
+            _ => Err(damaged()),
+        }
+    };
+    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
+}
+
+fn height(pair: &[u8]) -> f32 {
+    match i16::from_be_bytes([pair[0], pair[1]]) {
+        MISSING => f32::NAN,
+        height => f32::from(height),
+    }
+}
+
+/// The columns and rows of so many bytes of heights.
+fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
+    if let Some(size) = SIZES.into_iter().find(|[columns, rows]| columns * rows * 2 == bytes) {
+        return Ok(size);
+    }
+    let side = (bytes / 2).isqrt();
+    if side.checked_mul(side * 2) != Some(bytes) {
+        return Err(not_square(bytes, name));
+    }
+    check_size(name, side, side)?;
+    if wanted.bounds.is_none() {
+        return Err(Error::data(format!(
+            "{name} has {side} x {side} heights, which no tile of a degree has"
+        ))
+        .help("tiles have 1201 x 1201 or 3601 x 3601; if it is a part of one, name its bounds and crs"));
+    }
+    Ok([side, side])
+}
+
+/// Where a tile lies, whose samples go from degree to degree, and in which coordinates.
+fn place(
+    name: &str,
+    wanted: &Wanted,
+    [columns, rows]: [usize; 2],
+) -> Result<(Option<Grid>, Result<Option<Crs>>)> {
+    let corner = corner(name);
+    if corner.is_none() && wanted.bounds.is_none() {
+        return Err(Error::data(format!("{name} does not tell where it lies"))
+            .help("name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs"));
+    }
+    let step = [columns, rows].map(|side| 1.0 / count(side - 1));
+    Ok((corner.map(|[x, y]| Grid { first: [x, y + 1.0], step }), Crs::epsg(4326).map(Some)))
+}
+
+fn not_square(bytes: usize, name: &str) -> Error {
+    let size = |[columns, rows]: &[usize; 2]| columns * rows * 2;
+    match SIZES[..2].iter().find(|sides| size(sides) > bytes) {
+        Some(sides) => Error::data(format!(
+            "{name} is not square: it has {bytes} of the {} bytes of {} x {} heights",
+            size(sides),
+            sides[0],
+            sides[1]
+        ))
+        .help("it is cut short; get it again"),
+        None => Error::data(format!("{name} is not square: it has {bytes} bytes of 16-bit heights"))
+            .help("get it again: a tile has 3601 x 3601 heights"),
+    }
+}
+
+/// The south-west corner (degrees) in a name such as `N43E007.hgt`.
+fn corner(name: &str) -> Option<[f64; 2]> {
+    let angle = |text: &[u8], signs: [u8; 2], most: f64| {
+        let (sign, digits) = text.split_first()?;
+        let value: f64 = std::str::from_utf8(digits).ok()?.parse().ok()?;
+        let is_number = digits.iter().all(u8::is_ascii_digit) && value <= most;
+        let sign = signs.iter().position(|known| known.eq_ignore_ascii_case(sign))?;
+        is_number.then_some(if sign == 0 { value } else { -value })
+    };
+    name.as_bytes().windows(7).rev().find_map(|part| {
+        let latitude = angle(&part[..3], *b"NS", 90.0)?;
+        Some([angle(&part[3..], *b"EW", 180.0)?, latitude])
+    })
+}

@@ -1,0 +1,392 @@
+//! Readers against files that are well, and against files that are not.
+
+use std::io::{Cursor, Write};
+use std::time::{Duration, Instant};
+
+use proptest::prelude::*;
+use tiff::encoder::{TiffEncoder, colortype};
+use tiff::tags::Tag;
+use zip::write::SimpleFileOptions;
+
+use super::*;
+use burgeon_base::budget::Budget;
+
+/// A tile of `side` by `side` heights, of which the first is `first` and each next one is greater by 1.
+fn tile(side: i16, first: i16) -> Vec<u8> {
+    (0..side * side).flat_map(|at| (first + at).to_be_bytes()).collect()
+}
+
+/// A tile of so many columns and rows, each height of which tells where it is.
+fn wide([columns, rows]: [usize; 2]) -> Vec<u8> {
+    let height = |at: usize| i16::try_from(at % columns * 4 + at / columns % 4).unwrap();
+    (0..columns * rows).flat_map(|at| height(at).to_be_bytes()).collect()
+}
+
+fn zipped(files: &[(&str, &[u8])]) -> Vec<u8> {
+    let mut zip = zip::ZipWriter::new(Cursor::new(Vec::new()));
+    for (name, content) in files {
+        zip.start_file(*name, SimpleFileOptions::default()).unwrap();
+        zip.write_all(content).unwrap();
+    }
+    zip.finish().unwrap().into_inner()
+}
+
+/// A TIFF of 6 by 4 samples, and what its tags say.
+fn geotiff(keys: &[u16], place: &[(Tag, &[f64])], missing: Option<&str>) -> Vec<u8> {
+    geotiff_saying(keys, place, missing, None)
+}
+
+/// The same, with what GDAL tells of its band.
+fn geotiff_saying(
+    keys: &[u16],
+    place: &[(Tag, &[f64])],
+    missing: Option<&str>,
+    metadata: Option<&str>,
+) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    let mut encoder = TiffEncoder::new(&mut bytes).unwrap();
+    let mut image = encoder.new_image::<colortype::GrayI16>(6, 4).unwrap();
+    image.rows_per_strip(3).unwrap();
+    let tags = image.encoder();
+    for (tag, values) in place {
+        tags.write_tag(*tag, *values).unwrap();
+    }
+    if !keys.is_empty() {
+        tags.write_tag(Tag::GeoKeyDirectoryTag, keys).unwrap();
+    }
+    if let Some(missing) = missing {
+        tags.write_tag(Tag::GdalNodata, missing).unwrap();
+    }
+    if let Some(metadata) = metadata {
+        tags.write_tag(Tag::Unknown(42112), metadata).unwrap();
+    }
+    image.write_data(&(0..24i16).collect::<Vec<_>>()).unwrap();
+    bytes.into_inner()
+}
+
+pub(super) fn read(bytes: &[u8], name: &str) -> Result<Raster, burgeon_base::error::Error> {
+    Raster::read(bytes, name, &Wanted::default(), &Budget::default())
+}
+
+/// Reads what does not tell where it lies.
+fn read_square(bytes: &[u8], name: &str) -> Result<Raster, burgeon_base::error::Error> {
+    let wanted = Wanted { bounds: Some([7.0, 43.0, 8.0, 44.0]), crs: Some(4326), ..Wanted::default() };
+    Raster::read(bytes, name, &wanted, &Budget::default())
+}
+
+pub(super) const SCALE: (Tag, &[f64]) = (Tag::ModelPixelScaleTag, &[10.0, 20.0, 0.0]);
+pub(super) const TIE: (Tag, &[f64]) = (Tag::ModelTiepointTag, &[0.0, 0.0, 0.0, 385_000.0, 6_671_000.0, 0.0]);
+
+#[test]
+fn a_tile_lies_where_its_name_says() {
+    let bytes = wide([1201; 2]);
+    for (name, first) in [
+        ("N43E007.hgt", [7.0, 44.0]),
+        ("data/s01w080.HGT", [-80.0, 0.0]),
+        ("N43E007.SRTMGL1.hgt", [7.0, 44.0]),
+    ] {
+        let raster = read(&bytes, name).unwrap();
+        assert_eq!((raster.columns, raster.rows, raster.grid.first), (1201, 1201, first), "{name}");
+        assert_eq!((raster.grid.step, raster.heights[1201 + 6]), ([1.0 / 1200.0; 2], 25.0));
+        assert_eq!(raster.crs.and_then(|crs| crs.code), Some(4326));
+    }
+    for name in ["N91E007.hgt", "N43E190.hgt", "a.hgt", "N4+E007.hgt"] {
+        assert!(read(&bytes, name).unwrap_err().message().contains("where it lies"), "{name}");
+    }
+    let north = read(&wide([1801, 3601]), "N61E007.hgt").unwrap();
+    assert_eq!((north.columns, north.rows, north.grid.step), (1801, 3601, [1.0 / 1800.0, 1.0 / 3600.0]));
+}
+
+#[test]
+fn only_tiles_of_known_sizes_are_a_degree_large_unless_their_place_is_given() {
+    for side in [2, 5, 400, 1200, 1202] {
+        let bytes = vec![1; side * side * 2];
+        let error = read(&bytes, "N43E007.hgt").unwrap_err();
+        assert_eq!(
+            error.message(),
+            format!("N43E007.hgt has {side} x {side} heights, which no tile of a degree has")
+        );
+        let zip = zipped(&[("N43E007.hgt", &bytes)]);
+        assert!(
+            read(&zip, "N43E007.hgt.zip").unwrap_err().message().contains("which no tile of a degree has")
+        );
+        let raster = read_square(&bytes, "N43E007.hgt").unwrap();
+        assert_eq!((raster.columns, raster.bounds()[0]), (side, 7.0));
+    }
+}
+
+#[test]
+fn a_zip_gives_its_one_tile() {
+    let plain = read_square(&tile(9, 1), "N43E007.hgt").unwrap();
+    let zip = zipped(&[("read.me", b"x"), ("a/N43E007.hgt", &tile(9, 1))]);
+    let packed = read_square(&zip, "b.zip").unwrap();
+    assert_eq!((packed.heights, packed.grid), (plain.heights, plain.grid));
+    for (files, why) in [
+        (&[("a.txt", b"x".as_slice())][..], "holds no .hgt file"),
+        (&[("a.hgt", b"x"), ("b.hgt", b"x")], "holds 2 .hgt files"),
+        (&[("a.hgt", b"")], "is empty"),
+        (&[("a.hgt", b"xyz")], "is not square"),
+    ] {
+        let error = read(&zipped(files), "b.zip").unwrap_err();
+        assert!(error.message().contains(why), "{error}");
+    }
+    assert!(read(&zip[..zip.len() / 2], "b.zip").unwrap_err().message().contains("cannot be unpacked"));
+}
+
+#[test]
+fn tags_tell_where_a_geotiff_lies() {
+    let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
+    let raster = read(&geotiff(&area, &[SCALE, TIE], Some("5")), "a.tif").unwrap();
+    assert_eq!((raster.columns, raster.rows, raster.filled), (6, 4, 1));
+    assert_eq!(raster.grid, Grid { first: [385_005.0, 6_670_990.0], step: [10.0, 20.0] });
+    assert_eq!(raster.bounds(), [385_000.0, 6_670_920.0, 385_060.0, 6_671_000.0]);
+    assert_eq!((raster.heights[4], raster.heights[23]), (4.0, 23.0));
+    assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
+    let mut point = area;
+    point[11] = 2;
+    let raster = read(&geotiff(&point, &[SCALE, TIE], None), "a.tif").unwrap();
+    assert_eq!(raster.grid.first, [385_000.0, 6_671_000.0]);
+    // The same by a matrix, and one whose rows come from the south.
+    let matrix = |dy: f64| {
+        [10.0, 0.0, 0.0, 385_000.0, 0.0, dy, 0.0, 6_671_000.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+    };
+    let by_matrix = |dy: f64| {
+        let place = (Tag::ModelTransformationTag, &matrix(dy)[..]);
+        read(&geotiff(&area, &[place], None), "a.tif").unwrap()
+    };
+    assert_eq!(by_matrix(-20.0).bounds(), [385_000.0, 6_670_920.0, 385_060.0, 6_671_000.0]);
+    let flipped = by_matrix(20.0);
+    assert_eq!(flipped.bounds(), [385_000.0, 6_671_000.0, 385_060.0, 6_671_080.0]);
+    assert_eq!(flipped.heights[..7], [18.0, 19.0, 20.0, 21.0, 22.0, 23.0, 12.0]);
+}
+
+#[test]
+fn heights_in_feet_become_metres() {
+    let feet = [1, 1, 0, 3, 1024, 0, 1, 1, 3072, 0, 1, 3067, 4099, 0, 1, 9002];
+    let raster = read(&geotiff(&feet, &[SCALE, TIE], None), "a.tif").unwrap();
+    assert!((raster.heights[10] - 3.048).abs() < 1e-6);
+}
+
+#[test]
+fn scale_and_offset_of_the_band_make_heights_of_its_samples() {
+    let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
+    let item = |name: &str, value: &str| {
+        let role = name.to_ascii_lowercase();
+        format!("<Item name=\"{name}\" sample=\"0\" role=\"{role}\">{value}</Item>")
+    };
+    let metadata = |items: &[String]| format!("<GDALMetadata>\n  {}\n</GDALMetadata>\n", items.join("\n  "));
+    let heights = |metadata: &str| {
+        let bytes = geotiff_saying(&area, &[SCALE, TIE], Some("3"), Some(metadata));
+        read(&bytes, "a.tif").map(|raster| (raster.filled, raster.heights[5], raster.heights[20]))
+    };
+    let both = metadata(&[item("OFFSET", "5"), item("SCALE", "0.1")]);
+    // The mark of what is missing is a sample, not a height.
+    assert_eq!(heights(&both).unwrap(), (1, 5.5, 7.0));
+    assert_eq!(heights(&metadata(&[item("SCALE", "2")])).unwrap(), (1, 10.0, 40.0));
+    assert_eq!(heights(&metadata(&[item("OFFSET", "-100")])).unwrap(), (1, -95.0, -80.0));
+    assert_eq!(heights(&metadata(&[item("UNITTYPE", "cm")])).unwrap(), (1, 0.05, 0.2));
+    assert_eq!(heights(&metadata(&[])).unwrap(), (1, 5.0, 20.0));
+    for wrong in ["0", "nan", "inf"] {
+        assert!(
+            heights(&metadata(&[item("SCALE", wrong)])).unwrap_err().message().contains("with the scale")
+        );
+    }
+    assert!(heights(&metadata(&[item("UNITTYPE", "furlong")])).unwrap_err().message().contains("a unit"));
+}
+
+#[test]
+fn a_place_in_space_scales_heights_where_the_file_says_that_they_are_heights() {
+    let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
+    let vertical = [1, 1, 0, 4, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067, 4096, 0, 1, 5773];
+    let scale = (SCALE.0, &[10.0, 20.0, 0.5][..]);
+    let tie = (TIE.0, &[0.0, 0.0, 4.0, 385_000.0, 6_671_000.0, 100.0][..]);
+    let height = |keys: &[u16], place: &[(Tag, &[f64])]| {
+        read(&geotiff(keys, place, None), "a.tif").unwrap().heights[10]
+    };
+    assert_eq!(height(&vertical, &[scale, tie]), 103.0);
+    assert_eq!((height(&area, &[scale, tie]), height(&vertical, &[SCALE, TIE])), (10.0, 10.0));
+    let matrix =
+        [10.0, 0.0, 0.0, 385_000.0, 0.0, -20.0, 0.0, 6_671_000.0, 0.0, 0.0, 2.0, 7.0, 0.0, 0.0, 0.0, 1.0];
+    let place = (Tag::ModelTransformationTag, &matrix[..]);
+    assert_eq!((height(&vertical, &[place]), height(&area, &[place])), (27.0, 10.0));
+}
+
+#[test]
+fn options_win_over_what_a_file_says() {
+    let other = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32767];
+    let bytes = geotiff(&other, &[SCALE, TIE], None);
+    assert!(read(&bytes, "a.tif").unwrap_err().message().contains("none of EPSG's"));
+    let wanted = Wanted { crs: Some(3067), bounds: Some([0.0, 0.0, 60.0, 40.0]), ..Wanted::default() };
+    let raster = Raster::read(&bytes, "a.tif", &wanted, &Budget::default()).unwrap();
+    assert_eq!((raster.grid.first, raster.bounds()), ([5.0, 35.0], [0.0, 0.0, 60.0, 40.0]));
+    assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
+}
+
+/// Files of 50 by 40 heights that GDAL 3.10 wrote, and where it says that they lie.
+const BY_GDAL: [(&[u8], u16, [f64; 4]); 5] = [
+    // Tiles, deflated, predictor 2, with holes.
+    (
+        include_bytes!("../../../../tests/elevation/tiles_i16.tif"),
+        32632,
+        [370_000.0, 4_848_800.0, 371_500.0, 4_850_000.0],
+    ),
+    // Strips of 7 rows, LZW.
+    (
+        include_bytes!("../../../../tests/elevation/strips_f64.tif"),
+        4326,
+        [7.1, 43.9 - 1.0 / 30.0, 7.1 + 1.0 / 24.0, 43.9],
+    ),
+    // Tiles, deflated, predictor 3.
+    (
+        include_bytes!("../../../../tests/elevation/floats_f32.tif"),
+        2154,
+        [1_040_000.0, 6_299_800.0, 1_040_250.0, 6_300_000.0],
+    ),
+    // Big-endian BigTIFF, ten times as high.
+    (
+        include_bytes!("../../../../tests/elevation/big_i32.tif"),
+        3857,
+        [800_000.0, 5_399_000.0, 801_250.0, 5_400_000.0],
+    ),
+    // Samples that are points.
+    (
+        include_bytes!("../../../../tests/elevation/point_u16.tif"),
+        3067,
+        [385_000.0, 6_670_600.0, 385_500.0, 6_671_000.0],
+    ),
+];
+
+#[test]
+fn what_gdal_writes_is_read_as_gdal_reads_it() {
+    for (index, (bytes, code, bounds)) in BY_GDAL.into_iter().enumerate() {
+        let raster = read(bytes, "a.tif").unwrap();
+        assert_eq!((raster.columns, raster.rows, raster.filled), (50, 40, if index == 0 { 20 } else { 0 }));
+        assert_eq!(raster.crs.as_ref().and_then(|crs| crs.code), Some(code));
+        for (found, edge) in raster.bounds().into_iter().zip(bounds) {
+            assert!((found - edge).abs() < 1e-9 * edge.abs(), "{:?}", raster.bounds());
+        }
+        let scale = if code == 3857 { 10.0 } else { 1.0 };
+        for (row, column, height) in [(0, 0, 200.0), (7, 33, 285.784), (39, 49, 268.916), (12, 22, 247.8)] {
+            let found = raster.heights[row * 50 + column] / scale;
+            // Whole numbers, and a hole that was filled.
+            let tolerance = if row == 12 { 4.0 } else { 0.5 };
+            assert!((found - height).abs() <= tolerance, "{code}: {found} {height}");
+        }
+    }
+}
+
+#[test]
+fn a_text_that_is_longer_than_the_file_is_refused_before_it_is_read() {
+    let mut bytes = geotiff(&[], &[SCALE, TIE], Some("5"));
+    // The tag 42113 of type 2, in a directory at the end.
+    let at = bytes.windows(4).position(|part| part == [0x81, 0xa4, 2, 0]).unwrap();
+    bytes[at + 4..at + 8].fill(0xff);
+    let error = read(&bytes, "a.tif").unwrap_err();
+    assert_eq!(error.message(), "a.tif has a strip or a tag that is too large");
+}
+
+/// A PNG of 3 by 2 samples.
+fn picture(color: ::png::ColorType, depth: ::png::BitDepth, content: &[u8]) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    let mut encoder = ::png::Encoder::new(&mut bytes, 3, 2);
+    encoder.set_color(color);
+    encoder.set_depth(depth);
+    let mut writer = encoder.write_header().unwrap();
+    writer.write_image_data(content).unwrap();
+    writer.finish().unwrap();
+    bytes
+}
+
+#[test]
+fn grey_and_colours_become_heights() {
+    let bounds = Some([0.0, 0.0, 30.0, 20.0]);
+    let grey = picture(
+        ::png::ColorType::Grayscale,
+        ::png::BitDepth::Sixteen,
+        &[0, 0, 255, 255, 128, 0, 0, 1, 0, 0, 0, 0],
+    );
+    let wanted = Wanted { low: Some(100.0), high: Some(755.35), bounds, ..Wanted::default() };
+    let raster = Raster::read(&grey, "a.png", &wanted, &Budget::default()).unwrap();
+    for (found, height) in raster.heights.iter().zip([100.0, 755.35, 427.68, 100.01]) {
+        assert!((found - height).abs() < 1e-3, "{found} {height}");
+    }
+    assert_eq!((raster.grid.first, raster.crs), ([5.0, 15.0], None));
+    // 1 134 240 tenths above -10 000 m are 103 424 m, which is too high; 1, 134, 160 is 0 m.
+    let colors = [[1, 134, 160]; 6].concat();
+    let colored = picture(::png::ColorType::Rgb, ::png::BitDepth::Eight, &colors);
+    let wanted = Wanted { terrain_rgb: true, bounds, ..Wanted::default() };
+    assert_eq!(Raster::read(&colored, "a.png", &wanted, &Budget::default()).unwrap().heights, [0.0; 6]);
+    assert!(Raster::read(&grey, "a.png", &wanted, &Budget::default()).is_err());
+    assert!(read(&colored, "a.png").unwrap_err().remedy().unwrap().contains("terrain-rgb"));
+    let bytes = picture(::png::ColorType::Grayscale, ::png::BitDepth::Eight, &[0; 6]);
+    assert!(read(&bytes, "a.png").unwrap_err().message().contains("256 levels"));
+}
+
+/// One whole file of each format, with its name.
+pub(super) fn samples() -> Vec<(&'static str, Vec<u8>)> {
+    let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
+    let grey = picture(::png::ColorType::Grayscale, ::png::BitDepth::Sixteen, &[7; 12]);
+    vec![
+        ("N43E007.hgt", tile(5, 1)),
+        ("N43E007.hgt.zip", zipped(&[("N43E007.hgt", &tile(5, 1))])),
+        ("a.tif", geotiff(&area, &[SCALE, TIE], Some("5"))),
+        ("b.tif", BY_GDAL[0].0.to_vec()),
+        ("c.tif", BY_GDAL[2].0.to_vec()),
+        ("a.asc", b"ncols 3\nnrows 2\nxllcorner 10\nyllcorner 20\ncellsize 2\n1 2 3\n4 5 6\n".to_vec()),
+        ("a.png", grey),
+        ("a.r32", [1.5f32.to_le_bytes(); 9].concat()),
+        ("a.r64", [1.5f64.to_le_bytes(); 9].concat()),
+    ]
+}
+
+/// What makes each of them readable.
+pub(super) fn wanted(name: &str) -> Wanted {
+    let bounds = Some([0.0, 0.0, 30.0, 20.0]);
+    match name {
+        "a.png" => Wanted { low: Some(0.0), high: Some(9.0), bounds, ..Wanted::default() },
+        "a.r32" | "a.r64" | "N43E007.hgt" | "N43E007.hgt.zip" => Wanted { bounds, ..Wanted::default() },
+        _ => Wanted::default(),
+    }
+}
+
+#[test]
+fn whole_files_are_read_and_cut_ones_are_told() {
+    for (name, bytes) in samples() {
+        Raster::read(&bytes, name, &wanted(name), &Budget::default()).unwrap();
+        for length in 0..bytes.len() {
+            // A part of a square may be a square, and behind its last height a file may end.
+            if let Err(error) = Raster::read(&bytes[..length], name, &wanted(name), &Budget::default()) {
+                assert!(
+                    error.remedy().is_some() && error.message().contains(name),
+                    "{name} {length}: {error}"
+                );
+            } else {
+                let is_square =
+                    !matches!(name, "a.tif" | "a.png" | "a.asc") && [8, 16, 18, 32].contains(&length);
+                assert!(is_square || length + 40 > bytes.len(), "{name} {length}");
+            }
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(256))]
+
+    #[test]
+    fn changed_bytes_never_panic_or_take_long(
+        changes in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..12),
+    ) {
+        for (name, mut bytes) in samples() {
+            for (at, byte) in &changes {
+                let at = at.index(bytes.len());
+                bytes[at] = *byte;
+            }
+            let begin = Instant::now();
+            if let Ok(raster) = Raster::read(&bytes, name, &wanted(name), &Budget::default()) {
+                prop_assert!(raster.heights.iter().all(|height| height.is_finite()));
+                let _ = Relief::new(std::sync::Arc::new(raster), &mut None);
+            }
+            prop_assert!(begin.elapsed() < Duration::from_secs(5), "{}", name);
+        }
+    }
+}

@@ -1,0 +1,454 @@
+//! Coordinate systems, and the one projection and origin in which all sources of a run meet.
+
+use std::borrow::Cow;
+
+use proj4rs::Proj;
+use proj4rs::transform::transform;
+use rayon::prelude::*;
+
+use super::table::{Feature, Table};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+
+/// The farthest (m) that a coordinate may lie from the origin.
+pub(super) const FARTHEST: f64 = 2_000_000.0;
+
+/// What to do about a coordinate system that cannot be used.
+const REMEDY: &str = "name the right one: source(file, { crs = 4326 }), or convert the file to EPSG:4326";
+
+/// A coordinate system: of the EPSG's registry, or a transverse Mercator projection around a middle.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Crs {
+    /// Its number in the registry.
+    pub code: Option<u16>,
+    name: String,
+    definition: Cow<'static, str>,
+}
+
+impl Crs {
+    /// The coordinate system with the number `code`.
+    pub fn epsg(code: u32) -> Result<Self> {
+        // Numbers that were in use before there was one of EPSG's.
+        let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };
+        let found = u16::try_from(code).ok().and_then(crs_definitions::from_code);
+        let found = found.ok_or_else(|| {
+            let message = format!("the coordinate system EPSG:{code} is not known");
+            Error::not_found("coordinate system", code, [], message).help(REMEDY)
+        })?;
+        let definition = Cow::Borrowed(found.proj4);
+        Ok(Self { code: Some(found.code), name: format!("EPSG:{}", found.code), definition })
+    }
+
+    /// The transverse Mercator projection around a middle, a longitude and a latitude (degrees) of WGS 84, from where
+    /// its metres are counted.
+    pub fn around([longitude, latitude]: [f64; 2]) -> Self {
+        Self {
+            code: None,
+            name: format!("transverse Mercator around {longitude:?}, {latitude:?}"),
+            definition: Cow::Owned(format!(
+                "+proj=tmerc +lat_0={latitude:?} +lon_0={longitude:?} +k=1 +x_0=0 +y_0=0 +datum=WGS84 +units=m +no_defs"
+            )),
+        }
+    }
+
+    /// Such as `EPSG:3067`.
+    pub fn name(&self) -> String {
+        self.name.clone()
+    }
+
+    /// Whether coordinates are longitude and latitude (degrees).
+    pub fn is_geographic(&self) -> bool {
+        self.definition.contains("+proj=longlat")
+    }
+
+    /// About how many metres one of its units is.
+    pub(super) fn metres(&self) -> f64 {
+        let value = |key: &str| self.definition.split_whitespace().find_map(|part| part.strip_prefix(key));
+        if self.is_geographic() {
+            return 111_320.0;
+        }
+        let factor = value("+to_meter=").and_then(|factor| factor.parse::<f64>().ok());
+        factor.filter(|factor| *factor > 0.0).unwrap_or(match value("+units=") {
+            Some("us-ft" | "ft") => 0.3048,
+            Some("km") => 1000.0,
+            _ => 1.0,
+        })
+    }
+
+    /// What its angles are multiplied by to be radians; 1 where it has none.
+    fn unit(&self) -> f64 {
+        if self.is_geographic() { 1f64.to_radians() } else { 1.0 }
+    }
+
+    fn projection(&self) -> Result<Proj> {
+        let cannot = |why: String| {
+            Error::argument(format!("the coordinate system {} cannot be used: {why}", self.name()))
+                .help(REMEDY)
+        };
+        if self.definition.contains("+proj=geocent") {
+            return Err(cannot("it counts from the centre of the earth".into()));
+        }
+        Proj::from_proj_string(&self.definition).map_err(|error| cannot(error.to_string()))
+    }
+
+    /// Whether its metres are those of the ground, but for the thousandths that every projection costs.
+    fn is_true(&self) -> bool {
+        !self.is_geographic() && !matches!(self.code, Some(3857 | 3785 | 3395))
+    }
+
+    /// Its definition with metres as the unit, and with east and north.
+    fn in_metres(&self) -> String {
+        let kept = self.definition.split_whitespace().filter(|part| {
+            !["+units=", "+to_meter=", "+axis="].iter().any(|prefix| part.starts_with(prefix))
+        });
+        format!("{} +units=m", kept.collect::<Vec<_>>().join(" "))
+    }
+}
+
+/// The projection and the origin of a run.
+#[derive(Clone)]
+pub struct Frame {
+    /// What it is called.
+    pub name: String,
+    /// Where its origin lies in the projection (m): whole hundreds.
+    pub origin: [f64; 2],
+    /// The longitude and the latitude (degrees) that a transverse Mercator projection of the run's own is around.
+    pub middle: Option<[f64; 2]>,
+    definition: String,
+    projection: Proj,
+}
+
+impl Frame {
+    /// The frame that suits `table` best. Features with places that cannot be are left out of the table.
+    ///
+    /// A projected layer keeps its projection, in metres. A geographic one, or one in Mercator's projection, whose
+    /// metres are longer than those of the ground, is projected by a transverse Mercator projection around its
+    /// centre, rounded to a tenth of a degree: lengths are true to 1e-5 within 25 km of it, and north is up, where
+    /// a UTM zone would shorten all lengths by 4e-4 and turn north by up to 3 degrees.
+    ///
+    /// Where features lie too far apart for one model, those around the median decide.
+    pub fn new(table: &mut Table) -> Result<Self> {
+        let crs = table.crs.clone()?;
+        refuse_odd_degrees(&crs, table)?;
+        let (place, half) = centre(&crs, table, |_| true)?;
+        let frame = Self::around(&crs, place, &table.shown)?;
+        // Half as far is near enough in any projection.
+        if half * crs.metres() < FARTHEST / 2.0 {
+            return Ok(frame);
+        }
+        let reached = |frame: &Self| -> Result<Vec<bool>> {
+            let passage = frame.passage(&crs)?;
+            let near = |at: &[f64; 3]| within(passage.enter([at[0], at[1]]));
+            Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
+        };
+        if reached(&frame)?.iter().all(|near| *near) {
+            return Ok(frame);
+        }
+        let middle = Self::around(&crs, median(&crs, table), &table.shown)?;
+        let near = reached(&middle)?;
+        let mut each = near.iter();
+        let Ok((place, _)) = centre(&crs, table, |_| each.next().is_some_and(|near| *near)) else {
+            return Ok(frame);
+        };
+        let better = Self::around(&crs, place, &table.shown)?;
+        let kept = reached(&better)?.iter().zip(&near).all(|(here, there)| here | !there);
+        Ok(if kept { better } else { middle })
+    }
+
+    /// The frame that suits best what lies around the point `x`, `y` of `crs`, and is called `shown`.
+    pub fn around(crs: &Crs, [x, y]: [f64; 2], shown: &str) -> Result<Self> {
+        let source = crs.projection()?;
+        let (name, definition, middle) = if crs.is_true() {
+            (crs.name(), crs.in_metres(), None)
+        } else {
+            let degrees = if crs.is_geographic() {
+                [x, y]
+            } else {
+                let mut point = (x, y, 0.0);
+                transform(&source, &Crs::epsg(4326)?.projection()?, &mut point).map_err(|error| {
+                    Error::data(format!("{shown} cannot be projected: {error}")).help(REMEDY)
+                })?;
+                [point.0.to_degrees(), point.1.to_degrees()]
+            };
+            let middle = degrees.map(|angle| (angle * 10.0).round() / 10.0);
+            let crs = Crs::around(middle);
+            (crs.name(), crs.definition.into_owned(), Some(middle))
+        };
+        let projection = Proj::from_proj_string(&definition)
+            .map_err(|error| Error::argument(format!("{name} cannot be used: {error}")).help(REMEDY))?;
+        let mut frame = Self { name, origin: [0.0; 2], middle, definition, projection };
+        let centre = frame.passage(crs)?.enter([x, y]);
+        frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
+        if frame.origin.iter().any(|value| !value.is_finite()) {
+            return Err(Error::data(format!("{shown} cannot be projected to {}", frame.name)).help(REMEDY));
+        }
+        Ok(frame)
+    }
+
+    /// The way from `crs` into this frame, and back.
+    pub(super) fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
+        let stays = normal(&crs.definition) == normal(&self.definition);
+        Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
+    }
+
+    /// The EPSG code of its projection; `None` if it is none of EPSG's, or one whose unit was changed to metres.
+    pub fn epsg(&self) -> Option<u16> {
+        let crs = Crs::epsg(self.name.strip_prefix("EPSG:")?.parse().ok()?).ok()?;
+        if normal(&crs.definition) == normal(&self.definition) { crs.code } else { None }
+    }
+
+    /// Brings the features of `table` into this frame; those that have no place there are left out.
+    pub(super) fn bring(&self, table: &mut Table) -> Result<()> {
+        let crs = table.crs.clone()?;
+        refuse_odd_degrees(&crs, table)?;
+        let passage = self.passage(&crs)?;
+        let name = table.shown.clone();
+        table.refuse_those(|feature| {
+            let place = |point: &mut [f64; 3]| -> Option<[f64; 3]> {
+                let was = *point;
+                [point[0], point[1]] = passage.enter([was[0], was[1]]);
+                let near = within([point[0], point[1]]) && was[2].abs() <= FARTHEST;
+                (!near).then_some(was)
+            };
+            let at = feature.geometry.points_mut().find_map(place)?;
+            let feature = format!("feature {} of {name}", shown(&feature.id));
+            let [x, y] = passage.enter([at[0], at[1]]);
+            let at = format!("{}, {}", at[0], at[1]);
+            Some(if x.is_finite() && y.is_finite() {
+                Error::data(format!("{feature} lies more than 2,000 km from the middle, at {at}")).help(
+                    "all sources of a run share one model; check the coordinates and the coordinate system, or read a part",
+                )
+            } else {
+                Error::data(format!("{feature} cannot be projected from {} to {}, at {at}", crs.name(), self.name))
+                    .help(REMEDY)
+            })
+        })
+    }
+}
+
+/// Whether a place of a frame (m) may be one of a model.
+fn within(place: [f64; 2]) -> bool {
+    // A comparison with what is no number fails.
+    place.iter().all(|value| value.abs() <= FARTHEST)
+}
+
+/// The way from a coordinate system into a frame, and back.
+pub(super) struct Passage<'a> {
+    frame: &'a Frame,
+    outside: Proj,
+    /// What the outside's coordinates are multiplied by to be radians, or 1.
+    unit: f64,
+    /// Whether both have the same projection, so that coordinates stay as they are.
+    pub(super) stays: bool,
+}
+
+impl Passage<'_> {
+    /// Where a point of the coordinate system lies in the frame (m); NaN if it cannot be projected.
+    pub(super) fn enter(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let mut point = (x * self.unit, y * self.unit, 0.0);
+        if self.stays {
+            point = (x, y, 0.0);
+        } else if transform(&self.outside, &self.frame.projection, &mut point).is_err() {
+            return [f64::NAN; 2];
+        }
+        [point.0 - self.frame.origin[0], point.1 - self.frame.origin[1]]
+    }
+
+    /// Which point of the coordinate system lies at a place of the frame (m); NaN if it cannot be projected.
+    pub(super) fn leave(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let mut point = (x + self.frame.origin[0], y + self.frame.origin[1], 0.0);
+        if self.stays {
+            return [point.0, point.1];
+        }
+        match transform(&self.frame.projection, &self.outside, &mut point) {
+            Ok(()) => [point.0 / self.unit, point.1 / self.unit],
+            Err(_) => [f64::NAN; 2],
+        }
+    }
+}
+
+/// The parts of a definition in the order of the alphabet, without those that mean nothing here.
+fn normal(definition: &str) -> Vec<&str> {
+    let mut parts: Vec<&str> = definition.split_whitespace().collect();
+    parts.retain(|part| !matches!(*part, "+no_defs" | "+type=crs"));
+    parts.sort_unstable();
+    parts
+}
+
+/// Leaves out features with coordinates that are no numbers, or degrees that there are not.
+fn refuse_odd_degrees(crs: &Crs, table: &mut Table) -> Result<()> {
+    table.refuse_endless()?;
+    if !crs.is_geographic() {
+        return Ok(());
+    }
+    let name = table.shown.clone();
+    table.refuse_those(|feature| {
+        let [x, y, _] = *feature.geometry.points().find(|at| at[0].abs() > 360.0 || at[1].abs() > 90.0)?;
+        let id = shown(&feature.id);
+        let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
+        let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
+        Some(Error::data(message).help(help))
+    })
+}
+
+/// A place in the midst of most features: the median of their first points, along each axis.
+fn median(crs: &Crs, table: &Table) -> [f64; 2] {
+    let middle = |values: &mut Vec<f64>| {
+        let half = values.len() / 2;
+        if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(half, f64::total_cmp).1 }
+    };
+    let firsts = || table.features.iter().filter_map(|feature| feature.geometry.points().next());
+    if !crs.is_geographic() {
+        return [0, 1].map(|axis| middle(&mut firsts().map(|point| point[axis]).collect()));
+    }
+    // Longitudes have no order across the date line, but places on a sphere have.
+    let on_sphere = firsts().map(|point| {
+        let ((sin, cos), (up, out)) = (point[0].to_radians().sin_cos(), point[1].to_radians().sin_cos());
+        [cos * out, sin * out, up]
+    });
+    let places: Vec<[f64; 3]> = on_sphere.collect();
+    let [x, y, z] = [0, 1, 2].map(|axis| middle(&mut places.iter().map(|place| place[axis]).collect()));
+    [y.atan2(x).to_degrees(), z.atan2(x.hypot(y)).to_degrees()]
+}
+
+/// The middle of the bounds of those features that count, and half of their greater side. Longitudes are counted on from
+/// the first one, across the date line.
+fn centre(crs: &Crs, table: &Table, mut counts: impl FnMut(&Feature) -> bool) -> Result<([f64; 2], f64)> {
+    let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+    let (mut first, geographic) = (None, crs.is_geographic());
+    let features = table.features.iter().filter(|feature| counts(feature));
+    for point in features.flat_map(|feature| feature.geometry.points()) {
+        let mut x = point[0];
+        if geographic {
+            let first = *first.get_or_insert(x);
+            x = first + (x - first + 180.0).rem_euclid(360.0) - 180.0;
+        }
+        for (axis, value) in [x, point[1]].into_iter().enumerate() {
+            low[axis] = low[axis].min(value);
+            high[axis] = high[axis].max(value);
+        }
+    }
+    let middle = [0, 1].map(|axis| (low[axis] + high[axis]) / 2.0);
+    if middle.iter().all(|value| value.is_finite()) {
+        Ok((middle, (high[0] - low[0]).max(high[1] - low[1]) / 2.0))
+    } else {
+        Err(Error::data(format!("{} has no features", table.shown)))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Layer;
+    use super::super::table::Geometry;
+    use super::*;
+
+    fn table(code: u32, points: &[[f64; 2]]) -> Table {
+        let mut table = Table::new("a", "a", Crs::epsg(code), std::sync::Arc::default());
+        for [x, y] in points {
+            table.push("p", vec![Geometry::Point([*x, *y, 5.0])], Vec::new()).unwrap();
+        }
+        table
+    }
+
+    fn placed(frame: &Frame, mut table: Table) -> Vec<[f64; 3]> {
+        frame.bring(&mut table).unwrap();
+        table.features.iter().flat_map(|feature| feature.geometry.points().copied()).collect()
+    }
+
+    #[test]
+    fn degrees_become_true_metres_with_north_up() {
+        // A second of latitude at 45 degrees is 30.87 m, one of longitude 21.90 m.
+        let second = 1.0 / 3600.0;
+        let points = [[7.0, 45.0], [7.0, 45.0 + second], [7.0 + second, 45.0]];
+        let frame = Frame::new(&mut table(4326, &points)).unwrap();
+        let [a, b, c] = placed(&frame, table(4326, &points))[..] else { panic!("three") };
+        assert!((b[1] - a[1] - 30.8702).abs() < 1e-3 && (b[0] - a[0]).abs() < 1e-6, "{a:?} {b:?}");
+        assert!((c[0] - a[0] - 21.9014).abs() < 1e-3 && (c[1] - a[1]).abs() < 1e-2, "{a:?} {c:?}");
+        assert!(a.iter().all(|value| value.abs() < 100.0) && a[2] == 5.0);
+    }
+
+    #[test]
+    fn projected_metres_stay_and_feet_and_mercator_become_metres() {
+        let corner = [385_423.178, 6_671_463.227];
+        let frame = Frame::new(&mut table(3067, &[corner])).unwrap();
+        assert_eq!((frame.origin, frame.name.as_str()), ([385_400.0, 6_671_500.0], "EPSG:3067"));
+        let at = placed(&frame, table(3067, &[corner]))[0];
+        assert_eq!(at[..2], [corner[0] - 385_400.0, corner[1] - 6_671_500.0]);
+        // EPSG:2272 counts in feet of 0.3048006 m.
+        let feet = [[2_690_000.0, 235_000.0], [2_690_100.0, 235_000.0]];
+        let frame = Frame::new(&mut table(2272, &feet)).unwrap();
+        let [a, b] = placed(&frame, table(2272, &feet))[..] else { panic!("two") };
+        assert!((b[0] - a[0] - 30.480_06).abs() < 1e-4, "{a:?} {b:?}");
+        // At 60 degrees Mercator's metres are twice those of the ground.
+        let mercator = [[1_113_194.908, 8_399_737.89], [1_113_294.908, 8_399_737.89]];
+        let frame = Frame::new(&mut table(3857, &mercator)).unwrap();
+        let [a, b] = placed(&frame, table(3857, &mercator))[..] else { panic!("two") };
+        assert!((b[0] - a[0] - 50.0).abs() < 0.3, "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn another_coordinate_system_comes_into_the_first_ones_frame() {
+        // PROJ 9 has 385600, 6671500 of EPSG:3067 at 24.93802 E, 60.16435 N or so; there and back is exact.
+        let frame = Frame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
+        let wgs = Crs::epsg(4326).unwrap();
+        let mut point = (385_600.0, 6_671_500.0, 0.0);
+        transform(&frame.projection, &wgs.projection().unwrap(), &mut point).unwrap();
+        let [degrees] = placed(&frame, table(4326, &[[point.0.to_degrees(), point.1.to_degrees()]]))[..]
+        else {
+            panic!("one")
+        };
+        assert!(degrees[0].abs() < 1e-3 && degrees[1].abs() < 1e-3, "{degrees:?}");
+        assert!((24.9..25.0).contains(&point.0.to_degrees()) && (60.1..60.2).contains(&point.1.to_degrees()));
+    }
+
+    #[test]
+    fn a_layer_across_the_date_line_stays_together() {
+        let points = [[179.9, -16.0], [-179.9, -16.0]];
+        let frame = Frame::new(&mut table(4326, &points)).unwrap();
+        let [a, b] = placed(&frame, table(4326, &points))[..] else { panic!("two") };
+        assert!((b[0] - a[0] - 21_400.0).abs() < 50.0, "{a:?} {b:?}");
+    }
+
+    #[test]
+    fn what_lies_far_from_the_others_is_left_out_alone() {
+        let town: Vec<[f64; 2]> = (0..20).map(|at| [2.29 + f64::from(at) * 1e-3, 48.85]).collect();
+        let date_line: Vec<[f64; 2]> = town.iter().map(|at| [at[0] + 177.7, at[1]]).collect();
+        let metres: Vec<[f64; 2]> = town.iter().map(|at| [at[0] * 1e5, 6_671_463.0]).collect();
+        for (code, town) in [(4326, town), (4326, date_line), (3067, metres)] {
+            let alone = Layer::new(table(code, &town), &mut None).unwrap();
+            let odd: &[[f64; 2]] = match code {
+                4326 => &[[0.0, 0.0], [-120.0, -80.0], [1e9, 1.0], [f64::NAN, 1.0], [20.0, 91.0]],
+                _ => &[[0.0, 0.0], [1e300, 1.0], [f64::INFINITY, 1.0], [-3e6, 6e6], [4e6, 9e6]],
+            };
+            for at in [0, 7, 20] {
+                let mut all = town.clone();
+                all.splice(at..at, odd.iter().copied());
+                let layer = Layer::new(table(code, &all), &mut None).unwrap();
+                assert_eq!(
+                    (layer.features.len(), layer.refused.len()),
+                    (20, 5),
+                    "{code} {:?}",
+                    layer.refused
+                );
+                assert_eq!(
+                    (layer.origin, &layer.crs, layer.bounds),
+                    (alone.origin, &alone.crs, alone.bounds)
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn coordinates_that_cannot_be_are_refused() {
+        let told = |code: u32, x: f64, y: f64| {
+            let layer = Layer::new(table(code, &[[x, y]]), &mut None);
+            layer.err().map(|error| error.message().to_owned()).unwrap_or_default()
+        };
+        assert!(told(4326, 385_423.0, 6_671_463.0).contains("no longitude and latitude"));
+        assert!(told(4326, f64::NAN, 1.0).contains("not a finite number"));
+        assert!(told(3067, f64::INFINITY, 1.0).contains("not a finite number"));
+        assert!(told(12, 1.0, 1.0).contains("EPSG:12 is not known"));
+        assert!(told(4978, 1.0, 1.0).contains("cannot be used"));
+        assert!(told(99_999, 1.0, 1.0).contains("EPSG:99999 is not known"));
+    }
+}

@@ -1,0 +1,197 @@
+//! Documents, sequences, and features that are wrong among others that are not.
+
+use super::super::{Geometry, Kind};
+use super::*;
+use burgeon_base::budget::Budget;
+
+fn read_as(text: &str, name: &str) -> Result<Table> {
+    read(text.as_bytes(), Path::new(name), name, &Wanted::default())
+}
+
+fn table(text: &str) -> Table {
+    read_as(text, "a.geojson").unwrap()
+}
+
+fn told(table: &Table) -> Vec<String> {
+    table.refused.iter().map(|(id, error)| format!("{id}: {}", error.message())).collect()
+}
+
+fn feature(geometry: &str) -> String {
+    format!(r#"{{"type":"Feature","properties":{{}},"geometry":{geometry}}}"#)
+}
+
+#[test]
+fn ids_come_from_the_feature_its_properties_or_its_place() {
+    let feature = |inner: &str| {
+        format!(r#"{{"type":"Feature",{inner},"geometry":{{"type":"Point","coordinates":[1,2]}}}}"#)
+    };
+    let features = [
+        feature(r#""id":7,"properties":{"id":"b"}"#),
+        feature(r#""properties":{"id":"b"}"#),
+        feature(r#""properties":null"#),
+        feature(r#""id":7.0,"properties":{}"#),
+    ];
+    let text = format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, features.join(","));
+    let table = table(&text);
+    let ids: Vec<&str> = table.features.iter().map(|feature| feature.id.as_str()).collect();
+    assert_eq!(ids, ["7", "b", "3", "7.2"]);
+    assert_eq!((table.layer.as_str(), table.crs.unwrap().code), ("a", Some(4326)));
+}
+
+#[test]
+fn a_feature_or_a_geometry_alone_is_a_layer() {
+    let polygon = r#"{"type":"MultiPolygon","coordinates":[[[[0,0],[1,0],[1,1],[0,0]]],[[[5,5,2],[6,5,2],[6,6,2],[5,5,2]]],[]]}"#;
+    assert_eq!(table(polygon).features.len(), 2);
+    let feature =
+        format!(r#"{{"type":"Feature","properties":{{"a":1,"b":null,"c":[1]}},"geometry":{polygon}}}"#);
+    let table = table(&feature);
+    assert_eq!((table.features.len(), table.names.len(), table.features[1].attributes.len()), (2, 3, 2));
+    assert!(table.features[1].geometry.points().all(|point| point[2] == 2.0));
+}
+
+#[test]
+fn features_without_geometry_are_counted() {
+    let text = r#"{"type":"FeatureCollection","features":[
+        {"type":"Feature","properties":{},"geometry":null},
+        {"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[]}},
+        {"type":"Feature","properties":{},"geometry":{"type":"Polygon","coordinates":[[[0,0],[1,1],[0,0]]]}}]}"#;
+    assert_eq!((table(text).empty, table(text).features.len()), (3, 0));
+}
+
+#[test]
+fn a_collection_gives_a_feature_for_each_part() {
+    let point = r#"{"type":"Point","coordinates":[1,2]}"#;
+    let line = r#"{"type":"LineString","coordinates":[[0,0],[1,1]]}"#;
+    let inner = format!(r#"{{"type":"GeometryCollection","geometries":[{line},null]}}"#);
+    let table =
+        table(&feature(&format!(r#"{{"type":"GeometryCollection","geometries":[{point},{inner}]}}"#)));
+    let kinds: Vec<_> = table.features.iter().map(|part| (part.id.as_str(), part.geometry.kind())).collect();
+    assert_eq!(kinds, [("1", Kind::Point), ("1.2", Kind::Line)]);
+    let mut deep = point.to_owned();
+    for _ in 0..60 {
+        deep = format!(r#"{{"type":"GeometryCollection","geometries":[{deep}]}}"#);
+    }
+    let table = self::table(&format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, feature(&deep)));
+    assert_eq!(told(&table), ["1: feature 1 of a.geojson has collections nested more than 32 deep"]);
+}
+
+#[test]
+fn one_bad_feature_among_others_is_left_out_with_the_reason() {
+    let deep = format!("{}1{}", "[".repeat(100_000), "]".repeat(100_000));
+    let bad = [
+        feature(r#"{"type":"Point","coordinates":["a",2]}"#),
+        feature(r#"{"type":"Point","coordinates":[1e999,2]}"#),
+        feature(r#"{"type":"Point","coordinates":7}"#),
+        feature(r#"{"type":"Point","coordinates":[1]}"#),
+        feature(r#"{"type":"Polygon","coordinates":[[0,0],[1,0],[1,1]]}"#),
+        feature(r#"{"type":"LineString","coordinates":[[0,null],[1,0]]}"#),
+        feature(&format!(r#"{{"type":"Polygon","coordinates":{deep}}}"#)),
+        feature(r#"{"type":"Blob","coordinates":[1,2]}"#),
+        feature(r#"{"coordinates":[1,2]}"#),
+        feature("7"),
+        r#"{"type":"Feature","properties":[],"geometry":null}"#.to_owned(),
+        r#"{"type":"Feature","properties":{"a":1e999},"geometry":null}"#.to_owned(),
+        "null".to_owned(),
+        "[[]]".to_owned(),
+    ];
+    let good = feature(r#"{"type":"Point","coordinates":[1,2]}"#);
+    let all = bad.join(&format!(",{good},"));
+    let table = table(&format!(r#"{{"type":"FeatureCollection","features":[{good},{all}]}}"#));
+    assert_eq!((table.refused.len(), table.features.len()), (bad.len(), bad.len()));
+    insta::assert_snapshot!(told(&table).join("\n"), @r#"
+    2: feature 2 of a.geojson has text in its coordinates where a number should be
+    4: feature 4 of a.geojson has coordinates that cannot be read: number out of range
+    6: feature 6 of a.geojson has a number in its coordinates where a list should be
+    8: feature 8 of a.geojson has a point of fewer than two numbers
+    10: feature 10 of a.geojson has a number in its coordinates where a list should be
+    12: feature 12 of a.geojson has null in its coordinates where a number should be
+    14: feature 14 of a.geojson has a list in its coordinates where a number should be
+    16: feature 16 of a.geojson has a geometry of type "Blob", which is not known
+    18: feature 18 of a.geojson has a geometry without a type
+    20: feature 20 of a.geojson has a geometry that is none: invalid type: integer `7`, expected a geometry
+    22: feature 22 of a.geojson has properties that cannot be read: invalid type: sequence, expected an object
+    24: feature 24 of a.geojson has properties that cannot be read: number out of range
+    26: feature 26 of a.geojson is no feature: invalid type: null, expected a feature
+    28: feature 28 of a.geojson is no feature: invalid length 1, expected a feature with 3 elements
+    "#);
+}
+
+#[test]
+fn sequences_are_read_with_separators_and_line_by_line() {
+    let (a, b) = (
+        feature(r#"{"type":"Point","coordinates":[1,2]}"#),
+        feature(r#"{"type":"Point","coordinates":[3,4]}"#),
+    );
+    let ids = |text: &str, name: &str| -> Vec<String> {
+        let table = read_as(text, name).unwrap();
+        assert_eq!(told(&table), [""; 0]);
+        table.features.into_iter().map(|feature| feature.id).collect()
+    };
+    for text in [
+        format!("\u{1e}{a}\n\u{1e}{b}\n"),
+        format!("{a}\n{b}"),
+        format!("{a}\r\n\r\n{b}\r\n"),
+        format!("{{\"type\":\"FeatureCollection\",\"features\":[{a}]}}\n{b}"),
+        format!("\u{feff}{a} {b}"),
+    ] {
+        assert_eq!(ids(&text, "a.geojson"), ["1", "2"], "{text}");
+        assert_eq!(ids(&text, "a.ndjson"), ["1", "2"], "{text}");
+    }
+    assert_eq!(ids(&a, "a.geojsonl"), ["1"]);
+    let broken = read_as(&format!("{a}\noops\n{b}\n{{\"a\":1}}\n"), "a.geojsonl").unwrap();
+    assert_eq!(broken.features.len(), 2);
+    assert_eq!(
+        told(&broken),
+        [
+            "2: line 2 of a.geojsonl is not JSON: expected value",
+            "4: feature 4 of a.geojsonl is JSON, but no feature and no geometry",
+        ]
+    );
+    let broken = read_as(&format!("\u{1e}{a}\n\u{1e}{{\"type\n\u{1e}{b}\n"), "a.geojsons").unwrap();
+    assert_eq!((broken.features.len(), broken.refused.len()), (2, 1));
+}
+
+#[test]
+fn memory_is_asked_for_before_it_is_taken_and_time_is_kept() {
+    let points = vec!["[1,2]"; 400_000].join(",");
+    let text = feature(&format!(r#"{{"type":"LineString","coordinates":[{points}]}}"#));
+    let with = |budget: Arc<Budget>| {
+        let wanted = Wanted { budget, ..Wanted::default() };
+        read(text.as_bytes(), Path::new("a"), "a", &wanted).map(|table| table.features.len())
+    };
+    let minute = std::time::Duration::from_secs(60);
+    assert_eq!(with(Budget::within(minute, 100_000_000)).unwrap(), 1);
+    assert!(with(Budget::within(minute, 1_000_000)).unwrap_err().message().contains("MB of memory"));
+    assert!(
+        with(Budget::within(std::time::Duration::ZERO, 100_000_000))
+            .unwrap_err()
+            .message()
+            .contains("longer")
+    );
+}
+
+#[test]
+fn changed_bytes_never_make_it_panic() {
+    let feature = feature(
+        r#"{"type":"GeometryCollection","geometries":[{"type":"Polygon","coordinates":[[[0,0],[1.5,0],[1,1e2],[0,0]]]}]}"#,
+    );
+    let text =
+        format!(r#"{{"type":"FeatureCollection","crs":null,"features":[{feature},{feature}],"name":"a"}}"#);
+    let (mut good, mut bad) = (0, 0);
+    for at in 0..text.len() {
+        for byte in *b"\0 \n\x1e\"[]{},:-0e9n\xff" {
+            let mut changed = text.clone().into_bytes();
+            changed[at] = byte;
+            match read(&changed, Path::new("a"), "a", &Wanted::default()) {
+                Ok(table) => {
+                    good += usize::from(
+                        table.features.iter().any(|it| matches!(it.geometry, Geometry::Polygon(_))),
+                    )
+                }
+                Err(_) => bad += 1,
+            }
+        }
+        assert!(read(&text.as_bytes()[..at], Path::new("a"), "a", &Wanted::default()).is_err());
+    }
+    assert!(good > 500 && bad > 500, "{good} {bad}");
+}

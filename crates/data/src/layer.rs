@@ -1,0 +1,140 @@
+//! A layer in metres, as scripts get it.
+
+use rayon::prelude::*;
+
+use super::frame::Frame;
+use super::table::{Feature, Table};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind};
+
+/// Features of a data file, in metres around the run's origin.
+#[derive(Debug)]
+pub struct Layer {
+    /// The layer's name.
+    pub name: String,
+    /// File and layer, for messages.
+    pub shown: String,
+    /// The projection that its coordinates are in.
+    pub crs: String,
+    /// Where the origin lies in that projection (m).
+    pub origin: [f64; 2],
+    /// The names of attributes, in the order of the file.
+    pub names: Vec<String>,
+    /// The features in the order of the file; rings are counter-clockwise, holes clockwise.
+    pub features: Vec<Feature>,
+    /// The least and the greatest coordinates (m).
+    pub bounds: [[f64; 3]; 2],
+    /// How many features had no geometry, or one without extent, and were left out.
+    pub empty: usize,
+    /// The ids of features whose geometry cannot be read or has no place, and why; they are left out.
+    pub refused: Vec<(String, Error)>,
+}
+
+impl Layer {
+    /// What people should know of how it was read.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let features = |count: usize| if count == 1 { "feature" } else { "features" };
+        let shown = &self.shown;
+        let mut warnings = Vec::new();
+        if self.empty > 0 {
+            let what = features(self.empty);
+            let text = format!("{shown}: left out {} {what} without a geometry", self.empty);
+            warnings.push(Warning::new(WarningKind::Data, text).help("take them out of the file"));
+        }
+        if let Some((_, error)) = self.refused.first() {
+            let (count, such) = (self.refused.len(), if self.refused.len() == 1 { "" } else { "such as: " });
+            let what = features(count);
+            let text = format!("left out {count} {what} that cannot be used: {such}{}", error.message());
+            let warning = Warning::new(WarningKind::Data, text);
+            warnings.push(warning.help(error.remedy().unwrap_or("repair the file, or leave them out")));
+        }
+        warnings
+    }
+
+    /// About how much memory (bytes) it takes.
+    pub fn size(&self) -> usize {
+        let of = |feature: &Feature| {
+            300 + feature.id.len() + feature.geometry.points().count() * 24 + feature.attributes.len() * 40
+        };
+        self.features.iter().map(of).sum()
+    }
+
+    /// Brings `table` into `frame`, which is made for it unless there is one already.
+    pub fn new(mut table: Table, frame: &mut Option<Frame>) -> Result<Self> {
+        table.refuse_endless()?;
+        let left = |table: &Table| match table.refused.first() {
+            Some((_, error)) if table.features.is_empty() => Err(error.clone()),
+            _ => Ok(()),
+        };
+        left(&table)?;
+        let found = match frame {
+            Some(frame) => frame.clone(),
+            None => Frame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
+        };
+        found.bring(&mut table)?;
+        // What decides on a place must have one.
+        left(&table)?;
+        let frame = frame.insert(found);
+        let nothing = || [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
+        let turned = table.features.par_iter_mut().map(|feature| {
+            if let super::Geometry::Polygon(rings) = &mut feature.geometry {
+                for (index, ring) in rings.iter_mut().enumerate() {
+                    if (doubled_area(ring) > 0.0) != (index == 0) {
+                        ring.reverse();
+                    }
+                }
+            }
+            feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [*point; 2]))
+        });
+        let bounds = turned.reduce(nothing, around);
+        Ok(Self {
+            name: table.layer,
+            shown: table.shown,
+            crs: frame.name.clone(),
+            origin: frame.origin,
+            names: table.names,
+            features: table.features,
+            bounds,
+            empty: table.empty,
+            refused: table.refused,
+        })
+    }
+}
+
+/// The bounds around two; which of the two zeros a coordinate is does not depend on their order.
+fn around([a, b]: [[f64; 3]; 2], [c, d]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
+    let each = |choose: fn(f64, f64) -> f64, a: [f64; 3], b: [f64; 3]| {
+        std::array::from_fn(|axis| choose(a[axis], b[axis]) + 0.0)
+    };
+    [each(f64::min, a, c), each(f64::max, b, d)]
+}
+
+/// Twice the area within a ring (m²), negative if it is clockwise.
+fn doubled_area(ring: &[[f64; 3]]) -> f64 {
+    let Some(first) = ring.first() else { return 0.0 };
+    let from_first = |point: &[f64; 3]| [point[0] - first[0], point[1] - first[1]];
+    ring.windows(2)
+        .map(|pair| {
+            let ([ax, ay], [bx, by]) = (from_first(&pair[0]), from_first(&pair[1]));
+            ax * by - ay * bx
+        })
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Crs, Geometry};
+    use super::*;
+
+    #[test]
+    fn outer_rings_turn_left_and_holes_turn_right() {
+        let square = |size: f64| vec![[0.0, 0.0, 0.0], [0.0, size, 0.0], [size, size, 0.0], [size, 0.0, 0.0]];
+        let hole = square(1.0).into_iter().rev().collect();
+        let mut table = Table::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
+        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new()).unwrap();
+        let layer = Layer::new(table, &mut None).unwrap();
+        let Geometry::Polygon(rings) = &layer.features[0].geometry else { panic!("a polygon") };
+        assert_eq!((doubled_area(&rings[0]), doubled_area(&rings[1])), (32.0, -2.0));
+        assert_eq!(layer.bounds, [[0.0; 3], [4.0, 4.0, 0.0]]);
+    }
+}

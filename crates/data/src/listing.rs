@@ -1,0 +1,272 @@
+//! What a data file holds, for people and for machines.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+use std::path::Path;
+use std::sync::Arc;
+
+use serde_json::{Value, json};
+
+use super::{Attribute, Kind, Source, Table, Wanted};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::{escaped, shown};
+
+/// How many texts are shown of an attribute.
+const EXAMPLES: usize = 3;
+
+/// What a data file holds.
+#[derive(Debug)]
+pub struct Listing {
+    /// The file as it was named.
+    pub file: String,
+    /// `GeoJSON` or `GeoPackage`.
+    pub format: &'static str,
+    /// Its layers, in order.
+    pub layers: Vec<LayerListing>,
+}
+
+/// What a layer holds.
+#[derive(Debug)]
+pub struct LayerListing {
+    /// Its name.
+    pub name: String,
+    /// Such as `EPSG:3067`, or why it is not known.
+    pub crs: Result<String>,
+    /// How many records with a geometry there are.
+    pub records: usize,
+    /// How many features they give of each kind, one for each part of a geometry.
+    pub kinds: BTreeMap<Kind, usize>,
+    /// How many features have no geometry.
+    pub empty: usize,
+    /// How many features cannot be read, and why the first of them cannot.
+    pub refused: Option<(usize, String)>,
+    /// West, south, east and north in the layer's own units; nothing without features.
+    pub extent: Option<[f64; 4]>,
+    /// The attributes, in the order of the file.
+    pub attributes: Vec<AttributeListing>,
+}
+
+/// What is known of an attribute.
+#[derive(Debug, Default)]
+pub struct AttributeListing {
+    /// Its name.
+    pub name: String,
+    /// `boolean`, `number`, `text`, `table`.
+    pub types: BTreeSet<&'static str>,
+    /// How many features have it.
+    pub count: usize,
+    /// The least and the greatest number.
+    pub range: Option<[f64; 2]>,
+    /// The first texts that differ.
+    pub examples: Vec<String>,
+}
+
+impl Listing {
+    /// Reads all layers of the file at `path`, within a budget.
+    pub fn read(path: &Path, budget: &Arc<Budget>) -> Result<Self> {
+        let name = path.display().to_string();
+        let wanted = Wanted { budget: Arc::clone(budget), ..Wanted::default() };
+        let before = budget.taken();
+        let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing(path, error));
+        let source = open()?;
+        let format = source.format();
+        let mut layers = Vec::new();
+        if let Source::GeoJson(table) = source {
+            layers.push(LayerListing::of(&table));
+        } else {
+            for layer in source.layers() {
+                let Source::GeoPackage(package) = open()? else { continue };
+                layers.push(LayerListing::of(&package.read(&layer, &wanted)?));
+                budget.settle(before, 0);
+            }
+        }
+        budget.settle(before, 0);
+        Ok(Self { file: name, format, layers })
+    }
+
+    /// The listing for machines.
+    pub fn to_json(&self) -> Value {
+        let layers: Vec<Value> = self.layers.iter().map(LayerListing::to_json).collect();
+        json!({ "file": self.file, "format": self.format, "layers": layers })
+    }
+
+    /// The listing for people.
+    pub fn text(&self) -> String {
+        let mut text = format!("{}: {}\n", escaped(&self.file), self.format);
+        if self.layers.is_empty() {
+            text += "  no layers of features\n";
+        }
+        for layer in &self.layers {
+            layer.write(&mut text);
+        }
+        text
+    }
+}
+
+/// Names the file that may be meant, if there is none at `path`.
+fn missing(path: &Path, error: Error) -> Error {
+    let wanted = path.file_name().map(|name| name.to_string_lossy().into_owned());
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
+    match (wanted, path.exists()) {
+        (Some(wanted), false) => match nearest_file(folder, &wanted) {
+            Some(near) => Error::not_found("data file", wanted, [near.as_str()], error.message()),
+            None => error,
+        },
+        _ => error,
+    }
+}
+
+/// The data file in `folder` whose name is nearest to `wanted`.
+pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
+    let entries = std::fs::read_dir(folder).ok()?;
+    let mut names: Vec<String> =
+        entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    names.sort();
+    let data = names.iter().filter(|name| {
+        let extension = Path::new(name).extension().map(|found| found.to_ascii_lowercase());
+        super::EXTENSIONS.iter().any(|known| extension.as_deref() == Some(known.as_ref()))
+    });
+    burgeon_base::error::nearest(wanted, data.map(String::as_str)).map(str::to_owned)
+}
+
+impl LayerListing {
+    fn of(table: &Table) -> Self {
+        let mut kinds = BTreeMap::new();
+        let mut attributes: Vec<AttributeListing> = table
+            .names
+            .iter()
+            .map(|name| AttributeListing { name: name.clone(), ..AttributeListing::default() })
+            .collect();
+        let mut extent: Option<[f64; 4]> = None;
+        for feature in &table.features {
+            *kinds.entry(feature.geometry.kind()).or_insert(0) += 1;
+            for (index, value) in feature.attributes.iter() {
+                attributes[*index].add(value);
+            }
+            for [x, y, _] in feature.geometry.points() {
+                let [west, south, east, north] = extent.get_or_insert([*x, *y, *x, *y]);
+                (*west, *south, *east, *north) = (west.min(*x), south.min(*y), east.max(*x), north.max(*y));
+            }
+        }
+        Self {
+            name: table.layer.clone(),
+            crs: table.crs.as_ref().map(super::Crs::name).map_err(Clone::clone),
+            records: table.records,
+            kinds,
+            empty: table.empty,
+            refused: table
+                .refused
+                .first()
+                .map(|(_, error)| (table.refused.len(), error.message().to_owned())),
+            extent,
+            attributes,
+        }
+    }
+
+    fn to_json(&self) -> Value {
+        let kinds: serde_json::Map<String, Value> =
+            self.kinds.iter().map(|(kind, count)| (kind.name().to_owned(), (*count).into())).collect();
+        let attributes: Vec<Value> = self.attributes.iter().map(AttributeListing::to_json).collect();
+        let mut object = json!({
+            "name": self.name,
+            "crs": self.crs.as_ref().ok(),
+            "kinds": kinds,
+            "records": self.records,
+            "features": self.kinds.values().sum::<usize>(),
+            "empty": self.empty,
+            "refused": self.refused.as_ref().map_or(0, |(count, _)| *count),
+            "extent": self.extent,
+            "attributes": attributes,
+        });
+        if let Err(error) = &self.crs {
+            object["problem"] = error.message().into();
+        }
+        if let Some((_, why)) = &self.refused {
+            object["refusal"] = why.as_str().into();
+        }
+        object
+    }
+
+    fn write(&self, text: &mut String) {
+        let crs = match &self.crs {
+            Ok(crs) => crs.clone(),
+            Err(error) => error.message().to_owned(),
+        };
+        let kinds: Vec<String> = self
+            .kinds
+            .iter()
+            .map(|(kind, count)| format!("{count} {}{}", kind.name(), if *count == 1 { "" } else { "s" }))
+            .collect();
+        let kinds = if kinds.is_empty() { "no features".to_owned() } else { kinds.join(", ") };
+        let features: usize = self.kinds.values().sum();
+        let parts =
+            if features == self.records { String::new() } else { format!(" in {} records", self.records) };
+        let empty = if self.empty > 0 { format!(", {} without geometry", self.empty) } else { String::new() };
+        // Writing into a string cannot fail.
+        let _ = writeln!(text, "  {}: {kinds}{parts}{empty}; {}", shown(&self.name), escaped(&crs));
+        if let Some((count, why)) = &self.refused {
+            let _ = writeln!(text, "    {count} left out, such as: {}", escaped(why));
+        }
+        if let Some([west, south, east, north]) = self.extent {
+            let _ = writeln!(text, "    from {west}, {south} to {east}, {north}");
+        }
+        let names: Vec<_> = self.attributes.iter().map(|known| shown(&known.name)).collect();
+        let width = names.iter().map(|name| name.chars().count()).max().unwrap_or(0);
+        for (name, known) in names.iter().zip(&self.attributes) {
+            let _ = writeln!(text, "    {name:width$}  {}", known.text());
+        }
+    }
+}
+
+impl AttributeListing {
+    fn add(&mut self, value: &Attribute) {
+        self.types.insert(value.kind());
+        self.count += 1;
+        match value {
+            Attribute::Number(number) => {
+                let [low, high] = self.range.get_or_insert([*number; 2]);
+                (*low, *high) = (low.min(*number), high.max(*number));
+            }
+            Attribute::Text(text) => {
+                if self.examples.len() < EXAMPLES && !self.examples.iter().any(|known| **known == **text) {
+                    self.examples.push(text.to_string());
+                }
+            }
+            Attribute::Boolean(_) | Attribute::Nested(_) => {}
+        }
+    }
+
+    fn to_json(&self) -> Value {
+        json!({
+            "name": self.name,
+            "types": self.types,
+            "count": self.count,
+            "range": self.range,
+            "examples": self.examples,
+        })
+    }
+
+    fn text(&self) -> String {
+        if self.count == 0 {
+            return "never set".to_owned();
+        }
+        let types: Vec<&str> = self.types.iter().copied().collect();
+        let mut text = format!("{} of {}", types.join(" or "), self.count);
+        if let Some([low, high]) = self.range {
+            let _ = write!(text, ", {low} to {high}");
+        }
+        if !self.examples.is_empty() {
+            let shown: Vec<String> = self
+                .examples
+                .iter()
+                .map(|example| format!("{:?}", example.chars().take(30).collect::<String>()))
+                .collect();
+            let _ = write!(text, ", such as {}", shown.join(", "));
+        }
+        text
+    }
+}

@@ -1,0 +1,122 @@
+//! Splices what the rules made of a piece into the next chain.
+
+use super::batch::{Batch, NONE, Piece, Scratch, narrow, narrow_rule};
+use super::group::Made;
+use super::output::{Output, Use};
+use burgeon_kit::rules::{Chain, END, Key, Symbol};
+
+impl Batch<'_> {
+    /// The next chain where `piece` was.
+    pub(super) fn splice(&self, piece: Piece, scratch: &mut Scratch, mut output: Output) -> Output {
+        let grammar = &self.plan.grammar;
+        let random = grammar.draws_random();
+        let shapes = self.machine.current.shapes.borrow();
+        let out = &mut output.chain;
+        out.symbols.reserve(2 * (piece.end - piece.begin.module));
+        out.params.reserve(2 * (piece.end - piece.begin.module));
+        let (mut module, mut param) = (piece.begin.module, piece.begin.param);
+        let keep = |out: &mut Chain, modules: std::ops::Range<usize>, params: std::ops::Range<usize>| {
+            out.symbols.extend_from_slice(&self.chain.symbols[modules.clone()]);
+            out.params.extend_from_slice(&self.chain.params[params]);
+            if random {
+                out.keys.extend_from_slice(&self.chain.keys[modules]);
+            }
+        };
+        for active in &scratch.active {
+            if active.rule == NONE {
+                continue;
+            }
+            let group = &mut scratch.groups[usize::from(active.rule)];
+            let made = Made::read(group.ends[group.next]);
+            group.next += 1;
+            if matches!(made, Made::Nothing) {
+                if random {
+                    let here = active.module as usize;
+                    let params = active.param as usize;
+                    keep(out, module..here, param..params);
+                    let arity = usize::from(grammar.arities()[usize::from(self.chain.symbols[here])]);
+                    keep(out, here..here + 1, params..params + arity);
+                    if let Some(key) = out.keys.last_mut() {
+                        *key = key.advanced();
+                    }
+                    (module, param) = (here + 1, params + arity);
+                }
+                continue;
+            }
+            output.changed = true;
+            let here = active.module as usize;
+            keep(out, module..here, param..active.param as usize);
+            let (symbols, params) = match made {
+                Made::Nothing => continue,
+                Made::Shape(number) => (shapes[number].symbols.as_slice(), shapes[number].params),
+                Made::Ordered(end) => {
+                    group.arrange(end, grammar.arities(), &mut scratch.arranged, &mut out.params);
+                    (scratch.arranged.symbols.as_slice(), 0)
+                }
+                Made::UpTo(end) => {
+                    let symbols = &group.symbols[group.symbol_at..end];
+                    group.symbol_at = end;
+                    let arity = |symbol: &Symbol| usize::from(grammar.arities()[usize::from(*symbol)]);
+                    (symbols, symbols.iter().map(arity).sum())
+                }
+            };
+            group.made += symbols.len();
+            out.symbols.extend_from_slice(symbols);
+            out.params.extend_from_slice(&group.params[group.param_at..group.param_at + params]);
+            if random {
+                let parent = self.chain.keys[here];
+                let mut ordinal = 0;
+                out.keys.extend(symbols.iter().map(|symbol| {
+                    let key = parent.child(ordinal);
+                    ordinal += usize::from(*symbol > END);
+                    if *symbol > END { key } else { Key::default() }
+                }));
+            }
+            group.param_at += params;
+            module = here + 1;
+            param =
+                active.param as usize + usize::from(grammar.arities()[usize::from(self.chain.symbols[here])]);
+        }
+        let rest = piece.end - module;
+        let rest_params: usize = self.chain.symbols[module..module + rest]
+            .iter()
+            .map(|symbol| usize::from(grammar.arities()[usize::from(*symbol)]))
+            .sum();
+        keep(out, module..piece.end, param..param + rest_params);
+        for (rule, group) in scratch.groups.iter().enumerate() {
+            if !group.members.is_empty() {
+                output.ran = true;
+                let done = Use { applied: group.members.len(), made: group.made, time: group.time };
+                output.uses.push((narrow_rule(rule), done));
+            }
+        }
+        output.chain.mark(self.plan.batch, grammar.arities());
+        output
+    }
+
+    /// For each symbol of `piece`, the rule that ran and how many symbols come of it.
+    pub(super) fn applied(&self, piece: Piece, scratch: &Scratch) -> Vec<(u16, u32)> {
+        let shapes = self.machine.current.shapes.borrow();
+        let mut applied = vec![(NONE, 1); piece.end - piece.begin.module];
+        let mut read = vec![(0, 0, 0); scratch.groups.len()];
+        for active in scratch.active.iter().filter(|active| active.rule != NONE) {
+            let (next, from, item) = &mut read[usize::from(active.rule)];
+            let group = &scratch.groups[usize::from(active.rule)];
+            let made = Made::read(group.ends[*next]);
+            *next += 1;
+            let count = match made {
+                Made::Nothing => 1,
+                Made::Shape(number) => shapes[number].symbols.len(),
+                Made::Ordered(end) => {
+                    *from = end;
+                    let count = group.order[*item] as usize;
+                    *item += 1 + count;
+                    count
+                }
+                Made::UpTo(end) => end - std::mem::replace(from, end),
+            };
+            applied[active.module as usize - piece.begin.module] = (active.rule, narrow(count));
+        }
+        applied
+    }
+}

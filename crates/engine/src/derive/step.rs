@@ -1,0 +1,248 @@
+//! One derivation step: hands out pieces of the chain and puts the results together in their order.
+
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+
+use super::Plan;
+use super::batch::{Batch, Piece, Scratch};
+use super::crew::Job;
+use super::output::{Output, Use};
+use crate::script::{Declared, Machine};
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_kit::rules::{Chain, Links, Mark};
+
+/// Pieces of a chain from which rewriting it takes longer than starting a helper.
+const MANY: usize = 16;
+
+/// The work of one step, shared by the threads.
+pub(crate) struct Rewriting {
+    pub plan: Arc<Plan>,
+    pub chain: Chain,
+    pub links: Links,
+    pub step: usize,
+    pieces: Vec<Piece>,
+    next: AtomicUsize,
+    /// The first piece that failed; later ones are not begun.
+    failed: AtomicUsize,
+    results: Mutex<Vec<Option<Result<Output>>>>,
+    /// Emptied outputs, whose memory is used again: fresh pages cost more than the rewriting itself.
+    spare: Mutex<Vec<Output>>,
+    ready: Condvar,
+}
+
+impl Rewriting {
+    /// Takes a piece and rewrites it; `false` when none is left.
+    pub(crate) fn work(&self, machine: &Machine, declared: &Declared, scratch: &mut Scratch) -> bool {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index >= self.pieces.len() || index > self.failed.load(Ordering::Relaxed) {
+            return false;
+        }
+        let batch = Batch {
+            machine,
+            plan: &self.plan,
+            declared,
+            chain: &self.chain,
+            links: &self.links,
+            step: self.step,
+        };
+        let spare = self.spare.lock().unwrap_or_else(PoisonError::into_inner).pop().unwrap_or_default();
+        let result =
+            machine.session.stop.check().and_then(|()| batch.rewrite(self.pieces[index], scratch, spare));
+        if result.is_err() {
+            self.failed.fetch_min(index, Ordering::Relaxed);
+        }
+        self.results.lock().unwrap_or_else(PoisonError::into_inner)[index] = Some(result);
+        self.ready.notify_all();
+        true
+    }
+
+    /// Gives up the pieces that nobody has begun.
+    pub(crate) fn abandon(&self) {
+        self.failed.store(0, Ordering::Relaxed);
+        self.next.store(self.pieces.len(), Ordering::Relaxed);
+    }
+
+    fn take(&self, index: usize) -> Option<Result<Output>> {
+        self.results.lock().unwrap_or_else(PoisonError::into_inner)[index].take()
+    }
+
+    fn wait(&self, index: usize) -> Result<Output> {
+        let mut results = self.results.lock().unwrap_or_else(PoisonError::into_inner);
+        loop {
+            match results[index].take() {
+                Some(result) => return result,
+                None => results = self.ready.wait(results).unwrap_or_else(PoisonError::into_inner),
+            }
+        }
+    }
+}
+
+/// What a step gave.
+pub(crate) struct Outcome {
+    pub chain: Chain,
+    pub ran: bool,
+    pub changed: bool,
+    /// For each symbol of the chain before, the rule that ran and how many symbols came of it; only where it is traced.
+    pub applied: Vec<(u16, u32)>,
+}
+
+/// What all pieces together gave, besides their chain.
+struct Merged {
+    ran: bool,
+    changed: bool,
+    applied: Vec<(u16, u32)>,
+}
+
+/// Makes steps; keeps the memory of the last chain for the next.
+pub(crate) struct Stepper {
+    plan: Arc<Plan>,
+    spare: Chain,
+    links: Links,
+    scratch: Scratch,
+    outputs: Vec<Output>,
+    /// What each rule has done in all steps.
+    uses: Vec<Use>,
+}
+
+impl Stepper {
+    pub(crate) fn new(plan: Arc<Plan>) -> Self {
+        Self {
+            uses: vec![Use::default(); plan.grammar.rules().len()],
+            plan,
+            spare: Chain::default(),
+            links: Links::default(),
+            scratch: Scratch::default(),
+            outputs: Vec::new(),
+        }
+    }
+
+    /// Makes step number `step` on `chain`.
+    pub(crate) fn step(
+        &mut self,
+        machine: &Machine,
+        declared: &Declared,
+        chain: Chain,
+        step: usize,
+    ) -> Result<Outcome> {
+        self.links.build(&chain, &self.plan.grammar);
+        let pieces = pieces(&chain, self.plan.batch);
+        let count = pieces.len();
+        machine.enter(self.plan.system)?;
+        machine.refresh();
+        machine.current.objects.replace(self.plan.objects.clone());
+        let rewriting = Arc::new(Rewriting {
+            plan: Arc::clone(&self.plan),
+            chain,
+            links: std::mem::take(&mut self.links),
+            step,
+            pieces,
+            next: AtomicUsize::new(0),
+            failed: AtomicUsize::new(usize::MAX),
+            spare: Mutex::new(std::mem::take(&mut self.outputs)),
+            results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
+            ready: Condvar::new(),
+        });
+        machine.crew.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
+        let result = self.merge(machine, declared, &rewriting);
+        if result.is_err() {
+            rewriting.abandon();
+        }
+        let rewriting = machine.crew.reclaim(rewriting);
+        let Merged { ran, changed, applied } = result?;
+        self.links = rewriting.links;
+        self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
+        let made = std::mem::replace(&mut self.spare, rewriting.chain);
+        Ok(Outcome { chain: made, ran, changed, applied })
+    }
+
+    /// Takes back a chain that nobody needs any more, for its memory.
+    pub(crate) fn reuse(&mut self, chain: Chain) {
+        if chain.symbols.capacity() > self.spare.symbols.capacity() {
+            self.spare = chain;
+        }
+    }
+
+    /// Works on pieces and puts the results together as they come, in order.
+    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &Rewriting) -> Result<Merged> {
+        let limit = machine.session.options.limits.modules;
+        let made = &mut self.spare;
+        made.clear();
+        let mut growth = vec![0usize; self.plan.grammar.rules().len()];
+        let mut applied = Vec::new();
+        let (mut ran, mut changed) = (false, false);
+        let mut chain = 0;
+        for index in 0..rewriting.pieces.len() {
+            let mut output = loop {
+                if let Some(output) = rewriting.take(index) {
+                    break output?;
+                }
+                if !rewriting.work(machine, declared, &mut self.scratch) {
+                    break rewriting.wait(index)?;
+                }
+            };
+            let base = made.end(chain);
+            made.symbols.extend_from_slice(&output.chain.symbols);
+            made.params.extend_from_slice(&output.chain.params);
+            made.keys.extend_from_slice(&output.chain.keys);
+            let rebased = output.chain.marks.iter().map(|mark| Mark {
+                module: base.module + mark.module,
+                param: base.param + mark.param,
+                chain: base.chain + mark.chain,
+            });
+            made.marks.extend(rebased);
+            if self.plan.chains > 1 {
+                chain +=
+                    output.chain.symbols.iter().filter(|symbol| **symbol == burgeon_kit::rules::END).count();
+            }
+            ran |= output.ran;
+            changed |= output.changed;
+            for (rule, done) in &output.uses {
+                growth[usize::from(*rule)] += done.made;
+                self.uses[usize::from(*rule)] += *done;
+            }
+            applied.append(&mut output.applied);
+            output.clear();
+            rewriting.spare.lock().unwrap_or_else(PoisonError::into_inner).push(output);
+            if made.symbols.len() > limit {
+                return Err(self.runaway(&growth, limit, rewriting.step));
+            }
+        }
+        Ok(Merged { ran, changed, applied })
+    }
+
+    /// What each rule has done so far.
+    pub(crate) fn uses(&self) -> &[Use] {
+        &self.uses
+    }
+
+    fn runaway(&self, growth: &[usize], limit: usize, step: usize) -> Error {
+        let error = Error::limit(Limit::Modules, format!("the chain grew past {limit} modules in step {step}"))
+            .help("end the growth with a guard or a counter, derive fewer steps, or raise the limit: --module-limit N");
+        match growth.iter().enumerate().max_by_key(|(index, count)| (**count, usize::MAX - index)) {
+            Some((rule, _)) => {
+                let rule = &self.plan.grammar.rules()[rule];
+                error.at(rule.place.clone()).rule(format!("{} (which grew most)", rule.pattern.text))
+            }
+            None => error,
+        }
+    }
+}
+
+/// Joins the chain's marks to pieces of at least `size` symbols.
+fn pieces(chain: &Chain, size: usize) -> Vec<Piece> {
+    let mut pieces: Vec<Piece> = Vec::new();
+    for mark in &chain.marks {
+        match pieces.last_mut() {
+            Some(piece) if mark.module - piece.begin.module < size => {}
+            Some(piece) => {
+                piece.end = mark.module;
+                pieces.push(Piece { begin: *mark, end: mark.module });
+            }
+            None => pieces.push(Piece { begin: *mark, end: mark.module }),
+        }
+    }
+    if let Some(piece) = pieces.last_mut() {
+        piece.end = chain.symbols.len();
+    }
+    pieces
+}

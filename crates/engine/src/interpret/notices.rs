@@ -1,0 +1,102 @@
+//! What objects warn of while they are interpreted.
+//!
+//! Threads come to the modules in any order, and finding the line of a call takes running its rule once more. So of each
+//! text that modules with the same symbol give rise to, the first in the order of the chains counts, and is told with
+//! how many there were.
+
+use std::collections::BTreeMap;
+use std::sync::{Mutex, PoisonError};
+
+use burgeon_base::warning::Warning;
+use burgeon_kit::rules::Symbol;
+
+/// A warning of an object, and what gave rise to it.
+pub(crate) struct Notice {
+    pub warning: Warning,
+    /// The place of the module in the chain, and that of its parameters.
+    pub module: (usize, usize),
+    /// The entry of the batch and the number of its recorded call, if it was one.
+    pub call: Option<(usize, usize)>,
+}
+
+/// The warnings of a pass, by the symbol of the module and by text.
+#[derive(Default)]
+pub(super) struct Notices(Mutex<BTreeMap<(Symbol, String), Known>>);
+
+/// What is known of a text.
+struct Known {
+    /// The first module that gave rise to it, and the warning with its line.
+    first: usize,
+    warning: Warning,
+    /// The modules that gave rise to it.
+    modules: usize,
+}
+
+impl Notices {
+    /// Adds what the module at place `module`, which has this symbol, gave rise to: the first time if `is_first`, or
+    /// once more. `locate` finds its line, and is asked only where no earlier module is known.
+    pub(super) fn add(
+        &self,
+        (symbol, module): (Symbol, usize),
+        is_first: bool,
+        warning: Warning,
+        locate: impl FnOnce(Warning) -> Warning,
+    ) {
+        let key = (symbol, warning.message().to_owned());
+        let (modules, count) = (usize::from(is_first), warning.count());
+        let again = |known: &mut BTreeMap<_, Known>| match known.get_mut(&key) {
+            Some(known) if known.first <= module => {
+                known.warning.again(count);
+                known.modules += modules;
+                true
+            }
+            _ => false,
+        };
+        let lock = || self.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if again(&mut lock()) {
+            return;
+        }
+        // Without the lock, for the rule runs once more.
+        let mut new = Known { first: module, warning: locate(warning), modules };
+        let mut known = lock();
+        if again(&mut known) {
+            return;
+        }
+        if let Some(later) = known.get(&key) {
+            new.warning.again(later.warning.count());
+            new.modules += later.modules;
+        }
+        known.insert(key, new);
+    }
+
+    /// All of them, by symbol; `of_symbol` counts the modules with a symbol.
+    pub(super) fn into_list(self, of_symbol: impl Fn(Symbol) -> usize) -> impl Iterator<Item = Warning> {
+        let known = self.0.into_inner().unwrap_or_else(PoisonError::into_inner);
+        known.into_iter().filter_map(move |((symbol, _), known)| {
+            let some = known.warning.is_of_all() && known.modules < of_symbol(symbol);
+            (!some).then_some(known.warning)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_base::warning::WarningKind;
+
+    #[test]
+    fn the_first_module_counts_whichever_comes_first_and_all_have_to_draw_nothing() {
+        for order in [[3, 1, 2], [1, 2, 3], [2, 3, 1]] {
+            for all in [3, 4] {
+                let notices = Notices::default();
+                for module in order {
+                    let warning = Warning::new(WarningKind::DrawsNothing, "nothing is drawn").of_all();
+                    notices.add((7, module), true, warning, |warning| warning.rule(format!("A{module}")));
+                }
+                let texts: Vec<String> = notices.into_list(|_| all).map(|it| it.to_string()).collect();
+                let expected: &[&str] = if all == 3 { &["rule A1: nothing is drawn (3 times)"] } else { &[] };
+                assert_eq!(texts, expected);
+            }
+        }
+    }
+}

@@ -1,0 +1,258 @@
+//! One run of a script, from the file to the scene.
+
+use std::path::Path;
+use std::rc::Rc;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use crate::derive::{Crew, Derived, Report, Times};
+use crate::script::{Machine, Options, Param, Session, Watchdog};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_data::Frame;
+use burgeon_scene::Scene;
+
+/// What a run of a script gave.
+pub struct Run {
+    /// What the systems have drawn, in the order in which they were derived.
+    pub scene: Scene,
+    /// The derived systems, in order.
+    pub systems: Vec<Arc<Derived>>,
+    /// The parameters that the script declared.
+    pub params: Vec<Param>,
+    /// The projection and the origin of its data, if it has any.
+    pub frame: Option<Frame>,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
+    /// Where the time went.
+    pub times: RunTimes,
+}
+
+impl Run {
+    /// How many features there were, and what could not be built as the script asked.
+    pub fn report(&self) -> Report {
+        let mut report = Report::default();
+        for system in &self.systems {
+            report.add(system.given, &system.remarks);
+        }
+        report
+    }
+}
+
+/// What a script declares, without deriving anything.
+#[derive(Debug, Clone)]
+pub struct Check {
+    /// Its parameters.
+    pub params: Vec<Param>,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
+}
+
+/// Where the time of a run went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct RunTimes {
+    /// Starting the virtual machine and running the script, without derivation.
+    pub script: Duration,
+    /// Derivation, of all systems.
+    pub derivation: Times,
+    /// Building the scene from the objects.
+    pub scene: Duration,
+}
+
+/// Runs the script at `path`.
+pub fn run(path: &Path, options: Options) -> Result<Run> {
+    let session = Session::new(path, options)?;
+    run_session(&session)
+}
+
+/// Runs a session, which may be stopped from outside.
+pub fn run_session(session: &Arc<Session>) -> Result<Run> {
+    let begin = Instant::now();
+    let machine = leading_machine(session)?;
+    machine.run()?;
+    let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    let params = session.params();
+    refuse_unknown(session, &params)?;
+    let mut systems: Vec<Arc<Derived>> = machine.crew.done.borrow().iter().flatten().cloned().collect();
+    drop(machine);
+    let mut times = RunTimes::default();
+    for system in &systems {
+        times.derivation.rewriting += system.times.rewriting;
+        times.derivation.interpretation += system.times.interpretation;
+    }
+    times.script =
+        begin.elapsed().saturating_sub(times.derivation.rewriting + times.derivation.interpretation);
+    let begin = Instant::now();
+    let mut scene = Scene::default();
+    for system in systems.iter_mut().filter(|system| !system.is_placed()) {
+        let place = system.place.clone();
+        let shown = match Arc::get_mut(system) {
+            Some(system) => system.hand_over(&mut scene),
+            None => system.add_to(&mut scene),
+        };
+        shown.map_err(|error| error.rather_at(place))?;
+    }
+    systems.iter().filter_map(|system| left_out(system)).for_each(|warning| session.warn(warning));
+    find_textures(&mut scene, session)?;
+    times.scene = begin.elapsed();
+    if let Some(warning) = emptiness(session, &scene, &systems) {
+        session.warn(warning);
+    }
+    let warnings = session.warnings();
+    if session.options.strict && !warnings.is_empty() {
+        return Err(Error::several(warnings.into_iter().map(Warning::into_error).collect()));
+    }
+    Ok(Run { scene, systems, params, frame: session.data.frame(), warnings, times })
+}
+
+/// The warning for a model of drawing objects that is empty, unless someone has asked to see less of it.
+fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
+    let mut drawing = systems.iter().filter(|system| system.draws);
+    let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
+    let whole = session.options.steps.is_none() && session.options.lod == Options::default().lod;
+    if scene.triangles() > 0 || !whole {
+        return None;
+    }
+    let tells = |warning: &Warning| {
+        use WarningKind::{DrawsNothing, HiddenModule, ReturnedModules, UndrawnModule};
+        matches!(warning.kind(), DrawsNothing | HiddenModule | ReturnedModules | UndrawnModule)
+    };
+    let help = if session.warnings().iter().any(tells) {
+        "another warning tells why"
+    } else if systems.iter().any(|system| system.is_placed()) {
+        "a system that another one is to place is not shown by itself: see that it is placed"
+    } else if drawing.objects.is_empty() {
+        "its source has no features"
+    } else if drawing.rules.iter().any(|rule| rule.interprets && rule.done.applied > 0) {
+        "its interpretations draw nothing: see that lengths and scales are above 0"
+    } else if drawing.steps == 0 {
+        "it was derived by 0 steps: see that a rule applies to the axiom, or interpret the axiom's modules"
+    } else {
+        "no module of its final chain is drawn: write system:interpret(pattern, function(this, ...) ... end)"
+    };
+    let warning = Warning::new(WarningKind::EmptyModel, "the model is empty, for this system draws nothing");
+    Some(warning.at(drawing.place.clone()).help(help))
+}
+
+/// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
+/// run would end with are among them if it is to be strict.
+pub fn check(path: &Path, options: Options) -> Result<Check> {
+    let session = Session::new(path, Options { check: true, ..options })?;
+    let mut found = Vec::new();
+    let ran = declare_with(&session, &mut found);
+    let mut problems = session.problems();
+    problems.extend(found);
+    if let Err(error) = ran {
+        for problem in error.problems() {
+            let told =
+                problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
+            if !told {
+                problems.push(problem.alone());
+            }
+        }
+    }
+    if let Err(error) = refuse_unknown(&session, &session.params()) {
+        problems.push(error);
+    }
+    let warnings = session.warnings();
+    if session.options.strict {
+        problems.extend(warnings.iter().cloned().map(Warning::into_error));
+    }
+    problems.sort_by(|a, b| a.place().cmp(&b.place()));
+    if !problems.is_empty() {
+        return Err(Error::several(problems));
+    }
+    Ok(Check { params: session.params(), warnings })
+}
+
+/// A machine for a session's script, which is read in the meantime.
+fn leading_machine(session: &Arc<Session>) -> Result<Rc<Machine>> {
+    session.read_ahead();
+    let watchdog = Arc::new(Watchdog::new(session));
+    Machine::new(session, &watchdog, Crew::leading(&watchdog))
+}
+
+/// Runs the script of a session whose options say to check only, for the sake of its parameters.
+pub fn declare(session: &Arc<Session>) -> Result<()> {
+    declare_with(session, &mut Vec::new())
+}
+
+/// The same, with the `problems` of its rules.
+fn declare_with(session: &Arc<Session>, problems: &mut Vec<Error>) -> Result<()> {
+    let machine = leading_machine(session)?;
+    let ran = machine.run();
+    problems.extend(machine.library.problems.borrow_mut().drain(..));
+    ran
+}
+
+/// Refuses values for parameters that the script does not have.
+fn refuse_unknown(session: &Session, params: &[Param]) -> Result<()> {
+    for (name, _) in &session.options.set {
+        if !params.iter().any(|param| param.name == *name) {
+            session.forgive(name, no_such(session.script(), name, params))?;
+        }
+    }
+    if let Some(preset) = &session.options.preset {
+        for (name, _) in &preset.params {
+            if !params.iter().any(|param| param.name == *name) {
+                let script = session.script().display().to_string();
+                session.forgive(name, preset.outdated(name, &script, params))?;
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The error for a parameter `name` that `script` does not have.
+pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
+    let names: Vec<&str> = params.iter().map(|param| param.name.as_str()).collect();
+    let message = format!("{} has no parameter called {name}", script.display());
+    Error::not_found("parameter", name, names.iter().copied(), message).help(match names.is_empty() {
+        true => "it declares none".to_owned(),
+        false => format!("it has {}", names.join(", ")),
+    })
+}
+
+/// Which features of a system were left out, and why; those that its source has told of are not counted.
+fn left_out(system: &Derived) -> Option<Warning> {
+    let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
+    let first = skipped.next()?;
+    let (count, why) = (1 + skipped.count(), &first.why);
+    let id = first.feature.as_deref().map_or_else(String::new, |id| format!(" {}", shown(id)));
+    let source = if first.source.is_empty() { String::new() } else { format!(" of {}", first.source) };
+    let text = match count {
+        1 => format!("left out feature{id}{source}: {why}"),
+        _ => format!("left out {count} of {} features, such as feature{id}{source}: {why}", system.given),
+    };
+    let warning = Warning::new(WarningKind::Data, text).at(system.place.clone());
+    Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
+}
+
+/// Turns the textures' names into files within the script's folder.
+fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
+    let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
+    for texture in textures.filter(|texture| texture.content.is_none()) {
+        let shown = texture.path.display().to_string();
+        let path = session.root().join(&texture.path);
+        let found = path.canonicalize();
+        session.seek(&path, found.is_ok());
+        let path = found.map_err(|_| {
+            Error::not_found("texture", &shown, [], format!("there is no texture {shown}"))
+                .help("textures are files beside the script")
+        })?;
+        if !path.starts_with(session.root()) {
+            return Err(Error::file(&path, format!("the texture {shown} lies outside the script's folder"))
+                .help("a script reads only files in its own folder and below it"));
+        }
+        burgeon_base::files::open(&path).map_err(|error| {
+            Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
+                .help("textures are PNG or JPEG files beside the script")
+        })?;
+        texture.path = path;
+    }
+    Ok(())
+}

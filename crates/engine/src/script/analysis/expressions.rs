@@ -1,0 +1,215 @@
+//! Walks the expressions of a script: what they read, call and make.
+
+use full_moon::ast::luau::{ElseIfExpression, IfExpression};
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{
+    Call, Expression, Field, FunctionArgs, FunctionCall, Index, Prefix, Suffix, TableConstructor, Var,
+};
+use full_moon::node::Node;
+use full_moon::tokenizer::TokenReference;
+
+use super::syntax::{end_of, instead_of, string_of, text_of};
+use super::walk::{Role, Walk};
+use burgeon_base::error::Error;
+use burgeon_kit::rules::Signature;
+
+impl Walk<'_> {
+    pub(super) fn expressions(&mut self, expressions: &Punctuated<Expression>) {
+        for expression in expressions {
+            self.expression(expression);
+        }
+    }
+
+    pub(super) fn expression(&mut self, expression: &Expression) {
+        match expression {
+            Expression::BinaryOperator { lhs, rhs, .. } => {
+                self.expression(lhs);
+                self.expression(rhs);
+            }
+            Expression::Parentheses { expression, .. }
+            | Expression::UnaryOperator { expression, .. }
+            | Expression::TypeAssertion { expression, .. } => self.expression(expression),
+            Expression::Function(function) => {
+                self.function(function.body(), Role::Other, false);
+            }
+            Expression::FunctionCall(call) => self.call(call),
+            Expression::IfExpression(branches) => self.if_expression(branches),
+            Expression::InterpolatedString(string) => {
+                for inner in string.expressions() {
+                    self.expression(inner);
+                }
+            }
+            Expression::String(token) => {
+                if let Some(text) = string_of(token) {
+                    self.refuse_weak(token, &text);
+                }
+            }
+            Expression::TableConstructor(table) => self.table(table),
+            Expression::Var(variable) => match variable {
+                Var::Name(name) => {
+                    self.read(name);
+                }
+                Var::Expression(expression) => {
+                    self.library_field(expression.prefix(), expression.suffixes().next());
+                    self.prefix(expression.prefix());
+                    for suffix in expression.suffixes() {
+                        self.suffix(suffix);
+                    }
+                }
+                _ => {}
+            },
+            _ => {}
+        }
+    }
+
+    /// Has what a loop goes through looked at first: the order of some keys is not certain. `pairs` sees to that itself.
+    pub(super) fn check_keys(&mut self, expressions: &Punctuated<Expression>) {
+        let (Some(first), Some(last)) = (expressions.first(), expressions.last()) else { return };
+        let certain = match first.value() {
+            Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
+                (Prefix::Name(name), 1) => {
+                    matches!(text_of(name).as_str(), "pairs" | "ipairs")
+                        && self.find(&text_of(name)).is_none()
+                }
+                _ => false,
+            },
+            Expression::TableConstructor(table) => {
+                table.fields().iter().all(|field| !matches!(field, Field::ExpressionKey { .. }))
+            }
+            _ => false,
+        };
+        if let (false, Some(begin), Some(end)) = (certain, first.start_position(), end_of(last.value())) {
+            self.edit(begin.bytes(), begin.bytes(), "__each(".to_owned());
+            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+        }
+    }
+
+    pub(super) fn if_expression(&mut self, branches: &IfExpression) {
+        self.expression(branches.condition());
+        self.expression(branches.if_expression());
+        for branch in branches.else_if_expressions().into_iter().flatten() {
+            let branch: &ElseIfExpression = branch;
+            self.expression(branch.condition());
+            self.expression(branch.expression());
+        }
+        self.expression(branches.else_expression());
+    }
+
+    pub(super) fn table(&mut self, table: &TableConstructor) {
+        for field in table.fields() {
+            match field {
+                Field::ExpressionKey { key, value, .. } => {
+                    self.expression(key);
+                    self.expression(value);
+                }
+                Field::NameKey { key, value, .. } => {
+                    self.refuse_weak(key, &text_of(key));
+                    self.expression(value);
+                }
+                Field::NoKey(value) => self.expression(value),
+                _ => {}
+            }
+        }
+    }
+
+    pub(super) fn prefix(&mut self, prefix: &Prefix) {
+        match prefix {
+            Prefix::Expression(expression) => self.expression(expression),
+            Prefix::Name(name) => {
+                self.read(name);
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn suffix(&mut self, suffix: &Suffix) {
+        match suffix {
+            Suffix::Call(Call::AnonymousCall(arguments)) => self.arguments(arguments),
+            Suffix::Call(Call::MethodCall(method)) => self.arguments(method.args()),
+            Suffix::Index(Index::Brackets { expression, .. }) => self.expression(expression),
+            Suffix::Index(Index::Dot { name, .. }) => self.refuse_weak(name, &text_of(name)),
+            _ => {}
+        }
+    }
+
+    pub(super) fn arguments(&mut self, arguments: &FunctionArgs) {
+        match arguments {
+            FunctionArgs::Parentheses { arguments, .. } => self.expressions(arguments),
+            FunctionArgs::TableConstructor(table) => self.table(table),
+            _ => {}
+        }
+    }
+
+    /// Refuses weak tables: what they still hold depends on when memory was cleaned up.
+    fn refuse_weak(&mut self, token: &TokenReference, name: &str) {
+        if name == "__mode" {
+            let error = Error::script("what a weak table holds is not certain");
+            self.problem(token, error.help("leave __mode out: memory is given back when the run ends"));
+        }
+    }
+
+    /// Refuses the fields of Luau's tables that scripts do not have.
+    pub(super) fn library_field(&mut self, prefix: &Prefix, suffix: Option<&Suffix>) {
+        if let (Prefix::Name(table), Some(Suffix::Index(Index::Dot { name, .. }))) = (prefix, suffix)
+            && self.find(&text_of(table)).is_none()
+        {
+            let name = format!("{}.{}", text_of(table), text_of(name));
+            if let Some(instead) = instead_of(&name) {
+                let error = Error::not_found("name", &name, [], format!("unknown name {name}"));
+                self.problem(table, error.help(instead));
+            }
+        }
+    }
+
+    pub(super) fn call(&mut self, call: &FunctionCall) {
+        self.called(call);
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        self.library_field(call.prefix(), suffixes.first().copied());
+        if let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+            (call.prefix(), suffixes.as_slice())
+            && let Some(signature) = self.module(name)
+        {
+            self.check_arity(name, &signature, arguments);
+        }
+        match call.prefix() {
+            Prefix::Name(name) => self.read(name),
+            prefix => self.prefix(prefix),
+        }
+        for suffix in suffixes {
+            match suffix {
+                Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
+                    "rule" => self.rule(method.args(), Role::Rule),
+                    "interpret" => self.rule(method.args(), Role::Interpretation),
+                    "axiom" => {
+                        self.axiom = true;
+                        self.suffix(suffix);
+                        self.axiom = false;
+                    }
+                    _ => self.suffix(suffix),
+                },
+                _ => self.suffix(suffix),
+            }
+        }
+    }
+
+    pub(super) fn check_arity(
+        &mut self,
+        name: &TokenReference,
+        signature: &Signature,
+        arguments: &FunctionArgs,
+    ) {
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return };
+        let open = matches!(arguments.iter().last(), Some(Expression::FunctionCall(_)))
+            || matches!(arguments.iter().last(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "...");
+        let given = arguments.len();
+        let few = given < signature.required && !open;
+        let many = given > signature.arity() + usize::from(open);
+        if few || many {
+            self.problem(
+                name,
+                Error::argument(format!("{} has {}, not {given}", signature.name, signature.count()))
+                    .help(format!("it was declared as {}", signature.usage())),
+            );
+        }
+    }
+}

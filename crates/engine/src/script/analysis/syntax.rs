@@ -1,0 +1,85 @@
+//! Small questions about pieces of a script.
+
+use full_moon::ast::{Block, Call, Expression, FunctionArgs, Prefix, Suffix};
+use full_moon::node::Node;
+use full_moon::tokenizer::TokenReference;
+
+use burgeon_kit::rules::Signature;
+use full_moon::tokenizer::{Position, TokenType};
+
+/// What to write in place of a name of Lua that scripts do not have.
+pub(super) fn instead_of(name: &str) -> Option<&'static str> {
+    Some(match name {
+        "io" | "os" | "package" | "dofile" | "loadfile" => {
+            "scripts reach no files, clock or programs; other scripts in the folder come in with require"
+        }
+        "loadstring" | "load" => "scripts do not compile text; a successor may be given as a string",
+        "_G" | "getfenv" | "setfenv" | "shared" => {
+            "there are no globals to change; pass values on as parameters or with require"
+        }
+        "debug" | "newproxy" | "collectgarbage" | "gcinfo" => "a script does without it",
+        "math.random" => "write random() or random(low, high), which follow the seed and the module",
+        "math.randomseed" => "give the seed with --seed, or a system its own: lsystem { seed = 7 }",
+        "math.noise" => "write noise(x, y, z)",
+        _ => return None,
+    })
+}
+
+/// Whether an expression may have any number of values.
+pub(super) fn is_open(expression: &Expression) -> bool {
+    match expression {
+        Expression::FunctionCall(_) => true,
+        Expression::Symbol(symbol) => text_of(symbol) == "...",
+        _ => false,
+    }
+}
+
+pub(super) fn text_of(token: &TokenReference) -> String {
+    token.token().to_string()
+}
+
+/// Where a piece of the script ends. The parser's own answer is the place before a closing bracket; it goes through long
+/// lists quickly from the end only.
+pub(super) fn end_of(piece: &impl Node) -> Option<Position> {
+    piece.tokens().rev().filter_map(|token| token.end_position()).max_by_key(|position| position.bytes())
+}
+
+pub(super) fn first_position(block: &Block, end: &TokenReference) -> Option<usize> {
+    let first =
+        block.stmts().next().and_then(Node::start_position).or_else(|| block.last_stmt()?.start_position());
+    first.or_else(|| end.start_position()).map(|position| position.bytes())
+}
+
+/// The signature, where `value` is `module("Name", "parameter", ...)`.
+pub(super) fn declared_module(value: &Expression) -> Option<Signature> {
+    let Expression::FunctionCall(call) = value else { return None };
+    let suffixes: Vec<&Suffix> = call.suffixes().collect();
+    let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+        (call.prefix(), suffixes.as_slice())
+    else {
+        return None;
+    };
+    if text_of(name) != "module" {
+        return None;
+    }
+    let texts: Vec<String> = match &**arguments {
+        FunctionArgs::String(text) => vec![string_of(text)?],
+        FunctionArgs::Parentheses { arguments, .. } => arguments
+            .iter()
+            .map(|argument| match argument {
+                Expression::String(text) => string_of(text),
+                _ => None,
+            })
+            .collect::<Option<_>>()?,
+        _ => return None,
+    };
+    let (name, parameters) = texts.split_first()?;
+    Signature::new(name, parameters).ok()
+}
+
+pub(super) fn string_of(token: &TokenReference) -> Option<String> {
+    match token.token_type() {
+        TokenType::StringLiteral { literal, .. } => Some(literal.to_string()),
+        _ => None,
+    }
+}

@@ -1,0 +1,173 @@
+//! Values across the border between Lua and Rust.
+
+use std::sync::Arc;
+
+use mlua::{Lua, LuaString, Value as LuaValue};
+
+use super::handles::{DerivedHandle, ObjectHandle};
+use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_kit::{Key, Shape, System, Table, Value};
+
+/// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
+const CLASS: &str = "__class";
+const DEEPEST: usize = 64;
+
+/// How values are copied.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Manner {
+    /// As they are.
+    Plain,
+    /// Tables are made read-only on the way.
+    Freeze,
+    /// As they are, but sources and the geometries of features stay in Rust.
+    Field,
+}
+
+/// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
+pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
+    convert(value, if freeze { Manner::Freeze } else { Manner::Plain }, 0)
+}
+
+/// Copies what a constructor takes to Rust, where it may find sources and geometries as
+/// [`Features`](burgeon_kit::Features) and [`Shape`](burgeon_kit::Shape).
+pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
+    convert(value, Manner::Field, 0)
+}
+
+fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
+    Ok(match value {
+        LuaValue::Nil => Value::Nil,
+        LuaValue::Boolean(value) => Value::Boolean(*value),
+        #[allow(clippy::cast_precision_loss, reason = "Luau's own numbers are f64")]
+        LuaValue::Integer(value) => Value::Number(*value as f64),
+        LuaValue::Number(value) => Value::Number(*value),
+        LuaValue::String(text) => Value::Text(owned(text)),
+        LuaValue::Table(table) => {
+            if depth > DEEPEST {
+                return Err(Error::limit(
+                    Limit::Size,
+                    format!("a table is nested more than {DEEPEST} deep, or contains itself"),
+                ));
+            }
+            let metatable = table.metatable();
+            if let Some(shape) = metatable.as_ref().and_then(|metatable| shape_of(table, metatable)) {
+                return Ok(match manner {
+                    Manner::Field => Value::Object(Arc::new(shape)),
+                    _ => shape.to_table(),
+                });
+            }
+            if let Some((shape, mut entries)) = metatable.as_ref().and_then(|it| feature_of(table, it)) {
+                let geometry = match manner {
+                    Manner::Field => Value::Object(Arc::new(shape)),
+                    _ => shape.to_table(),
+                };
+                entries.push((Key::Name("geometry".into()), geometry));
+                entries.sort_by(|a, b| a.0.cmp(&b.0));
+                return Ok(Value::Table(Arc::new(Table { class: None, entries })));
+            }
+            let mut entries = Vec::new();
+            for pair in table.pairs::<LuaValue, LuaValue>() {
+                let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
+                let key = match key {
+                    LuaValue::Integer(index) => Key::Index(index),
+                    #[allow(clippy::cast_possible_truncation, reason = "whole numbers that fit are kept")]
+                    LuaValue::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => {
+                        Key::Index(number as i64)
+                    }
+                    LuaValue::String(name) => Key::Name(owned(&name)),
+                    other => {
+                        return Err(Error::argument(format!("a table has a {} as a key", other.type_name()))
+                            .help("keys of such tables are names or whole numbers"));
+                    }
+                };
+                entries.push((key, convert(&value, manner, depth + 1)?));
+            }
+            entries.sort_by(|a, b| a.0.cmp(&b.0));
+            let class = match metatable {
+                Some(metatable)
+                    if metatable.raw_get::<Option<String>>("__type").ok().flatten().as_deref()
+                        == Some("module") =>
+                {
+                    return Err(no_module());
+                }
+                Some(metatable) => match metatable.raw_get::<Option<String>>(CLASS) {
+                    Ok(Some(class)) => Some(class.into()),
+                    _ => return Err(Error::argument("a table with a metatable cannot be passed on")),
+                },
+                None => None,
+            };
+            if manner == Manner::Freeze {
+                table.set_readonly(true);
+            }
+            Value::Table(Arc::new(Table { class, entries }))
+        }
+        LuaValue::UserData(data) => {
+            if let Ok(handle) = data.borrow::<ObjectHandle>() {
+                Value::Object(Arc::clone(&handle.0))
+            } else if let Ok(handle) = data.borrow::<DerivedHandle>() {
+                Value::Object(handle.model()?)
+            } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), manner == Manner::Freeze) {
+                source.value()?
+            } else if let (Ok(system), Manner::Field) = (data.borrow::<SystemHandle>(), manner) {
+                Value::Object(Arc::new(System { index: system.give() }))
+            } else {
+                return Err(Error::argument("this object cannot be passed on"));
+            }
+        }
+        LuaValue::Vector(_) => return Err(no_module()),
+        other => {
+            return Err(Error::argument(format!("a {} cannot be passed on", other.type_name()))
+                .help("pass numbers, booleans, strings, tables of these, or objects"));
+        }
+    })
+}
+
+fn owned(text: &LuaString) -> Arc<str> {
+    String::from_utf8_lossy(&text.as_bytes()).into()
+}
+
+fn no_module() -> Error {
+    Error::argument("a module cannot be passed on")
+        .help("pass its parameters on, and make the module where it belongs into the chain")
+}
+
+/// Makes the Lua value; tables are frozen if `freeze`.
+pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<LuaValue> {
+    Ok(match value {
+        Value::Nil => LuaValue::Nil,
+        Value::Boolean(value) => LuaValue::Boolean(*value),
+        Value::Number(value) => LuaValue::Number(*value),
+        Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
+        Value::Object(object) => {
+            let any: &dyn std::any::Any = &**object;
+            match any.downcast_ref::<Shape>() {
+                Some(shape) => to_lua(lua, &shape.to_table(), freeze)?,
+                None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
+            }
+        }
+        Value::Table(table) => {
+            let made = lua.create_table_with_capacity(0, table.entries.len())?;
+            for (key, value) in &table.entries {
+                let value = to_lua(lua, value, freeze)?;
+                match key {
+                    Key::Index(index) => made.raw_set(*index, value)?,
+                    Key::Name(name) => made.raw_set(&**name, value)?,
+                }
+            }
+            if let Some(class) = &table.class {
+                let metatable: Option<mlua::Table> = lua.named_registry_value(&class_key(class))?;
+                made.set_metatable(metatable)?;
+            }
+            if freeze {
+                made.set_readonly(true);
+            }
+            LuaValue::Table(made)
+        }
+    })
+}
+
+/// The registry's name for the metatable of a class.
+pub(crate) fn class_key(class: &str) -> String {
+    format!("burgeon class {class}")
+}

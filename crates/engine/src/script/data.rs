@@ -1,0 +1,193 @@
+//! What scripts get of data files: which they may read, and how a run reads each of them once.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use super::paths::{is_absolute, lead};
+use super::session::Session;
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_data::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
+use burgeon_kit::{Loaded, Loader, Loading, Resources, Table};
+
+/// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
+/// that another would decide otherwise; and what was read once is not read again.
+#[derive(Default)]
+pub(crate) struct Data {
+    known: Mutex<Known>,
+}
+
+#[derive(Default)]
+struct Known {
+    /// The projection and the origin, which the first source decides.
+    frame: Option<Frame>,
+    loaded: BTreeMap<String, Result<Arc<Layer>>>,
+    /// What was made of files, by type, file and fields.
+    objects: BTreeMap<String, Result<Loaded>>,
+    /// What all reading of the run may take.
+    budget: Option<Arc<Budget>>,
+}
+
+impl Known {
+    fn budget(&mut self, session: &Session) -> Arc<Budget> {
+        let make = || {
+            let stop = Arc::clone(&session.stop);
+            Budget::new(session.options.limits.memory, move || stop.check())
+        };
+        Arc::clone(self.budget.get_or_insert_with(make))
+    }
+}
+
+impl Data {
+    /// The features that `source(text, wanted)` means.
+    pub(crate) fn load(&self, session: &Arc<Session>, text: &str, mut wanted: Wanted) -> Result<Arc<Layer>> {
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = format!("{text:?} {wanted:?}");
+        if let Some(loaded) = known.loaded.get(&key) {
+            return loaded.clone();
+        }
+        wanted.budget = known.budget(session);
+        let before = wanted.budget.taken();
+        let loaded = read(session, text, wanted, &mut known);
+        session.stop.check()?;
+        let kept = loaded.as_ref().map_or(0, |layer| layer.size());
+        known.budget(session).settle(before, kept);
+        known.loaded.insert(key, loaded.clone());
+        loaded
+    }
+}
+
+impl Data {
+    /// What `loader` makes of the file that a script calls `name`: the same each time. It is for type `kind`.
+    pub(crate) fn object(
+        &self,
+        session: &Session,
+        (kind, loader): (&str, &Loader),
+        name: &str,
+        fields: &Table,
+    ) -> Result<Loaded> {
+        if name.is_empty() {
+            return Err(Error::argument(format!("{kind} needs the name of a file"))
+                .help(format!("write {}", loader.example)));
+        }
+        let path = find(session, loader.what, name)?;
+        let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+        let key = format!("{kind} {} {fields:?}", path.display());
+        if let Some(loaded) = known.objects.get(&key) {
+            return loaded.clone();
+        }
+        let budget = known.budget(session);
+        let before = budget.taken();
+        let mut file = Loading {
+            name,
+            path: &path,
+            budget: &budget,
+            triangles: session.options.limits.triangles,
+            frame: &mut known.frame,
+            resources: session,
+        };
+        let loaded = (loader.load)(&mut file, fields);
+        session.stop.check()?;
+        budget.settle(before, loaded.as_ref().map_or(0, |loaded| loaded.memory));
+        known.objects.insert(key, loaded.clone());
+        loaded
+    }
+
+    /// The projection and the origin of the run, if any data has decided them.
+    pub(crate) fn frame(&self) -> Option<Frame> {
+        self.known.lock().unwrap_or_else(PoisonError::into_inner).frame.clone()
+    }
+}
+
+impl Resources for Session {
+    fn find(&self, what: &'static str, name: &str) -> Result<PathBuf> {
+        find(self, what, name)
+    }
+
+    fn cache(&self) -> Option<&Cache> {
+        self.options.cache.as_deref()
+    }
+}
+
+fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {
+    let (name, layer) = split_name(text);
+    wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
+    if name.is_empty() {
+        return Err(
+            Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
+        );
+    }
+    let path = find(session, "data file", name)?;
+    let cache = session.options.cache.as_deref();
+    let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
+    let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
+    let layer = match kept {
+        Some((layer, frame)) => {
+            known.frame = Some(frame);
+            layer
+        }
+        None => {
+            let table = Source::open_within(&path, name, &wanted)?.read(name, &wanted)?;
+            let shown = table.shown.clone();
+            let layer = Layer::new(table, &mut known.frame).map_err(|error| error.about(&shown))?;
+            let layer = Arc::new(layer);
+            if let (Some(cache), Some(key), Some(frame)) = (cache, key, &known.frame) {
+                cache.keep(key, &layer, frame);
+            }
+            layer
+        }
+    };
+    if let (true, Some((_, error))) = (session.options.strict, layer.refused.first()) {
+        return Err(error.clone());
+    }
+    Ok(layer)
+}
+
+/// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
+/// `--data`.
+fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
+    let outside = || {
+        Error::file(name, format!("the {what} {name} lies outside the script's folder")).help(
+            "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
+        )
+    };
+    let relative = Path::new(name);
+    if is_absolute(relative) {
+        return Err(Error::file(name, format!("the {what} {name} is named by a path from the root"))
+            .help("name it from the script's folder, or from one that is given: --data FOLDER"));
+    }
+    let roots = || std::iter::once(session.root()).chain(session.data_roots().iter().map(PathBuf::as_path));
+    let mut near = None;
+    let mut inside = false;
+    for root in roots() {
+        let path = lead(root, relative);
+        if !path.starts_with(root) {
+            continue;
+        }
+        inside = true;
+        let found = path.canonicalize();
+        session.seek(&path, found.is_ok());
+        match found {
+            // A link may lead from one of the folders into another.
+            Ok(found) if roots().any(|root| found.starts_with(root)) => return Ok(found),
+            Ok(_) => return Err(outside()),
+            Err(_) => {
+                let (folder, file) = (path.parent(), path.file_name());
+                if let (None, Some(folder), Some(file)) = (&near, folder, file)
+                    && folder.canonicalize().is_ok_and(|folder| roots().any(|root| folder.starts_with(root)))
+                {
+                    near = nearest_file(folder, &file.to_string_lossy());
+                }
+            }
+        }
+    }
+    if !inside {
+        return Err(outside());
+    }
+    let error = Error::not_found(what, name, near.as_deref(), format!("there is no {what} {name}"));
+    Err(error.help(match session.data_roots().is_empty() {
+        true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
+        false => "it is looked for from the script's folder and from those given with --data",
+    }))
+}

@@ -1,0 +1,108 @@
+//! Freezes what rules can reach from outside themselves, for as long as they run.
+
+use mlua::{Function, Lua, Table, Value, ffi};
+use rustc_hash::FxHashSet;
+
+use burgeon_base::error::{Error, Place, Result};
+
+/// A function that rules run, and where it was declared.
+#[derive(Clone)]
+pub(crate) struct Reached {
+    pub function: Function,
+    pub name: String,
+    pub place: Option<Place>,
+}
+
+/// Tables that were writable before; they are so again when this is dropped.
+pub(crate) struct Frozen(Vec<Table>);
+
+impl Drop for Frozen {
+    fn drop(&mut self) {
+        for table in &self.0 {
+            table.set_readonly(false);
+        }
+    }
+}
+
+/// Freezes every table that `functions` can reach through their captured variables.
+///
+/// Refuses what cannot be frozen and yet remembers: coroutines, buffers, and functions of C that are not among
+/// the `stateless` ones, such as iterators.
+pub(crate) fn freeze<'a>(
+    lua: &Lua,
+    stateless: &FxHashSet<usize>,
+    functions: impl IntoIterator<Item = &'a Reached>,
+) -> Result<Frozen> {
+    let unexpected = |error: mlua::Error| Error::internal(error.to_string());
+    let mut frozen = Frozen(Vec::new());
+    let mut seen = FxHashSet::default();
+    for reached in functions {
+        let refuse = |what: &str| {
+            Err(Error::scope(format!("the rule reaches {what}, which remembers from one module to the next"))
+                .help("make it inside the rule, or carry what it remembers in a parameter of a module")
+                .at(reached.place.clone())
+                .rule(&reached.name))
+        };
+        let mut queue = vec![Value::Function(reached.function.clone())];
+        while let Some(value) = queue.pop() {
+            match value {
+                Value::Function(function) => {
+                    let address = function.to_pointer() as usize;
+                    if function.info().what == "C" {
+                        if !stateless.contains(&address) {
+                            return refuse("an iterator or a coroutine");
+                        }
+                    } else if seen.insert(address) {
+                        queue.extend(captured(lua, &function).map_err(unexpected)?);
+                    }
+                }
+                Value::Table(table) => {
+                    if !seen.insert(table.to_pointer() as usize) {
+                        continue;
+                    }
+                    if let Some(metatable) = table.metatable() {
+                        queue.push(Value::Table(metatable));
+                    }
+                    for pair in table.pairs::<Value, Value>() {
+                        let (key, value) = pair.map_err(unexpected)?;
+                        queue.extend([key, value]);
+                    }
+                    if !table.is_readonly() {
+                        table.set_readonly(true);
+                        frozen.0.push(table);
+                    }
+                }
+                Value::Thread(_) => return refuse("a coroutine"),
+                Value::Buffer(_) => return refuse("a buffer"),
+                _ => {}
+            }
+        }
+    }
+    Ok(frozen)
+}
+
+/// What a Lua function captures; nothing for the machine's own.
+fn captured(lua: &Lua, function: &Function) -> mlua::Result<Vec<Value>> {
+    if function.info().source.as_deref() == Some("=burgeon") {
+        return Ok(Vec::new());
+    }
+    let mut values = Vec::new();
+    for index in 1..=255 {
+        #[allow(unsafe_code, reason = "mlua does not show captured variables")]
+        // SAFETY: the function is the one argument on the stack; lua_getupvalue pushes at most one value, which
+        // becomes the result, and the stack has room for it.
+        let value: Value = unsafe {
+            lua.exec_raw(function.clone(), |state| {
+                if ffi::lua_getupvalue(state, 1, index).is_null() {
+                    ffi::lua_pushlightuserdata(state, std::ptr::null_mut());
+                }
+                ffi::lua_remove(state, 1);
+            })?
+        };
+        match value {
+            Value::LightUserData(data) if data.0.is_null() => break,
+            value => values.push(value),
+        }
+    }
+    Ok(values)
+}

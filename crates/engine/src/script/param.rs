@@ -1,0 +1,265 @@
+//! `param`: the values of a script that a person may change without editing it.
+
+use super::preset::Preset;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::{Color, Parameter, Table, Value};
+
+/// A declared parameter and the value it has in this run.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Param {
+    /// Its name.
+    pub name: String,
+    /// Its value in this run.
+    pub value: Setting,
+    /// The script's own value.
+    pub default: Setting,
+    /// What values it may have.
+    pub control: Control,
+    /// The unit, for people; may be empty.
+    pub unit: String,
+    /// What it does, for people; may be empty.
+    pub text: String,
+}
+
+/// The value of a parameter.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Setting {
+    /// A number.
+    Number(f64),
+    /// A switch.
+    Boolean(bool),
+    /// A choice, a colour or free text.
+    Text(String),
+}
+
+/// What values a parameter may have.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Control {
+    /// A number within bounds, on a grid of steps from the lower bound.
+    Number {
+        /// The least value.
+        min: Option<f64>,
+        /// The greatest value.
+        max: Option<f64>,
+        /// The distance of neighbouring values.
+        step: Option<f64>,
+    },
+    /// On or off.
+    Switch,
+    /// One of these.
+    Choice(Vec<String>),
+    /// A colour as `#rrggbb`.
+    Color,
+    /// Free text.
+    Text,
+}
+
+impl std::fmt::Display for Setting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::Number(number) => write!(f, "{}", Value::Number(*number)),
+            Self::Boolean(value) => write!(f, "{value}"),
+            Self::Text(text) => f.write_str(text),
+        }
+    }
+}
+
+impl Setting {
+    /// The value as text that reads back as the same value.
+    pub fn plain(&self) -> String {
+        match self {
+            Self::Number(number) => number.to_string(),
+            Self::Boolean(value) => value.to_string(),
+            Self::Text(text) => text.clone(),
+        }
+    }
+
+    /// The value for the script.
+    pub fn to_value(&self) -> Value {
+        match self {
+            Self::Number(number) => Value::Number(*number),
+            Self::Boolean(value) => Value::Boolean(*value),
+            Self::Text(text) => Value::Text(text.as_str().into()),
+        }
+    }
+}
+
+const FIELDS: [&str; 7] = ["default", "min", "max", "step", "choices", "unit", "text"];
+
+impl Param {
+    /// Reads `param(name, { default = ..., ... })`; its value is the default.
+    pub fn declare(name: &str, options: &Table) -> Result<Self> {
+        for (key, _) in &options.entries {
+            let key = match key {
+                burgeon_kit::Key::Name(name) => name.to_string(),
+                burgeon_kit::Key::Index(index) => index.to_string(),
+            };
+            if !FIELDS.contains(&key.as_str()) {
+                let message = format!("param {name} has no field called {key}");
+                return Err(Error::not_found("field", &key, FIELDS, message)
+                    .help(format!("it has {}", FIELDS.join(", "))));
+            }
+        }
+        let number = |field: &str| -> Result<Option<f64>> {
+            match options.get(field) {
+                None => Ok(None),
+                Some(value) => f64::from_value(value.clone())
+                    .map(Some)
+                    .map_err(|expected| expected.refuse(&format!("param {name}"), field, value)),
+            }
+        };
+        let text = |field: &str| -> Result<String> {
+            match options.get(field) {
+                None => Ok(String::new()),
+                Some(value) => String::from_value(value.clone())
+                    .map_err(|expected| expected.refuse(&format!("param {name}"), field, value)),
+            }
+        };
+        let (min, max, step) = (number("min")?, number("max")?, number("step")?);
+        if let (Some(min), Some(max)) = (min, max)
+            && min > max
+        {
+            return Err(Error::argument(format!("param {name}: min {min} is above max {max}")));
+        }
+        if step.is_some_and(|step| step <= 0.0) {
+            return Err(Error::argument(format!("param {name}: step must be above 0")));
+        }
+        let (default, control) = match (options.get("default"), options.get("choices")) {
+            (None, _) => {
+                return Err(Error::argument(format!("param {name} has no default"))
+                    .help(format!("write param(\"{name}\", {{ default = ... }})")));
+            }
+            (Some(default), Some(_)) if !matches!(default, Value::Text(_)) => {
+                return Err(Error::argument(format!(
+                    "param {name}: choices are strings, so the default must be one, not {default}"
+                )));
+            }
+            (Some(Value::Text(default)), Some(choices)) => {
+                let choices = Vec::<String>::from_value(choices.clone())
+                    .map_err(|expected| expected.refuse(&format!("param {name}"), "choices", choices))?;
+                (Setting::Text(default.to_string()), Control::Choice(choices))
+            }
+            (Some(Value::Text(default)), None) => {
+                // A word may be the name of anything.
+                let is_color =
+                    default.starts_with('#') && Color::from_value(Value::Text(default.clone())).is_ok();
+                (Setting::Text(default.to_string()), if is_color { Control::Color } else { Control::Text })
+            }
+            (Some(Value::Boolean(default)), _) => (Setting::Boolean(*default), Control::Switch),
+            (Some(Value::Number(default)), _) => {
+                (Setting::Number(*default), Control::Number { min, max, step })
+            }
+            (Some(other), _) => {
+                return Err(Error::argument(format!(
+                    "param {name}: default must be a number, a boolean or a string, not {}",
+                    other.describe()
+                )));
+            }
+        };
+        let param = Self {
+            name: name.to_owned(),
+            value: default.clone(),
+            default,
+            control,
+            unit: text("unit")?,
+            text: text("text")?,
+        };
+        param.check(&param.default).map_err(|error| {
+            let message = format!("the default of {}", error.message());
+            error.saying(message).help("change the default or its bounds")
+        })?;
+        Ok(param)
+    }
+
+    /// Its value where `set` holds those given from outside, which win over those of `preset`.
+    pub(crate) fn given(&self, set: &[(String, String)], preset: Option<&Preset>) -> Result<Setting> {
+        if let Some((_, given)) = set.iter().rev().find(|(known, _)| *known == self.name) {
+            return self.accept(given);
+        }
+        match preset
+            .and_then(|preset| Some((preset, preset.params.iter().find(|(known, _)| *known == self.name)?)))
+        {
+            Some((preset, (_, given))) => {
+                self.accept(&given.plain()).map_err(|error| preset.refused(&self.name, &error))
+            }
+            None => Ok(self.default.clone()),
+        }
+    }
+
+    /// The value that the text `given` stands for. Fails if the parameter cannot have it.
+    pub fn accept(&self, given: &str) -> Result<Setting> {
+        let setting = self.read(given)?;
+        self.check(&setting)?;
+        Ok(setting)
+    }
+
+    fn read(&self, given: &str) -> Result<Setting> {
+        let refuse = |what: &str| {
+            Err(Error::argument(format!("param {} must be {what}, not {given:?}", self.name))
+                .help(format!("its default is {}", self.default)))
+        };
+        match &self.control {
+            Control::Number { .. } => match given.trim().parse::<f64>() {
+                Ok(number) if number.is_finite() => Ok(Setting::Number(number)),
+                _ => refuse("a number"),
+            },
+            Control::Switch => match given {
+                "true" | "on" | "yes" | "1" => Ok(Setting::Boolean(true)),
+                "false" | "off" | "no" | "0" => Ok(Setting::Boolean(false)),
+                _ => refuse("true or false"),
+            },
+            Control::Color => match Color::from_value(Value::Text(given.into())) {
+                Ok(_) if given.starts_with('#') && matches!(given.len(), 7 | 9) => {
+                    Ok(Setting::Text(given.to_owned()))
+                }
+                Ok(color) => match color.into_value() {
+                    Value::Text(digits) => Ok(Setting::Text(digits.to_string())),
+                    _ => refuse("a colour, #rrggbb"),
+                },
+                Err(_) => refuse("a colour, #rrggbb"),
+            },
+            _ => Ok(Setting::Text(given.to_owned())),
+        }
+    }
+
+    fn check(&self, setting: &Setting) -> Result<()> {
+        let name = &self.name;
+        match (&self.control, setting) {
+            (Control::Number { min, max, step }, Setting::Number(number)) => {
+                let shown = Value::Number(*number);
+                if min.is_some_and(|min| *number < min) || max.is_some_and(|max| *number > max) {
+                    let range = match (min, max) {
+                        (Some(min), Some(max)) => format!("it goes from {min} to {max}"),
+                        (Some(min), None) => format!("it begins at {min}"),
+                        (None, Some(max)) => format!("it ends at {max}"),
+                        (None, None) => String::new(),
+                    };
+                    return Err(
+                        Error::argument(format!("param {name} is {shown}, out of its range")).help(range)
+                    );
+                }
+                if let Some(step) = step {
+                    let steps = (number - min.unwrap_or(0.0)) / step;
+                    if (steps - steps.round()).abs() > 1e-6 {
+                        let near: Vec<String> = [steps.floor(), steps.ceil()]
+                            .iter()
+                            .map(|steps| min.unwrap_or(0.0) + steps * step)
+                            .filter(|near| max.is_none_or(|max| *near <= max))
+                            .map(|near| Value::Number(near).to_string())
+                            .collect();
+                        return Err(Error::argument(format!(
+                            "param {name} is {shown}, between two steps of {step}"
+                        ))
+                        .help(format!("choose {}", near.join(" or "))));
+                    }
+                }
+                Ok(())
+            }
+            (Control::Choice(choices), Setting::Text(choice)) if !choices.contains(choice) => {
+                Err(Error::argument(format!("param {name} is {choice:?}, which is no choice"))
+                    .help(format!("choose one of {}", choices.join(", "))))
+            }
+            _ => Ok(()),
+        }
+    }
+}

@@ -1,0 +1,198 @@
+//! What every format needs to know of a scene before it writes the first byte.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_scene::{Mesh, Part, Scene};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// The largest coordinate (m) and the largest number of a transform; their products still are numbers in f32.
+const LARGEST: f64 = 1e15;
+
+/// A scene that can be written, and what of it is shown.
+#[derive(Debug)]
+pub(super) struct Checked<'a> {
+    /// The scene as it came.
+    pub(super) scene: &'a Scene,
+    /// For each mesh, whether an instance names it and it has a triangle.
+    pub(super) meshes: Vec<bool>,
+    /// For each mesh, what its parts are like; nothing if no instance names it.
+    pub(super) parts: Vec<Vec<Measured>>,
+    /// For each material, whether a triangle of a shown mesh has it.
+    pub(super) materials: Vec<bool>,
+    /// The point (m) that the file's coordinates are counted from.
+    pub(super) origin: DVec3,
+}
+
+/// What is known of a part once it has been checked, so that nobody has to look at all of it again for that.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Measured {
+    /// How many of its [`triangles`] there are.
+    pub(super) triangles: usize,
+    /// The box (m) around its points; the origin without any.
+    pub(super) low: Vec3,
+    pub(super) high: Vec3,
+}
+
+/// Refuses a scene that names what it does not have or has a number that is none, in what it shows.
+pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
+    let mut meshes = vec![false; scene.meshes.len()];
+    for (i, instance) in scene.instances.iter().enumerate() {
+        let name = || named("instance", &instance.name, i);
+        let Some(shown) = meshes.get_mut(instance.mesh) else {
+            return Err(Error::internal(format!(
+                "{} shows mesh {}, which is not there",
+                name(),
+                instance.mesh
+            )));
+        };
+        *shown = true;
+        if !instance.transform.to_cols_array().iter().all(|number| number.abs() <= LARGEST) {
+            let error = Error::geometry(format!("the transform of {} is not made of usable numbers", name()));
+            return Err(error.help("look for a division by zero in a length, a scale or an angle"));
+        }
+    }
+    let measured = scene.meshes.par_iter().zip(&meshes).map(|(mesh, shown)| {
+        let parts = mesh.parts.iter().filter(|_| *shown);
+        parts.map(|part| check_part(scene, part)).collect()
+    });
+    let measured: Vec<Result<Vec<Measured>, String>> = measured.collect();
+    let mut materials = vec![false; scene.materials.len()];
+    let mut parts = Vec::with_capacity(meshes.len());
+    for (i, (mesh, measured)) in scene.meshes.iter().zip(measured).enumerate() {
+        let measured = measured.map_err(|what| unsound(mesh, i, &what))?;
+        let shown = || mesh.parts.iter().zip(&measured).filter(|(_, measured)| measured.triangles > 0);
+        meshes[i] = shown().next().is_some();
+        for (part, _) in shown() {
+            materials[part.material] = true;
+        }
+        parts.push(measured);
+    }
+    let boxes = scene.meshes.iter().zip(&parts).map(|(mesh, parts)| bounds(mesh, parts));
+    let bounds = scene.bounds_of(&boxes.collect::<Vec<_>>());
+    Ok(Checked { scene, meshes, parts, materials, origin: origin(bounds) })
+}
+
+/// The least box (m) around the `measured` parts of `mesh`.
+fn bounds(mesh: &Mesh, measured: &[Measured]) -> Option<(DVec3, DVec3)> {
+    let parts = mesh.parts.iter().zip(measured).filter(|(part, _)| !part.positions.is_empty());
+    let boxes = parts.map(|(_, Measured { low, high, .. })| (low.as_dvec3(), high.as_dvec3()));
+    boxes.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
+}
+
+/// The triangles of `part` with three different corners; the others cover nothing and are not written.
+pub(super) fn triangles(part: &Part) -> impl Iterator<Item = [u32; 3]> + Clone + '_ {
+    shown(part.triangles.iter())
+}
+
+/// Those of `triangles` with three different corners.
+pub(super) fn shown<T: Iterator<Item = [u32; 3]> + Clone>(
+    triangles: T,
+) -> impl Iterator<Item = [u32; 3]> + Clone + use<T> {
+    triangles.filter(|[a, b, c]| a != b && b != c && c != a)
+}
+
+/// The parts of `mesh` that have a triangle.
+pub(super) fn shown_parts(mesh: &Mesh) -> impl Iterator<Item = &Part> {
+    mesh.parts.iter().filter(|part| triangles(part).next().is_some())
+}
+
+/// The point (m) to count coordinates from: the world's origin, or whole metres near the centre of `bounds` if
+/// that is more than 10 km away.
+///
+/// There an f32 still resolves a millimetre. Heights are kept unless they are that large too.
+pub(super) fn origin(bounds: Option<(DVec3, DVec3)>) -> DVec3 {
+    let far = 10_000.0;
+    let centre = bounds.map_or(DVec3::ZERO, |(low, high)| (low + high) * 0.5);
+    if centre.length() <= far {
+        return DVec3::ZERO;
+    }
+    // Rounded to f32, so that a file which stores it as f32 stores it exactly.
+    let whole = centre.round().as_vec3().as_dvec3();
+    if centre.z.abs() > far { whole } else { whole.with_z(0.0) }
+}
+
+/// A `kind` of thing by its name, or by its number if it has none.
+pub(super) fn named(kind: &str, name: &str, index: usize) -> String {
+    if name.is_empty() { format!("{kind} {index}") } else { format!("{kind} {index} ({name:?})") }
+}
+
+fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
+    let error = Error::geometry(format!("{} {what}", named("mesh", &mesh.name, index)));
+    error.help("look for a division by zero or an empty shape in what built it")
+}
+
+/// Measures `part`, or tells what is wrong with it, as the end of a sentence about its mesh.
+fn check_part(scene: &Scene, part: &Part) -> Result<Measured, String> {
+    let Some(material) = scene.materials.get(part.material) else {
+        return Err(format!("uses material {}, which is not there", part.material));
+    };
+    let count = part.positions.len();
+    if part.normals.len() != count || part.uvs.len() != count {
+        return Err("has not one normal and one texture coordinate for each point".into());
+    }
+    if part.triangles.iter().flatten().any(|corner| corner as usize >= count) {
+        return Err("has a triangle at a point that is not there".into());
+    }
+    let usable = |number: f32| f64::from(number.abs()) <= LARGEST;
+    if !part.positions.iter().all(|p| usable(p.x) && usable(p.y) && usable(p.z)) {
+        return Err("has a point whose coordinates are not usable numbers".into());
+    }
+    if let Some(texture) = &material.texture {
+        if !texture.size.iter().all(|size| *size > 0.0 && size.is_finite()) {
+            let [width, height] = texture.size;
+            return Err(format!("has a texture of {width} m by {height} m"));
+        }
+        if !part.uvs.iter().all(|uv| usable(uv.x) && usable(uv.y)) {
+            return Err("has texture coordinates that are not usable numbers".into());
+        }
+    }
+    let first = part.positions.first().copied().unwrap_or_default();
+    let (low, high) =
+        part.positions.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
+    Ok(Measured { triangles: triangles(part).count(), low, high })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples;
+    use super::*;
+
+    #[test]
+    fn a_scene_that_names_what_it_does_not_have_is_refused() {
+        let refused = |break_it: fn(&mut Scene)| {
+            let mut scene = samples::boxes(1);
+            break_it(&mut scene);
+            check(&scene).unwrap_err().message().to_owned()
+        };
+        insta::assert_snapshot!(
+            refused(|it| it.instances[0].mesh = 7), @r#"instance 0 ("box 0") shows mesh 7, which is not there"#
+        );
+        insta::assert_snapshot!(
+            refused(|it| it.instances[0].transform.translation.x = f64::NAN),
+            @r#"the transform of instance 0 ("box 0") is not made of usable numbers"#
+        );
+        insta::assert_snapshot!(
+            refused(|it| it.meshes[0].parts[0].material = 9), @r#"mesh 0 ("box") uses material 9, which is not there"#
+        );
+        insta::assert_snapshot!(
+            refused(|it| it.meshes[0].parts[0].triangles.push([0, 99, 1])),
+            @r#"mesh 0 ("box") has a triangle at a point that is not there"#
+        );
+        insta::assert_snapshot!(
+            refused(|it| it.meshes[0].parts[0].positions[0].y = f32::INFINITY),
+            @r#"mesh 0 ("box") has a point whose coordinates are not usable numbers"#
+        );
+        insta::assert_snapshot!(
+            refused(|it| it.meshes[0].parts[0].normals.truncate(23)),
+            @r#"mesh 0 ("box") has not one normal and one texture coordinate for each point"#
+        );
+    }
+
+    #[test]
+    fn a_near_model_keeps_its_coordinates_and_a_far_one_is_counted_from_whole_metres() {
+        let around = |centre: DVec3| origin(Some((centre - 3.0, centre + 3.0)));
+        assert_eq!(around(DVec3::new(9000.0, 2000.3, 40.0)), DVec3::ZERO);
+        assert_eq!(around(DVec3::new(531_000.4, 4_556_000.7, 80.5)), DVec3::new(531_000.0, 4_556_001.0, 0.0));
+        assert_eq!(origin(None), DVec3::ZERO);
+    }
+}

@@ -1,0 +1,300 @@
+//! Files that appear together and whole, or not at all.
+
+use std::fs::{self, File};
+use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::path::Path;
+use std::sync::Arc;
+
+use super::target::{Target, Way};
+use super::temporary::{Names, Temporary, remove};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::stop::Stop;
+
+/// What is to be written in one act: everything has a temporary name until [`publish`](Files::publish), and is gone if it
+/// is dropped before that.
+///
+/// A link stays, and what it leads to is replaced by a file of the same mode and owner. What has other names too, or an
+/// owner that only the system can give, is written into. What is no file, such as a pipe, gets its content when the
+/// others have been written.
+#[derive(Default)]
+pub struct Files {
+    stop: Arc<Stop>,
+    written: Vec<Written>,
+    /// Folders that were made for them, each after the one that it is in.
+    folders: Vec<Temporary>,
+}
+
+/// A file under its temporary name.
+struct Written {
+    target: Target,
+    temporary: Temporary,
+    way: Way,
+}
+
+/// Where the content of a file goes.
+pub type Out = BufWriter<Stoppable>;
+
+/// A file that cannot be written to any more once a stop was asked for.
+#[derive(Debug)]
+pub struct Stoppable {
+    file: File,
+    stop: Arc<Stop>,
+}
+
+impl Files {
+    /// Nothing yet. Whatever is written ends, with the reason, when `stop` asks for it.
+    pub fn new(stop: &Arc<Stop>) -> Self {
+        Self { stop: Arc::clone(stop), written: Vec::new(), folders: Vec::new() }
+    }
+
+    /// What asks for an end.
+    pub fn stop(&self) -> Arc<Stop> {
+        Arc::clone(&self.stop)
+    }
+
+    /// Writes what will be at `path`.
+    ///
+    /// Fails if its folder is not there, if it is a folder or must not be written to, if it leads to the same file as
+    /// another path, and if the disk is full.
+    pub fn write(&mut self, path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
+        self.stop.check()?;
+        let target = Target::of(path)?;
+        if self.written.iter().any(|known| known.target.is(&target)) {
+            return Err(Error::usage(format!("{} would be written twice", path.display()))
+                .help("name another file for each of them"));
+        }
+        let (temporary, file, way) = target.create()?;
+        let written = Written { target, temporary, way };
+        let mut out = BufWriter::with_capacity(1 << 18, Stoppable { file, stop: Arc::clone(&self.stop) });
+        let done = content(&mut out).and_then(|()| out.flush());
+        // What has been stopped has not failed.
+        self.stop.check()?;
+        done.map_err(|error| written.target.refused(&error))?;
+        self.written.push(written);
+        Ok(())
+    }
+
+    /// Makes the folder `path` for files that will be in it, unless it is there.
+    pub fn folder(&mut self, path: &Path) -> Result<()> {
+        let missing = |path: &&Path| !path.as_os_str().is_empty() && !path.exists();
+        let missing: Vec<&Path> = path.ancestors().take_while(missing).collect();
+        for folder in missing.into_iter().rev() {
+            let made = Temporary::folder(folder).map_err(|error| {
+                Error::file(folder, format!("cannot make the folder {}: {error}", folder.display()))
+                    .help("make it first, or name one that is there")
+            })?;
+            self.folders.push(made);
+        }
+        if path.is_dir() {
+            return Ok(());
+        }
+        Err(Error::file(
+            path,
+            format!("cannot make the folder {}: there is a file of that name", path.display()),
+        )
+        .help("name another folder"))
+    }
+
+    /// As [`write`](Self::write), but the same `bytes` may have been written to `path` already.
+    pub(super) fn copy(&mut self, path: &Path, bytes: &[u8]) -> Result<()> {
+        match self.has(path, bytes) {
+            Some(true) => Ok(()),
+            _ => self.write(path, |out| out.write_all(bytes)),
+        }
+    }
+
+    /// Whether what will be at `path` is `bytes`; `None` if nothing has been written to it.
+    pub(super) fn has(&self, path: &Path, bytes: &[u8]) -> Option<bool> {
+        let target = Target::of(path).ok()?;
+        let known = self.written.iter().find(|known| known.target.is(&target))?;
+        Some(fs::read(known.temporary.path()).is_ok_and(|known| known == bytes))
+    }
+
+    /// Gives every file its name, in the order they were written. If one of them fails, those before it are as they
+    /// were.
+    pub fn publish(self) -> Result<()> {
+        self.stop.check()?;
+        for Written { target, temporary, .. } in self.written.iter().filter(|file| file.way == Way::Through) {
+            target.fill(temporary.path()).map_err(|error| target.refused(&error))?;
+        }
+        let mut names = Names::lock();
+        let (kept, done) = replace(&self.written, &mut names);
+        if done.is_ok() {
+            self.folders.iter().for_each(|folder| folder.keep(&mut names));
+        }
+        // They ask for the names when they go.
+        drop(names);
+        drop(kept);
+        done
+    }
+}
+
+impl Drop for Files {
+    fn drop(&mut self) {
+        self.written.clear();
+        while self.folders.pop().is_some() {}
+    }
+}
+
+/// Brings all that was written to its place. The first of the result is what was there before.
+fn replace(written: &[Written], names: &mut Names) -> (Vec<Option<Temporary>>, Result<()>) {
+    let mut kept: Vec<Option<Temporary>> = Vec::new();
+    let files: Vec<&Written> = written.iter().filter(|file| file.way != Way::Through).collect();
+    for (index, file) in files.iter().enumerate() {
+        let into = file.way == Way::Into;
+        // Nothing can fail after the last name that is given, so that one needs no way back.
+        let last = index + 1 == files.len() && !into;
+        let target = file.target.real();
+        let before = if last { Ok(None) } else { Temporary::of(target, into, names) };
+        let done = before.and_then(|before| {
+            kept.push(before);
+            if into { file.target.fill(file.temporary.path()) } else { file.temporary.rename(target, names) }
+        });
+        if let Err(error) = done {
+            for (place, (file, before)) in files.iter().zip(&kept).enumerate() {
+                restore(file, before.as_ref(), place == index, names);
+            }
+            return (kept, Err(file.target.refused(&error)));
+        }
+    }
+    (kept, Ok(()))
+}
+
+/// Brings back what was `before` at the place of `file`, which has taken it unless it `failed` to; if that fails there
+/// is nothing better to do.
+fn restore(file: &Written, before: Option<&Temporary>, failed: bool, names: &mut Names) {
+    let target = file.target.real();
+    match (before, file.way) {
+        (Some(before), Way::Into) => {
+            let _ = file.target.fill(before.path());
+        }
+        (Some(before), _) if !failed => {
+            let _ = before.rename(target, names);
+        }
+        (None, Way::Instead) if !failed => remove(target),
+        _ => {}
+    }
+}
+
+impl Write for Stoppable {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        if self.stop.is_stopped() {
+            return Err(io::Error::other("stopped"));
+        }
+        self.file.write(bytes)
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.file.flush()
+    }
+}
+
+impl Seek for Stoppable {
+    fn seek(&mut self, place: SeekFrom) -> io::Result<u64> {
+        self.file.seek(place)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::ErrorKind;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let mut names: Vec<_> =
+            fs::read_dir(folder).unwrap().map(|it| it.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn a_failing_write_leaves_the_old_file_and_no_temporary_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.glb");
+        fs::write(&path, "old").unwrap();
+        let mut files = Files::default();
+        let error = files
+            .write(&path, |out| {
+                out.write_all(b"half")?;
+                Err(io::Error::from(ErrorKind::StorageFull))
+            })
+            .unwrap_err();
+        assert!(error.to_string().contains("free some space"), "{error}");
+        drop(files);
+        assert_eq!(fs::read_to_string(&path).unwrap(), "old");
+        assert_eq!(names(folder.path()), ["a.glb"]);
+    }
+
+    #[test]
+    fn files_appear_together_or_not_at_all() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = |name: &str| folder.path().join(name);
+        fs::write(path("a.bin"), "old").unwrap();
+        fs::write(path("b.bin"), "old").unwrap();
+        fs::hard_link(path("b.bin"), path("c.bin")).unwrap();
+        let all = || {
+            let mut files = Files::default();
+            for name in ["a.png", "a.bin", "b.bin", "a.gltf"] {
+                files.write(&path(name), |out| out.write_all(b"new")).unwrap();
+            }
+            files.folder(&path("in/side")).unwrap();
+            files.write(&path("in/side/d.bin"), |out| out.write_all(b"new")).unwrap();
+            files
+        };
+        let files = all();
+        // In the way after it has been looked for.
+        fs::create_dir_all(path("a.gltf/full")).unwrap();
+        files.publish().unwrap_err();
+        let read = |name: &str| fs::read_to_string(path(name)).unwrap();
+        assert_eq!(["a.bin", "b.bin", "c.bin"].map(read), ["old", "old", "old"]);
+        assert_eq!(names(folder.path()), ["a.bin", "a.gltf", "b.bin", "c.bin"]);
+
+        fs::remove_dir_all(path("a.gltf")).unwrap();
+        let files = all();
+        assert_eq!(read("a.bin"), "old");
+        files.publish().unwrap();
+        assert_eq!(names(folder.path()), ["a.bin", "a.gltf", "a.png", "b.bin", "c.bin", "in"]);
+        assert_eq!(["a.bin", "b.bin", "c.bin", "in/side/d.bin"].map(read), ["new"; 4]);
+    }
+
+    #[test]
+    fn what_is_stopped_ends_with_the_reason_and_leaves_nothing() {
+        let folder = tempfile::tempdir().unwrap();
+        let stop = Arc::new(Stop::default());
+        let mut files = Files::new(&stop);
+        let mut written = 0;
+        let error = files
+            .write(&folder.path().join("a.obj"), |out| {
+                for line in 0..1_000_000 {
+                    if line == 10_000 {
+                        stop.stop(Error::stopped("nobody waits for it"));
+                    }
+                    out.write_all(&[b'x'; 1000])?;
+                    written = line;
+                }
+                Ok(())
+            })
+            .unwrap_err();
+        assert_eq!(error.message(), "nobody waits for it");
+        assert!(written < 11_000, "{written}");
+        assert!(files.publish().is_err());
+        assert!(names(folder.path()).is_empty());
+    }
+
+    #[test]
+    fn a_missing_folder_and_a_folder_in_the_way_are_refused_before_anything_is_written() {
+        let folder = tempfile::tempdir().unwrap();
+        let said = |path: &Path| {
+            let text = Files::default().write(path, |_| panic!("it is written")).unwrap_err().to_string();
+            text.replace(&folder.path().display().to_string(), "FOLDER")
+        };
+        insta::assert_snapshot!(said(&folder.path().join("no/a.glb")), @r"
+        cannot write FOLDER/no/a.glb: there is no folder FOLDER/no
+          help: make the folder first, or write to one that is there
+        ");
+        insta::assert_snapshot!(said(folder.path()), @r"
+        cannot write FOLDER: it is a folder
+          help: name a file in it, such as FOLDER/model.glb
+        ");
+    }
+}

@@ -1,0 +1,88 @@
+//! The formats that a scene can be written in.
+
+use burgeon_base::error::{Error, Result};
+use std::path::Path;
+
+/// What kind of file to write.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Format {
+    /// glTF 2.0 in one binary file, textures included.
+    Glb,
+    /// glTF 2.0 as readable JSON, with a `.bin` file and the textures beside it.
+    Gltf,
+    /// Wavefront OBJ, with a `.mtl` file and the textures beside it. Instances become copies.
+    Obj,
+    /// A picture.
+    Png,
+    /// A drawing to scale: a plan, or an elevation of what stands upright and thin.
+    Svg,
+}
+
+impl Format {
+    /// Every format, in the order in which messages list them.
+    pub const ALL: [Self; 5] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg];
+
+    /// The extension, in lower case and without a dot.
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Glb => "glb",
+            Self::Gltf => "gltf",
+            Self::Obj => "obj",
+            Self::Png => "png",
+            Self::Svg => "svg",
+        }
+    }
+
+    /// The format that the extension of `path` names, in upper or lower case.
+    ///
+    /// Fails on an unknown or missing extension and says which there are.
+    pub fn of(path: &Path) -> Result<Self> {
+        let known = "the formats are .glb, .gltf, .obj, .png and .svg";
+        let Some(extension) = path.extension() else {
+            let message = format!("cannot write {}: its name does not end in a format", path.display());
+            return Err(Error::usage(message).help(known));
+        };
+        let extension = extension.to_string_lossy();
+        if let Some(format) = Self::ALL.into_iter().find(|it| extension.eq_ignore_ascii_case(it.extension()))
+        {
+            return Ok(format);
+        }
+        let message = format!("cannot write {}: .{extension} is not a format", path.display());
+        let extensions = Self::ALL.map(|format| format!(".{}", format.extension()));
+        let meant = extensions.iter().map(String::as_str);
+        Err(Error::not_found("format", format!(".{extension}"), meant, message).help(known))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_extension_picks_the_format_in_any_case() {
+        assert_eq!(Format::of(Path::new("out/a.b/tower.GLB")).unwrap(), Format::Glb);
+        for format in Format::ALL {
+            assert_eq!(Format::of(Path::new(&format!("x.{}", format.extension()))).unwrap(), format);
+        }
+    }
+
+    #[test]
+    fn an_unknown_extension_is_refused_with_a_suggestion() {
+        insta::assert_snapshot!(Format::of(Path::new("a/tower.gtlf")).unwrap_err(), @r"
+        cannot write a/tower.gtlf: .gtlf is not a format
+          help: did you mean .gltf?
+        ");
+        insta::assert_snapshot!(Format::of(Path::new("tower.step")).unwrap_err(), @r"
+        cannot write tower.step: .step is not a format
+          help: the formats are .glb, .gltf, .obj, .png and .svg
+        ");
+    }
+
+    #[test]
+    fn a_missing_extension_is_refused() {
+        insta::assert_snapshot!(Format::of(Path::new("a.b/tower")).unwrap_err(), @r"
+        cannot write a.b/tower: its name does not end in a format
+          help: the formats are .glb, .gltf, .obj, .png and .svg
+        ");
+    }
+}

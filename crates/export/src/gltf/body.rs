@@ -1,0 +1,439 @@
+//! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
+
+use super::super::check::shown;
+use super::corners::Corners;
+use super::weld::Welded;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::stop::Stop;
+use burgeon_scene::{Normal, Part};
+use glam::Vec3;
+use gltf_json as json;
+use json::buffer::{Stride, Target, View};
+use json::validation::Checked::Valid;
+use json::validation::USize64;
+use rayon::prelude::*;
+use std::io::{self, Write};
+use std::ops::Range;
+use std::sync::Arc;
+
+#[cfg(target_endian = "big")]
+compile_error!("glTF is little-endian and its arrays are written as they lie in memory");
+
+/// Items (vertices, triangles, numbers) that are put together at a time: what stays in a processor's own memory.
+const STRETCH: usize = 1 << 14;
+
+/// Corners of a batch of meshes, about.
+const BATCH: usize = 1 << 18;
+
+/// Stretches that are put together while those before them are written.
+const AHEAD: usize = 16;
+
+/// Arrays that share a buffer view, since thousands of small views make a file slow to open.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Shared {
+    Positions,
+    Normals,
+    /// Normals as four i8, of which the last is nothing.
+    ByteNormals,
+    /// Normals as four i16, of which the last is nothing.
+    ShortNormals,
+    TexCoords,
+    /// Indices as u16.
+    Short,
+    /// Indices as u32.
+    Long,
+}
+
+/// An array of the body.
+pub(super) enum Block<'a> {
+    Positions(&'a Part),
+    Normals(&'a Part),
+    ByteNormals(&'a Part),
+    ShortNormals(&'a Part),
+    /// The texture coordinates of a part whose texture has this width and height (m).
+    TexCoords(&'a Part, [f64; 2]),
+    /// The indices of a part with this many triangles to be written, whose vertices begin with this number, as u16.
+    Short(&'a Part, usize, u16),
+    Long(&'a Part, usize),
+    /// The positions of a welded part.
+    Places(Arc<Welded>),
+    /// The normals of a welded part as four i8.
+    FaceNormals(Arc<Welded>),
+    /// The indices of a welded part whose vertices begin with this number, as u16.
+    ShortCorners(Arc<Welded>, u16),
+    LongCorners(Arc<Welded>),
+    /// The positions of corners.
+    CornerPlaces(Arc<Corners<'a>>),
+    /// The texture coordinates of corners.
+    CornerTexCoords(Arc<Corners<'a>>),
+    /// The normals of corners.
+    CornerNormals(Arc<Corners<'a>>),
+    /// The indices of faces among corners, by their number, with this many triangles to be written, as u16.
+    ShortFaces(Arc<Corners<'a>>, usize, usize),
+    LongFaces(Arc<Corners<'a>>, usize, usize),
+    Floats(Vec<f32>),
+    Shorts(Vec<i16>),
+    Bytes(&'a [u8]),
+}
+
+/// What the buffer views of a document show, in order.
+#[derive(Default)]
+pub(super) struct Body<'a> {
+    sections: Vec<Section<'a>>,
+    /// The corners that the sections of each batch show, and how many there are in the last one.
+    batches: Vec<Vec<Arc<Corners<'a>>>>,
+    corners: usize,
+}
+
+/// What one buffer view shows.
+struct Section<'a> {
+    shared: Option<Shared>,
+    /// The number of its batch.
+    batch: usize,
+    blocks: Vec<Block<'a>>,
+    length: u64,
+}
+
+/// Some blocks, or a part of one.
+struct Stretch<'a> {
+    blocks: &'a [Block<'a>],
+    /// What is taken of each block.
+    items: Range<usize>,
+    /// Zeros behind it (bytes).
+    padding: usize,
+    /// The number of its batch.
+    batch: usize,
+}
+
+impl<'a> Body<'a> {
+    /// Adds `block` to the view of its kind. Returns the view and the offset in it (bytes).
+    pub(super) fn share(&mut self, kind: Shared, block: Block<'a>) -> (u32, u64) {
+        let batch = self.batches.len();
+        let mut sections = self.sections.iter().enumerate().rev().take_while(|(_, it)| it.batch == batch);
+        let index = match sections.find(|(_, section)| section.shared == Some(kind)) {
+            Some((index, _)) => index,
+            None => self.section(Some(kind)),
+        };
+        let section = &mut self.sections[index];
+        let offset = section.length;
+        section.length += block.length();
+        section.blocks.push(block);
+        (index as u32, offset)
+    }
+
+    /// Adds `block` as a view of its own.
+    pub(super) fn add(&mut self, block: Block<'a>) -> u32 {
+        let index = self.section(None);
+        self.sections[index].length = block.length();
+        self.sections[index].blocks.push(block);
+        index as u32
+    }
+
+    /// From now on views are those of another batch if the present one has many corners: they are found once more when
+    /// they are written, and are in memory for as long as their batch is.
+    pub(super) fn begin_mesh(&mut self) {
+        if self.corners > BATCH {
+            self.batches.push(Vec::new());
+            self.corners = 0;
+        }
+    }
+
+    /// Takes notice of corners that blocks of this batch will show.
+    pub(super) fn show(&mut self, corners: &Arc<Corners<'a>>) {
+        if self.batches.is_empty() {
+            self.batches.push(Vec::new());
+        }
+        self.corners += corners.range(false).count;
+        if let Some(batch) = self.batches.last_mut() {
+            batch.push(Arc::clone(corners));
+        }
+    }
+
+    fn section(&mut self, shared: Option<Shared>) -> usize {
+        let batch = self.batches.len();
+        self.sections.push(Section { shared, batch, blocks: Vec::new(), length: 0 });
+        self.sections.len() - 1
+    }
+
+    /// Length (bytes) with padding; each view begins at a multiple of 4.
+    pub(super) fn length(&self) -> u64 {
+        self.sections.iter().map(|section| section.length.next_multiple_of(4)).sum()
+    }
+
+    /// Adds the buffer and its views to `root`. Fails beyond 4 GiB.
+    pub(super) fn describe(&self, root: &mut json::Root) -> Result<()> {
+        let length = self.length();
+        within_limit(length)?;
+        if length == 0 {
+            return Ok(());
+        }
+        let buffer = root.push(json::Buffer {
+            byte_length: USize64(length),
+            name: None,
+            uri: None,
+            extensions: None,
+            extras: None,
+        });
+        let mut offset = 0;
+        for section in &self.sections {
+            root.buffer_views.push(View {
+                buffer,
+                byte_length: USize64(section.length),
+                byte_offset: (offset > 0).then_some(USize64(offset)),
+                byte_stride: section.stride().map(Stride),
+                name: None,
+                target: section.target().map(Valid),
+                extensions: None,
+                extras: None,
+            });
+            offset += section.length.next_multiple_of(4);
+        }
+        Ok(())
+    }
+
+    /// Writes `head` and exactly [`length`](Self::length) bytes. While something is written, what comes next is put
+    /// together. Ends early if a `stop` was asked for.
+    pub(super) fn write(
+        &self,
+        head: Vec<Vec<u8>>,
+        out: &mut (impl Write + Send),
+        stop: &Stop,
+    ) -> io::Result<()> {
+        let mut ready = head;
+        let mut spare: Vec<Vec<u8>> = Vec::new();
+        let mut released = 0;
+        for next in self.stretches().chunks(AHEAD) {
+            if stop.is_stopped() {
+                return Ok(());
+            }
+            let present = next.first().map_or(0, |stretch| stretch.batch);
+            // Sections count batches from 1, for what comes before them is of none.
+            while released + 1 < present {
+                self.batches[released].iter().for_each(|corners| corners.release());
+                released += 1;
+            }
+            spare.resize_with(next.len(), Vec::new);
+            let write = || ready.iter().try_for_each(|bytes| out.write_all(bytes));
+            let put = || next.par_iter().zip(&mut spare).for_each(|(stretch, bytes)| stretch.put(bytes));
+            let (written, ()) = rayon::join(write, put);
+            written?;
+            // Memory that has been written is used again, since fresh pages cost more than what is put into them.
+            std::mem::swap(&mut ready, &mut spare);
+        }
+        ready.iter().try_for_each(|bytes| out.write_all(bytes))
+    }
+
+    /// All of it, in order.
+    fn stretches(&self) -> Vec<Stretch<'_>> {
+        let mut stretches = Vec::new();
+        for section in &self.sections {
+            let batch = section.batch;
+            let mut rest = section.blocks.as_slice();
+            while let Some(first) = rest.first() {
+                if first.items() > STRETCH {
+                    let parts = (0..first.items()).step_by(STRETCH).map(|from| from..from + STRETCH);
+                    let blocks = &rest[..1];
+                    stretches.extend(parts.map(|items| Stretch { blocks, items, padding: 0, batch }));
+                    rest = &rest[1..];
+                    continue;
+                }
+                let mut sum = 0;
+                let fits = |block: &&Block<'_>| {
+                    sum += block.items();
+                    sum <= STRETCH
+                };
+                let (blocks, others) = rest.split_at(rest.iter().take_while(fits).count());
+                stretches.push(Stretch { blocks, items: 0..usize::MAX, padding: 0, batch });
+                rest = others;
+            }
+            let padding = section.length.next_multiple_of(4) - section.length;
+            if let Some(last) = stretches.last_mut() {
+                last.padding = padding as usize;
+            }
+        }
+        stretches
+    }
+}
+
+impl Stretch<'_> {
+    /// Puts it into `bytes`, in the place of what is there.
+    fn put(&self, bytes: &mut Vec<u8>) {
+        bytes.clear();
+        for block in self.blocks {
+            block.write(self.items.clone(), bytes);
+        }
+        bytes.resize(bytes.len() + self.padding, 0);
+    }
+}
+
+impl Section<'_> {
+    fn target(&self) -> Option<Target> {
+        Some(match self.shared? {
+            Shared::Short | Shared::Long => Target::ElementArrayBuffer,
+            _ => Target::ArrayBuffer,
+        })
+    }
+
+    /// Bytes from one vertex to the next; several accessors may share a view only if it says so.
+    fn stride(&self) -> Option<usize> {
+        match self.shared? {
+            Shared::Positions | Shared::Normals => Some(12),
+            Shared::TexCoords | Shared::ShortNormals => Some(8),
+            Shared::ByteNormals => Some(4),
+            Shared::Short | Shared::Long => None,
+        }
+    }
+}
+
+impl Block<'_> {
+    fn length(&self) -> u64 {
+        let bytes = match self {
+            Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,
+            Self::TexCoords(part, _) | Self::ShortNormals(part) => part.positions.len() * 8,
+            Self::ByteNormals(part) => part.positions.len() * 4,
+            Self::Short(_, triangles, _) => triangles * 6,
+            Self::Long(_, triangles) => triangles * 12,
+            Self::Places(welded) => welded.positions.len() * 12,
+            Self::FaceNormals(welded) => welded.normals.len() * 4,
+            Self::ShortCorners(welded, _) => welded.triangles.len() * 6,
+            Self::LongCorners(welded) => welded.triangles.len() * 12,
+            Self::CornerPlaces(corners) | Self::CornerNormals(corners) => corners.range(false).count * 12,
+            Self::CornerTexCoords(corners) => corners.range(true).count * 8,
+            Self::ShortFaces(_, _, triangles) => triangles * 6,
+            Self::LongFaces(_, _, triangles) => triangles * 12,
+            Self::Floats(floats) => floats.len() * 4,
+            Self::Shorts(shorts) => shorts.len() * 2,
+            Self::Bytes(bytes) => bytes.len(),
+        };
+        bytes as u64
+    }
+
+    /// What it has before any of it is left out.
+    fn items(&self) -> usize {
+        match self {
+            Self::Positions(part)
+            | Self::Normals(part)
+            | Self::ByteNormals(part)
+            | Self::ShortNormals(part)
+            | Self::TexCoords(part, _) => part.positions.len(),
+            Self::Short(part, ..) | Self::Long(part, _) => part.triangles.len(),
+            Self::Places(welded) | Self::FaceNormals(welded) => welded.positions.len(),
+            Self::ShortCorners(welded, _) | Self::LongCorners(welded) => welded.triangles.len(),
+            Self::CornerPlaces(corners) | Self::CornerNormals(corners) => corners.range(false).count,
+            Self::CornerTexCoords(corners) => corners.range(true).count,
+            Self::ShortFaces(corners, faces, _) | Self::LongFaces(corners, faces, _) => {
+                corners.faces(*faces).part.triangles.len()
+            }
+            Self::Floats(floats) => floats.len(),
+            Self::Shorts(shorts) => shorts.len(),
+            Self::Bytes(bytes) => bytes.len(),
+        }
+    }
+
+    /// Writes those `items` that are there.
+    fn write(&self, items: Range<usize>, out: &mut Vec<u8>) {
+        let range = items.start..items.end.min(self.items());
+        match self {
+            Self::Positions(part) => put(out, part.positions[range].iter().map(|at| y_up(*at).to_array())),
+            Self::Normals(part) => {
+                put(out, part.normals[range].iter().map(|it| y_up(it.vector()).to_array()))
+            }
+            Self::ByteNormals(part) => put(out, part.normals[range].iter().map(|it| byte_normal(*it))),
+            Self::ShortNormals(part) => put(out, part.normals[range].iter().map(|it| short_normal(*it))),
+            Self::TexCoords(part, size) => put(out, part.uvs[range].iter().map(|uv| tex_coord(*uv, *size))),
+            Self::Short(part, _, first) => {
+                let shown = shown(part.triangles.range(range));
+                put(out, shown.map(|corners| corners.map(|corner| corner as u16 + first)));
+            }
+            Self::Long(part, _) => put(out, shown(part.triangles.range(range))),
+            Self::Places(welded) => out.extend_from_slice(bytemuck::cast_slice(&welded.positions[range])),
+            Self::FaceNormals(welded) => put(out, welded.normals[range].iter().map(|it| byte_normal(*it))),
+            Self::ShortCorners(welded, first) => {
+                let triangles = welded.triangles[range].iter();
+                put(out, triangles.map(|corners| corners.map(|corner| corner as u16 + first)));
+            }
+            Self::LongCorners(welded) => {
+                out.extend_from_slice(bytemuck::cast_slice(&welded.triangles[range]))
+            }
+            Self::CornerPlaces(corners) => {
+                out.extend_from_slice(bytemuck::cast_slice(&corners.list().positions[range]))
+            }
+            Self::CornerTexCoords(corners) => {
+                out.extend_from_slice(bytemuck::cast_slice(&corners.list().tex_coords[range]))
+            }
+            Self::CornerNormals(corners) => {
+                put(out, corners.list().normals[range].iter().map(|it| y_up(it.vector()).to_array()))
+            }
+            Self::ShortFaces(corners, faces, _) => {
+                let (list, shown) = (corners.list(), corners.faces(*faces).triangles(range));
+                put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize] as u16)));
+            }
+            Self::LongFaces(corners, faces, _) => {
+                let (list, shown) = (corners.list(), corners.faces(*faces).triangles(range));
+                put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize])));
+            }
+            Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
+            Self::Shorts(shorts) => out.extend_from_slice(bytemuck::cast_slice(&shorts[range])),
+            Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),
+        }
+    }
+}
+
+/// Adds items as they lie in memory; how many there are at most has to be known.
+fn put<T: bytemuck::NoUninit>(out: &mut Vec<u8>, items: impl Iterator<Item = T>) {
+    let begin = out.len();
+    out.resize(begin + items.size_hint().1.unwrap_or(0) * size_of::<T>(), 0);
+    let mut end = begin;
+    for (place, item) in out[begin..].chunks_exact_mut(size_of::<T>()).zip(items) {
+        place.copy_from_slice(bytemuck::bytes_of(&item));
+        end += size_of::<T>();
+    }
+    out.truncate(end);
+}
+
+/// A vector of the scene, z up, in glTF's coordinates, y up. Adding zero turns -0 into 0.
+pub(super) fn y_up(vector: Vec3) -> Vec3 {
+    Vec3::new(vector.x, vector.z, -vector.y) + 0.0
+}
+
+/// The nearest integer. `round` is a function of the system's library for processors of every age.
+#[allow(clippy::cast_possible_truncation, reason = "that is what it is for")]
+fn nearest(number: f32) -> i32 {
+    (number + 0.5f32.copysign(number)) as i32
+}
+
+/// A unit vector as parts of 127, and a zero.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+fn byte_normal(normal: Normal) -> [i8; 4] {
+    let [x, y, z] = y_up(normal.vector()).to_array().map(|it| nearest(it * 127.0));
+    [x as i8, y as i8, z as i8, 0]
+}
+
+/// A unit vector as parts of 32767, and a zero.
+fn short_normal(normal: Normal) -> [i16; 4] {
+    let [x, y, z] = y_up(normal.vector()).to_array().map(short);
+    [x, y, z, 0]
+}
+
+/// A number from -1 to 1 as a part of 32767.
+#[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+pub(super) fn short(number: f32) -> i16 {
+    nearest(number * 32767.0) as i16
+}
+
+/// Texture coordinates in metres, v upwards, as parts of the image, v downwards.
+pub(super) fn tex_coord(uv: glam::Vec2, size: [f64; 2]) -> [f32; 2] {
+    [(f64::from(uv.x) / size[0]) as f32, (1.0 - f64::from(uv.y) / size[1]) as f32]
+}
+
+/// `bytes` as the u32 that glTF's headers have, or what to do about it.
+pub(super) fn within_limit(bytes: u64) -> Result<u32> {
+    u32::try_from(bytes).map_err(|_| {
+        let gigabytes = bytes as f64 / f64::from(1 << 30);
+        Error::limit(
+            Limit::Format,
+            format!("the model takes {gigabytes:.1} GiB, and glTF files end at 4 GiB"),
+        )
+        .help("write it in parts, with less detail, or with more instances of fewer meshes")
+    })
+}

@@ -1,0 +1,289 @@
+//! The corners of a mesh's flat faces, each stored once.
+//!
+//! In the scene every face has vertices of its own, for the sake of its normal, and those of neighbours lie at the same
+//! places. Where a glTF file gives no normals, faces are flat ("glTF 2.0 Specification", 3.7.2.1), so a corner is its
+//! place, and its texture coordinates if there are any. Of a city with facades that is a third of what the faces have.
+//! The few faces of such parts that are shaded otherwise than they lie are written by themselves, with normals.
+
+use super::super::check::{shown, triangles};
+use super::body::{tex_coord, y_up};
+use burgeon_scene::{Normal, Part};
+use bytemuck::cast;
+use glam::Vec3;
+use std::ops::Range;
+use std::sync::{Arc, Mutex, PoisonError};
+
+/// No corner.
+const NONE: u32 = u32::MAX;
+
+/// The most vertices of parts that are looked through at a time, which bounds the memory.
+pub(super) const MOST: usize = 1 << 22;
+
+/// Thinner triangles (m) have no normal that could be relied on, and are not seen.
+const THIN: f32 = 1e-3;
+
+/// The cosine of the angle (a degree) that a normal may be off its face.
+const FLAT: f32 = 0.999_85;
+
+/// Faces of a part.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Faces<'a> {
+    pub(super) part: &'a Part,
+    /// The width and height (m) of the part's texture, if it has texture coordinates.
+    pub(super) texture: Option<[f64; 2]>,
+    pub(super) which: Which,
+}
+
+/// Which of the faces of a part are meant.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Which {
+    /// All, which are flat.
+    All,
+    /// Those that are flat.
+    Flat,
+    /// The others.
+    Shaded,
+}
+
+/// The corners of faces of some parts of a mesh.
+pub(super) struct Corners<'a> {
+    /// The faces; those with texture coordinates come first.
+    faces: Vec<Faces<'a>>,
+    textured: CornerRange,
+    all: CornerRange,
+    /// They themselves, while they are needed: what a city has is too much to be kept.
+    list: Mutex<Option<Arc<CornerList>>>,
+}
+
+/// How many corners there are from the first one on, and the box around them, in glTF's coordinates.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct CornerRange {
+    pub(super) count: usize,
+    pub(super) low: Vec3,
+    pub(super) high: Vec3,
+}
+
+/// Corners, and where those of the parts have come to.
+#[derive(Default)]
+pub(super) struct CornerList {
+    /// In glTF's coordinates.
+    pub(super) positions: Vec<Vec3>,
+    /// Of the first ones.
+    pub(super) tex_coords: Vec<[f32; 2]>,
+    /// Of faces that are shaded.
+    pub(super) normals: Vec<Normal>,
+    /// For each part, the corner that each of its vertices has become.
+    pub(super) of: Vec<Vec<u32>>,
+}
+
+/// How many triangles of `part` are flat.
+pub(super) fn flat_faces(part: &Part) -> usize {
+    triangles(part).filter(|corners| is_flat(part, *corners)).count()
+}
+
+/// Whether a triangle of `part` is shaded as it lies.
+fn is_flat(part: &Part, corners: [u32; 3]) -> bool {
+    let [normal, other, third] = corners.map(|corner| part.normals[corner as usize]);
+    if normal != other || normal != third {
+        return false;
+    }
+    let [a, b, c] = corners.map(|corner| part.positions[corner as usize]);
+    let (ab, ac) = (b - a, c - a);
+    let across = ab.cross(ac);
+    let area = across.length();
+    let longest = ab.length_squared().max(ac.length_squared()).max((c - b).length_squared()).sqrt();
+    across.dot(normal.vector()) >= FLAT * area || area < THIN * longest
+}
+
+impl<'a> Faces<'a> {
+    /// Those among some triangles of the part.
+    pub(super) fn triangles(self, places: Range<usize>) -> impl Iterator<Item = [u32; 3]> {
+        let Self { part, which, .. } = self;
+        shown(part.triangles.range(places)).filter(move |corners| match which {
+            Which::All => true,
+            Which::Flat => is_flat(part, *corners),
+            Which::Shaded => !is_flat(part, *corners),
+        })
+    }
+}
+
+impl<'a> Corners<'a> {
+    /// Those of `faces`, of which those with texture coordinates come first. All of them are shaded, or none is.
+    pub(super) fn of(faces: Vec<Faces<'a>>) -> Self {
+        let list = CornerList::of(&faces);
+        let range = |positions: &[Vec3]| CornerRange {
+            count: positions.len(),
+            low: positions.iter().fold(Vec3::INFINITY, |low, at| low.min(*at)),
+            high: positions.iter().fold(Vec3::NEG_INFINITY, |high, at| high.max(*at)),
+        };
+        let textured = range(&list.positions[..list.tex_coords.len()]);
+        Self { faces, textured, all: range(&list.positions), list: Mutex::default() }
+    }
+
+    /// Whether they have normals.
+    pub(super) fn are_shaded(&self) -> bool {
+        self.faces.iter().any(|faces| faces.which == Which::Shaded)
+    }
+
+    /// Those that a part refers to: one with texture coordinates to the first ones, the others to all.
+    pub(super) fn range(&self, textured: bool) -> CornerRange {
+        if textured { self.textured } else { self.all }
+    }
+
+    /// Whether there are parts with texture coordinates, or without.
+    pub(super) fn has_parts(&self, textured: bool) -> bool {
+        self.faces.iter().any(|faces| faces.texture.is_some() == textured)
+    }
+
+    /// The faces of a part, by their number among those that were given.
+    pub(super) fn faces(&self, number: usize) -> Faces<'a> {
+        self.faces[number]
+    }
+
+    /// They themselves.
+    pub(super) fn list(&self) -> Arc<CornerList> {
+        let mut list = self.list.lock().unwrap_or_else(PoisonError::into_inner);
+        Arc::clone(list.get_or_insert_with(|| Arc::new(CornerList::of(&self.faces))))
+    }
+
+    /// Gives up the memory that they take.
+    pub(super) fn release(&self) {
+        self.list.lock().unwrap_or_else(PoisonError::into_inner).take();
+    }
+}
+
+impl CornerList {
+    fn of(all: &[Faces<'_>]) -> Self {
+        let vertices: usize = all.iter().map(|faces| faces.part.positions.len()).sum();
+        // Corners by place; at most two thirds of it are taken.
+        let mut places = vec![NONE; (vertices + vertices / 2 + 1).next_power_of_two()];
+        let mut list = Self::default();
+        for faces in all {
+            let Faces { part, texture, which } = *faces;
+            let mut of = vec![NONE; part.positions.len()];
+            for corner in faces.triangles(0..usize::MAX).flatten() {
+                let vertex = corner as usize;
+                if of[vertex] == NONE {
+                    let uv = texture.map(|size| tex_coord(part.uvs[vertex], size));
+                    let normal = (which == Which::Shaded).then(|| part.normals[vertex]);
+                    of[vertex] = list.corner(y_up(part.positions[vertex]), uv, normal, &mut places);
+                }
+            }
+            list.of.push(of);
+        }
+        list
+    }
+
+    /// The corner at `at` with these texture coordinates, or with any, and with this normal; added if there is none.
+    #[inline]
+    fn corner(&mut self, at: Vec3, uv: Option<[f32; 2]>, normal: Option<Normal>, places: &mut [u32]) -> u32 {
+        // The highest bits of the product depend on all bits of the coordinates.
+        let mix = |sum: u64, number: f32| {
+            (sum.rotate_left(23) ^ u64::from(cast::<f32, u32>(number))).wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        };
+        let mut place = (at.to_array().into_iter().fold(0, mix) >> 32) as usize & (places.len() - 1);
+        while places[place] != NONE {
+            let known = places[place] as usize;
+            let alike = |uv: [f32; 2]| self.tex_coords[known].map(f32::to_bits) == uv.map(f32::to_bits);
+            if self.positions[known] == at
+                && uv.is_none_or(alike)
+                && normal.is_none_or(|normal| self.normals[known] == normal)
+            {
+                return places[place];
+            }
+            place = (place + 1) & (places.len() - 1);
+        }
+        places[place] = self.positions.len() as u32;
+        self.positions.push(at);
+        self.tex_coords.extend(uv);
+        self.normals.extend(normal);
+        places[place]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::samples;
+    use super::*;
+    use burgeon_scene::Normal;
+    use glam::Vec2;
+    use proptest::prelude::*;
+
+    fn faces(part: &Part, which: Which) -> Faces<'_> {
+        Faces { part, texture: None, which }
+    }
+
+    #[test]
+    fn a_box_has_eight_corners() {
+        let scene = samples::boxes(1);
+        let part = &scene.meshes[0].parts[0];
+        assert_eq!((flat_faces(part), part.positions.len()), (12, 24));
+        assert_eq!(Corners::of(vec![faces(part, Which::All)]).range(false).count, 8);
+        assert_eq!(flat_faces(&samples::hill(3).meshes[0].parts[0]), 0);
+    }
+
+    #[test]
+    fn a_face_that_is_shaded_otherwise_than_it_lies_keeps_its_normal() {
+        let mut part = samples::boxes(1).meshes[0].parts[0].clone();
+        for normal in &mut part.normals[..4] {
+            *normal = Normal::from(normal.vector() + Vec3::splat(0.1));
+        }
+        assert_eq!(flat_faces(&part), 10);
+        let (flat, shaded) = (faces(&part, Which::Flat), faces(&part, Which::Shaded));
+        assert_eq!((flat.triangles(0..99).count(), shaded.triangles(0..99).count()), (10, 2));
+        let corners = Corners::of(vec![shaded]);
+        let list = corners.list();
+        assert!(corners.are_shaded() && list.positions.len() == 4);
+        assert!(list.normals.iter().all(|normal| *normal == part.normals[0]));
+    }
+
+    /// A part of faces between the points of a small grid, with texture coordinates that hardly differ.
+    fn part() -> impl Strategy<Value = Part> {
+        let corner = (prop::array::uniform3(0u8..3), prop::array::uniform2(0u8..2));
+        prop::collection::vec(prop::array::uniform3(corner), 0..20).prop_map(|faces| {
+            let mut part = Part::default();
+            for (face, first) in faces.iter().zip((0u32..).step_by(3)) {
+                for (at, uv) in face {
+                    part.positions.push(Vec3::from(at.map(f32::from)));
+                    part.normals.push(Normal::Z);
+                    part.uvs.push(Vec2::from(uv.map(f32::from)));
+                }
+                part.triangles.push([first, first + 1, first + 2]);
+            }
+            part
+        })
+    }
+
+    proptest! {
+        #[test]
+        fn each_corner_is_there_once_and_is_what_the_vertices_were(
+            textured in prop::collection::vec(part(), 0..3), plain in prop::collection::vec(part(), 0..3)
+        ) {
+            let size = [2.0, 4.0];
+            let parts: Vec<_> = textured.iter().map(|part| (part, Some(size)))
+                .chain(plain.iter().map(|part| (part, None))).collect();
+            let which = Which::All;
+            let corners = Corners::of(parts.iter().map(|(part, texture)| {
+                Faces { part, texture: *texture, which }
+            }).collect());
+            let list = corners.list();
+            prop_assert_eq!(corners.range(true).count, list.tex_coords.len());
+            for ((part, texture), of) in parts.iter().zip(&list.of) {
+                for (vertex, corner) in of.iter().enumerate() {
+                    prop_assert_eq!(list.positions[*corner as usize], y_up(part.positions[vertex]));
+                    if texture.is_some() {
+                        prop_assert_eq!(list.tex_coords[*corner as usize], tex_coord(part.uvs[vertex], size));
+                    }
+                }
+            }
+            let bits = |at: &Vec3| at.to_array().map(f32::to_bits);
+            let places: Vec<_> = list.positions.iter().map(bits).collect();
+            for (index, place) in places.iter().enumerate() {
+                for (other, known) in places[..index].iter().enumerate() {
+                    let same_uv = list.tex_coords.get(index).is_none_or(|uv| *uv == list.tex_coords[other]);
+                    prop_assert!(known != place || !same_uv, "{place:?} is there twice");
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,138 @@
+//! Materials, textures and images.
+
+use super::super::check::Checked;
+use super::super::color::fraction;
+use super::super::texture::Images;
+use super::body::{Block, Body};
+use super::{Textures, name, uri};
+use burgeon_scene::Material;
+use gltf_json as json;
+use json::material::{AlphaMode, EmissiveFactor, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use json::texture::{Info, MagFilter, MinFilter, Sampler};
+use json::validation::Checked::Valid;
+
+/// Adds the materials that are shown. Returns where each material of the scene is.
+pub(super) fn write<'a>(
+    checked: &Checked<'_>,
+    images: &'a Images,
+    textures: &Textures,
+    root: &mut json::Root,
+    body: &mut Body<'a>,
+) -> Vec<Option<json::Index<json::Material>>> {
+    let written = write_images(images, textures, root, body);
+    let materials = checked.scene.materials.iter().enumerate();
+    materials
+        .map(|(i, material)| {
+            let file = images.of_material[i];
+            let texture = file.map(|file| written[file]);
+            let has_alpha = file.is_some_and(|file| images.files[file].has_alpha);
+            checked.materials[i].then(|| {
+                let described = describe(material, texture, has_alpha, root);
+                root.push(described)
+            })
+        })
+        .collect()
+}
+
+/// Adds each image with a texture that repeats it.
+fn write_images<'a>(
+    images: &'a Images,
+    textures: &Textures,
+    root: &mut json::Root,
+    body: &mut Body<'a>,
+) -> Vec<json::Index<json::Texture>> {
+    if images.files.is_empty() {
+        return Vec::new();
+    }
+    let sampler = root.push(Sampler {
+        mag_filter: Some(Valid(MagFilter::Linear)),
+        min_filter: Some(Valid(MinFilter::LinearMipmapLinear)),
+        ..Sampler::default()
+    });
+    let mut written = Vec::new();
+    for (i, file) in images.files.iter().enumerate() {
+        let (view, address) = match textures {
+            Textures::Embedded => (Some(body.add(Block::Bytes(&file.bytes))), None),
+            Textures::Beside(names) => (None, Some(uri(&names[i]))),
+        };
+        let source = root.push(json::Image {
+            buffer_view: view.map(json::Index::new),
+            mime_type: view.map(|_| json::image::MimeType(file.media_type().into())),
+            name: name(&file.stem()),
+            uri: address,
+            extensions: None,
+            extras: None,
+        });
+        let texture =
+            json::Texture { name: None, sampler: Some(sampler), source, extensions: None, extras: None };
+        written.push(root.push(texture));
+    }
+    written
+}
+
+fn describe(
+    material: &Material,
+    texture: Option<json::Index<json::Texture>>,
+    has_alpha: bool,
+    root: &mut json::Root,
+) -> json::Material {
+    let base_color = material.base_color.map(fraction);
+    let (emissive, strength) = emission(material.emissive);
+    json::Material {
+        name: name(&material.name),
+        // Half-opaque materials are mixed; images with holes, such as leaves, are cut out, which needs no sorting.
+        alpha_mode: Valid(match base_color[3] < 1.0 {
+            true => AlphaMode::Blend,
+            false if has_alpha => AlphaMode::Mask,
+            false => AlphaMode::Opaque,
+        }),
+        double_sided: material.double_sided,
+        pbr_metallic_roughness: PbrMetallicRoughness {
+            base_color_factor: PbrBaseColorFactor(base_color),
+            base_color_texture: texture.map(|index| Info {
+                index,
+                tex_coord: 0,
+                extensions: None,
+                extras: None,
+            }),
+            metallic_factor: StrengthFactor(fraction(material.metallic)),
+            roughness_factor: StrengthFactor(fraction(material.roughness)),
+            ..PbrMetallicRoughness::default()
+        },
+        emissive_factor: EmissiveFactor(emissive),
+        extensions: strength.map(|strength| {
+            let extension = "KHR_materials_emissive_strength";
+            use_extension(root, extension);
+            let mut extensions = json::extensions::material::Material::default();
+            extensions.others.insert(extension.into(), serde_json::json!({ "emissiveStrength": strength }));
+            extensions
+        }),
+        ..json::Material::default()
+    }
+}
+
+/// Lists `extension` among those used.
+pub(super) fn use_extension(root: &mut json::Root, extension: &str) {
+    if !root.extensions_used.iter().any(|used| used == extension) {
+        root.extensions_used.push(extension.into());
+        root.extensions_used.sort();
+    }
+}
+
+/// Light as a colour up to 1, and its strength if that is more than 1.
+fn emission(light: [f32; 3]) -> ([f32; 3], Option<f32>) {
+    let light = light.map(|it| if it.is_finite() { it.max(0.0) } else { 0.0 });
+    let strength = light.into_iter().fold(0.0, f32::max);
+    if strength > 1.0 { (light.map(|it| (it / strength).min(1.0)), Some(strength)) } else { (light, None) }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_above_one_becomes_a_colour_and_a_strength() {
+        assert_eq!(emission([4.0, 2.0, 0.0]), ([1.0, 0.5, 0.0], Some(4.0)));
+        assert_eq!(emission([0.5, 0.2, f32::NAN]), ([0.5, 0.2, 0.0], None));
+    }
+}

@@ -1,0 +1,349 @@
+//! Where meshes stand: a node for each instance, or one node for many.
+
+use super::super::check::{Checked, Measured};
+use super::body::{Block, Body, short};
+use super::decompose::{Steps, Trs, decompose, y_up};
+use super::description::{Accessor, Description, Feature, Node};
+use super::material::use_extension;
+use super::mesh::{Arrays, accessor};
+use burgeon_scene::Instance;
+use glam::{DAffine3, DQuat, DVec3};
+use gltf_json as json;
+use json::accessor::{ComponentType, Type};
+use json::scene::UnitQuaternion;
+use rustc_hash::FxHashMap;
+
+const INSTANCING: &str = "EXT_mesh_gpu_instancing";
+
+/// From how many on instances share a node.
+///
+/// A node takes about 130 bytes of JSON, an instance up to 40 of the body and its share of some 600 that
+/// describe the arrays; so from 7 on sharing is smaller. But a reader that does not know the extension cannot
+/// open the file, so sharing has to be worth it: at 16 it halves the size.
+const ENOUGH: usize = 16;
+
+/// Instances that differ in their transform alone.
+#[derive(PartialEq, Eq, Hash, Clone, Copy)]
+struct Kind<'a> {
+    mesh: usize,
+    name: &'a str,
+    /// Renderers choose the side that is seen once for all instances of a node.
+    mirrored: bool,
+}
+
+/// The attribute that tells which feature an instance is of, as `EXT_instance_features` names it: a number in the list
+/// `features` of the scene's extras, or -1.
+const FEATURE: &str = "_FEATURE_ID_0";
+
+/// The most (radians, 0.0036 degrees) that a turn is off if each number of its quaternion is a part of 32767.
+const ROUNDING: f64 = 6.2e-5;
+
+/// The most (m) that rounding a turn may move a point of what is turned.
+const UNSEEN: f64 = 1e-3;
+
+#[derive(Default)]
+struct Group {
+    count: usize,
+    features: Vec<f32>,
+    translations: Vec<f32>,
+    rotations: Vec<f32>,
+    scales: Vec<f32>,
+    /// The largest factor of a scale.
+    largest: f64,
+}
+
+/// The numbers of an attribute of instances, all that each has after another.
+enum Column {
+    Floats(Vec<f32>),
+    /// Whole numbers, or parts of 32767.
+    Shorts(Vec<i16>, bool),
+}
+
+/// Where an instance of the scene is in a document.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct Place {
+    /// The node that shows it, as an index into the document's nodes.
+    pub node: usize,
+    /// Its number among the instances that share the node; `None` if it has the node to itself.
+    pub shared: Option<usize>,
+}
+
+/// What [`write`] has added.
+#[derive(Default)]
+pub(super) struct Placed<'a> {
+    /// The nodes of the scene's top.
+    pub(super) nodes: Vec<usize>,
+    /// Where each instance is; `None` for one that has nothing to show.
+    pub(super) places: Vec<Option<Place>>,
+    /// The features that instances which share a node are of.
+    pub(super) features: Vec<&'a str>,
+}
+
+/// Adds the instances.
+pub(super) fn write<'a>(
+    checked: &Checked<'a>,
+    meshes: &[Option<usize>],
+    arrays: Arrays,
+    description: &mut Description<'a>,
+    body: &mut Body<'a>,
+) -> Placed<'a> {
+    let scene = checked.scene;
+    let mut groups: Vec<(Kind<'_>, Group)> = Vec::new();
+    let mut known = FxHashMap::default();
+    let mut group_of = Vec::with_capacity(scene.instances.len());
+    for instance in &scene.instances {
+        group_of.push(Kind::of(instance).map(|kind| {
+            let group = *known.entry(kind).or_insert_with(|| {
+                groups.push((kind, Group::default()));
+                groups.len() - 1
+            });
+            groups[group].1.count += 1;
+            group
+        }));
+    }
+    let mut features = Features::default();
+    let mut nodes = Vec::new();
+    let mut places = vec![None; scene.instances.len()];
+    let mut members: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
+    for (number, (instance, group)) in scene.instances.iter().zip(group_of).enumerate() {
+        let Some(mesh) = meshes[instance.mesh] else { continue };
+        let mut transform = instance.transform;
+        transform.translation -= checked.origin;
+        let transform = y_up(&transform);
+        let at = group;
+        let shared = group.map(|group| &mut groups[group]).filter(|(_, group)| group.count >= ENOUGH);
+        if let Some((kind, group)) = shared
+            && group.take(&kind.mirror(transform))
+        {
+            group.features.push(features.number(instance.feature.as_deref()));
+            members[at.unwrap_or_default()].push(number);
+            continue;
+        }
+        let (node, shown) = alone(instance, mesh, &transform, description);
+        nodes.push(node);
+        places[number] = Some(Place { node: shown, shared: None });
+    }
+    for ((kind, group), members) in groups.into_iter().zip(members) {
+        if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
+            let reach = if arrays.small { f64::INFINITY } else { reach(checked, kind.mesh) };
+            let node = together(kind, group, (mesh, reach), description, body);
+            nodes.push(node);
+            for (shared, number) in members.into_iter().enumerate() {
+                places[number] = Some(Place { node, shared: Some(shared) });
+            }
+        }
+    }
+    let features = features.list;
+    if checked.origin == DVec3::ZERO || nodes.is_empty() {
+        return Placed { nodes, places, features };
+    }
+    let origin = Node {
+        name: "origin",
+        translation: translation(y_up(&DAffine3::from_translation(checked.origin)).translation),
+        children: Some(nodes),
+        ..Node::default()
+    };
+    Placed { nodes: vec![description.node(origin)], places, features }
+}
+
+impl<'a> Kind<'a> {
+    /// The kind of an instance that may share its node: what is drawn for a feature has its own, which bears its id.
+    fn of(instance: &'a Instance) -> Option<Self> {
+        (instance.feature.is_none() || instance.placement.is_some()).then(|| Self {
+            mesh: instance.mesh,
+            name: &instance.name,
+            mirrored: instance.transform.matrix3.determinant() < 0.0,
+        })
+    }
+
+    /// What is left for the instance if its node mirrors.
+    fn mirror(self, transform: DAffine3) -> DAffine3 {
+        if self.mirrored { DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0)) * transform } else { transform }
+    }
+}
+
+/// The features that are named by number.
+#[derive(Default)]
+struct Features<'a> {
+    list: Vec<&'a str>,
+    numbers: FxHashMap<&'a str, usize>,
+}
+
+impl<'a> Features<'a> {
+    /// The number of a feature; -1 for none.
+    fn number(&mut self, feature: Option<&'a str>) -> f32 {
+        let Some(feature) = feature else { return -1.0 };
+        let number = *self.numbers.entry(feature).or_insert_with(|| {
+            self.list.push(feature);
+            self.list.len() - 1
+        });
+        number as f32
+    }
+}
+
+impl Group {
+    /// Adds an instance, unless its transform is sheared.
+    fn take(&mut self, transform: &DAffine3) -> bool {
+        let Steps::One(Trs { translation, rotation, scale }) = decompose(transform) else { return false };
+        self.translations.extend((translation.as_vec3() + 0.0).to_array());
+        self.rotations.extend(quaternion(rotation));
+        self.scales.extend((scale.as_vec3() + 0.0).to_array());
+        self.largest = self.largest.max(scale.abs().max_element());
+        true
+    }
+}
+
+/// How far (m) the points of a mesh are from its origin at most.
+fn reach(checked: &Checked<'_>, mesh: usize) -> f64 {
+    let furthest = |part: &Measured| part.low.abs().max(part.high.abs()).as_dvec3().length();
+    checked.parts[mesh].iter().map(furthest).fold(0.0, f64::max)
+}
+
+impl Column {
+    /// Turns of what reaches so far (m), as parts of 32767 unless that could be seen.
+    fn rotations(floats: Vec<f32>, reach: f64) -> Self {
+        if reach * ROUNDING > UNSEEN {
+            return Self::Floats(floats);
+        }
+        Self::Shorts(floats.into_iter().map(short).collect(), true)
+    }
+
+    /// Whole numbers in the smallest type that has room for them.
+    #[allow(clippy::cast_possible_truncation, reason = "bounded before")]
+    fn whole(floats: Vec<f32>) -> Self {
+        if floats.iter().any(|number| *number > f32::from(i16::MAX)) {
+            return Self::Floats(floats);
+        }
+        Self::Shorts(floats.into_iter().map(|number| number as i16).collect(), false)
+    }
+}
+
+/// A node for one instance; two nodes, one in the other, for a sheared one. The second of the result has the mesh.
+fn alone<'a>(
+    instance: &'a Instance,
+    mesh: usize,
+    transform: &DAffine3,
+    description: &mut Description<'a>,
+) -> (usize, usize) {
+    let shown = Node {
+        mesh: Some(mesh),
+        name: &instance.name,
+        feature: instance.feature.as_deref().map(|feature| Feature { feature }),
+        ..Node::default()
+    };
+    match decompose(transform) {
+        Steps::One(trs) => {
+            let node = description.node(placed(shown, &trs));
+            (node, node)
+        }
+        Steps::Two(rest, first) => {
+            let inner = description.node(Node { rotation: rotation(first), ..shown });
+            let outer = Node { children: Some(vec![inner]), ..Node::default() };
+            (description.node(placed(outer, &rest)), inner)
+        }
+    }
+}
+
+/// A node for all instances of a group; `mesh` is its number with how far (m) it reaches.
+fn together<'a>(
+    kind: Kind<'a>,
+    group: Group,
+    (mesh, reach): (usize, f64),
+    description: &mut Description<'a>,
+    body: &mut Body<'a>,
+) -> usize {
+    use_extension(&mut description.root, INSTANCING);
+    description.root.extensions_required = vec![INSTANCING.into()];
+    let mut attributes = serde_json::Map::new();
+    let count = group.translations.len() / 3;
+    let mut add = |key: &str, column: Column, kind: Type| {
+        let (block, component, normalized) = match column {
+            Column::Floats(floats) => (Block::Floats(floats), ComponentType::F32, false),
+            Column::Shorts(shorts, normalized) => (Block::Shorts(shorts), ComponentType::I16, normalized),
+        };
+        let array = Accessor { normalized, ..accessor((body.add(block), 0), component, kind, count) };
+        attributes.insert(key.into(), description.accessor(array).into());
+    };
+    let differs = |floats: &[f32], default: &[f32]| floats.chunks(default.len()).any(|item| item != default);
+    if group.features.iter().any(|feature| *feature >= 0.0) {
+        add(FEATURE, Column::whole(group.features), Type::Scalar);
+    }
+    // No default, since one array has to be there to tell the number of instances.
+    add("TRANSLATION", Column::Floats(group.translations), Type::Vec3);
+    if differs(&group.rotations, &[0.0, 0.0, 0.0, 1.0]) {
+        add("ROTATION", Column::rotations(group.rotations, reach * group.largest), Type::Vec4);
+    }
+    if differs(&group.scales, &[1.0, 1.0, 1.0]) {
+        add("SCALE", Column::Floats(group.scales), Type::Vec3);
+    }
+    description.node(Node {
+        mesh: Some(mesh),
+        name: kind.name,
+        scale: kind.mirrored.then_some([-1.0, 1.0, 1.0]),
+        extensions: Some(serde_json::json!({ INSTANCING: { "attributes": attributes } })),
+        ..Node::default()
+    })
+}
+
+/// `node` with a transform; what is the default is left out.
+fn placed<'a>(node: Node<'a>, trs: &Trs) -> Node<'a> {
+    Node {
+        translation: translation(trs.translation),
+        rotation: rotation(trs.rotation),
+        scale: unless([1.0; 3], (trs.scale.as_vec3() + 0.0).to_array()),
+        ..node
+    }
+}
+
+fn translation(translation: DVec3) -> Option<[f32; 3]> {
+    unless([0.0; 3], (translation.as_vec3() + 0.0).to_array())
+}
+
+fn rotation(rotation: DQuat) -> Option<UnitQuaternion> {
+    unless([0.0, 0.0, 0.0, 1.0], quaternion(rotation)).map(UnitQuaternion)
+}
+
+/// `value`, unless it is exactly the default.
+fn unless<const N: usize>(default: [f32; N], value: [f32; N]) -> Option<[f32; N]> {
+    (value.map(f32::to_bits) != default.map(f32::to_bits)).then_some(value)
+}
+
+/// The one of the two quaternions for `rotation` whose w is not negative, as x, y, z, w.
+fn quaternion(rotation: DQuat) -> [f32; 4] {
+    let rotation = if rotation.w < 0.0 { -rotation } else { rotation };
+    rotation.as_quat().to_array().map(|number| number + 0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    proptest! {
+        #[test]
+        fn a_turn_in_short_numbers_is_off_by_less_than_five_thousandths_of_a_degree(
+            numbers in proptest::array::uniform4(-1.0_f64..1.0)
+        ) {
+            prop_assume!(DQuat::from_array(numbers).length() > 0.1);
+            let meant = DQuat::from_array(numbers).normalize();
+            let Column::Shorts(shorts, true) = Column::rotations(quaternion(meant).to_vec(), 1.0) else {
+                panic!("short numbers")
+            };
+            let read: Vec<f64> = shorts.iter().map(|number| f64::from(*number) / 32767.0).collect();
+            let off = (meant.inverse() * DQuat::from_slice(&read).normalize()).to_scaled_axis().length();
+            let off = off.min(std::f64::consts::TAU - off);
+            prop_assert!(off <= ROUNDING && off.to_degrees() < 0.005, "{off}");
+        }
+    }
+
+    #[test]
+    fn what_reaches_far_keeps_its_turn_and_what_has_a_high_number_keeps_it() {
+        let turn = quaternion(DQuat::from_rotation_y(0.7)).to_vec();
+        assert!(matches!(Column::rotations(turn.clone(), 16.0), Column::Shorts(..)));
+        assert!(matches!(Column::rotations(turn, 17.0), Column::Floats(_)));
+        assert!(
+            matches!(Column::whole(vec![-1.0, 32767.0]), Column::Shorts(shorts, false) if shorts == [-1, 32767])
+        );
+        assert!(matches!(Column::whole(vec![-1.0, 32768.0]), Column::Floats(_)));
+    }
+}

@@ -1,0 +1,165 @@
+//! Files: a scene becomes a model, a picture or a drawing that other programs open.
+//!
+//! Comes in: a [`Scene`] in metres, z up. Goes out: one file, or several that belong together, picked by the
+//! path's extension ([`Format`]). It never changes the scene, and it never leaves half a file: everything is
+//! written beside the path under temporary names ([`Files`]) and appears when all of it is there. The same
+//! scene gives the same bytes.
+//!
+//! Heights of the ground are written by [`heights`], from a grid and not from a scene.
+//!
+//! Every format refuses a scene that names what it does not have (`check`), leaves out what is not shown,
+//! and moves a model that is far from the world's origin near to its own (`check::origin`).
+
+#![allow(
+    clippy::cast_possible_truncation,
+    reason = "coordinates lose precision on purpose, and counts are checked against each format's limit"
+)]
+
+mod check;
+mod color;
+mod files;
+mod format;
+pub mod gltf;
+pub mod heights;
+pub mod obj;
+pub mod picture;
+pub mod svg;
+mod target;
+mod temporary;
+mod texture;
+
+#[cfg(test)]
+mod samples;
+
+pub use files::{Files, Out, Stoppable};
+pub use format::Format;
+pub use temporary::abandon;
+
+use burgeon_base::error::Result;
+use burgeon_base::stop::Stop;
+use burgeon_scene::Scene;
+use picture::Picture;
+use std::io::{self, Cursor, Write};
+use std::path::Path;
+
+/// Writes `scene` to `path` in the format of its extension; `picture` matters to `.png` alone.
+///
+/// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. On failure everything is as
+/// it was before. Fails as [`Files::scene`] does.
+pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
+    let mut files = Files::default();
+    files.scene(scene, path, picture)?;
+    files.publish()
+}
+
+impl Files {
+    /// Writes what will be `scene` at `path`, in the format of its extension; `picture` matters to `.png` alone.
+    ///
+    /// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
+    /// does, if the extension is no format, if the scene is not sound and if a texture cannot be read.
+    pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
+        match Format::of(path)? {
+            Format::Glb => gltf::write_glb(scene, path, self),
+            Format::Gltf => gltf::write_gltf(scene, path, self),
+            Format::Obj => obj::write(scene, path, self),
+            Format::Png => {
+                let png = png(scene, picture, &self.stop())?;
+                self.write(path, |out| out.write_all(&png))
+            }
+            Format::Svg => {
+                let drawing = svg::svg(scene, &self.stop())?;
+                self.write(path, |out| out.write_all(drawing.as_bytes()))
+            }
+        }
+    }
+}
+
+/// Writes one file whole or not at all; what is no regular file, such as a pipe, is given all of it at once.
+pub fn write_file(path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
+    let mut files = Files::default();
+    files.write(path, content)?;
+    files.publish()
+}
+
+/// Whether [`Files::publish`] could give all of these files their names: to be asked before a long run. It leaves
+/// nothing behind.
+///
+/// Fails if two of them are the same file, a folder is not there or takes no files, or one of them is a folder.
+pub fn check_files<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<()> {
+    let mut files = Files::default();
+    paths.into_iter().try_for_each(|path| files.write(path, |_| Ok(())))
+}
+
+/// The name of `path` without its extension.
+fn stem(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.
+pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
+    encode_png(&picture::render_within(scene, None, picture, stop)?)
+}
+
+/// `image` as a PNG file.
+pub fn encode_png(image: &image::RgbaImage) -> Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    image.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(|error| {
+        burgeon_base::error::Error::internal(format!("cannot encode the picture as PNG: {error}"))
+    })?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The samples go to the folder `BURGEON_SAMPLES` if it is set, where validators can look at them.
+    #[test]
+    fn every_sample_is_written_in_every_format_and_leaves_no_temporary_file() {
+        let temporary = tempfile::tempdir().unwrap();
+        let folder = std::env::var_os("BURGEON_SAMPLES").map_or(temporary.path().to_path_buf(), Into::into);
+        let samples = samples::all(temporary.path());
+        assert_eq!(samples.len(), 16);
+        for (name, scene) in &samples {
+            for format in Format::ALL.into_iter().filter(|format| *format != Format::Png) {
+                let path = folder.join(format!("{name}.{}", format.extension()));
+                check_files([path.as_path()]).unwrap();
+                write(scene, &path, &Picture::default()).unwrap();
+                assert!(path.metadata().unwrap().len() > 20, "{}", path.display());
+            }
+        }
+        for entry in std::fs::read_dir(folder).unwrap() {
+            let name = entry.unwrap().file_name().into_string().unwrap();
+            assert!(!name.ends_with(".part"), "{name} is left behind");
+        }
+    }
+
+    #[test]
+    fn a_refused_scene_leaves_the_older_files_as_they_were() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = samples::boxes(2);
+        scene.meshes[0].parts[0].positions[0].x = f32::NAN;
+        for name in ["a.glb", "a.gltf", "a.bin", "a.obj", "a.mtl", "a.svg"] {
+            std::fs::write(folder.path().join(name), "old").unwrap();
+        }
+        for name in ["a.glb", "a.gltf", "a.obj", "a.svg"] {
+            let error = write(&scene, &folder.path().join(name), &Picture::default()).unwrap_err();
+            assert!(error.to_string().contains("box"), "{error}");
+        }
+        let mut count = 0;
+        for entry in std::fs::read_dir(folder.path()).unwrap() {
+            assert_eq!(std::fs::read_to_string(entry.unwrap().path()).unwrap(), "old");
+            count += 1;
+        }
+        assert_eq!(count, 6);
+    }
+
+    #[test]
+    fn a_picture_becomes_a_png_of_its_size() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.png");
+        let picture = Picture { width: 40, height: 30, ..Picture::default() };
+        write(&samples::boxes(1), &path, &picture).unwrap();
+        assert_eq!(image::open(path).unwrap().into_rgba8().dimensions(), (40, 30));
+    }
+}

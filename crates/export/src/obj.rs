@@ -1,0 +1,308 @@
+//! Wavefront OBJ, the plain text that almost every modelling program reads.
+//!
+//! OBJ has no instances, so each becomes an object of its own with its points where they are in the world. It
+//! has no axes either: y is up here, as in glTF. Materials have the classic lighting and, for programs that
+//! know them, the physically based `Pr` and `Pm`.
+
+use super::check::{Checked, check, shown_parts, triangles};
+use super::color::{fraction, srgb};
+use super::files::Files;
+use super::stem;
+use super::texture::Images;
+use burgeon_base::error::Result;
+use burgeon_scene::{Instance, Material, Part, Scene};
+use glam::{DMat3, DVec3};
+use std::io::{self, Write};
+use std::path::Path;
+
+/// Writes an `.obj` file to `path`, and its `.mtl` file and copies of the textures beside it.
+pub(super) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let copies: Vec<String> =
+        images.copy_names(path, files).iter().map(|name| word(name, "texture")).collect();
+    for (name, file) in copies.iter().zip(&images.files) {
+        files.copy(&path.with_file_name(name), &file.bytes)?;
+    }
+    let names = material_names(&scene.materials);
+    let library = word(&format!("{}.mtl", stem(path)), "materials.mtl");
+    files.write(&path.with_file_name(&library), |out| {
+        writeln!(out, "{}", heading())?;
+        for (i, material) in scene.materials.iter().enumerate().filter(|(i, _)| checked.materials[*i]) {
+            let texture = images.of_material[i].map(|file| copies[file].as_str());
+            write_material(material, &names[i], texture, out)?;
+        }
+        Ok(())
+    })?;
+    files.write(path, |out| write_objects(&checked, &names, &library, out))
+}
+
+fn heading() -> String {
+    format!("# Burgeon {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// Writes everything but the materials, whose `names` are in the file `library`.
+fn write_objects(
+    checked: &Checked<'_>,
+    names: &[String],
+    library: &str,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    writeln!(out, "{}\n# Metres, y up: east is x, north is -z.", heading())?;
+    let DVec3 { x, y, z } = y_up(checked.origin) + 0.0;
+    if checked.origin != DVec3::ZERO {
+        writeln!(out, "# Counted from ({x}, {y}, {z}): add this to each point for its place in the world.")?;
+    }
+    writeln!(out, "mtllib {library}")?;
+    let mut numbers = Numbers { point: 1, tex_coord: 1 };
+    for instance in checked.scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
+        let mesh = &checked.scene.meshes[instance.mesh];
+        let name = if instance.name.is_empty() { &mesh.name } else { &instance.name };
+        writeln!(out, "o {}", word(name, "object"))?;
+        if let Some(feature) = &instance.feature {
+            writeln!(out, "# feature {}", feature.replace(char::is_control, " "))?;
+        }
+        for part in shown_parts(mesh) {
+            writeln!(out, "usemtl {}", names[part.material])?;
+            let texture = checked.scene.materials[part.material].texture.as_ref();
+            write_part(
+                part,
+                texture.map(|texture| texture.size),
+                instance,
+                checked.origin,
+                &mut numbers,
+                out,
+            )?;
+        }
+    }
+    Ok(())
+}
+
+/// The numbers that the next point and texture coordinate get; OBJ counts from 1 through the whole file.
+struct Numbers {
+    point: u64,
+    tex_coord: u64,
+}
+
+/// Writes the points and triangles of `part`; `size` is its texture's, in metres.
+fn write_part(
+    part: &Part,
+    size: Option<[f64; 2]>,
+    instance: &Instance,
+    origin: DVec3,
+    numbers: &mut Numbers,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let turned = normal_matrix(&instance.transform.matrix3);
+    for position in &part.positions {
+        let point = instance.transform.transform_point3(position.as_dvec3()) - origin;
+        write_vector("v", point, out)?;
+    }
+    for normal in part.normals.iter().map(|normal| normal.vector()) {
+        write_vector("vn", (turned * normal.as_dvec3()).try_normalize().unwrap_or(DVec3::Z), out)?;
+    }
+    if let Some([width, height]) = size {
+        for uv in &part.uvs {
+            writeln!(out, "vt {} {}", (f64::from(uv.x) / width) as f32, (f64::from(uv.y) / height) as f32)?;
+        }
+    }
+    let mirrored = instance.transform.matrix3.determinant() < 0.0;
+    for [a, b, c] in triangles(part) {
+        out.write_all(b"f")?;
+        for corner in if mirrored { [a, c, b] } else { [a, b, c] } {
+            let point = numbers.point + u64::from(corner);
+            match size {
+                Some(_) => write!(out, " {point}/{}/{point}", numbers.tex_coord + u64::from(corner))?,
+                None => write!(out, " {point}//{point}")?,
+            }
+        }
+        out.write_all(b"\n")?;
+    }
+    numbers.point += part.positions.len() as u64;
+    if size.is_some() {
+        numbers.tex_coord += part.uvs.len() as u64;
+    }
+    Ok(())
+}
+
+/// Writes a vector of the scene, z up, as the shortest decimals that give the same f32.
+fn write_vector(key: &str, vector: DVec3, out: &mut impl Write) -> io::Result<()> {
+    let [x, y, z] = (y_up(vector).as_vec3() + 0.0).to_array();
+    writeln!(out, "{key} {x} {y} {z}")
+}
+
+fn y_up(vector: DVec3) -> DVec3 {
+    DVec3::new(vector.x, vector.z, -vector.y)
+}
+
+/// What turns normals if `matrix` turns points: its inverse transpose but for a positive factor, which exists
+/// for a flattening matrix too.
+fn normal_matrix(matrix: &DMat3) -> DMat3 {
+    let (x, y, z) = (matrix.x_axis, matrix.y_axis, matrix.z_axis);
+    let cofactors = DMat3::from_cols(y.cross(z), z.cross(x), x.cross(y));
+    if matrix.determinant() < 0.0 { -cofactors } else { cofactors }
+}
+
+fn write_material(
+    material: &Material,
+    name: &str,
+    texture: Option<&str>,
+    out: &mut impl Write,
+) -> io::Result<()> {
+    let [r, g, b, opacity] = material.base_color.map(fraction);
+    let (metallic, roughness) = (fraction(material.metallic), fraction(material.roughness));
+    // What mirrors: 4 % of the light on anything but metal, and the metal's own colour.
+    let specular = [r, g, b].map(|color| 0.04 + (color - 0.04) * metallic);
+    // The exponent of Blinn and Phong that looks as rough (Karis, "Specular BRDF Reference", 2013).
+    let exponent = (2.0 / roughness.max(0.045).powi(4) - 2.0).clamp(0.0, 1000.0);
+    writeln!(out, "newmtl {name}\nillum 2")?;
+    for (key, color) in [("Kd", [r, g, b]), ("Ks", specular), ("Ke", material.emissive)] {
+        let [r, g, b] = color.map(srgb);
+        writeln!(out, "{key} {r} {g} {b}")?;
+    }
+    writeln!(out, "Ns {exponent}\nd {opacity}\nPr {roughness}\nPm {metallic}")?;
+    if let Some(texture) = texture {
+        writeln!(out, "map_Kd {texture}")?;
+    }
+    Ok(())
+}
+
+/// A different word for each material, the nearest to its name.
+fn material_names(materials: &[Material]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::with_capacity(materials.len());
+    let mut taken = rustc_hash::FxHashSet::default();
+    for material in materials {
+        let plain = word(&material.name, "material");
+        let mut name = plain.clone();
+        let mut count = 1;
+        while !taken.insert(name.clone()) {
+            count += 1;
+            name = format!("{plain}_{count}");
+        }
+        names.push(name);
+    }
+    names
+}
+
+/// `name` without what would end a name or a line in OBJ; `other` if it is empty.
+fn word(name: &str, other: &str) -> String {
+    let name = if name.is_empty() { other } else { name };
+    name.replace(|letter: char| letter.is_whitespace() || letter.is_control() || letter == '#', "_")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples;
+    use super::*;
+    use std::path::Path;
+
+    /// What a reader of OBJ finds: the points, the triangles with their normals' indices, and the text.
+    struct Read {
+        points: Vec<DVec3>,
+        normals: Vec<DVec3>,
+        faces: Vec<[[usize; 2]; 3]>,
+        text: String,
+    }
+
+    fn read(path: &Path) -> Read {
+        let text = std::fs::read_to_string(path).unwrap();
+        let mut read = Read { points: vec![], normals: vec![], faces: vec![], text: text.clone() };
+        for line in text.lines() {
+            let mut words = line.split(' ');
+            let key = words.next().unwrap();
+            if key == "f" {
+                let corner = |word: &str| {
+                    let mut numbers = word.split('/').map(|it| it.parse::<usize>().unwrap_or(1) - 1);
+                    [numbers.next().unwrap(), numbers.nth(1).unwrap()]
+                };
+                let corners: Vec<_> = words.map(corner).collect();
+                read.faces.push(corners.try_into().unwrap());
+            } else if key == "v" || key == "vn" {
+                let numbers: Vec<f64> = words.map(|it| it.parse().unwrap()).collect();
+                let vector = DVec3::from_slice(&numbers);
+                if key == "v" { read.points.push(vector) } else { read.normals.push(vector) }
+            }
+        }
+        read
+    }
+
+    fn written(scene: &Scene) -> Read {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a b.obj");
+        super::super::write(scene, &path, &crate::picture::Picture::default()).unwrap();
+        read(&path)
+    }
+
+    #[test]
+    fn instances_become_objects_with_the_same_volume_and_normals_outside() {
+        for (name, scene) in [("turned", samples::boxes(5)), ("sheared and mirrored", samples::twisted())] {
+            let read = written(&scene);
+            assert_eq!(read.faces.len(), scene.triangles(), "{name}");
+            let mut volume = 0.0;
+            for face in &read.faces {
+                let [a, b, c] = face.map(|[point, _]| read.points[point]);
+                volume += a.dot(b.cross(c)) / 6.0;
+                let outside = (b - a).cross(c - a);
+                assert!(
+                    face.iter()
+                        .all(|[_, normal]| read.normals[*normal].dot(outside) > 0.99 * outside.length())
+                );
+            }
+            let real = samples::volume(&scene);
+            assert!(real > 0.1 && (volume - real).abs() < 1e-4 * real, "{name}: {volume} is not {real}");
+        }
+    }
+
+    #[test]
+    fn a_far_model_is_counted_from_whole_metres_that_the_file_tells() {
+        let read = written(&samples::far());
+        assert!(read.text.contains("# Counted from (531000, 0, -4556000): add this"), "{}", read.text);
+        assert!(read.points.iter().all(|point| point.length() < 200.0));
+    }
+
+    #[test]
+    fn names_that_repeat_or_have_spaces_become_different_words() {
+        let named = |name: &str| Material { name: name.into(), ..Material::default() };
+        let names = material_names(&[named("red brick"), named("red\tbrick"), named(""), named("Ziegel_ü")]);
+        assert_eq!(names, ["red_brick", "red_brick_2", "material", "Ziegel_ü"]);
+    }
+
+    #[test]
+    fn a_box_reads_as_text() {
+        let mut scene = samples::boxes(1);
+        scene.meshes[0].parts[0].triangles.truncate(1);
+        scene.instances[0].feature = Some("way/7".into());
+        let text = written(&scene).text;
+        let lines: Vec<_> = text.lines().filter(|line| !line.starts_with("# Burgeon")).collect();
+        assert_eq!(
+            lines[..6],
+            [
+                "# Metres, y up: east is x, north is -z.",
+                "mtllib a_b.mtl",
+                "o box_0",
+                "# feature way/7",
+                "usemtl plaster",
+                "v 0.5 0 0.5",
+            ]
+        );
+        assert_eq!(lines.last(), Some(&"f 1//1 2//2 3//3"));
+    }
+
+    #[test]
+    fn textures_are_copied_and_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = samples::textured(folder.path());
+        let path = folder.path().join("out.obj");
+        super::super::write(&scene, &path, &crate::picture::Picture::default()).unwrap();
+        let library = std::fs::read_to_string(folder.path().join("out.mtl")).unwrap();
+        assert!(
+            library.contains("map_Kd out_brick.png") && library.contains("map_Kd out_leaf.jpg"),
+            "{library}"
+        );
+        assert_eq!(
+            std::fs::read(folder.path().join("out_brick.png")).unwrap(),
+            std::fs::read(folder.path().join("brick.png")).unwrap()
+        );
+        assert!(read(&path).text.contains("vt 2 1.5"));
+    }
+}

@@ -1,0 +1,97 @@
+//! The few points that tell how far a model reaches.
+
+use burgeon_scene::{Mesh, Scene};
+use glam::{DVec3, Vec3, Vec3A};
+use rayon::prelude::*;
+
+/// Cells along each side of the grid that thins out points.
+const CELLS: usize = 32;
+
+/// For each mesh the points that matter to its reach: all of them where it stands a few times, else the
+/// farthest in each of many directions. Points that are not finite are left out; so are meshes not shown.
+pub(super) fn outlines(scene: &Scene) -> Vec<Vec<Vec3>> {
+    let mut uses = vec![0_usize; scene.meshes.len()];
+    for instance in &scene.instances {
+        uses[instance.mesh] += 1;
+    }
+    scene.meshes.par_iter().zip(uses).map(|(mesh, uses)| outline(mesh, uses)).collect()
+}
+
+fn outline(mesh: &Mesh, uses: usize) -> Vec<Vec3> {
+    if uses == 0 {
+        return Vec::new();
+    }
+    let seen = mesh.parts.iter().filter(|part| !part.triangles.is_empty());
+    let points: Vec<Vec3> =
+        seen.flat_map(|part| &part.positions).copied().filter(|p| p.is_finite()).collect();
+    if uses <= 8 || points.len() <= 32 {
+        return points;
+    }
+    let mut farthest: Vec<usize> = (0..96)
+        .filter_map(|i| {
+            let direction = spread(i, 96).as_vec3();
+            let reach = |point: &Vec3| point.dot(direction);
+            (0..points.len()).max_by(|a, b| reach(&points[*a]).total_cmp(&reach(&points[*b])))
+        })
+        .collect();
+    farthest.sort_unstable();
+    farthest.dedup();
+    farthest.into_iter().map(|i| points[i]).collect()
+}
+
+/// Direction `i` of `count`, evenly spread over the sphere on a spiral.
+pub(super) fn spread(i: usize, count: usize) -> DVec3 {
+    let z = 1.0 - (2.0 * i as f64 + 1.0) / count as f64;
+    let (sin, cos) = (i as f64 * 2.399_963_229_728_653).sin_cos();
+    let r = (1.0 - z * z).sqrt();
+    DVec3::new(r * cos, r * sin, z)
+}
+
+/// The lowest and highest corner of the box around `points`; zero without points.
+pub(super) fn bounds(points: impl Iterator<Item = DVec3>) -> (DVec3, DVec3) {
+    points
+        .filter(|point| point.is_finite())
+        .fold(None, |bounds: Option<(DVec3, DVec3)>, point| {
+            Some(bounds.map_or((point, point), |(low, high)| (low.min(point), high.max(point))))
+        })
+        .unwrap_or_default()
+}
+
+/// A few thousand points whose convex hull holds `points`: the corners of the boxes around those that share a
+/// cell of a coarse grid over `bounds`.
+pub(super) fn hull(points: impl Iterator<Item = Vec3A>, bounds: (Vec3A, Vec3A)) -> Vec<Vec3A> {
+    let mut cells: Vec<Option<(Vec3A, Vec3A)>> = vec![None; CELLS * CELLS * CELLS];
+    let last = CELLS as f32 - 1.0;
+    let scale = CELLS as f32 / (bounds.1 - bounds.0).max(Vec3A::splat(1e-6));
+    for point in points {
+        let at = ((point - bounds.0) * scale).clamp(Vec3A::ZERO, Vec3A::splat(last));
+        let index = (at.z as usize * CELLS + at.y as usize) * CELLS + at.x as usize;
+        let cell = &mut cells[index];
+        *cell = Some(cell.map_or((point, point), |(low, high)| (low.min(point), high.max(point))));
+    }
+    let boxes = cells.into_iter().flatten();
+    boxes.flat_map(|(low, high)| (0..8).map(move |corner| pick(corner, low, high))).collect()
+}
+
+/// Corner 0 to 7 of the box from `low` to `high`.
+fn pick(corner: usize, low: Vec3A, high: Vec3A) -> Vec3A {
+    let choose = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+    Vec3A::new(choose(0), choose(1), choose(2))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_hull_reaches_as_far_as_the_points_in_every_direction() {
+        let points: Vec<Vec3A> = (0..5000).map(|i| spread(i, 5000).as_vec3a()).collect();
+        let hull = hull(points.iter().copied(), (Vec3A::NEG_ONE, Vec3A::ONE));
+        for i in 0..50 {
+            let direction = spread(i, 50).as_vec3a();
+            let reach = |points: &[Vec3A]| points.iter().map(|p| p.dot(direction)).fold(f32::MIN, f32::max);
+            assert!(reach(&hull) >= reach(&points));
+            assert!(reach(&hull) < reach(&points) + 0.05);
+        }
+    }
+}

@@ -1,0 +1,252 @@
+//! The triangles of a drawing, flat on the paper.
+
+use super::super::check::{Checked, shown_parts, triangles};
+use super::super::color::{fraction, srgb};
+use super::super::texture::Images;
+use super::view::View;
+use burgeon_scene::{Instance, Material, Mesh};
+use glam::{DVec3, Vec3};
+use rustc_hash::FxHashMap;
+
+/// How many shades a material has.
+const SHADES: u32 = 24;
+
+/// The light comes from above the upper left corner of the paper, as maps have it.
+const LIGHT: DVec3 = DVec3::new(-0.42, 0.54, 0.73);
+
+/// The cosine of the angle from which on a bend is drawn as a line: 25 degrees.
+const BEND: f64 = 0.906;
+
+/// A point of the paper (mm), y up.
+pub(super) type Point = [i64; 2];
+
+/// A material in one of its shades.
+pub(super) type Ink = u32;
+
+/// A triangle that faces the viewer.
+pub(super) struct Face {
+    /// Counter-clockwise.
+    pub(super) corners: [Point; 3],
+    /// How far towards the viewer (m) its farthest corner is.
+    pub(super) depth: f64,
+    /// Its material and shade.
+    pub(super) ink: Ink,
+    normal: DVec3,
+}
+
+/// A side of a face that matters.
+pub(super) struct Line {
+    /// Its ends.
+    pub(super) ends: [Point; 2],
+    /// The faces at both sides; the same one twice where there is but one.
+    pub(super) faces: [u32; 2],
+    /// What it shows.
+    pub(super) kind: LineKind,
+}
+
+/// What a line shows.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) enum LineKind {
+    /// Where a shape ends, bends or changes its material. The number is how wide (mm) the shape is on the
+    /// whole: with dark lines around it, something thin would be nothing else.
+    Edge(f64),
+    /// Where a smooth surface changes its shade.
+    Seam,
+}
+
+/// What a drawing shows.
+#[derive(Default)]
+pub(super) struct Faces {
+    /// The triangles, in the order of the scene.
+    pub(super) faces: Vec<Face>,
+    /// The lines between and around them.
+    pub(super) lines: Vec<Line>,
+}
+
+impl Faces {
+    /// All triangles that `view` sees the front of, with the lines between them.
+    pub(super) fn collect(checked: &Checked<'_>, view: View) -> Self {
+        let mut all = Self::default();
+        let mut welded: FxHashMap<usize, Vec<Vec<u32>>> = FxHashMap::default();
+        for instance in checked.scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
+            let mesh = &checked.scene.meshes[instance.mesh];
+            let corners = welded.entry(instance.mesh).or_insert_with(|| weld(mesh));
+            all.add(checked, instance, mesh, corners, view);
+        }
+        all
+    }
+
+    /// The lowest and highest coordinates (mm); `None` without faces.
+    pub(super) fn bounds(&self) -> Option<(Point, Point)> {
+        let mut points = self.faces.iter().flat_map(|face| &face.corners);
+        let first = *points.next()?;
+        Some(points.fold((first, first), |(low, high), at| {
+            ([low[0].min(at[0]), low[1].min(at[1])], [high[0].max(at[0]), high[1].max(at[1])])
+        }))
+    }
+
+    fn add(
+        &mut self,
+        checked: &Checked<'_>,
+        instance: &Instance,
+        mesh: &Mesh,
+        welded: &[Vec<u32>],
+        view: View,
+    ) {
+        let matrix = view.matrix();
+        let mirrored = instance.transform.matrix3.determinant() < 0.0;
+        let mut edges = Vec::new();
+        let first_face = self.faces.len();
+        for (part, welded) in shown_parts(mesh).zip(welded) {
+            let double_sided = checked.scene.materials[part.material].double_sided;
+            for mut corners in triangles(part) {
+                if mirrored {
+                    corners.swap(1, 2);
+                }
+                let place = |corner: u32| {
+                    let at = instance.transform.transform_point3(part.positions[corner as usize].as_dvec3());
+                    matrix * (at - checked.origin)
+                };
+                let mut points = corners.map(place);
+                let mut normal = (points[1] - points[0]).cross(points[2] - points[0]).normalize_or_zero();
+                if normal.z < 0.0 && double_sided {
+                    corners.swap(1, 2);
+                    points.swap(1, 2);
+                    normal = -normal;
+                }
+                let flat = points.map(|at| [(at.x * 1000.0).round() as i64, (at.y * 1000.0).round() as i64]);
+                if normal.z <= 0.0 || !is_counter_clockwise(flat) {
+                    continue;
+                }
+                let shade =
+                    (normal.dot(LIGHT).max(0.0) * f64::from(SHADES - 1)).round().min(f64::from(SHADES - 1));
+                let ink = part.material as u32 * SHADES + shade as u32;
+                let depth = points[0].z.min(points[1].z).min(points[2].z);
+                let face = self.faces.len() as u32;
+                self.faces.push(Face { corners: flat, depth, ink, normal });
+                for i in 0..3 {
+                    let j = (i + 1) % 3;
+                    let (a, b) = (welded[corners[i] as usize], welded[corners[j] as usize]);
+                    edges.push((a.min(b), a.max(b), face, [flat[i], flat[j]]));
+                }
+            }
+        }
+        edges.sort_unstable();
+        let (mut area, mut length) = (0.0, 0.0);
+        for face in &self.faces[first_face..] {
+            let [a, b, c] = face.corners.map(|at| DVec3::new(at[0] as f64, at[1] as f64, 0.0));
+            area += (b - a).cross(c - a).z / 2.0;
+        }
+        let first_line = self.lines.len();
+        for side in edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            let (first, last) = (&side[0], &side[side.len() - 1]);
+            let faces = [first.2, last.2];
+            let [one, other] = faces.map(|face| &self.faces[face as usize]);
+            let ends = first.3;
+            if ends[0] == ends[1] {
+                continue;
+            }
+            let same = one.ink / SHADES == other.ink / SHADES;
+            if side.len() != 2 || !same || one.normal.dot(other.normal) < BEND {
+                let [from, to] = ends;
+                length += ((to[0] - from[0]) as f64).hypot((to[1] - from[1]) as f64);
+                self.lines.push(Line { ends, faces, kind: LineKind::Edge(0.0) });
+            } else if one.ink != other.ink {
+                self.lines.push(Line { ends, faces, kind: LineKind::Seam });
+            }
+        }
+        for line in &mut self.lines[first_line..] {
+            if let LineKind::Edge(width) = &mut line.kind {
+                *width = 2.0 * area / length;
+            }
+        }
+    }
+}
+
+/// For each part that is shown, the number of each point; points at the same place have the same number.
+fn weld(mesh: &Mesh) -> Vec<Vec<u32>> {
+    let mut known: FxHashMap<[u32; 3], u32> = FxHashMap::default();
+    let mut number = |at: &Vec3| {
+        let next = known.len() as u32;
+        // Adding zero turns -0 into 0.
+        *known.entry((*at + 0.0).to_array().map(f32::to_bits)).or_insert(next)
+    };
+    shown_parts(mesh).map(|part| part.positions.iter().map(&mut number).collect()).collect()
+}
+
+/// Whether the corners turn left, and not by nothing.
+fn is_counter_clockwise([a, b, c]: [Point; 3]) -> bool {
+    let side = |from: Point, to: Point| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
+    let (ab, ac) = (side(a, b), side(a, c));
+    ab[0] * ac[1] > ab[1] * ac[0]
+}
+
+/// The colours of a drawing.
+pub(super) struct Palette(Vec<([f32; 3], f32)>);
+
+impl Palette {
+    /// The colour of each material, with the mean of its image.
+    pub(super) fn new(materials: &[Material], images: &Images) -> Self {
+        let means: Vec<_> = images.files.iter().map(super::super::texture::ImageFile::mean_color).collect();
+        let color = |(material, image): (&Material, &Option<usize>)| {
+            let mean = image.map_or([1.0; 3], |image| means[image]);
+            let light =
+                |i: usize| srgb(material.base_color[i].max(0.0) * mean[i] + material.emissive[i].max(0.0));
+            ([light(0), light(1), light(2)], fraction(material.base_color[3]))
+        };
+        Self(materials.iter().zip(&images.of_material).map(color).collect())
+    }
+
+    /// The colour of `ink` and its opacity.
+    pub(super) fn fill(&self, ink: Ink) -> (String, f64) {
+        let (color, opacity) = self.0[(ink / SHADES) as usize];
+        // What lies flat on the paper has its own colour; what turns to the light is a little lighter.
+        let flat = LIGHT.z as f32;
+        let shade = (ink % SHADES) as f32 / (SHADES - 1) as f32 - flat;
+        let brightness = 1.0 + shade * if shade > 0.0 { 0.5 } else { 0.62 };
+        (hex(color.map(|it| it * brightness)), f64::from(opacity))
+    }
+
+    /// The colour of what is drawn on `ink`: its material's own, `brightness` times as bright.
+    pub(super) fn tone(&self, ink: Ink, brightness: f32) -> String {
+        let (color, _) = self.0[(ink / SHADES) as usize];
+        hex(color.map(|it| it * brightness))
+    }
+}
+
+fn hex(color: [f32; 3]) -> String {
+    let [r, g, b] = color.map(|it| (fraction(it) * 255.0).round() as u8);
+    format!("#{r:02x}{g:02x}{b:02x}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{check::check, samples};
+    use super::*;
+
+    #[test]
+    fn a_box_shows_its_top_with_four_lines() {
+        let scene = samples::boxes(1);
+        let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
+        assert_eq!((faces.faces.len(), faces.lines.len()), (2, 4));
+        assert_eq!(faces.bounds(), Some(([-500, -500], [500, 500])));
+    }
+
+    #[test]
+    fn a_smooth_hill_has_lines_at_its_border_alone() {
+        let scene = samples::hill(40);
+        let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
+        let edges = faces.lines.iter().filter(|line| line.kind != LineKind::Seam).count();
+        assert_eq!((faces.faces.len(), edges), (3200, 160));
+        assert!(faces.lines.len() > 200);
+    }
+
+    #[test]
+    fn a_mirrored_box_shows_its_top_too_and_a_leaf_both_its_sides() {
+        let mut scene = samples::boxes(1);
+        scene.instances[0].transform.matrix3.x_axis.x = -1.0;
+        assert_eq!(Faces::collect(&check(&scene).unwrap(), View::Plan).faces.len(), 2);
+        scene.materials[0].double_sided = true;
+        assert_eq!(Faces::collect(&check(&scene).unwrap(), View::Plan).faces.len(), 4);
+    }
+}

@@ -1,0 +1,225 @@
+//! Faces of one colour, gathered so that few sheets laid on each other show what is in front.
+
+use super::faces::{Face, Faces, Ink, LineKind, Point};
+use burgeon_base::error::Result;
+use burgeon_base::stop::Stop;
+use rustc_hash::FxHashMap;
+
+/// Most cells that all faces may touch together; it bounds the time.
+const TOUCHES: f64 = 1e7;
+
+/// From how many faces in a cell on they are taken to overlap, since looking at each would take too long.
+const CROWD: u32 = 64;
+
+/// Faces that are filled at once, and the lines over them.
+pub(super) struct Sheet {
+    /// What they are filled with.
+    pub(super) ink: Ink,
+    /// Indices of faces.
+    pub(super) faces: Vec<u32>,
+    /// The ends of lines around shapes.
+    pub(super) lines: Vec<[Point; 2]>,
+    /// The ends of lines around shapes that are hardly wider than a line.
+    pub(super) thin: Vec<[Point; 2]>,
+    /// The ends of lines to sheets below with another shade of the same surface.
+    pub(super) seams: Vec<[Point; 2]>,
+}
+
+impl Sheet {
+    fn new(ink: Ink) -> Self {
+        Self { ink, faces: Vec::new(), lines: Vec::new(), thin: Vec::new(), seams: Vec::new() }
+    }
+}
+
+/// The sheets from the back to the front.
+///
+/// Faces are laid down from the back, each on the lowest sheet of its ink that is not below a face that it
+/// overlaps. So faces of one ink that nothing separates share a sheet, and what is in front comes later.
+/// Shapes narrower than three times the `pen` (m) are thin. Fails if a `stop` was asked for.
+pub(super) fn stack(faces: &Faces, pen: f64, stop: &Stop) -> Result<Vec<Sheet>> {
+    let Some(mut grid) = Grid::around(faces) else { return Ok(Vec::new()) };
+    let mut order: Vec<u32> = (0..faces.faces.len() as u32).collect();
+    order.sort_by(|a, b| faces.faces[*a as usize].depth.total_cmp(&faces.faces[*b as usize].depth));
+    let mut sheets: Vec<Sheet> = Vec::new();
+    let mut of_ink: FxHashMap<Ink, Vec<u32>> = FxHashMap::default();
+    let mut sheet_of = vec![0; faces.faces.len()];
+    for index in order {
+        stop.check()?;
+        let face = &faces.faces[index as usize];
+        let lowest = grid.highest(face, &faces.faces);
+        let candidates = of_ink.entry(face.ink).or_default();
+        let sheet = match candidates.get(candidates.partition_point(|sheet| *sheet < lowest)) {
+            Some(sheet) => *sheet,
+            None => {
+                let sheet = sheets.len() as u32;
+                candidates.push(sheet);
+                sheets.push(Sheet::new(face.ink));
+                sheet
+            }
+        };
+        sheets[sheet as usize].faces.push(index);
+        sheet_of[index as usize] = sheet;
+        grid.lay(index, face, sheet);
+    }
+    for line in &faces.lines {
+        // The later of two neighbours would cover half of the line.
+        let [one, other] = line.faces.map(|face| sheet_of[face as usize]);
+        let sheet = &mut sheets[one.max(other) as usize];
+        match line.kind {
+            LineKind::Edge(width) if width >= pen * 3000.0 => sheet.lines.push(line.ends),
+            LineKind::Edge(_) => sheet.thin.push(line.ends),
+            LineKind::Seam => sheet.seams.push(line.ends),
+        }
+    }
+    Ok(sheets)
+}
+
+/// Squares of the paper and what has been laid on them.
+struct Grid {
+    low: Point,
+    /// The side of a cell (mm).
+    cell: f64,
+    columns: usize,
+    cells: Vec<Cell>,
+    /// Faces with their sheets, as lists that begin in the cells: each with the index of the next plus one.
+    laid: Vec<(u32, u32, u32)>,
+}
+
+#[derive(Clone, Default)]
+struct Cell {
+    /// The index of the first face in the list plus one; 0 for none.
+    first: u32,
+    /// How many faces are in the list.
+    count: u32,
+    /// The highest sheet of a face that touches the cell.
+    highest: u32,
+}
+
+impl Grid {
+    fn around(faces: &Faces) -> Option<Self> {
+        let (low, high) = faces.bounds()?;
+        let [width, height] = [0, 1].map(|axis| (high[axis] - low[axis]) as f64 + 1.0);
+        let covered: f64 =
+            faces.faces.iter().map(|face| (extent(face, 0) + 1.0) * (extent(face, 1) + 1.0)).sum();
+        let cell = (covered / TOUCHES).sqrt().max(width.max(height) / 512.0);
+        let columns = (width / cell) as usize + 1;
+        let rows = (height / cell) as usize + 1;
+        Some(Self { low, cell, columns, cells: vec![Cell::default(); columns * rows], laid: Vec::new() })
+    }
+
+    /// The cells that the box around `face` touches, as ranges of rows' cells.
+    fn rows(&self, face: &Face) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
+        let [left, right, bottom, top] =
+            [(0, true), (0, false), (1, true), (1, false)].map(|(axis, least)| {
+                let values = face.corners.map(|corner| corner[axis]);
+                let value = if least { values.iter().min() } else { values.iter().max() };
+                (value.map_or(0.0, |value| (value - self.low[axis]) as f64) / self.cell) as usize
+            });
+        let columns = self.columns;
+        (bottom..=top).map(move |row| row * columns + left..row * columns + right + 1)
+    }
+
+    /// The highest sheet that `face` may not be below.
+    fn highest(&self, face: &Face, faces: &[Face]) -> u32 {
+        let mut highest = 0;
+        for cell in self.rows(face).flat_map(|row| &self.cells[row]) {
+            if cell.highest <= highest {
+                continue;
+            }
+            if cell.count >= CROWD {
+                highest = cell.highest;
+                continue;
+            }
+            let mut next = cell.first;
+            while next > 0 {
+                let (other, sheet, after) = self.laid[next as usize - 1];
+                if sheet > highest && overlap(&face.corners, &faces[other as usize].corners) {
+                    highest = sheet;
+                }
+                next = after;
+            }
+        }
+        highest
+    }
+
+    fn lay(&mut self, index: u32, face: &Face, sheet: u32) {
+        for row in self.rows(face) {
+            for cell in &mut self.cells[row] {
+                cell.highest = cell.highest.max(sheet);
+                if cell.count < CROWD {
+                    self.laid.push((index, sheet, cell.first));
+                    cell.first = self.laid.len() as u32;
+                    cell.count += 1;
+                }
+            }
+        }
+    }
+}
+
+/// Whether two counter-clockwise triangles have more in common than a border.
+fn overlap(one: &[Point; 3], other: &[Point; 3]) -> bool {
+    let separates = |of: &[Point; 3], from: &[Point; 3]| {
+        (0..3).any(|i| {
+            let (a, b) = (of[i], of[(i + 1) % 3]);
+            from.iter().all(|c| {
+                let side = |to: Point| [i128::from(to[0] - a[0]), i128::from(to[1] - a[1])];
+                let (ab, ac) = (side(b), side(*c));
+                ab[0] * ac[1] <= ab[1] * ac[0]
+            })
+        })
+    };
+    !separates(one, other) && !separates(other, one)
+}
+
+/// The size of `face` (mm) along an axis.
+fn extent(face: &Face, axis: usize) -> f64 {
+    let [a, b, c] = face.corners.map(|corner| corner[axis]);
+    (a.max(b).max(c) - a.min(b).min(c)) as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::super::{check::check, samples};
+    use super::super::view::View;
+    use super::*;
+
+    #[test]
+    fn houses_of_one_colour_share_sheets_above_the_ground() {
+        let scene = samples::town(6);
+        let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
+        let sheets = stack(&faces, 0.01, &Stop::default()).unwrap();
+        assert_eq!(sheets.iter().map(|sheet| sheet.faces.len()).sum::<usize>(), faces.faces.len());
+        assert_eq!(sheets[0].faces.len(), 2, "the ground is the lowest");
+        assert!(sheets.len() < 40, "{} sheets for 36 houses", sheets.len());
+    }
+
+    #[test]
+    fn a_hill_needs_one_sheet_for_each_shade() {
+        let faces = Faces::collect(&check(&samples::hill(60)).unwrap(), View::Plan);
+        let inks: std::collections::BTreeSet<_> = faces.faces.iter().map(|face| face.ink).collect();
+        assert_eq!(stack(&faces, 0.01, &Stop::default()).unwrap().len(), inks.len());
+    }
+
+    #[test]
+    fn triangles_that_share_a_side_or_a_corner_do_not_overlap() {
+        let one = [[0, 0], [10, 0], [0, 10]];
+        assert!(!overlap(&one, &[[10, 0], [10, 10], [0, 10]]));
+        assert!(!overlap(&one, &[[10, 0], [20, 0], [20, 10]]));
+        assert!(overlap(&one, &[[1, 1], [20, 0], [20, 20]]) && overlap(&one, &one));
+    }
+
+    #[test]
+    fn what_is_in_front_comes_later() {
+        let mut scene = samples::boxes(3);
+        scene.materials.push(burgeon_scene::Material::default());
+        scene.meshes.push(samples::cube("other", 1));
+        scene.instances[1].mesh = 1;
+        for (i, height) in [4.0, 0.0, 2.0].into_iter().enumerate() {
+            scene.instances[i].transform = glam::DAffine3::from_translation(glam::DVec3::Z * height);
+        }
+        let sheets =
+            stack(&Faces::collect(&check(&scene).unwrap(), View::Plan), 0.01, &Stop::default()).unwrap();
+        let materials: Vec<_> = sheets.iter().map(|sheet| (sheet.ink / 24, sheet.faces.len())).collect();
+        assert_eq!(materials, [(1, 2), (0, 4)]);
+    }
+}

@@ -1,0 +1,208 @@
+//! Where a file goes: through links to what they lead to, and with the mode and the owner of what is there.
+
+use std::fs::{self, File, Metadata};
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
+
+use super::temporary::Temporary;
+use burgeon_base::error::{Error, Result};
+
+/// The most links that lead from one to the next.
+const LINKS: usize = 40;
+
+/// A place that a file can be written to.
+pub(super) struct Target {
+    /// As it was named.
+    named: PathBuf,
+    /// Where its links lead, in a folder without links.
+    real: PathBuf,
+    /// What is there.
+    there: Option<Metadata>,
+}
+
+/// How what was written under a temporary name comes to its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Way {
+    /// It takes the place of what is there.
+    Instead,
+    /// It is copied into what is there, since that has other names too, or an owner that nobody else can make a file for.
+    Into,
+    /// It is copied into what is there and cannot be taken back, such as a pipe.
+    Through,
+}
+
+impl Target {
+    /// The place that `named` leads to. Fails if its folder is not there, and if it is a folder or must not be written to.
+    pub(super) fn of(named: &Path) -> Result<Self> {
+        let there = named.metadata().ok();
+        if there.as_ref().is_some_and(Metadata::is_dir) {
+            let error = Error::file(named, format!("cannot write {}: it is a folder", named.display()));
+            return Err(
+                error.help(format!("name a file in it, such as {}", named.join("model.glb").display()))
+            );
+        }
+        let real = match &there {
+            // The names that the system has for open pipes lead nowhere.
+            Some(there) if !there.is_file() => named.to_path_buf(),
+            _ => follow(named).map_err(|error| refused(named, &error))?,
+        };
+        let folder = folder(&real);
+        if !folder.is_dir() {
+            let (shown, folder) = (named.display(), folder.display());
+            return Err(Error::file(named, format!("cannot write {shown}: there is no folder {folder}"))
+                .help("make the folder first, or write to one that is there"));
+        }
+        // What is about to be replaced need not be asked by the system, but its owner may have meant to keep it.
+        if there.as_ref().is_some_and(Metadata::is_file) {
+            File::options().write(true).open(&real).map_err(|error| refused(named, &error))?;
+        }
+        let real = match (folder.canonicalize(), real.file_name()) {
+            (Ok(folder), Some(name)) if there.as_ref().is_none_or(Metadata::is_file) => folder.join(name),
+            _ => real,
+        };
+        Ok(Self { named: named.to_path_buf(), real, there })
+    }
+
+    /// Where it is.
+    pub(super) fn real(&self) -> &Path {
+        &self.real
+    }
+
+    /// Whether both are the same file.
+    pub(super) fn is(&self, other: &Self) -> bool {
+        let same = |(a, b): (&Metadata, &Metadata)| identity(a).is_some_and(|a| identity(b) == Some(a));
+        self.real == other.real || self.there.as_ref().zip(other.there.as_ref()).is_some_and(same)
+    }
+
+    /// A file to write what is to go there, and how it will.
+    pub(super) fn create(&self) -> Result<(Temporary, File, Way)> {
+        let elsewhere = |way: Way| {
+            let name = self.real.file_name().unwrap_or_default();
+            let (temporary, file) = Temporary::beside(&std::env::temp_dir().join(name))?;
+            hide(&file)?;
+            Ok((temporary, file, way))
+        };
+        let created = match &self.there {
+            None => Temporary::beside(&self.real).map(|(temporary, file)| (temporary, file, Way::Instead)),
+            Some(there) if !there.is_file() => elsewhere(Way::Through),
+            Some(there) => match Temporary::beside(&self.real) {
+                Ok((temporary, file)) => {
+                    let alike = !has_other_names(there) && liken(&file, there).is_ok();
+                    Ok((temporary, file, if alike { Way::Instead } else { Way::Into }))
+                }
+                // The file may be written to, and its folder not.
+                Err(error) if is_forbidden(&error) => elsewhere(Way::Into),
+                Err(error) => Err(error),
+            },
+        };
+        created.map_err(|error: io::Error| self.refused(&error))
+    }
+
+    /// The error if it could not be written.
+    pub(super) fn refused(&self, error: &io::Error) -> Error {
+        refused(&self.named, error)
+    }
+
+    /// Copies the file at `path` into what is there.
+    pub(super) fn fill(&self, path: &Path) -> io::Result<()> {
+        let mut out = File::options().write(true).open(&self.real)?;
+        if self.there.as_ref().is_some_and(Metadata::is_file) {
+            out.set_len(0)?;
+        }
+        io::copy(&mut File::open(path)?, &mut out).map(|_| ())
+    }
+}
+
+/// Where the links at `path` lead, even if there is nothing yet.
+fn follow(path: &Path) -> io::Result<PathBuf> {
+    let mut path = path.to_path_buf();
+    for _ in 0..LINKS {
+        match fs::read_link(&path) {
+            Ok(next) => path = folder(&path).join(next),
+            Err(_) => return Ok(path),
+        }
+    }
+    Err(io::Error::other("its links lead in a circle"))
+}
+
+/// The folder that `path` is in.
+fn folder(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if folder.as_os_str().is_empty() => Path::new("."),
+        Some(folder) => folder,
+        None => path,
+    }
+}
+
+/// Gives `file` the owner and the mode that `like` tells.
+#[cfg(unix)]
+fn liken(file: &File, like: &Metadata) -> io::Result<()> {
+    use std::os::unix::fs::{MetadataExt, fchown};
+    let own = file.metadata()?;
+    if (own.uid(), own.gid()) != (like.uid(), like.gid()) {
+        fchown(file, Some(like.uid()), Some(like.gid()))?;
+    }
+    file.set_permissions(like.permissions())
+}
+
+#[cfg(not(unix))]
+fn liken(_: &File, _: &Metadata) -> io::Result<()> {
+    Ok(())
+}
+
+/// Keeps `file`, in a folder for everyone, from all but its owner.
+#[cfg(unix)]
+fn hide(file: &File) -> io::Result<()> {
+    file.set_permissions(std::os::unix::fs::PermissionsExt::from_mode(0o600))
+}
+
+#[cfg(not(unix))]
+fn hide(_: &File) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(unix)]
+fn has_other_names(there: &Metadata) -> bool {
+    std::os::unix::fs::MetadataExt::nlink(there) > 1
+}
+
+#[cfg(not(unix))]
+fn has_other_names(_: &Metadata) -> bool {
+    false
+}
+
+/// What tells a file from all others, whatever it is called.
+#[cfg(unix)]
+fn identity(there: &Metadata) -> Option<(u64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((there.dev(), there.ino()))
+}
+
+#[cfg(not(unix))]
+fn identity(_: &Metadata) -> Option<(u64, u64)> {
+    None
+}
+
+fn is_forbidden(error: &io::Error) -> bool {
+    matches!(error.kind(), ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem)
+}
+
+/// The error for a `path` that could not be written.
+fn refused(path: &Path, error: &io::Error) -> Error {
+    let said = Error::file(path, format!("cannot write {}: {error}", path.display()));
+    match error.kind() {
+        ErrorKind::NotFound => said.help("make the folder first, or write to one that is there"),
+        ErrorKind::PermissionDenied | ErrorKind::ReadOnlyFilesystem => {
+            let (file, folder) = (path.display(), folder(path).display());
+            said.help(match path.is_file() {
+                true => format!("allow yourself to write {file}, or choose another name"),
+                false => format!("write to a folder other than {folder}, where you may make files"),
+            })
+        }
+        ErrorKind::StorageFull | ErrorKind::QuotaExceeded => {
+            said.help("free some space, or write to another disk")
+        }
+        ErrorKind::IsADirectory => said.help("remove that folder, or choose another name"),
+        _ => said.help("write to another folder or disk"),
+    }
+}

@@ -1,0 +1,235 @@
+//! The image files of a scene's materials.
+
+use super::check::{Checked, named};
+use super::color::linear;
+use super::files::Files;
+use super::stem;
+use burgeon_base::error::{Error, Result};
+use burgeon_scene::Texture;
+use image::{ImageDecoder, ImageFormat, ImageReader};
+use std::fs;
+use std::io::Cursor;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The image files that shown materials use, each once, in the order of the materials.
+pub(super) struct Images {
+    /// The files.
+    pub(super) files: Vec<ImageFile>,
+    /// For each material of the scene, the index of its file.
+    pub(super) of_material: Vec<Option<usize>>,
+}
+
+/// A PNG or JPEG file as it lies on the disk.
+pub(super) struct ImageFile {
+    path: PathBuf,
+    /// What is known of an image without a file, to tell it from others.
+    content: Option<Arc<[u8]>>,
+    /// What the file holds, unchanged.
+    pub(super) bytes: Vec<u8>,
+    /// PNG or JPEG, by its content and not by its name.
+    format: ImageFormat,
+    /// Whether its pixels have an opacity.
+    pub(super) has_alpha: bool,
+}
+
+impl Images {
+    /// Reads the files. Fails if one of them is not there or is neither PNG nor JPEG.
+    pub(super) fn load(checked: &Checked<'_>) -> Result<Self> {
+        let mut images = Self { files: Vec::new(), of_material: Vec::new() };
+        for (i, material) in checked.scene.materials.iter().enumerate() {
+            let texture = material.texture.as_ref().filter(|_| checked.materials[i]);
+            let Some(texture) = texture else {
+                images.of_material.push(None);
+                continue;
+            };
+            let same = |file: &ImageFile| file.path == texture.path && file.content == texture.content;
+            let known = images.files.iter().position(same);
+            let index = match known {
+                Some(index) => index,
+                None => {
+                    images.files.push(ImageFile::read(texture, &named("material", &material.name, i))?);
+                    images.files.len() - 1
+                }
+            };
+            images.of_material.push(Some(index));
+        }
+        Ok(images)
+    }
+
+    /// A file name for a copy of each image beside the export at `main`, such as `city_brick.png`.
+    ///
+    /// They begin with the stem of the export, differ from each other and from what else is among the `files`, and no
+    /// source is overwritten.
+    pub(super) fn copy_names(&self, main: &Path, files: &Files) -> Vec<String> {
+        let place = |path: &Path| fs::canonicalize(path).ok();
+        let sources: Vec<_> = self.files.iter().filter_map(|file| place(&file.path)).collect();
+        let mut names: Vec<String> = Vec::new();
+        for file in &self.files {
+            let own = if file.content.is_some() { plain(&file.stem()) } else { file.stem() };
+            let stem = format!("{}_{own}", stem(main));
+            let mut name = format!("{stem}.{}", file.extension());
+            let mut count = 1;
+            let is_taken = |name: &String| {
+                let path = main.with_file_name(name);
+                names.contains(name)
+                    || place(&path).is_some_and(|it| sources.contains(&it))
+                    || files.has(&path, &file.bytes) == Some(false)
+            };
+            while is_taken(&name) {
+                count += 1;
+                name = format!("{stem}_{count}.{}", file.extension());
+            }
+            names.push(name);
+        }
+        names
+    }
+}
+
+/// The most bytes that an image file may have.
+const LARGEST: u64 = 1_000_000_000;
+
+impl ImageFile {
+    fn read(texture: &Texture, material: &str) -> Result<Self> {
+        let path = &texture.path;
+        let refused = |why: &dyn std::fmt::Display| {
+            Error::file(path, format!("cannot read the texture {} of {material}: {why}", path.display()))
+        };
+        let bytes = match &texture.content {
+            Some(content) => content.to_vec(),
+            None => burgeon_base::files::read(path, LARGEST).map_err(|error| {
+                refused(&error).help("correct the path, which starts at the script's folder")
+            })?,
+        };
+        let remedy = "give a PNG or JPEG file that an image viewer opens";
+        let format = match image::guess_format(&bytes) {
+            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
+            _ => return Err(refused(&"it is neither PNG nor JPEG").help(remedy)),
+        };
+        let has_alpha = ImageReader::with_format(Cursor::new(&bytes), format)
+            .into_decoder()
+            .map(|decoder| decoder.color_type().has_alpha())
+            .map_err(|error| refused(&error).help(remedy))?;
+        let content = texture.content.clone();
+        Ok(Self { path: path.clone(), content, bytes, format, has_alpha })
+    }
+
+    /// The file's name without folder and extension; all that it is called, of an image without a file.
+    pub(super) fn stem(&self) -> String {
+        if self.content.is_some() {
+            return self.path.to_string_lossy().into_owned();
+        }
+        self.path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+    }
+
+    /// `png` or `jpg`.
+    pub(super) fn extension(&self) -> &'static str {
+        if self.format == ImageFormat::Png { "png" } else { "jpg" }
+    }
+
+    /// The media type, such as `image/png`.
+    pub(super) fn media_type(&self) -> &'static str {
+        self.format.to_mime_type()
+    }
+
+    /// The mean colour of what is opaque, linear from 0 to 1; white if the file turns out to be damaged.
+    pub(super) fn mean_color(&self) -> [f32; 3] {
+        let Ok(image) = image::load_from_memory_with_format(&self.bytes, self.format) else {
+            return [1.0; 3];
+        };
+        let small = image.thumbnail(64, 64).into_rgba8();
+        let mut sum = [0.0; 4];
+        for pixel in small.pixels() {
+            let opacity = f32::from(pixel[3]) / 255.0;
+            for (sum, value) in sum.iter_mut().zip(&pixel.0[..3]) {
+                *sum += linear(f32::from(*value) / 255.0) * opacity;
+            }
+            sum[3] += opacity;
+        }
+        if sum[3] > 0.0 { [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]] } else { [1.0; 3] }
+    }
+}
+
+/// The most letters of an image's own name in that of its copy: systems of files take some 255 bytes in all.
+const LONGEST: usize = 48;
+
+/// What an image without a file is called, as every system takes it for the name of one: tiles are called by level,
+/// column and row.
+fn plain(name: &str) -> String {
+    let name = Path::new(name).with_extension("");
+    let letter = |letter: char| if letter.is_alphanumeric() || "-_.".contains(letter) { letter } else { '_' };
+    name.to_string_lossy().chars().take(LONGEST).map(letter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::check::check;
+    use super::super::samples;
+    use super::*;
+
+    #[test]
+    fn an_image_that_two_materials_share_is_read_once_and_its_mean_colour_is_known() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = samples::textured(folder.path());
+        let images = Images::load(&check(&scene).unwrap()).unwrap();
+        assert_eq!(images.of_material, [Some(0), Some(1), Some(0)]);
+        let [red, green, blue] = images.files[0].mean_color();
+        assert!(red > 0.1 && green > 0.02 && blue < 0.05, "{red} {green} {blue}");
+        assert!(!images.files[0].has_alpha);
+        assert_eq!((images.files[0].extension(), images.files[1].extension()), ("png", "jpg"));
+    }
+
+    #[test]
+    fn a_copy_never_overwrites_a_source() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = samples::textured(folder.path());
+        let own = folder.path().join("out_brick.png");
+        fs::copy(folder.path().join("brick.png"), &own).unwrap();
+        if let Some(texture) = &mut scene.materials[1].texture {
+            texture.path = own;
+        }
+        let images = Images::load(&check(&scene).unwrap()).unwrap();
+        let main = folder.path().join("out.gltf");
+        assert_eq!(images.copy_names(&main, &Files::default()), ["out_brick_2.png", "out_out_brick.png"]);
+    }
+
+    #[test]
+    fn an_image_that_is_called_by_level_column_and_row_is_copied_under_a_name_for_files() {
+        let folder = tempfile::tempdir().unwrap();
+        let mut scene = samples::textured(folder.path());
+        let content: Arc<[u8]> = fs::read(folder.path().join("brick.png")).unwrap().into();
+        let long = "ä".repeat(300);
+        for (material, name) in
+            ["land 1 0/0/0.png", "a\\b: *?\"<>|\n.png", &format!("{long}.png")].into_iter().enumerate()
+        {
+            if let Some(texture) = &mut scene.materials[material].texture {
+                (texture.path, texture.content) = (name.into(), Some(content.clone()));
+            }
+        }
+        let images = Images::load(&check(&scene).unwrap()).unwrap();
+        let long = format!("out_{}.png", "ä".repeat(LONGEST));
+        let names = images.copy_names(&folder.path().join("out.gltf"), &Files::default());
+        assert_eq!(names[..2], ["out_land_1_0_0_0.png", "out_a_b_________.png"]);
+        assert!(names[2..].iter().all(|name| *name == long) && long.len() < 120, "{names:?}");
+        crate::write(&scene, &folder.path().join("out.obj"), &Default::default()).unwrap();
+        crate::write(&scene, &folder.path().join("out.gltf"), &Default::default()).unwrap();
+        assert!(names.iter().all(|name| folder.path().join(name).is_file()));
+    }
+
+    #[test]
+    fn a_texture_that_is_missing_or_no_image_is_refused_by_name() {
+        let folder = tempfile::tempdir().unwrap();
+        let scene = samples::textured(folder.path());
+        let said = || {
+            let error = Images::load(&check(&scene).unwrap()).map(|_| ()).unwrap_err().to_string();
+            error.replace(&folder.path().display().to_string(), "FOLDER")
+        };
+        fs::write(folder.path().join("brick.png"), "no image").unwrap();
+        insta::assert_snapshot!(said(), @r#"
+        cannot read the texture FOLDER/brick.png of material 0 ("brick"): it is neither PNG nor JPEG
+          help: give a PNG or JPEG file that an image viewer opens
+        "#);
+        fs::remove_file(folder.path().join("brick.png")).unwrap();
+        assert!(said().contains("brick.png of material 0"), "{}", said());
+    }
+}

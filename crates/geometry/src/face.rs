@@ -1,0 +1,110 @@
+//! Single faces and balls, for drawing objects.
+
+use glam::{DVec2, DVec3};
+
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_scene::Part;
+use geo::{Coord, LineString, Polygon, TriangulateEarcut};
+
+/// Adds a flat polygon with `corners` (m) in order, at least three; its normal follows the right hand.
+///
+/// Corners off the common plane are kept where they are; the polygon is divided as seen along its mean normal
+/// (Newell's method). Texture coordinates are metres within the plane. A polygon without area adds nothing.
+pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
+    let mut points: Vec<DVec3> = Vec::with_capacity(corners.len());
+    for corner in corners {
+        if !corner.is_finite() {
+            return Err(Error::geometry("a corner of the polygon is not finite"));
+        }
+        if points.last().is_none_or(|last| last.distance_squared(*corner) > 1e-20) {
+            points.push(*corner);
+        }
+    }
+    if points.len() > 1 && points[0].distance_squared(points[points.len() - 1]) <= 1e-20 {
+        points.pop();
+    }
+    if points.len() < 3 {
+        return Err(Error::geometry(format!(
+            "the polygon has {} different corners, and needs 3",
+            points.len()
+        ))
+        .help("add corners with Point(), moving in between"));
+    }
+    let newell = (0..points.len())
+        .map(|index| (points[index] - points[0]).cross(points[(index + 1) % points.len()] - points[0]))
+        .fold(DVec3::ZERO, |sum, cross| sum + cross);
+    let normal = newell.normalize_or_zero();
+    if normal == DVec3::ZERO {
+        return Ok(());
+    }
+    let right = normal.any_orthonormal_vector();
+    let up = normal.cross(right);
+    let flat: Vec<DVec2> = points
+        .iter()
+        .map(|point| DVec2::new((*point - points[0]).dot(right), (*point - points[0]).dot(up)))
+        .collect();
+    let ring: LineString = flat.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
+    let raw = Polygon::new(ring, Vec::new()).earcut_triangles_raw();
+    let base = u32::try_from(part.positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
+    for (point, flat) in points.iter().zip(&flat) {
+        part.positions.push(point.as_vec3());
+        part.normals.push(normal.into());
+        part.uvs.push(flat.as_vec2());
+    }
+    // The ring is closed by repeating its first corner.
+    let index = |vertex: usize| vertex % points.len();
+    let vertices: Vec<usize> = raw.triangle_indices.iter().map(|vertex| index(*vertex)).collect();
+    for corner in vertices.chunks_exact(3) {
+        let [a, b, c] = [corner[0], corner[1], corner[2]];
+        let turn = (flat[b] - flat[a]).perp_dot(flat[c] - flat[a]);
+        if turn.abs() < 1e-18 || a == b || b == c || a == c {
+            continue;
+        }
+        let [a, b, c] = if turn > 0.0 { [a, b, c] } else { [a, c, b] };
+        #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
+        part.triangles.push([a as u32 + base, b as u32 + base, c as u32 + base]);
+    }
+    Ok(())
+}
+
+/// Adds a closed ball with `radius` (m) and `sides` faces around its axis, at least 3.
+pub fn sphere(part: &mut Part, center: DVec3, radius: f64, sides: u32) -> Result<()> {
+    if !radius.is_finite() || radius < 0.0 {
+        return Err(Error::geometry(format!("the radius of a ball must be 0 or more, and is {radius}")));
+    }
+    if radius == 0.0 {
+        return Ok(());
+    }
+    let (sides, rows) = (sides.max(3), (sides / 2).max(2));
+    let base = u32::try_from(part.positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
+    for row in 0..=rows {
+        let (sin, cos) = (std::f64::consts::PI * f64::from(row) / f64::from(rows)).sin_cos();
+        // Exact poles, so that the faces around them meet.
+        let sin = if row == 0 || row == rows { 0.0 } else { sin };
+        for side in 0..=sides {
+            let angle = std::f64::consts::TAU * f64::from(side % sides) / f64::from(sides);
+            let normal = DVec3::new(sin * angle.cos(), sin * angle.sin(), cos);
+            part.positions.push((center + normal * radius).as_vec3());
+            part.normals.push(normal.into());
+            let (u, v) = (
+                f64::from(side) / f64::from(sides) * std::f64::consts::TAU,
+                1.0 - f64::from(row) / f64::from(rows),
+            );
+            part.uvs.push(DVec2::new(u * radius, v * std::f64::consts::PI * radius).as_vec2());
+        }
+    }
+    let at = |row: u32, side: u32| base + row * (sides + 1) + side;
+    for row in 0..rows {
+        for side in 0..sides {
+            if row > 0 {
+                part.triangles.push([at(row, side), at(row + 1, side), at(row, side + 1)]);
+            }
+            if row + 1 < rows {
+                part.triangles.push([at(row, side + 1), at(row + 1, side), at(row + 1, side + 1)]);
+            }
+        }
+    }
+    Ok(())
+}

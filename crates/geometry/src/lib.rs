@@ -1,0 +1,37 @@
+//! Geometry without rules or scripts: frames, cross-sections and sweeps.
+
+mod cap;
+mod face;
+mod frame;
+mod outline;
+mod path;
+mod plan;
+mod quad;
+mod repair;
+mod ring;
+pub mod roof;
+mod section;
+mod shapes;
+mod sides;
+mod sizes;
+pub mod skeleton;
+mod skin;
+pub mod solid;
+mod span;
+mod strand;
+mod surface;
+mod sweep;
+#[cfg(test)]
+mod sweep_tests;
+mod union;
+
+pub use face::{face, sphere};
+pub use frame::Frame;
+pub use path::{Segment, Station};
+pub use plan::Plan;
+pub use roof::fill;
+pub use section::{MOST_POINTS, Section, SectionPoint};
+pub use sizes::{SAME, Share, Sizes, Split};
+pub use strand::{MOST_SIDES, Strand, tube};
+pub use sweep::{Lengthwise, SweepOptions, Swept, sweep};
+pub use union::{Cell, Crossing, Union};

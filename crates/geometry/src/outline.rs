@@ -1,0 +1,299 @@
+//! The rings of a cross-section: what a user gave, made clean or refused.
+
+use geo::line_intersection::{LineIntersection, line_intersection};
+use geo::{Coord, Kernel, Line, Orientation, kernels::RobustKernel};
+use glam::DVec2;
+
+use super::ring::MOST;
+use super::section::SectionPoint;
+use burgeon_base::error::{Error, Result};
+
+/// A point with its place, counted from 1, in the list that the user gave.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Numbered {
+    pub point: SectionPoint,
+    pub number: usize,
+}
+
+/// A ring with the name that errors give it.
+struct Ring {
+    name: String,
+    points: Vec<Numbered>,
+}
+
+/// What rings belong to, and how closely they are looked at.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Manner {
+    /// The name that errors give it.
+    pub owner: &'static str,
+    /// Points within this distance (m) are one.
+    pub near: f64,
+    /// Sharp points within this distance (m) of the line between their neighbours are dropped, and so are the
+    /// tips of spikes; with 0, those exactly on that line and between them.
+    pub straight: f64,
+}
+
+const SECTION: Manner = Manner { owner: "cross-section", near: 1e-9, straight: 0.0 };
+
+/// Closed rings in order: the outer one counter-clockwise, the holes clockwise.
+///
+/// Repeated points are dropped, and so are sharp points on a straight line between sharp points. Fails if a
+/// ring has a coordinate that is not finite, fewer than 3 distinct points or no area, if rings cross or touch
+/// themselves or each other, and if a hole is not inside the outer ring or is inside another hole.
+pub(super) fn closed(outer: &[SectionPoint], holes: &[Vec<SectionPoint>]) -> Result<Vec<Vec<SectionPoint>>> {
+    let rings = numbered_rings(outer, holes, &SECTION)?;
+    Ok(rings.into_iter().map(|ring| ring.into_iter().map(|point| point.point).collect()).collect())
+}
+
+/// As [`closed`], in the `manner` of another thing than a cross-section, and with the places of the points.
+pub(super) fn numbered_rings(
+    outer: &[SectionPoint],
+    holes: &[Vec<SectionPoint>],
+    manner: &Manner,
+) -> Result<Vec<Vec<Numbered>>> {
+    let mut rings = vec![ring("the outer ring".into(), outer, manner)?];
+    for (index, hole) in holes.iter().enumerate() {
+        rings.push(ring(format!("hole {}", index + 1), hole, manner)?);
+    }
+    refuse_crossings(&rings, true, manner)?;
+    refuse_misplaced_holes(&rings, manner)?;
+    let turned = rings.into_iter().enumerate().map(|(index, ring)| {
+        let mut points = ring.points;
+        if (twice_area(&points) > 0.0) != (index == 0) {
+            // The first point stays first, since texture coordinates begin there.
+            points[1..].reverse();
+        }
+        points
+    });
+    Ok(turned.collect())
+}
+
+/// An open line of at least 2 distinct points, cleaned like a ring; fails if it crosses or touches itself.
+pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
+    let name = "the line".to_owned();
+    let mut points = numbered(&name, points, &SECTION)?;
+    drop_repeated(&mut points, &SECTION);
+    if points.len() < 2 {
+        return Err(Error::geometry("the line of an open cross-section has fewer than 2 distinct points")
+            .help("give at least 2 points that differ"));
+    }
+    drop_straight(&mut points, false, &SECTION);
+    let line = Ring { name, points };
+    refuse_crossings(std::slice::from_ref(&line), false, &SECTION)?;
+    Ok(line.points.into_iter().map(|point| point.point).collect())
+}
+
+/// Whether these points are a ring, so far as it can be told of one alone.
+pub(super) fn is_ring(points: &[SectionPoint], manner: &Manner) -> bool {
+    ring(String::new(), points, manner).is_ok()
+}
+
+fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<Ring> {
+    let owner = manner.owner;
+    let mut points = numbered(&name, points, manner)?;
+    drop_repeated(&mut points, manner);
+    while points.len() > 1 && is_same(&points[0], &points[points.len() - 1], manner) {
+        points.pop();
+    }
+    if points.len() < 3 {
+        let count = points.len();
+        return Err(Error::geometry(format!("{name} of the {owner} has {count} distinct points"))
+            .help("give at least 3 points that differ"));
+    }
+    let [a, b] = [points[0].point.at, points[1].point.at];
+    if points.iter().all(|point| orientation(a, b, point.point.at) == Orientation::Collinear) {
+        return Err(Error::geometry(format!(
+            "{name} of the {owner} has no area: its points lie on one line"
+        ))
+        .help(if manner.straight > 0.0 {
+            "move a point off the line"
+        } else {
+            "move a point off the line, or use an open cross-section"
+        }));
+    }
+    drop_straight(&mut points, true, manner);
+    if points.len() < 3 {
+        return Err(Error::geometry(format!(
+            "{name} of the {owner} is nowhere wider than {} m",
+            manner.straight
+        ))
+        .help("leave it out"));
+    }
+    Ok(Ring { name, points })
+}
+
+fn numbered(name: &str, points: &[SectionPoint], manner: &Manner) -> Result<Vec<Numbered>> {
+    let owner = manner.owner;
+    let number = |(index, &point): (usize, &SectionPoint)| {
+        if point.at.is_finite() && point.at.abs().max_element() <= MOST {
+            return Ok(Numbered { point, number: index + 1 });
+        }
+        let (number, DVec2 { x, y }) = (index + 1, point.at);
+        Err(Error::geometry(format!("point {number} of {name} of the {owner} is ({x}, {y})"))
+            .help("give coordinates in metres, up to 1e9"))
+    };
+    points.iter().enumerate().map(number).collect()
+}
+
+fn drop_repeated(points: &mut Vec<Numbered>, manner: &Manner) {
+    points.dedup_by(|next, kept| is_same(next, kept, manner));
+}
+
+/// Whether two points are too near to each other to be two.
+fn is_same(a: &Numbered, b: &Numbered, manner: &Manner) -> bool {
+    a.point.at.distance_squared(b.point.at) <= manner.near * manner.near
+}
+
+/// Drops the sharp points on a straight line between sharp points, which change neither shape nor shading.
+fn drop_straight(points: &mut Vec<Numbered>, closed: bool, manner: &Manner) {
+    let mut index = usize::from(!closed);
+    while points.len() > 2 && index < points.len() - usize::from(!closed) {
+        let count = points.len();
+        let [before, here, after] =
+            [points[(index + count - 1) % count], points[index], points[(index + 1) % count]]
+                .map(|p| p.point);
+        let sharp = !(before.smooth || here.smooth || after.smooth);
+        if sharp && is_straight(before.at, here.at, after.at, manner) {
+            points.remove(index);
+            if manner.straight > 0.0 {
+                // What it lay between may now be straight itself.
+                index = index.saturating_sub(2);
+            }
+        } else {
+            index += 1;
+        }
+    }
+}
+
+fn is_straight(before: DVec2, here: DVec2, after: DVec2, manner: &Manner) -> bool {
+    if manner.straight == 0.0 {
+        let collinear = orientation(before, here, after) == Orientation::Collinear;
+        return collinear && (here - before).dot(after - here) > 0.0;
+    }
+    let (short, long) = (here.distance(before).min(here.distance(after)), before.distance(after));
+    short <= manner.near || (after - before).perp_dot(here - before).abs() <= manner.straight * long || {
+        // The tip of a spike: one side lies along the other.
+        let (a, b) = (before - here, after - here);
+        a.dot(b) > 0.0 && a.perp_dot(b).abs() <= manner.straight * a.length().max(b.length())
+    }
+}
+
+/// An edge of a ring, by the indices of the ring and of its first point.
+struct Edge {
+    ring: usize,
+    index: usize,
+    line: Line,
+}
+
+/// Fails if two edges have a point in common other than the one where they follow each other.
+fn refuse_crossings(rings: &[Ring], closed: bool, manner: &Manner) -> Result<()> {
+    let owner = manner.owner;
+    let mut edges = Vec::new();
+    for (ring, Ring { points, .. }) in rings.iter().enumerate() {
+        for index in 0..points.len() - usize::from(!closed) {
+            let [start, end] = [points[index], points[(index + 1) % points.len()]].map(|p| coord(p.point.at));
+            edges.push(Edge { ring, index, line: Line::new(start, end) });
+        }
+    }
+    // From left to right, so that each edge meets only those that begin before it ends.
+    let left = |edge: &Edge| edge.line.start.x.min(edge.line.end.x);
+    edges.sort_by(|a, b| left(a).total_cmp(&left(b)));
+    for (i, a) in edges.iter().enumerate() {
+        let right = a.line.start.x.max(a.line.end.x);
+        for b in edges[i + 1..].iter().take_while(|b| left(b) <= right) {
+            let Some(place) = meeting(a, b, rings[a.ring].points.len(), closed) else { continue };
+            let (a, b) = if (a.ring, a.index) < (b.ring, b.index) { (a, b) } else { (b, a) };
+            let (first, second) = (edge_name(a, rings), edge_name(b, rings));
+            let DVec2 { x, y } = place;
+            let message = if a.ring == b.ring {
+                let name = &rings[a.ring].name;
+                format!("edges {first} and {second} of {name} of the {owner} meet at ({x:.3}, {y:.3})")
+            } else {
+                let (one, two) = (&rings[a.ring].name, &rings[b.ring].name);
+                format!(
+                    "edge {second} of {two} meets edge {first} of {one} of the {owner} at ({x:.3}, {y:.3})"
+                )
+            };
+            return Err(Error::geometry(message).help(
+                "edges are named by their points, counted from 1; move these apart or leave some out",
+            ));
+        }
+    }
+    Ok(())
+}
+
+/// Where two edges meet though they should not.
+fn meeting(a: &Edge, b: &Edge, count: usize, closed: bool) -> Option<DVec2> {
+    let follows =
+        |a: &Edge, b: &Edge| b.index == a.index + 1 || (closed && b.index == 0 && a.index + 1 == count);
+    let neighbours = a.ring == b.ring && (follows(a, b) || follows(b, a));
+    // Most pairs of edges follow each other around a corner, where they have nothing else in common.
+    if neighbours && turns(a.line, b.line) {
+        return None;
+    }
+    match line_intersection(a.line, b.line)? {
+        LineIntersection::SinglePoint { .. } if neighbours => None,
+        LineIntersection::SinglePoint { intersection, .. } => Some(vector(intersection)),
+        LineIntersection::Collinear { intersection } => Some(vector(intersection.start)),
+    }
+}
+
+/// Whether two lines certainly run different ways: by more than rounding could feign.
+fn turns(a: Line, b: Line) -> bool {
+    let [u, v] = [a, b].map(|line| vector(line.end) - vector(line.start));
+    let cross = u.perp_dot(v);
+    cross * cross > 1e-18 * u.length_squared() * v.length_squared()
+}
+
+fn edge_name(edge: &Edge, rings: &[Ring]) -> String {
+    let points = &rings[edge.ring].points;
+    format!("{}-{}", points[edge.index].number, points[(edge.index + 1) % points.len()].number)
+}
+
+/// Fails if a hole is not inside the first ring or is inside another hole; no rings meet.
+fn refuse_misplaced_holes(rings: &[Ring], manner: &Manner) -> Result<()> {
+    for (index, hole) in rings.iter().enumerate().skip(1) {
+        let DVec2 { x, y } = hole.points[0].point.at;
+        for (other, around) in rings.iter().enumerate().filter(|&(other, _)| other != index) {
+            if contains(&around.points, DVec2 { x, y }) == (other == 0) {
+                continue;
+            }
+            let side = if other == 0 { "outside" } else { "inside" };
+            let message = format!("{} of the {} is {side} {}", hole.name, manner.owner, around.name);
+            return Err(Error::geometry(format!("{message}: it begins at ({x:.3}, {y:.3})"))
+                .help("a hole lies inside the outer ring and beside the other holes"));
+        }
+    }
+    Ok(())
+}
+
+/// Whether `point`, which is not on the ring, is inside it: whether a ray to the right meets it an odd number
+/// of times.
+fn contains(ring: &[Numbered], point: DVec2) -> bool {
+    let crossed = (0..ring.len()).filter(|&index| {
+        let [a, b] = [ring[index], ring[(index + 1) % ring.len()]].map(|p| p.point.at);
+        let upwards = a.y <= point.y && point.y < b.y;
+        let downwards = b.y <= point.y && point.y < a.y;
+        let side = orientation(a, b, point);
+        (upwards && side == Orientation::CounterClockwise) || (downwards && side == Orientation::Clockwise)
+    });
+    crossed.count() % 2 == 1
+}
+
+/// Twice the area (m²) inside a ring; negative if it is clockwise.
+fn twice_area(ring: &[Numbered]) -> f64 {
+    let from = ring[0].point.at;
+    ring.windows(2).map(|edge| (edge[0].point.at - from).perp_dot(edge[1].point.at - from)).sum()
+}
+
+fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
+    RobustKernel::orient2d(coord(a), coord(b), coord(c))
+}
+
+fn coord(point: DVec2) -> Coord {
+    Coord { x: point.x, y: point.y }
+}
+
+fn vector(coord: Coord) -> DVec2 {
+    DVec2::new(coord.x, coord.y)
+}

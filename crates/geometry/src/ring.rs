@@ -1,0 +1,222 @@
+//! The cross-section set up at the stations of a sweep, as rings of points.
+
+use glam::{DVec2, DVec3, Vec3};
+
+use smallvec::SmallVec;
+
+use super::{Frame, Section, Station};
+use burgeon_base::error::{Error, Result};
+
+/// Lengths (m) up to this are nothing: about what a coordinate of a few metres is rounded to in f32.
+pub(super) const NOTHING: f64 = 1.0 / (1 << 22) as f64;
+
+/// Coordinates and factors are no greater, so that squares and products of them fit into f32 and f64.
+pub(super) const MOST: f64 = 1e9;
+
+/// The points of a rectangle, the usual section of many small solids: its rings take no memory of their own.
+pub(super) const FEW: usize = 4;
+
+/// A section that reaches no further (m) from its axis is squeezed onto it, so that no face is a sliver.
+const LEAST_REACH: f64 = 1e-6;
+
+/// The section's place, size and turn, as seen from the piece of way before or after a ring.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Pose {
+    pub(super) frame: Frame,
+    pub(super) scale: DVec2,
+    pub(super) twist: f64,
+}
+
+impl Pose {
+    /// The directions of the section's x and y.
+    pub(super) fn axes(&self) -> (DVec3, DVec3) {
+        let mut frame = self.frame;
+        if self.twist != 0.0 {
+            frame.roll(self.twist);
+        }
+        (-frame.left, -frame.up)
+    }
+}
+
+/// The section at one place.
+#[derive(Debug)]
+pub(super) struct Ring {
+    /// The station's number, counted from 1.
+    pub(super) station: usize,
+    /// As the piece of way that ends here sees it; its heading differs from that of `after` at a mitre.
+    pub(super) before: Pose,
+    /// As the piece of way that begins here sees it.
+    pub(super) after: Pose,
+    /// The direction in which the ring's plane is crossed.
+    pub(super) normal: DVec3,
+    /// The points (m), in the section's order.
+    pub(super) exact: SmallVec<[DVec3; FEW]>,
+    /// The points (m) as they are exported.
+    pub(super) points: SmallVec<[Vec3; FEW]>,
+    /// Whether the surface has an edge along the ring.
+    pub(super) sharp: bool,
+}
+
+impl Ring {
+    /// Whether the section has shrunk to one point.
+    pub(super) fn is_apex(&self) -> bool {
+        self.after.scale == DVec2::ZERO
+    }
+
+    /// Whether the section has kept an area.
+    pub(super) fn is_full(&self) -> bool {
+        self.after.scale.x != 0.0 && self.after.scale.y != 0.0
+    }
+
+    /// The place (m) of the section's origin.
+    pub(super) fn centre(&self) -> DVec3 {
+        self.after.frame.position
+    }
+
+    fn is_at(&self, other: &Ring) -> bool {
+        let pairs = self.exact.iter().zip(&other.exact);
+        pairs.into_iter().all(|(a, b)| a.distance_squared(*b) <= NOTHING * NOTHING)
+    }
+}
+
+/// The rings of `section` at all `stations`, one where several are the same.
+///
+/// Stations at one place with different headings are joined by a mitre: their rings lie in the plane halfway.
+/// If `closed`, so are the last and the first, and a last ring that repeats the first is left out.
+/// Fails if a value is not finite or the way turns back on itself.
+pub(super) fn rings(section: &Section, stations: &[Station], closed: bool) -> Result<Vec<Ring>> {
+    for (index, station) in stations.iter().enumerate() {
+        refuse_infinite(index + 1, station)?;
+    }
+    let reach = section.reach();
+    let mut rings: Vec<Ring> = Vec::with_capacity(stations.len());
+    for (group, normal) in groups(stations, closed) {
+        for index in group {
+            let ring = ring(section, reach, index + 1, &stations[index], normal)?;
+            match rings.last_mut() {
+                Some(last) if last.is_at(&ring) => {
+                    last.after = ring.after;
+                    last.sharp |= ring.sharp;
+                }
+                _ => rings.push(ring),
+            }
+        }
+    }
+    if closed
+        && rings.len() > 2
+        && rings[0].is_at(&rings[rings.len() - 1])
+        && let Some(last) = rings.pop()
+    {
+        rings[0].before = last.before;
+        rings[0].sharp |= last.sharp;
+    }
+    Ok(rings)
+}
+
+/// Runs of stations at one place, each with the direction in which its plane is crossed.
+fn groups(stations: &[Station], closed: bool) -> impl Iterator<Item = (std::ops::Range<usize>, DVec3)> {
+    let apart = |a: usize, b: usize| {
+        let [a, b] = [a, b].map(|index| stations[index].frame.position);
+        a.distance_squared(b) > NOTHING * NOTHING
+    };
+    let mut groups: SmallVec<[_; 2]> = SmallVec::new();
+    let mut start = 0;
+    for end in 1..=stations.len() {
+        if end == stations.len() || apart(start, end) {
+            groups.push((start..end, stations[start].frame.heading, stations[end - 1].frame.heading));
+            start = end;
+        }
+    }
+    let count = groups.len();
+    if closed && count > 1 && !apart(0, stations.len() - 1) {
+        groups[0].1 = groups[count - 1].1;
+        groups[count - 1].2 = groups[0].2;
+    }
+    groups.into_iter().map(|(range, before, after)| (range, (before + after).normalize_or_zero()))
+}
+
+fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, normal: DVec3) -> Result<Ring> {
+    let squeeze = |scale: f64, reach: f64| if scale.abs() * reach <= LEAST_REACH { 0.0 } else { scale };
+    let scale = DVec2::new(squeeze(station.scale.x, reach.x), squeeze(station.scale.y, reach.y));
+    let pose = Pose { frame: station.frame, scale, twist: station.twist };
+    let Frame { position, heading, .. } = station.frame;
+    let slope = heading.dot(normal);
+    // A mitre of 160 degrees is already six times as long as the section is wide.
+    if slope < 0.17 {
+        return Err(Error::geometry(format!("the way turns back on itself at station {number}"))
+            .help("turn in several steps with some length between them, or begin a new run"));
+    }
+    let (x, y) = pose.axes();
+    let place = |point: DVec2| {
+        let offset = x * (scale.x * point.x) + y * (scale.y * point.y);
+        position + offset - heading * (offset.dot(normal) / slope)
+    };
+    let straight = slope > 1.0 - 1e-15;
+    let exact: SmallVec<[DVec3; FEW]> = if straight {
+        section.points().map(|point| position + x * (scale.x * point.x) + y * (scale.y * point.y)).collect()
+    } else {
+        section.points().map(place).collect()
+    };
+    let points = exact.iter().copied().map(snapped).collect();
+    Ok(Ring { station: number, before: pose, after: pose, normal, exact, points, sharp: station.sharp })
+}
+
+/// The point (m) at export precision, on a grid as fine as f32 at one metre.
+///
+/// Without the grid, points that ought to be one differ by what rounding leaves near 0, where f32 is finer.
+fn snapped(point: DVec3) -> Vec3 {
+    const GRID: f64 = (1 << 24) as f64;
+    // Adding 0 turns -0 into 0.
+    (rounded(point * GRID) / GRID + DVec3::ZERO).as_vec3()
+}
+
+/// As `round`, which is a function of the system's library for processors of every age; for numbers that fit into i64.
+fn rounded(vector: DVec3) -> DVec3 {
+    #[allow(clippy::cast_possible_truncation, reason = "the fraction is put back")]
+    let round = |number: f64| {
+        let whole = number as i64 as f64;
+        if (number - whole).abs() < 0.5 { whole } else { whole + 1f64.copysign(number) }
+    };
+    DVec3::new(round(vector.x), round(vector.y), round(vector.z))
+}
+
+fn refuse_infinite(number: usize, station: &Station) -> Result<()> {
+    let Frame { position, heading, left, up } = station.frame;
+    let vectors = [
+        ("position", position),
+        ("heading", heading),
+        ("left axis", left),
+        ("up axis", up),
+        ("scale", station.scale.extend(0.0)),
+        ("twist", DVec3::splat(station.twist)),
+    ];
+    let Some((name, value)) = vectors.into_iter().find(|(_, value)| !is_usable(*value)) else {
+        return Ok(());
+    };
+    let text = match name {
+        "twist" => format!("{}", value.x),
+        "scale" => format!("({}, {})", value.x, value.y),
+        _ => format!("({}, {}, {})", value.x, value.y, value.z),
+    };
+    Err(Error::geometry(format!("the {name} of station {number} is {text}")).help("give numbers up to 1e9"))
+}
+
+/// Whether all of a vector is a number that is not too great.
+fn is_usable(value: DVec3) -> bool {
+    value.is_finite() && value.abs().max_element() <= MOST
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_rounded_as_the_standard_library_rounds_them() {
+        let halves = (-40..40).map(|count| f64::from(count) * 0.25);
+        let near = [0.5f64.next_down(), 0.5, 0.5f64.next_up(), 2f64.powi(52) + 1.0, 2f64.powi(53), 1.6e16];
+        for number in halves.chain(near).flat_map(|number| [number, -number]) {
+            let found = rounded(DVec3::splat(number)).x + 0.0;
+            assert_eq!(found.to_bits(), (number.round() + 0.0).to_bits(), "{number}");
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Flat polygons as triangles.
+
+use glam::{DVec2, DVec3};
+use smallvec::SmallVec;
+
+use super::super::cap;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_scene::Part;
+
+/// Triangles that are less wide than this (m) are thin.
+const WIDE: f64 = 0.01;
+/// Triangles that are less wide than this (m) are slivers.
+const SLIVER: f64 = 1e-3;
+/// The most corners of a ring whose triangles are chosen anew where there are slivers.
+const MOST: usize = 200;
+/// The most corners of a small ring.
+const SMALL: usize = 16;
+
+/// Triangles as places in a ring.
+type Corners = SmallVec<[[usize; 3]; 16]>;
+
+/// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
+///
+/// Texture coordinates are metres: u along `right`, v across, from `origin` on. Every edge of a ring is the edge
+/// of one triangle.
+pub fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
+    let normal = rings.iter().fold(DVec3::ZERO, |sum, ring| sum + newell(ring)).normalize_or_zero();
+    let right = (right - normal * normal.dot(right)).normalize_or_zero();
+    let up = normal.cross(right);
+    let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
+    let flats: SmallVec<[DVec2; 16]> = rings.iter().flatten().map(flat).collect();
+    let triangles: Corners = match rings {
+        [_] => match star(&flats) {
+            Some(apex) => fan(flats.len(), apex).collect(),
+            None => match cap::triangulate(&[flats.to_vec()]) {
+                Ok(triangles) => without_slivers(&flats, triangles.into()),
+                // It almost touches itself.
+                Err(_) => fan(flats.len(), widest(&flats)).collect(),
+            },
+        },
+        _ => {
+            let mut rest = flats.as_slice();
+            let nested = rings.iter().map(|ring| {
+                let (own, others) = rest.split_at(ring.len());
+                rest = others;
+                own.to_vec()
+            });
+            cap::triangulate(&nested.collect::<Vec<_>>())?.into()
+        }
+    };
+    let base = u32::try_from(part.positions.len())
+        .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
+    part.make_room(flats.len(), triangles.len());
+    part.positions.extend(rings.iter().flatten().map(DVec3::as_vec3));
+    part.normals.resize(part.positions.len(), normal.into());
+    part.uvs.extend(flats.iter().map(DVec2::as_vec2));
+    #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
+    part.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|corner| corner as u32 + base)));
+    Ok(())
+}
+
+/// The triangles of a ring, or others where some of them are slivers and others need not be: those whose thinnest is
+/// the widest.
+///
+/// Method: dynamic programming over the parts of the ring beyond each diagonal (G. Klincsek, "Minimal triangulations of
+/// polygonal domains", 1980).
+fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
+    let count = ring.len();
+    let thinnest = triangles.iter().map(|&triangle| width(ring, triangle)).fold(f64::INFINITY, f64::min);
+    if thinnest >= SLIVER || count > MOST {
+        return triangles;
+    }
+    // For each diagonal the least width beyond it and the corner of the triangle there.
+    let mut best = vec![(f64::INFINITY, 0); count * count];
+    for step in 2..count {
+        for from in 0..count - step {
+            let to = from + step;
+            let least = |tip: usize| {
+                let sides = best[from * count + tip].0.min(best[tip * count + to].0);
+                if sides > 0.0 { sides.min(width(ring, [from, tip, to])) } else { sides }
+            };
+            let tips = (from + 1..to).map(|tip| (least(tip), tip));
+            best[from * count + to] =
+                tips.fold((f64::NEG_INFINITY, 0), |best, other| if other.0 > best.0 { other } else { best });
+        }
+    }
+    if best[count - 1].0 <= thinnest {
+        return triangles;
+    }
+    let (mut found, mut pending) = (Corners::new(), vec![[0, count - 1]]);
+    while let Some([from, to]) = pending.pop() {
+        if to > from + 1 {
+            let tip = best[from * count + to].1;
+            found.push([from, tip, to]);
+            pending.extend([[from, tip], [tip, to]]);
+        }
+    }
+    found
+}
+
+/// How wide a triangle is (m), negative if it is clockwise.
+fn width(points: &[DVec2], triangle: [usize; 3]) -> f64 {
+    let [a, b, c] = triangle.map(|corner| points[corner]);
+    let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
+    (b - a).perp_dot(c - a) / longest.sqrt()
+}
+
+/// The triangles between a corner of a ring and all edges that it is not on.
+fn fan(count: usize, apex: usize) -> impl Iterator<Item = [usize; 3]> {
+    (1..count - 1).map(move |step| [apex, (apex + step) % count, (apex + step + 1) % count])
+}
+
+/// The corner of a small ring that sees all others, so that a fan fills it without thin triangles.
+fn star(ring: &[DVec2]) -> Option<usize> {
+    let count = ring.len();
+    let is_wide = |triangle: [usize; 3]| {
+        let [a, b, c] = triangle.map(|corner| ring[corner]);
+        let area = (b - a).perp_dot(c - a);
+        let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
+        area > 0.0 && area * area > WIDE * WIDE * longest
+    };
+    let mut corners = 0..if count <= SMALL { count } else { 0 };
+    corners.find(|&apex| count == 3 || fan(count, apex).all(is_wide))
+}
+
+/// The corner whose thinnest triangle is the thickest.
+fn widest(ring: &[DVec2]) -> usize {
+    let area = |[a, b, c]: [usize; 3]| (ring[b] - ring[a]).perp_dot(ring[c] - ring[a]);
+    let thinnest = |apex: usize| fan(ring.len(), apex).map(area).fold(f64::INFINITY, f64::min);
+    (0..ring.len()).max_by(|&a, &b| thinnest(a).total_cmp(&thinnest(b))).unwrap_or(0)
+}
+
+/// The sum of the normals of a ring's triangles, each as long as twice its area.
+fn newell(ring: &[DVec3]) -> DVec3 {
+    let from = ring[0];
+    ring.windows(2)
+        .map(|edge| (edge[0] - from).cross(edge[1] - from))
+        .fold(DVec3::ZERO, |sum, normal| sum + normal)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rings_are_filled_by_fans_or_otherwise_without_thin_triangles() {
+        // A square, an L, a T, which no corner sees all of, and a square with a point on an edge.
+        let rings: [&[(f64, f64)]; 4] = [
+            &[(0., 0.), (4., 0.), (4., 4.), (0., 4.)],
+            &[(0., 0.), (4., 0.), (4., 1.), (1., 1.), (1., 4.), (0., 4.)],
+            &[(1., 0.), (2., 0.), (2., 3.), (4., 3.), (4., 4.), (-1., 4.), (-1., 3.), (1., 3.)],
+            &[(0., 0.), (2., 0.), (4., 0.), (4., 4.), (0., 4.)],
+        ];
+        for (corners, (sees_all, whole)) in
+            rings.iter().zip([(true, 16.), (true, 7.), (false, 8.), (true, 16.)])
+        {
+            let flat: Vec<DVec2> = corners.iter().copied().map(DVec2::from).collect();
+            assert_eq!(star(&flat).is_some(), sees_all, "{corners:?}");
+            let ring: Vec<DVec3> = flat.iter().map(|at| at.extend(1.0)).collect();
+            let mut part = Part::default();
+            fill(&mut part, &[ring], DVec3::X, DVec3::ZERO).expect("a flat ring");
+            let area = |corners: [u32; 3]| {
+                let [a, b, c] = corners.map(|corner| flat[corner as usize]);
+                (b - a).perp_dot(c - a) / 2.0
+            };
+            assert_eq!(part.triangles.len(), flat.len() - 2);
+            assert!(part.triangles.iter().all(|triangle| area(triangle) > 0.4), "{corners:?}");
+            let sum: f64 = part.triangles.iter().map(area).sum();
+            assert!((sum - whole).abs() < 1e-9, "{sum} m²");
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Cross-sections by name: regular polygons, stars and rectangles.
+
+use std::cmp::Ordering;
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
+
+use glam::DVec2;
+
+use super::section::refuse_too_many;
+use super::{Section, SectionPoint};
+use burgeon_base::error::{Error, Result};
+
+impl Section {
+    /// A smooth regular polygon whose points lie at 1 m from the centre, the first one at (1, 0).
+    ///
+    /// Fails with fewer than 3 `sides`.
+    pub fn regular(sides: usize) -> Result<Self> {
+        if sides < 3 {
+            return Err(Error::geometry(format!("a regular cross-section of {sides} sides has no area"))
+                .help("give at least 3 sides"));
+        }
+        refuse_too_many(sides)?;
+        let points: Vec<_> = (0..sides).map(|i| SectionPoint::smooth(on_circle(i, sides))).collect();
+        Self::new(&points, &[])
+    }
+
+    /// A star of sharp points at 1 m from the centre, the first at (1, 0), with notches at `inner` (m) between.
+    ///
+    /// Fails with fewer than 2 `points` or if `inner` is not more than 0.
+    pub fn star(points: usize, inner: f64) -> Result<Self> {
+        if points < 2 || !inner.is_finite() || inner <= 0.0 {
+            return Err(Error::geometry(format!(
+                "a star of {points} points with its notches at {inner} m has no area"
+            ))
+            .help("give at least 2 points and notches at more than 0 m from the centre"));
+        }
+        refuse_too_many(points.saturating_mul(2))?;
+        let corner = |i: usize| on_circle(i, 2 * points) * if i.is_multiple_of(2) { 1.0 } else { inner };
+        Self::polygon(&(0..2 * points).map(corner).collect::<Vec<_>>(), &[])
+    }
+
+    /// A rectangle of `width` by `height` (m) about the centre, its first point at the lower left.
+    ///
+    /// Fails if either is not more than 0.
+    pub fn rectangle(width: f64, height: f64) -> Result<Self> {
+        refuse_flat(width, height)?;
+        let half = DVec2::new(width, height) / 2.0;
+        let corners = [-half, DVec2::new(half.x, -half.y), half, DVec2::new(-half.x, half.y)];
+        // As thin as a line to the checks of other polygons.
+        if width.min(height) < 1e-6 * width.max(height).max(1.0) {
+            return Self::polygon(&corners, &[]);
+        }
+        Ok(Self::convex(corners.map(SectionPoint::sharp)))
+    }
+
+    /// A rectangle of `width` by `height` (m) whose corners are arcs of `radius` (m) in `steps` straight pieces.
+    ///
+    /// The first point is where the arc at the lower left begins. Fails if a length is not more than 0 or the
+    /// arcs do not fit.
+    pub fn rounded_rectangle(width: f64, height: f64, radius: f64, steps: usize) -> Result<Self> {
+        refuse_flat(width, height)?;
+        if !(radius > 0.0 && 2.0 * radius <= width.min(height) && steps > 0) {
+            let message = format!(
+                "corners of {radius} m in {steps} steps do not fit a rectangle of {width} by {height} m"
+            );
+            return Err(Error::geometry(message).help(
+                "give a radius of more than 0 and at most half of the shorter side, and at least 1 step",
+            ));
+        }
+        refuse_too_many(steps.saturating_mul(4))?;
+        let inner = DVec2::new(width, height) / 2.0 - radius;
+        let mut points = Vec::with_capacity(4 * (steps + 1));
+        for (quarter, corner) in [
+            (2usize, -inner),
+            (3, DVec2::new(inner.x, -inner.y)),
+            (0, inner),
+            (1, DVec2::new(-inner.x, inner.y)),
+        ] {
+            for step in 0..=steps {
+                let offset = on_circle(quarter * steps + step, 4 * steps) * radius;
+                points.push(SectionPoint::smooth(corner + offset));
+            }
+        }
+        Self::new(&points, &[])
+    }
+}
+
+/// The point number `index` of `count` at 1 m from the centre, counter-clockwise from (1, 0).
+fn on_circle(index: usize, count: usize) -> DVec2 {
+    // By quarters, so that points which mirror each other do so to the last bit.
+    let (quarter, rest) = (4 * index / count % 4, (4 * index) % count);
+    let angle = |part: usize| FRAC_PI_2 * (part as f64 / count as f64);
+    let point = match (2 * rest).cmp(&count) {
+        Ordering::Less => DVec2::from_angle(angle(rest)),
+        Ordering::Equal => DVec2::splat(FRAC_1_SQRT_2),
+        Ordering::Greater => DVec2::from(angle(count - rest).sin_cos()),
+    };
+    match quarter {
+        0 => point,
+        1 => point.perp(),
+        2 => -point,
+        _ => -point.perp(),
+    }
+}
+
+fn refuse_flat(width: f64, height: f64) -> Result<()> {
+    if width.is_finite() && height.is_finite() && width > 0.0 && height > 0.0 {
+        return Ok(());
+    }
+    Err(Error::geometry(format!("a rectangle of {width} by {height} m has no area"))
+        .help("give a width and a height of more than 0 m"))
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use super::super::section::MOST_POINTS;
+    use super::*;
+
+    #[test]
+    fn areas_and_perimeters_follow_their_formulas() {
+        let sides = 7.0;
+        let heptagon = Section::regular(7).expect("a heptagon");
+        assert!((heptagon.area() - sides / 2.0 * (TAU / sides).sin()).abs() < 1e-12);
+        assert!((heptagon.perimeter() - sides * 2.0 * (TAU / sides / 2.0).sin()).abs() < 1e-12);
+        let star = Section::star(5, 0.4).expect("a star");
+        assert!((star.area() - 5.0 * 0.4 * (TAU / 10.0).sin()).abs() < 1e-12);
+        assert_eq!(Section::rectangle(3.0, 2.0).expect("a rectangle").area(), 6.0);
+        let rounded = Section::rounded_rectangle(3.0, 2.0, 0.5, 64).expect("a rounded rectangle");
+        let exact = 6.0 - (4.0 - TAU / 2.0) * 0.25;
+        assert!(rounded.area() < exact && exact - rounded.area() < 1e-3);
+    }
+
+    #[test]
+    fn a_regular_section_begins_at_one_metre_to_the_right_and_mirrors_itself_exactly() {
+        for sides in 3..40 {
+            let points: Vec<DVec2> = Section::regular(sides).expect("a polygon").points().collect();
+            assert_eq!(points[0], DVec2::X);
+            for i in 1..sides {
+                let mirrored = points[sides - i];
+                assert_eq!((points[i].x, points[i].y), (mirrored.x, -mirrored.y), "{i} of {sides}");
+                assert!((points[i] - DVec2::from_angle(TAU * i as f64 / sides as f64)).length() < 4e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn a_shape_without_area_or_with_too_many_points_is_refused() {
+        insta::assert_snapshot!(Section::regular(2).expect_err("no area"), @r"
+        a regular cross-section of 2 sides has no area
+          help: give at least 3 sides
+        ");
+        insta::assert_snapshot!(Section::star(5, 0.0).expect_err("no area"), @r"
+        a star of 5 points with its notches at 0 m has no area
+          help: give at least 2 points and notches at more than 0 m from the centre
+        ");
+        insta::assert_snapshot!(Section::rectangle(-1.0, 2.0).expect_err("no area"), @r"
+        a rectangle of -1 by 2 m has no area
+          help: give a width and a height of more than 0 m
+        ");
+        insta::assert_snapshot!(Section::rounded_rectangle(1.0, 2.0, 0.6, 4).expect_err("too round"), @r"
+        corners of 0.6 m in 4 steps do not fit a rectangle of 1 by 2 m
+          help: give a radius of more than 0 and at most half of the shorter side, and at least 1 step
+        ");
+        insta::assert_snapshot!(Section::regular(MOST_POINTS + 1).expect_err("too many"), @r"
+        a cross-section of 10001 points is too fine
+          help: give at most 10000 points
+        ");
+    }
+}

@@ -1,0 +1,127 @@
+//! The edges of the polygon on a lattice, where directions are compared exactly.
+
+use std::cmp::Ordering;
+
+use glam::{DVec2, I64Vec2};
+
+use super::Pace;
+use burgeon_base::error::{Error, Limit, Result};
+
+/// Cells of the lattice to a metre: corners move by less than 2e-10 m.
+pub(super) const CELLS: f64 = (1u64 << 32) as f64;
+/// The greatest coordinate (cells): products of differences fit in 128 bits.
+const MOST: f64 = (1u64 << 61) as f64;
+
+/// The rings on the lattice (cells), and the middle (m) of their box, from which they are measured.
+pub(super) fn snapped(rings: &[Vec<DVec2>]) -> Result<(Vec<Vec<I64Vec2>>, DVec2)> {
+    let points = || rings.iter().flatten();
+    let low = points().fold(DVec2::INFINITY, |low, point| low.min(*point));
+    let high = points().fold(DVec2::NEG_INFINITY, |high, point| high.max(*point));
+    let middle = low.midpoint(high).round();
+    let reach = (high - low).max_element() * CELLS;
+    if !points().all(|point| point.is_finite()) || reach > MOST {
+        return Err(Error::limit(Limit::Size, "the outline is too large for a roof"));
+    }
+    let snap = |point: &DVec2| ((*point - middle) * CELLS).round().as_i64vec2();
+    Ok((rings.iter().map(|ring| ring.iter().map(snap).collect()).collect(), middle))
+}
+
+/// A point of the lattice (m).
+pub(super) fn metres(point: I64Vec2) -> DVec2 {
+    point.as_dvec2() / CELLS
+}
+
+/// An edge of the polygon.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Edge {
+    /// Its direction.
+    pub along: DVec2,
+    /// The distance of its line from the origin at the beginning.
+    pub level: f64,
+    /// How it moves in all.
+    pub pace: Pace,
+    /// The line that it lies on at present.
+    pub line: usize,
+}
+
+impl Edge {
+    /// The distance of `at` from it at `time`, positive where it has not been yet.
+    pub(super) fn ahead(&self, at: DVec2, time: f64) -> f64 {
+        self.along.perp().dot(at) - self.level - self.pace.way(time)
+    }
+}
+
+/// A direction in cells of the lattice.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct Direction(pub I64Vec2);
+
+impl Direction {
+    pub(super) fn reversed(self) -> Self {
+        Self(-self.0)
+    }
+
+    /// A quarter turn to the left.
+    pub(super) fn left(self) -> Self {
+        Self(self.0.perp())
+    }
+
+    /// The way that `other` turns from it: greater to the left, less to the right. Exact.
+    pub(super) fn turn(self, other: Self) -> Ordering {
+        let [a, b] = [self.0, other.0].map(|way| (i128::from(way.x), i128::from(way.y)));
+        (a.0 * b.1).cmp(&(a.1 * b.0))
+    }
+
+    /// Whether two parallel directions are one.
+    pub(super) fn agrees(self, other: Self) -> bool {
+        self.0.signum() == other.0.signum()
+    }
+
+    /// Whether another one is parallel to it and the same way.
+    pub(super) fn runs_as(self, other: Self) -> bool {
+        self.agrees(other) && self.turn(other) == Ordering::Equal
+    }
+
+    /// The order of the angles from the negative x axis, counter-clockwise. Exact.
+    pub(super) fn compare(self, other: Self) -> Ordering {
+        let upper = |way: I64Vec2| way.y > 0 || (way.y == 0 && way.x > 0);
+        upper(self.0).cmp(&upper(other.0)).then_with(|| other.turn(self))
+    }
+
+    /// The shortest direction on the lattice that is parallel to it.
+    pub(super) fn shortest(self) -> Self {
+        let [mut a, mut b] = [self.0.x.unsigned_abs(), self.0.y.unsigned_abs()];
+        while b > 0 {
+            (a, b) = (b, a % b);
+        }
+        #[allow(clippy::cast_possible_wrap, reason = "no greater than a coordinate")]
+        Self(self.0 / a.max(1) as i64)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn directions_are_in_the_order_of_their_angles_and_turn_exactly() {
+        let ways = [(-9, -9), (0, -9), (9, -9), (9, 0), (i64::MAX / 4, 1), (9, 9), (0, 9), (-9, 9)];
+        let ways = ways.map(|(x, y)| Direction(I64Vec2::new(x, y)));
+        for pair in ways.windows(2) {
+            assert_eq!(pair[0].compare(pair[1]), Ordering::Less, "{pair:?}");
+            assert_eq!(pair[0].turn(pair[1]), Ordering::Greater, "{pair:?}");
+            assert_eq!(pair[0].reversed().turn(pair[1]), Ordering::Less, "{pair:?}");
+        }
+        assert_eq!(ways[2].shortest().0, I64Vec2::new(1, -1));
+        assert_eq!(ways[1].shortest().left().0, I64Vec2::new(1, 0));
+    }
+
+    #[test]
+    fn corners_are_moved_by_less_than_a_thousandth_of_a_micrometre() {
+        let ring = vec![DVec2::new(1000.1, 2000.2), DVec2::new(1010.3, 2000.7), DVec2::new(1003.3, 2011.1)];
+        let (snapped, middle) = snapped(std::slice::from_ref(&ring)).expect("a small ring");
+        assert_eq!(middle, DVec2::new(1005.0, 2006.0));
+        for (&from, &to) in ring.iter().zip(&snapped[0]) {
+            assert!((from - middle).distance(metres(to)) < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,274 @@
+//! How an object type says what scripts can do with it: said once, in the type's own file.
+
+use super::{Boxed, Key, Object, Parameter, Table, Value};
+use burgeon_base::error::{Error, Result};
+
+/// Refuses entries of `table` that `fields` does not name.
+pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {
+    for (key, value) in &table.entries {
+        let Key::Name(name) = key else {
+            return Err(Error::argument(format!(
+                "{kind} takes named fields, but was given {value} without a name"
+            ))
+            .help(format!("write {kind} {{ {} = {value} }}", fields.first().unwrap_or(&"name")))
+            .of_script());
+        };
+        if !fields.contains(&&**name) {
+            let message = format!("{kind} has no field called {name}");
+            return Err(Error::not_found("field", name, fields.iter().copied(), message)
+                .help(format!("it has {}", fields.join(", ")))
+                .of_script());
+        }
+    }
+    Ok(())
+}
+
+/// Declares the table that a constructor takes: a struct with documented, defaulted fields.
+///
+/// Gives the struct, its `Default`, `fields` and `from_table`, which refuses unknown names and wrong types.
+#[macro_export]
+macro_rules! fields {
+    (
+        $(#[doc = $doc:literal])+
+        pub struct $options:ident for $kind:literal {
+            $( $(#[doc = $field_doc:literal])+ pub $field:ident: $type:ty = $default:expr, )*
+        }
+    ) => {
+        $(#[doc = $doc])+
+        #[derive(Debug, Clone)]
+        pub struct $options {
+            $( $(#[doc = $field_doc])+ pub $field: $type, )*
+        }
+
+        impl Default for $options {
+            fn default() -> Self {
+                Self { $( $field: $default, )* }
+            }
+        }
+
+        impl $options {
+            /// The fields, for documentation.
+            pub fn fields() -> Vec<$crate::Field> {
+                vec![$(
+                    $crate::Field {
+                        name: stringify!($field).into(),
+                        doc: concat!($($field_doc, "\n"),+).into(),
+                        luau: <$type as $crate::Parameter>::luau(),
+                        default: {
+                            let value: $type = $default;
+                            $crate::Parameter::into_value(value).to_string()
+                        },
+                    },
+                )*]
+            }
+
+            /// Reads a constructor's table.
+            pub fn from_table(table: &$crate::Table) -> $crate::Result<Self> {
+                $crate::declare::refuse_unknown($kind, &[$(stringify!($field)),*], table)?;
+                let mut options = Self::default();
+                $(
+                    if let Some(value) = table.get(stringify!($field)) {
+                        options.$field = $crate::Parameter::from_value(value.clone())
+                            .map_err(|expected| expected.refuse($kind, stringify!($field), value))?;
+                    }
+                )*
+                Ok(options)
+            }
+        }
+    };
+}
+
+/// Declares the methods of an object type: an `impl` block whose methods scripts can call.
+///
+/// Gives the methods and `methods`, which lists them. `&self` methods may be called while rewriting, `&mut self` ones while
+/// interpreting.
+#[macro_export]
+macro_rules! methods {
+    ($object:ident = $kind:literal { $($body:tt)* }) => {
+        $crate::methods!(@next $object $kind [] $($body)*);
+    };
+    (@next $object:ident $kind:literal [$($info:expr,)*]) => {
+        impl $object {
+            /// The methods that scripts can call.
+            pub fn methods() -> Vec<$crate::Method> {
+                vec![$($info,)*]
+            }
+        }
+    };
+    (
+        @next $object:ident $kind:literal [$($info:expr,)*]
+        $(#[doc = $doc:literal])+
+        pub fn $method:ident(&mut $this:ident $(, $argument:ident: $type:ty)* $(,)?) $(-> $answer:ty)? $body:block
+        $($rest:tt)*
+    ) => {
+        impl $object {
+            $(#[doc = $doc])+
+            pub fn $method(&mut $this $(, $argument: $type)*) $(-> $answer)? $body
+        }
+        $crate::methods!(@next $object $kind [$($info,)* $crate::Method {
+            name: stringify!($method).into(),
+            doc: concat!($($doc, "\n"),+).into(),
+            arguments: vec![$(
+                $crate::Argument {
+                    name: stringify!($argument).into(),
+                    luau: <$type as $crate::Parameter>::luau(),
+                },
+            )*],
+            returns: <$crate::methods!(@answer $($answer)?) as $crate::Answer>::luau(),
+            call: $crate::Call::Write {
+                values: std::sync::Arc::new(|object, arguments| {
+                    let object = $crate::declare::downcast_mut::<$object>(object)?;
+                    #[allow(unused_mut, reason = "a method may take no arguments")]
+                    let mut arguments = $crate::declare::Arguments::new($kind, stringify!($method), arguments);
+                    $( let $argument: $type = arguments.next(stringify!($argument))?; )*
+                    arguments.end()?;
+                    $crate::Answer::answer(object.$method($($argument),*))
+                }),
+                numbers: if true $(&& <$type as $crate::Parameter>::IS_NUMBER)* {
+                    Some(std::sync::Arc::new(|object: &mut dyn $crate::Object, numbers: &[f64]| {
+                        let object = $crate::declare::downcast_mut::<$object>(object)?;
+                        #[allow(unused_mut, reason = "a method may take no arguments")]
+                        let mut numbers = $crate::declare::Numbers::new($kind, stringify!($method), numbers);
+                        $( let $argument: $type = numbers.next(stringify!($argument))?; )*
+                        numbers.end();
+                        $crate::Answer::answer(object.$method($($argument),*)).map(|_| ())
+                    }))
+                } else {
+                    None
+                },
+            },
+        },] $($rest)*);
+    };
+    (
+        @next $object:ident $kind:literal [$($info:expr,)*]
+        $(#[doc = $doc:literal])+
+        pub fn $method:ident(&$this:ident $(, $argument:ident: $type:ty)* $(,)?) $(-> $answer:ty)? $body:block
+        $($rest:tt)*
+    ) => {
+        impl $object {
+            $(#[doc = $doc])+
+            pub fn $method(&$this $(, $argument: $type)*) $(-> $answer)? $body
+        }
+        $crate::methods!(@next $object $kind [$($info,)* $crate::Method {
+            name: stringify!($method).into(),
+            doc: concat!($($doc, "\n"),+).into(),
+            arguments: vec![$(
+                $crate::Argument {
+                    name: stringify!($argument).into(),
+                    luau: <$type as $crate::Parameter>::luau(),
+                },
+            )*],
+            returns: <$crate::methods!(@answer $($answer)?) as $crate::Answer>::luau(),
+            call: $crate::Call::Read(std::sync::Arc::new(|object, arguments| {
+                let object = $crate::declare::downcast_ref::<$object>(object)?;
+                #[allow(unused_mut, reason = "a method may take no arguments")]
+                let mut arguments = $crate::declare::Arguments::new($kind, stringify!($method), arguments);
+                $( let $argument: $type = arguments.next(stringify!($argument))?; )*
+                arguments.end()?;
+                $crate::Answer::answer(object.$method($($argument),*))
+            })),
+        },] $($rest)*);
+    };
+    (@answer) => { () };
+    (@answer $answer:ty) => { $answer };
+}
+
+/// The arguments of a call, taken one after the other. For [`methods!`](crate::methods).
+pub struct Arguments<'a> {
+    kind: &'static str,
+    method: &'static str,
+    values: &'a [Value],
+    taken: usize,
+}
+
+impl<'a> Arguments<'a> {
+    /// The `values` that `method` of type `kind` is called with.
+    pub fn new(kind: &'static str, method: &'static str, values: &'a [Value]) -> Self {
+        Self { kind, method, values, taken: 0 }
+    }
+
+    /// The next argument, called `name` in messages.
+    pub fn next<T: Parameter>(&mut self, name: &str) -> Result<T> {
+        let value = self.values.get(self.taken).cloned().unwrap_or(Value::Nil);
+        self.taken += 1;
+        T::from_value(value.clone())
+            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
+    }
+
+    /// Fails if there are more arguments than have been taken.
+    pub fn end(&self) -> Result<()> {
+        if self.values.len() > self.taken {
+            return Err(Error::argument(format!(
+                "{}:{} takes {} arguments, not {}",
+                self.kind,
+                self.method,
+                self.taken,
+                self.values.len()
+            ))
+            .of_script());
+        }
+        Ok(())
+    }
+}
+
+/// The arguments of a call that takes only numbers.
+pub struct Numbers<'a> {
+    kind: &'static str,
+    method: &'static str,
+    numbers: &'a [f64],
+    taken: usize,
+}
+
+impl<'a> Numbers<'a> {
+    /// The `numbers` that `method` of type `kind` is called with.
+    pub fn new(kind: &'static str, method: &'static str, numbers: &'a [f64]) -> Self {
+        Self { kind, method, numbers, taken: 0 }
+    }
+
+    /// The next argument, called `name` in messages.
+    #[inline]
+    pub fn next<T: Parameter>(&mut self, name: &str) -> Result<T> {
+        let number = self.numbers.get(self.taken).copied().unwrap_or(f64::NAN);
+        self.taken += 1;
+        match T::from_number(number) {
+            Some(value) => Ok(value),
+            None => self.refuse::<T>(name, number),
+        }
+    }
+
+    #[cold]
+    fn refuse<T: Parameter>(&self, name: &str, number: f64) -> Result<T> {
+        let value = match Boxed::unpack(number) {
+            Boxed::Number(number) => Value::Number(number),
+            Boxed::Boolean(value) => Value::Boolean(value),
+            Boxed::Nil => Value::Nil,
+            Boxed::Handle(_) => Value::Table(std::sync::Arc::default()),
+        };
+        T::from_value(value.clone())
+            .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))
+    }
+
+    /// Ends the reading of arguments; their number was checked before.
+    #[allow(clippy::unused_self, reason = "mirrors Arguments::end")]
+    pub fn end(&self) {}
+}
+
+/// The object of type `T` that a method is called for.
+pub fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
+    let any: &dyn std::any::Any = object;
+    any.downcast_ref().ok_or_else(wrong_type)
+}
+
+/// The object of type `T` that a method that changes it is called for.
+#[inline]
+pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
+    let any: &mut dyn std::any::Any = object;
+    any.downcast_mut().ok_or_else(wrong_type)
+}
+
+#[cold]
+fn wrong_type() -> Error {
+    Error::script("the method belongs to another type of object")
+        .help("call it with a colon: this:method()")
+        .of_script()
+}

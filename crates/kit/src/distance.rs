@@ -1,0 +1,129 @@
+//! Distances from places to what an object has drawn, for rules that ask about their surroundings.
+
+use glam::DVec3;
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+
+use burgeon_scene::Part;
+
+/// Triangles, arranged so that the nearest one to a place is found without asking all.
+pub(super) struct Nearest {
+    tree: RTree<Triangle>,
+}
+
+struct Triangle([DVec3; 3]);
+
+impl RTreeObject for Triangle {
+    type Envelope = AABB<[f64; 3]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        let [a, b, c] = self.0;
+        AABB::from_corners(a.min(b).min(c).to_array(), a.max(b).max(c).to_array())
+    }
+}
+
+impl PointDistance for Triangle {
+    fn distance_2(&self, place: &[f64; 3]) -> f64 {
+        let place = DVec3::from_array(*place);
+        let [a, b, c] = self.0;
+        (on_triangle(place, a, b, c) - place).length_squared()
+    }
+}
+
+impl Nearest {
+    /// The triangles of `parts`.
+    pub(super) fn new(parts: &[Part]) -> Self {
+        let corners = |part: &Part, triangle: [u32; 3]| {
+            Triangle(triangle.map(|corner| part.positions[corner as usize].as_dvec3()))
+        };
+        let triangles = parts.iter().flat_map(|part| part.triangles.iter().map(|it| corners(part, it)));
+        Self { tree: RTree::bulk_load(triangles.collect()) }
+    }
+
+    /// Distance (m) from `place` to the nearest point of them; infinite without triangles.
+    pub(super) fn distance(&self, place: DVec3) -> f64 {
+        let place = place.to_array();
+        let nearest = self.tree.nearest_neighbor(&place);
+        nearest.map_or(f64::INFINITY, |triangle| triangle.distance_2(&place).sqrt())
+    }
+}
+
+/// The point of a triangle nearest to `place`.
+///
+/// Method: Ericson, "Real-Time Collision Detection", 2005, section 5.1.5: by the regions around the corners,
+/// edges and face.
+fn on_triangle(place: DVec3, a: DVec3, b: DVec3, c: DVec3) -> DVec3 {
+    let (ab, ac, ap) = (b - a, c - a, place - a);
+    let (d1, d2) = (ab.dot(ap), ac.dot(ap));
+    if d1 <= 0.0 && d2 <= 0.0 {
+        return a;
+    }
+    let bp = place - b;
+    let (d3, d4) = (ab.dot(bp), ac.dot(bp));
+    if d3 >= 0.0 && d4 <= d3 {
+        return b;
+    }
+    let vc = d1 * d4 - d3 * d2;
+    if vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 {
+        return a + ab * (d1 / (d1 - d3));
+    }
+    let cp = place - c;
+    let (d5, d6) = (ab.dot(cp), ac.dot(cp));
+    if d6 >= 0.0 && d5 <= d6 {
+        return c;
+    }
+    let vb = d5 * d2 - d1 * d6;
+    if vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 {
+        return a + ac * (d2 / (d2 - d6));
+    }
+    let va = d3 * d6 - d5 * d4;
+    if va <= 0.0 && d4 >= d3 && d5 >= d6 {
+        return b + (c - b) * ((d4 - d3) / ((d4 - d3) + (d5 - d6)));
+    }
+    let scale = 1.0 / (va + vb + vc);
+    a + ab * (vb * scale) + ac * (vc * scale)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_point_lies_on_the_face_an_edge_or_a_corner() {
+        let (a, b, c) = (DVec3::ZERO, DVec3::X * 2.0, DVec3::Y * 2.0);
+        for (place, expected) in [
+            (DVec3::new(0.5, 0.5, 3.0), DVec3::new(0.5, 0.5, 0.0)),
+            (DVec3::new(1.0, -2.0, 0.0), DVec3::new(1.0, 0.0, 0.0)),
+            (DVec3::new(-1.0, -1.0, 1.0), a),
+            (DVec3::new(5.0, -1.0, 0.0), b),
+            (DVec3::new(2.0, 2.0, 0.0), DVec3::new(1.0, 1.0, 0.0)),
+            (DVec3::new(-1.0, 5.0, 0.0), c),
+        ] {
+            assert!((on_triangle(place, a, b, c) - expected).length() < 1e-12, "{place}");
+        }
+    }
+
+    #[test]
+    fn the_nearest_of_many_triangles_is_the_one_that_a_scan_finds() {
+        let mut part = Part::default();
+        for index in 0..200u32 {
+            let angle = f64::from(index);
+            let center = DVec3::new((angle * 1.7).sin(), (angle * 2.3).cos(), (angle * 0.9).sin()) * 5.0;
+            for corner in [DVec3::X, DVec3::Y, DVec3::Z] {
+                part.positions.push((center + corner * 0.3).as_vec3());
+            }
+            part.triangles.push([3 * index, 3 * index + 1, 3 * index + 2]);
+        }
+        let nearest = Nearest::new(std::slice::from_ref(&part));
+        for index in 0..50 {
+            let place =
+                DVec3::new(f64::from(index).sin(), f64::from(index * 3).cos(), 0.1 * f64::from(index)) * 6.0;
+            let scanned = part.triangles.iter().map(|triangle| {
+                let [a, b, c] = triangle.map(|corner| part.positions[corner as usize].as_dvec3());
+                on_triangle(place, a, b, c).distance(place)
+            });
+            let scanned = scanned.fold(f64::INFINITY, f64::min);
+            assert!((nearest.distance(place) - scanned).abs() < 1e-9);
+        }
+        assert_eq!(Nearest::new(&[]).distance(DVec3::ZERO), f64::INFINITY);
+    }
+}

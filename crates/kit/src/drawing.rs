@@ -1,0 +1,196 @@
+//! What drawing objects share: faces by material, placed models, and which module made them.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::{DAffine3, DVec3};
+
+use super::Model;
+use super::distance::Nearest;
+use super::makers::Makers;
+use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene};
+
+/// The faces that an object has drawn, by material, and the models that it has placed.
+#[derive(Clone, Default)]
+pub struct Drawing {
+    materials: Vec<Material>,
+    parts: Vec<Part>,
+    /// What was placed, and where; the same thing once.
+    placed: Vec<(Arc<Model>, Vec<DAffine3>)>,
+    /// How many instances that makes.
+    instances: usize,
+    /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
+    spare: Vec<Part>,
+    makers: Option<Makers>,
+    /// The triangles by place, from the first question about them to the next change.
+    nearest: OnceLock<Arc<Nearest>>,
+}
+
+impl Drawing {
+    /// Forgets all faces and models.
+    pub fn clear(&mut self) {
+        self.nearest.take();
+        self.materials.clear();
+        self.placed.clear();
+        self.instances = 0;
+        for mut part in self.parts.drain(..).rev() {
+            part.clear();
+            self.spare.push(part);
+        }
+        if let Some(makers) = &mut self.makers {
+            makers.clear();
+        }
+    }
+
+    /// The number of the part with this material.
+    pub fn material(&mut self, material: &Material) -> usize {
+        // Colours tell most of them apart at once.
+        let same = |known: &Material| known.base_color == material.base_color && known == material;
+        if let Some(index) = self.materials.iter().position(same) {
+            return index;
+        }
+        self.materials.push(material.clone());
+        let spare = self.spare.pop().unwrap_or_default();
+        self.parts.push(Part { material: self.materials.len() - 1, ..spare });
+        self.materials.len() - 1
+    }
+
+    /// The material of the part with this number.
+    pub fn material_of(&self, index: usize) -> Material {
+        self.materials.get(index).cloned().unwrap_or_default()
+    }
+
+    /// The part with this number, as [`Drawing::material`] gave it.
+    #[inline]
+    pub fn part(&mut self, index: usize) -> &mut Part {
+        self.nearest.take();
+        &mut self.parts[index]
+    }
+
+    /// The parts, in the order of the first use of their materials.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
+    /// Distance (m) from `place` to the nearest point of the faces; infinite without any. Models are not asked.
+    pub fn distance(&self, place: DVec3) -> f64 {
+        self.nearest.get_or_init(|| Arc::new(Nearest::new(&self.parts))).distance(place)
+    }
+
+    /// Places `model` at `frame`; the same model many times is one mesh with many instances.
+    pub fn place(&mut self, model: &Arc<Model>, frame: DAffine3) {
+        let index = match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, model)) {
+            Some(index) => index,
+            None => {
+                self.placed.push((Arc::clone(model), Vec::new()));
+                self.placed.len() - 1
+            }
+        };
+        self.instances += model.instances();
+        self.placed[index].1.push(frame);
+        if let Some(makers) = &mut self.makers {
+            makers.place(index);
+        }
+    }
+
+    /// Draws the faces of `model` at `frame`, as if they were its own.
+    pub fn draw_model(&mut self, model: &Model, frame: &DAffine3) {
+        for (mesh, transform) in model.meshes() {
+            let frame = *frame * transform;
+            let turned = frame.matrix3.inverse().transpose();
+            let mirrored = frame.matrix3.determinant() < 0.0;
+            for (part, material) in &mesh {
+                let index = self.material(material);
+                let into = self.part(index);
+                let Ok(base) = u32::try_from(into.positions.len()) else { return };
+                into.make_room(part.positions.len(), part.triangles.len());
+                into.positions
+                    .extend(part.positions.iter().map(|at| frame.transform_point3(at.as_dvec3()).as_vec3()));
+                into.normals.extend(
+                    part.normals.iter().map(|normal| Normal::from(turned * normal.vector().as_dvec3())),
+                );
+                into.uvs.extend_from_slice(&part.uvs);
+                into.triangles.extend(part.triangles.iter().map(|corners| {
+                    let [a, b, c] = corners.map(|corner| corner + base);
+                    if mirrored { [a, c, b] } else { [a, b, c] }
+                }));
+            }
+        }
+    }
+
+    /// The number of triangles, and of instances, each of which counts as one.
+    pub fn triangles(&self) -> usize {
+        self.parts.iter().map(|part| part.triangles.len()).sum::<usize>() + self.instances
+    }
+
+    /// The number of triangles of the part with this number.
+    pub fn triangles_of(&self, index: usize) -> usize {
+        self.parts.get(index).map_or(0, |part| part.triangles.len())
+    }
+
+    /// The symbol of the chain that draws at present, while a chain is traced.
+    #[inline]
+    pub fn maker(&self) -> u32 {
+        self.makers.as_ref().map_or(0, Makers::present)
+    }
+
+    /// Draws into part `index` for the symbol `maker`, which may have come before the present one.
+    #[inline]
+    pub fn draw_for<T>(&mut self, maker: u32, index: usize, draw: impl FnOnce(&mut Part) -> T) -> T {
+        self.nearest.take();
+        let Some(makers) = &mut self.makers else { return draw(&mut self.parts[index]) };
+        let part = &mut self.parts[index];
+        makers.settle(index, part.triangles.len(), makers.present());
+        let result = draw(part);
+        makers.settle(index, part.triangles.len(), maker);
+        result
+    }
+
+    /// Notes that the triangles of part `index` up to `count`, which nobody is known to have made, are `maker`'s.
+    pub fn made(&mut self, maker: u32, index: usize, count: usize) {
+        if let Some(makers) = &mut self.makers {
+            makers.settle(index, count, maker);
+        }
+    }
+
+    /// From now on notes which symbol of the chain draws what; the next one is `maker`.
+    pub fn trace(&mut self, maker: u32) {
+        let makers = self.makers.get_or_insert_default();
+        for (index, part) in self.parts.iter().enumerate() {
+            makers.settle(index, part.triangles.len(), makers.present());
+        }
+        makers.follow(maker);
+    }
+
+    /// Which symbol made what: for each part that has triangles, and for placed models in their order.
+    pub fn take_makers(&mut self) -> Option<Makers> {
+        self.trace(0);
+        let shown: Vec<bool> = self.parts.iter().map(|part| !part.triangles.is_empty()).collect();
+        self.makers.take().map(|makers| makers.shown(&shown))
+    }
+
+    /// Adds the drawing to `scene` at `origin` (m): one mesh, unless it is empty, and what was placed.
+    pub fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
+        let parts = self.parts.into_iter().filter(|part| !part.triangles.is_empty());
+        let parts =
+            parts.map(|part| Part { material: scene.material(&self.materials[part.material]), ..part });
+        let mesh = Mesh { name: name.to_owned(), parts: parts.collect(), ..Mesh::default() };
+        let origin = DAffine3::from_translation(origin);
+        if !mesh.parts.is_empty() {
+            scene.meshes.push(mesh);
+            scene.instances.push(Instance {
+                mesh: scene.meshes.len() - 1,
+                transform: origin,
+                name: name.to_owned(),
+                feature: feature.map(str::to_owned),
+                origin: None,
+                placement: None,
+            });
+        }
+        let mut first = 0;
+        for (model, frames) in &self.placed {
+            let placed: Vec<DAffine3> = frames.iter().map(|frame| origin * *frame).collect();
+            model.place(scene, &placed, first, name, feature);
+            first += frames.len();
+        }
+    }
+}

@@ -1,0 +1,78 @@
+//! The features of a data file and their geometries, on their way from a source to a constructor.
+
+use std::sync::{Arc, LazyLock};
+
+use super::{Key, Kind, Object, Parameter, Prefetch, Table, Value};
+use burgeon_data::{Geometry, Layer};
+
+/// The features of a source. A constructor may take them; no script holds them in this form.
+#[derive(Clone)]
+pub struct Features(pub Arc<Layer>);
+
+static FEATURES: LazyLock<Arc<Kind>> =
+    LazyLock::new(|| Arc::new(Kind::new("source", "The features of a data file.")));
+
+impl Object for Features {
+    fn kind(&self) -> &Arc<Kind> {
+        &FEATURES
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}
+
+/// The geometry of a feature. A constructor may take it; scripts see it as a table.
+#[derive(Clone)]
+pub struct Shape {
+    layer: Arc<Layer>,
+    index: usize,
+    prefetch: Option<Arc<dyn Prefetch>>,
+}
+
+static GEOMETRY: LazyLock<Arc<Kind>> =
+    LazyLock::new(|| Arc::new(Kind::new("geometry", "The geometry of a feature.")));
+
+impl Shape {
+    /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
+    pub fn new(layer: &Arc<Layer>, index: usize, prefetch: Option<&Arc<dyn Prefetch>>) -> Option<Self> {
+        let there = index < layer.features.len();
+        there.then(|| Self { layer: Arc::clone(layer), index, prefetch: prefetch.cloned() })
+    }
+
+    /// Where what it needs may have been made already, and its feature's number there.
+    pub fn prefetch(&self) -> Option<(&dyn Prefetch, usize)> {
+        self.prefetch.as_deref().map(|prefetch| (prefetch, self.index))
+    }
+
+    /// The geometry itself.
+    pub fn geometry(&self) -> &Geometry {
+        &self.layer.features[self.index].geometry
+    }
+
+    /// The table that scripts see.
+    pub fn to_table(&self) -> Value {
+        let points = |points: &[[f64; 3]]| points.iter().map(|point| point.to_vec()).collect::<Vec<_>>();
+        let geometry = self.geometry();
+        let (name, lists) = match geometry {
+            Geometry::Polygon(rings) => {
+                ("rings", rings.iter().map(|ring| points(ring)).collect::<Vec<_>>().into_value())
+            }
+            Geometry::Line(line) => ("points", points(line).into_value()),
+            Geometry::Point(point) => ("points", points(&[*point]).into_value()),
+        };
+        let kind = Value::Text(geometry.kind().name().into());
+        let entries = vec![(Key::Name("kind".into()), kind), (Key::Name(name.into()), lists)];
+        Value::Table(Arc::new(Table { class: None, entries }))
+    }
+}
+
+impl Object for Shape {
+    fn kind(&self) -> &Arc<Kind> {
+        &GEOMETRY
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}

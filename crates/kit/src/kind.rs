@@ -1,0 +1,248 @@
+//! A type of object as data: what scripts can do with it, and what it can do for the engine.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::capability::{self, Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
+use super::{Loader, Object, Prefetch, Table, Value};
+use burgeon_base::error::{Error, Result};
+use burgeon_data::Layer;
+
+/// Text that a built-in type has in the program, and another brings.
+type Text = Cow<'static, str>;
+
+/// A type of object: what its constructor takes, its methods and its capabilities.
+///
+/// It may come from Burgeon, from a host program or from a script: whoever adds it to a
+/// [`Registry`](super::Registry), it has the same rights.
+#[derive(Clone)]
+pub struct Kind {
+    /// Its name in scripts, which is also its constructor's.
+    pub name: Text,
+    /// What it is; the first line is a summary.
+    pub doc: Text,
+    /// What its constructor takes.
+    pub fields: Vec<Field>,
+    /// The field that may be given before the table, as `geometry` in `footprint(geometry, { ... })`.
+    pub first: Option<Text>,
+    /// What scripts may call.
+    pub methods: Vec<Method>,
+    /// How one is made.
+    pub construct: Construct,
+    /// Whether [`Object::begin`] forgets all that earlier passes did.
+    pub begins_empty: bool,
+    /// How it adds to the scene, if it does.
+    pub show: Option<Capability<dyn Show>>,
+    /// How it draws, if it draws with a [`Drawing`](super::Drawing).
+    pub draw: Option<Capability<dyn Draw>>,
+    /// How it expands by itself, if it does.
+    pub expand: Option<Capability<dyn Expand>>,
+    /// How it takes a level of detail, if it does.
+    pub detail: Option<Capability<dyn LevelOfDetail>>,
+    /// How it tells what it did otherwise than asked, if it does.
+    pub report: Option<Capability<dyn Report>>,
+    /// What lets all objects of a system know of one another.
+    pub gather: Option<Gather>,
+    /// What a thread may prepare of a layer's features before they are asked for.
+    pub prefetch: Option<fn(&Arc<Layer>) -> Arc<dyn Prefetch>>,
+}
+
+/// Makes an object of the constructor's table.
+pub type Make = Arc<dyn Fn(&Table) -> Result<Box<dyn Object>> + Send + Sync>;
+
+/// How an object comes to be.
+#[derive(Clone)]
+pub enum Construct {
+    /// A script calls its constructor, with a table of fields.
+    Fields(Make),
+    /// A script names a file, at its top level.
+    File(Loader),
+    /// It is what something else gives.
+    Given,
+}
+
+/// A field of a constructor's table.
+#[derive(Debug, Clone)]
+pub struct Field {
+    /// Its name.
+    pub name: Text,
+    /// What it means, with the unit.
+    pub doc: Text,
+    /// Its type in Luau.
+    pub luau: String,
+    /// The value where it is left out, as one would write it.
+    pub default: String,
+}
+
+/// A method that scripts may call.
+#[derive(Clone)]
+pub struct Method {
+    /// Its name.
+    pub name: Text,
+    /// What it does; the first sentence is its help.
+    pub doc: Text,
+    /// Its arguments, `self` not counted.
+    pub arguments: Vec<Argument>,
+    /// The type of its result in Luau; empty where it returns the object itself.
+    pub returns: String,
+    /// The function.
+    pub call: Call,
+}
+
+/// An argument of a method.
+#[derive(Debug, Clone)]
+pub struct Argument {
+    /// Its name.
+    pub name: Text,
+    /// Its type in Luau.
+    pub luau: String,
+}
+
+/// Calls a method by itself.
+pub type Read = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
+/// Calls a method that changes the object.
+pub type Write = Arc<dyn Fn(&mut dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
+/// Calls a method that changes the object and takes only numbers.
+pub type WriteNumbers = Arc<dyn Fn(&mut dyn Object, &[f64]) -> Result<()> + Send + Sync>;
+
+/// How a method is called.
+#[derive(Clone)]
+pub enum Call {
+    /// It only reads, so rules may call it.
+    Read(Read),
+    /// It changes the object, so only interpretation rules may call it.
+    Write {
+        /// With any values.
+        values: Write,
+        /// With numbers only, where all its arguments are numbers: the fast way.
+        numbers: Option<WriteNumbers>,
+    },
+}
+
+impl std::fmt::Debug for Kind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Kind").field(&self.name).finish()
+    }
+}
+
+impl Kind {
+    /// A type that scripts can neither make nor ask, which something else gives.
+    pub fn new(name: impl Into<Text>, doc: impl Into<Text>) -> Self {
+        Self {
+            name: name.into(),
+            doc: doc.into(),
+            fields: Vec::new(),
+            first: None,
+            methods: Vec::new(),
+            construct: Construct::Given,
+            begins_empty: false,
+            show: None,
+            draw: None,
+            expand: None,
+            detail: None,
+            report: None,
+            gather: None,
+            prefetch: None,
+        }
+    }
+
+    /// Has a constructor that takes `fields`, of which `make` makes one.
+    #[must_use]
+    pub fn made_of<T: Object>(
+        self,
+        fields: Vec<Field>,
+        make: impl Fn(&Table) -> Result<T> + Send + Sync + 'static,
+    ) -> Self {
+        let make = move |table: &Table| make(table).map(|made| Box::new(made) as Box<dyn Object>);
+        Self { fields, construct: Construct::Fields(Arc::new(make)), ..self }
+    }
+
+    /// The field `first` may be given before the table.
+    #[must_use]
+    pub fn first(self, first: impl Into<Text>) -> Self {
+        Self { first: Some(first.into()), ..self }
+    }
+
+    /// Is made of a file, by `loader`, which takes these `fields` besides.
+    #[must_use]
+    pub fn loaded(self, fields: Vec<Field>, loader: Loader) -> Self {
+        Self { fields, construct: Construct::File(loader), ..self }
+    }
+
+    /// Has these methods.
+    #[must_use]
+    pub fn methods(self, methods: Vec<Method>) -> Self {
+        Self { methods, ..self }
+    }
+
+    /// Begins each pass as if there had been none before.
+    #[must_use]
+    pub fn begins_empty(self) -> Self {
+        Self { begins_empty: true, ..self }
+    }
+
+    /// Adds something to the scene.
+    #[must_use]
+    pub fn shows<T: Object + Show>(self) -> Self {
+        Self { show: Some(capability::show::<T>()), ..self }
+    }
+
+    /// Draws with a [`Drawing`](super::Drawing).
+    #[must_use]
+    pub fn draws<T: Object + Draw>(self) -> Self {
+        Self { draw: Some(capability::draw::<T>()), ..self.shows::<T>() }
+    }
+
+    /// Expands by itself.
+    #[must_use]
+    pub fn expands<T: Object + Expand>(self) -> Self {
+        Self { expand: Some(capability::expand::<T>()), ..self }
+    }
+
+    /// Draws in levels of detail.
+    #[must_use]
+    pub fn has_detail<T: Object + LevelOfDetail>(self) -> Self {
+        Self { detail: Some(capability::detail::<T>()), ..self }
+    }
+
+    /// Tells what it did otherwise than asked.
+    #[must_use]
+    pub fn reports<T: Object + Report>(self) -> Self {
+        Self { report: Some(capability::report::<T>()), ..self }
+    }
+
+    /// All objects of a system get to know of one another by `gather`.
+    #[must_use]
+    pub fn gathers(self, gather: Gather) -> Self {
+        Self { gather: Some(gather), ..self }
+    }
+
+    /// What `prefetch` begins may be made of a layer's features before they are asked for.
+    #[must_use]
+    pub fn prefetches(self, prefetch: fn(&Arc<Layer>) -> Arc<dyn Prefetch>) -> Self {
+        Self { prefetch: Some(prefetch), ..self }
+    }
+
+    /// Makes one of the fields of a constructor. Fails where nothing is made so.
+    pub fn make(&self, table: &Table) -> Result<Box<dyn Object>> {
+        match &self.construct {
+            Construct::Fields(make) => make(table),
+            Construct::File(_) | Construct::Given => {
+                Err(Error::argument(format!("{} is not made of fields", self.name)))
+            }
+        }
+    }
+
+    /// The method called `name`.
+    pub fn method(&self, name: &str) -> Option<&Method> {
+        self.methods.iter().find(|method| method.name == name)
+    }
+
+    /// The error for a name that is no method, with the nearest one that is.
+    pub fn unknown_method(&self, name: &str) -> Error {
+        let names: Vec<&str> = self.methods.iter().map(|method| &*method.name).collect();
+        let message = format!("{} has no method or field called {name}", self.name);
+        Error::not_found("method", name, names.iter().copied(), message)
+            .help(format!("it has {}", names.join(", ")))
+    }
+}

@@ -1,0 +1,49 @@
+//! The contract of objects: values, types of objects and what rules need of them.
+//!
+//! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and a
+//! [`Grammar`](rules::Grammar) with the chains that it matches. It knows no virtual machine and no type of object but
+//! the [`Model`], which is what a system has drawn.
+
+#[macro_use]
+pub mod declare;
+
+mod boxed;
+mod capability;
+mod colors;
+mod distance;
+mod drawing;
+mod features;
+mod kind;
+mod loading;
+mod makers;
+mod model;
+mod note;
+mod object;
+mod parameter;
+mod prefetch;
+pub mod random;
+mod registry;
+mod rewriter;
+pub mod rules;
+mod seed;
+mod value;
+
+pub use boxed::Boxed;
+pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
+pub use drawing::Drawing;
+pub use features::{Features, Shape};
+pub use kind::{Argument, Call, Construct, Field, Kind, Make, Method, Read, Write, WriteNumbers};
+pub use loading::{Loaded, Loader, Loading, Resources};
+pub use makers::Makers;
+pub use model::Model;
+pub use note::Note;
+pub use object::Object;
+pub use parameter::{Answer, Color, Expected, ObjectParameter, Parameter, Vector, object};
+pub use prefetch::Prefetch;
+pub use registry::Registry;
+pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
+pub use seed::Seed;
+pub use value::{Key, Table, Value};
+
+#[doc(hidden)]
+pub use burgeon_base::Result;

@@ -1,0 +1,86 @@
+//! How a type of object is made of a file.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use super::{Object, Table};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
+use burgeon_data::{Cache, Frame};
+
+/// Makes objects of files.
+#[derive(Clone)]
+pub struct Loader {
+    /// What its files are, for messages: "file of heights".
+    pub what: &'static str,
+    /// How a script calls it.
+    pub example: &'static str,
+    /// The same, with fields.
+    pub example_with_fields: &'static str,
+    /// Makes one of a file, with the fields that the script gives besides.
+    pub load: fn(&mut Loading<'_>, &Table) -> Result<Loaded>,
+}
+
+/// An object that was made of a file.
+#[derive(Clone)]
+pub struct Loaded {
+    /// The object.
+    pub object: Arc<dyn Object>,
+    /// About how much memory (bytes) it takes.
+    pub memory: usize,
+    /// What people should know of the file.
+    pub warnings: Vec<Warning>,
+}
+
+/// A file that a script has named, and what may be used to read it.
+pub struct Loading<'a> {
+    /// The name that the script gave.
+    pub name: &'a str,
+    /// Where it is.
+    pub path: &'a Path,
+    /// What reading may take.
+    pub budget: &'a Arc<Budget>,
+    /// The most triangles that it may hold.
+    pub triangles: usize,
+    /// The projection and the origin of the run, which the first data decides.
+    pub frame: &'a mut Option<Frame>,
+    /// What else the run has.
+    pub resources: &'a dyn Resources,
+}
+
+/// What a run gives to those who read its files.
+pub trait Resources {
+    /// The file that a script means by `name`, which is to be a `what`. Fails for one that it may not read.
+    fn find(&self, what: &'static str, name: &str) -> Result<PathBuf>;
+
+    /// What earlier runs have read.
+    fn cache(&self) -> Option<&Cache>;
+}
+
+/// The largest file (bytes) that is read whole.
+const LARGEST: u64 = 1_000_000_000;
+
+impl Loading<'_> {
+    /// The content of the file; `remedy` is told where it cannot be read.
+    pub fn read(&self, remedy: &str) -> Result<Vec<u8>> {
+        self.read_from(self.path, self.name, remedy)
+    }
+
+    /// The content of another file, which the first one names; it is a `what`.
+    pub fn read_beside(&self, what: &'static str, name: &str, remedy: &str) -> Result<Vec<u8>> {
+        self.read_from(&self.resources.find(what, name)?, name, remedy)
+    }
+
+    /// The content of a file, for which memory is taken.
+    fn read_from(&self, path: &Path, name: &str, remedy: &str) -> Result<Vec<u8>> {
+        let cannot = |why: &dyn std::fmt::Display| Error::file(path, format!("cannot read {name}: {why}"));
+        let (_, meta) = burgeon_base::files::open(path).map_err(|error| cannot(&error).help(remedy))?;
+        if meta.len() > LARGEST {
+            return Err(cannot(&format!("it is larger than {} MB", LARGEST / 1_000_000)).help("simplify it"));
+        }
+        self.budget.check()?;
+        self.budget.take(usize::try_from(meta.len()).unwrap_or(usize::MAX))?;
+        burgeon_base::files::read(path, meta.len()).map_err(|error| cannot(&error).help(remedy))
+    }
+}

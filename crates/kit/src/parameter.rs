@@ -1,0 +1,497 @@
+//! The types that fields, arguments and results of methods may have, and how each reads a script's value.
+
+use std::any::Any;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Boxed, Key, Object, Table, Value, colors};
+use burgeon_base::error::{Error, Result};
+
+/// What was expected instead of a value, such as "a positive whole number".
+#[derive(Debug, Clone)]
+pub struct Expected {
+    what: String,
+    /// What was found instead, where that is only a part of the value.
+    found: Option<String>,
+}
+
+impl Expected {
+    /// Expected `what`, with its article.
+    pub fn new(what: impl Into<String>) -> Self {
+        Self { what: what.into(), found: None }
+    }
+
+    /// The same, where `found` is what is wrong within the value.
+    #[must_use]
+    pub fn found(self, found: &Value) -> Self {
+        Self { found: self.found.or_else(|| Some(shown(found))), ..self }
+    }
+
+    /// The same, where what was found is called `found`.
+    #[must_use]
+    pub fn but_was(self, found: impl Into<String>) -> Self {
+        Self { found: Some(found.into()), ..self }
+    }
+
+    /// What is wrong with item `number` of a list.
+    pub fn item(&self, number: usize) -> String {
+        match &self.found {
+            Some(found) => format!("item {number} must be {}, not {found}", self.what),
+            None => format!("item {number} must be {}", self.what),
+        }
+    }
+
+    /// The error: `name` of `owner` is not as expected. What a feature has may be right with another one.
+    pub fn refuse(&self, owner: &str, name: &str, value: &Value) -> Error {
+        let found = self.found.clone().unwrap_or_else(|| shown(value));
+        Error::argument(format!("{owner}: {name} must be {}, not {found}", self.what)).of_data()
+    }
+}
+
+/// A value for a message.
+fn shown(value: &Value) -> String {
+    /// The longest text of a value that is shown.
+    const LONGEST: usize = 40;
+    match value {
+        Value::Number(number) if number.is_nan() => "NaN".to_owned(),
+        Value::Number(number) if number.is_infinite() => "infinity".to_owned(),
+        Value::Text(text) if text.len() > 2 * LONGEST => {
+            format!("{:?}...", text.chars().take(LONGEST).collect::<String>())
+        }
+        Value::Number(_) | Value::Text(_) | Value::Boolean(_) => value.to_string(),
+        Value::Table(table) if table.entries.len() <= 4 => {
+            let text = value.to_string();
+            if text.len() <= LONGEST { text } else { value.describe().to_owned() }
+        }
+        Value::Object(object) => {
+            let name = &object.kind().name;
+            format!("{} {name}", if name.starts_with(['a', 'e', 'i', 'o', 'u']) { "an" } else { "a" })
+        }
+        other => other.describe().to_owned(),
+    }
+}
+
+/// A type that a field or an argument may have.
+pub trait Parameter: Sized {
+    /// Whether it stands in a column of numbers as itself, so that calls may be recorded.
+    const IS_NUMBER: bool = false;
+
+    /// Its name in Luau's type language.
+    fn luau() -> String;
+
+    /// Reads a script's value.
+    fn from_value(value: Value) -> Result<Self, Expected>;
+
+    /// Reads a column's number; `None` where [`Parameter::from_value`] is to refuse it.
+    fn from_number(_: f64) -> Option<Self> {
+        None
+    }
+
+    /// The value for the script.
+    fn into_value(self) -> Value;
+}
+
+/// A type that a method may return.
+pub trait Answer {
+    /// Its name in Luau's type language; empty where the method returns the object itself.
+    fn luau() -> String;
+
+    /// The value for the script.
+    fn answer(self) -> Result<Value>;
+}
+
+impl Answer for () {
+    fn luau() -> String {
+        String::new()
+    }
+
+    fn answer(self) -> Result<Value> {
+        Ok(Value::Nil)
+    }
+}
+
+impl<T: Answer> Answer for Result<T> {
+    fn luau() -> String {
+        T::luau()
+    }
+
+    fn answer(self) -> Result<Value> {
+        self?.answer()
+    }
+}
+
+macro_rules! answers {
+    ($($type:ty),*) => {$(
+        impl Answer for $type {
+            fn luau() -> String {
+                <$type as Parameter>::luau()
+            }
+
+            fn answer(self) -> Result<Value> {
+                Ok(self.into_value())
+            }
+        }
+    )*};
+}
+
+answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
+
+/// The object of type `T` that a value is; otherwise `what` was expected.
+pub fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expected> {
+    let Value::Object(object) = value else { return Err(Expected::new(what)) };
+    let any: Arc<dyn Any + Send + Sync> = object;
+    any.downcast().map_err(|_| Expected::new(what))
+}
+
+/// A type of object that fields and arguments may be, shared and unchanging.
+pub trait ObjectParameter: Object {
+    /// Its name in Luau's type language.
+    const LUAU: &str;
+    /// What was expected where something else is given, with its article.
+    const EXPECTED: &str;
+}
+
+impl<T: ObjectParameter> Parameter for Arc<T> {
+    fn luau() -> String {
+        T::LUAU.into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        object(value, T::EXPECTED)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(self)
+    }
+}
+
+impl Parameter for f64 {
+    const IS_NUMBER: bool = true;
+
+    fn luau() -> String {
+        "number".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Number(number) if number.is_finite() => Ok(number),
+            Value::Number(_) => Err(Expected::new("a finite number")),
+            _ => Err(Expected::new("a number")),
+        }
+    }
+
+    #[inline]
+    fn from_number(number: f64) -> Option<Self> {
+        number.is_finite().then_some(number)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Number(self)
+    }
+}
+
+impl Parameter for u32 {
+    const IS_NUMBER: bool = true;
+
+    fn luau() -> String {
+        "number".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Number(number) => {
+                Self::from_number(number).ok_or_else(|| Expected::new("a whole number from 0"))
+            }
+            _ => Err(Expected::new("a whole number from 0")),
+        }
+    }
+
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+    fn from_number(number: f64) -> Option<Self> {
+        (number.fract() == 0.0 && (0.0..=f64::from(u32::MAX)).contains(&number)).then_some(number as u32)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Number(f64::from(self))
+    }
+}
+
+impl Parameter for bool {
+    const IS_NUMBER: bool = true;
+
+    fn luau() -> String {
+        "boolean".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Boolean(value) => Ok(value),
+            _ => Err(Expected::new("true or false")),
+        }
+    }
+
+    fn from_number(number: f64) -> Option<Self> {
+        match Boxed::unpack(number) {
+            Boxed::Boolean(value) => Some(value),
+            _ => None,
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Boolean(self)
+    }
+}
+
+impl<T: Parameter> Parameter for Option<T> {
+    const IS_NUMBER: bool = T::IS_NUMBER;
+
+    fn luau() -> String {
+        format!("{}?", T::luau())
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Nil => Ok(None),
+            value => T::from_value(value).map(Some),
+        }
+    }
+
+    #[inline]
+    fn from_number(number: f64) -> Option<Self> {
+        match T::from_number(number) {
+            Some(value) => Some(Some(value)),
+            None => matches!(Boxed::unpack(number), Boxed::Nil).then_some(None),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        self.map_or(Value::Nil, T::into_value)
+    }
+}
+
+impl Parameter for String {
+    fn luau() -> String {
+        "string".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Text(text) => Ok(text.to_string()),
+            _ => Err(Expected::new("a string")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Text(self.into())
+    }
+}
+
+impl Parameter for Value {
+    fn luau() -> String {
+        "any".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        Ok(value)
+    }
+
+    fn into_value(self) -> Value {
+        self
+    }
+}
+
+impl Parameter for Arc<Table> {
+    fn luau() -> String {
+        "{ [string]: any }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Table(table) => Ok(table),
+            _ => Err(Expected::new("a table of named fields")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(self)
+    }
+}
+
+impl<T: Parameter> Parameter for Vec<T> {
+    fn luau() -> String {
+        format!("{{ {} }}", T::luau())
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a list");
+        match value {
+            Value::Table(table) => {
+                let list = table.list();
+                if list.len() != table.entries.len() {
+                    return Err(what());
+                }
+                list.into_iter()
+                    .enumerate()
+                    .map(|(index, value)| {
+                        T::from_value(value.clone()).map_err(|inner| {
+                            let what = format!("a list whose item {} is {}", index + 1, inner.what);
+                            Expected { what, ..inner }.found(&value)
+                        })
+                    })
+                    .collect()
+            }
+            _ => Err(what()),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        list(self.into_iter().map(T::into_value))
+    }
+}
+
+fn list(values: impl Iterator<Item = Value>) -> Value {
+    let entries = (1..).map(Key::Index).zip(values).collect();
+    Value::Table(Arc::new(Table { class: None, entries }))
+}
+
+/// Two or three numbers, as a list or with the names x, y and z.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Vector(pub DVec3);
+
+impl Parameter for Vector {
+    fn luau() -> String {
+        "Vector".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a vector: { x, y, z } or vec(x, y, z)");
+        let Value::Table(table) = value else { return Err(what()) };
+        let mut parts = table.list();
+        if parts.is_empty() {
+            parts = ["x", "y", "z"].iter().filter_map(|name| table.get(name).cloned()).collect();
+        }
+        let number = |part: Value| match part {
+            Value::Number(number) if !number.is_finite() => {
+                Err(Expected::new("a vector of finite numbers").found(&Value::Table(Arc::clone(&table))))
+            }
+            part => f64::from_value(part).map_err(|_| what()),
+        };
+        let numbers: Vec<f64> = parts.into_iter().map(number).collect::<Result<_, _>>()?;
+        match numbers.as_slice() {
+            [x, y] => Ok(Self(DVec3::new(*x, *y, 0.0))),
+            [x, y, z] => Ok(Self(DVec3::new(*x, *y, *z))),
+            _ => Err(what()),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        let entries = [("x", self.0.x), ("y", self.0.y), ("z", self.0.z)];
+        let entries = entries.map(|(name, part)| (Key::Name(name.into()), Value::Number(part))).to_vec();
+        Value::Table(Arc::new(Table { class: Some("vec".into()), entries }))
+    }
+}
+
+impl Parameter for DVec3 {
+    fn luau() -> String {
+        Vector::luau()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        Vector::from_value(value).map(|vector| vector.0)
+    }
+
+    fn into_value(self) -> Value {
+        Vector(self).into_value()
+    }
+}
+
+/// A colour with opacity; scripts give it as sRGB, here it is linear.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Color(pub [f32; 4]);
+
+impl Parameter for Color {
+    fn luau() -> String {
+        "Color".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || {
+            Expected::new(
+                "a colour: \"#rrggbb\", a name such as \"lightblue\", or { red, green, blue } from 0 to 1",
+            )
+        };
+        let channels: Vec<f64> = match value {
+            Value::Text(text) => match colors::read(&text) {
+                Ok(channels) => channels.map(|channel| f64::from(channel) / 255.0).to_vec(),
+                Err(Some(near)) => return Err(Expected::new(format!("a colour, such as \"{near}\""))),
+                Err(None) => return Err(what()),
+            },
+            value => Vec::<f64>::from_value(value).map_err(|_| what())?,
+        };
+        if !matches!(channels.len(), 3 | 4) || channels.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
+            return Err(what());
+        }
+        let mut color = [1.0; 4];
+        for (index, channel) in channels.iter().enumerate() {
+            color[index] = if index == 3 { narrow(*channel) } else { narrow(linear(*channel)) };
+        }
+        Ok(Self(color))
+    }
+
+    fn into_value(self) -> Value {
+        let byte = |channel: f32| (srgb(f64::from(channel)) * 255.0).round();
+        let [red, green, blue, _] = self.0;
+        let hex = [red, green, blue].map(|channel| format!("{:02x}", clamp_byte(byte(channel)))).concat();
+        Value::Text(format!("#{hex}").into())
+    }
+}
+
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a float to integer cast saturates"
+)]
+fn clamp_byte(value: f64) -> u8 {
+    value as u8
+}
+
+#[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
+fn narrow(value: f64) -> f32 {
+    value as f32
+}
+
+/// The sRGB transfer function of IEC 61966-2-1, from display to linear.
+fn linear(channel: f64) -> f64 {
+    if channel <= 0.04045 { channel / 12.92 } else { ((channel + 0.055) / 1.055).powf(2.4) }
+}
+
+fn srgb(channel: f64) -> f64 {
+    if channel <= 0.003_130_8 { channel * 12.92 } else { 1.055 * channel.powf(1.0 / 2.4) - 0.055 }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_colour_reads_hexadecimal_and_lists_and_writes_back() {
+        let hex = Color::from_value(Value::Text("#336699".into())).unwrap();
+        assert_eq!(hex.into_value().to_string(), "\"#336699\"");
+        let list = Color::from_value(vec![0.2, 0.4, 0.6].into_value()).unwrap();
+        assert_eq!(list.into_value().to_string(), "\"#336699\"");
+        for wrong in ["#33669", "#gggggg", "", "#", "no colour", "é", "#é00000"] {
+            assert!(Color::from_value(Value::Text(wrong.into())).is_err(), "{wrong}");
+        }
+        for right in ["LightSteelBlue", "#369", "336699"] {
+            assert!(Color::from_value(Value::Text(right.into())).is_ok(), "{right}");
+        }
+    }
+
+    #[test]
+    fn an_optional_number_may_be_left_out_of_a_column() {
+        assert_eq!(Option::<f64>::from_number(Boxed::Nil.pack()), Some(None));
+        assert_eq!(Option::<f64>::from_number(2.0), Some(Some(2.0)));
+        assert_eq!(Option::<f64>::from_number(f64::NAN), None);
+    }
+}

@@ -1,0 +1,73 @@
+//! How an object that expands by itself has the rules of a system applied.
+
+use std::sync::{Arc, LazyLock};
+
+use super::rules::{Chain, Grammar, Values};
+use super::{Kind, Object};
+use burgeon_base::error::{Place, Result};
+
+/// A system of the script, handed to an object that applies its rules.
+#[derive(Debug, Clone)]
+pub struct System {
+    /// Its place among the systems of the script.
+    pub index: usize,
+}
+
+static SYSTEM: LazyLock<Arc<Kind>> =
+    LazyLock::new(|| Arc::new(Kind::new("system", "A system whose rules an object applies.")));
+
+impl Object for System {
+    fn kind(&self) -> &Arc<Kind> {
+        &SYSTEM
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}
+
+/// What is known of a system whose rules are applied for an object.
+pub struct RuleSet {
+    /// Its rules.
+    pub grammar: Grammar,
+    /// The parameters of its modules that are not numbers.
+    pub values: Arc<Values>,
+    /// Where it was made.
+    pub place: Option<Place>,
+    /// Whether it has an object of its own.
+    pub has_object: bool,
+    /// Symbols that a thread takes at a time: chains are marked so.
+    pub batch: usize,
+}
+
+/// A chain after a step.
+pub struct RewriteOutcome {
+    /// The chain.
+    pub chain: Chain,
+    /// For each symbol of the chain before: the number of the rule that ran, or [`RewriteOutcome::NONE`], and how many
+    /// symbols came of it.
+    pub applied: Vec<(u16, u32)>,
+}
+
+impl RewriteOutcome {
+    /// In place of a rule's number: no rule ran.
+    pub const NONE: u16 = u16::MAX;
+}
+
+/// Applies the rules of a script's systems.
+pub trait Rewriter {
+    /// System `index` of the script.
+    fn rules(&self, index: usize) -> Result<Arc<RuleSet>>;
+
+    /// The first chain of system `index`.
+    fn axiom(&self, index: usize) -> Result<Chain>;
+
+    /// Applies the rules of system `index` once to a marked `chain`, in what is told as step `step`.
+    fn rewrite(&self, index: usize, chain: Chain, step: usize) -> Result<RewriteOutcome>;
+
+    /// Takes back a chain that is no longer needed, for its memory.
+    fn reuse(&self, index: usize, chain: Chain);
+
+    /// Fails once the run is to stop.
+    fn check(&self) -> Result<()>;
+}

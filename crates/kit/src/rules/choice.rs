@@ -1,0 +1,133 @@
+//! The law of choice: which of the rules of a module's symbol is applied to it.
+
+use smallvec::SmallVec;
+
+use super::grammar::Rule;
+use crate::random::Stream;
+
+/// The candidates for one module, of its symbol's rules in the order of their declaration.
+#[derive(Debug, Clone, Default)]
+pub struct Candidates {
+    /// A candidate without a weight that came before all others.
+    winner: Option<u16>,
+    weighted: SmallVec<[(u16, f64); 4]>,
+}
+
+impl Candidates {
+    /// Whether `rule` can still be chosen, if its contexts match and its guard holds: a rule without a weight only
+    /// as the first of all, one with a weight until such a rule has won.
+    #[inline]
+    pub fn admit(&self, rule: &Rule) -> bool {
+        self.winner.is_none() && (rule.weight.is_some() || self.weighted.is_empty())
+    }
+
+    /// Takes `rule`, which has this number, for a candidate.
+    #[inline]
+    pub fn add(&mut self, number: u16, rule: &Rule) {
+        match rule.weight {
+            Some(weight) => self.weighted.push((number, weight)),
+            None => self.winner = Some(number),
+        }
+    }
+
+    /// Whether no other rule can be chosen any more.
+    #[inline]
+    pub fn is_settled(&self) -> bool {
+        self.winner.is_some()
+    }
+
+    /// The rule that is applied, if there is a candidate. Weighted ones are drawn from, in proportion, with the first
+    /// number of the module's `stream`.
+    #[inline]
+    pub fn choose(&self, stream: impl FnOnce() -> Stream) -> Option<u16> {
+        if self.winner.is_some() {
+            return self.winner;
+        }
+        let (last, _) = self.weighted.last()?;
+        // A power of two keeps the proportions to the last bit, and no sum leaves the range of numbers.
+        let scale = scale(self.weighted.iter().fold(0.0, |most, (_, weight)| weight.max(most)));
+        let total: f64 = self.weighted.iter().map(|(_, weight)| weight * scale).sum();
+        let mut left = stream().uniform() * total;
+        for (rule, weight) in &self.weighted {
+            left -= weight * scale;
+            if left < 0.0 {
+                return Some(*rule);
+            }
+        }
+        Some(*last)
+    }
+}
+
+/// A power of two that brings `heaviest` near 1, or as near as numbers go.
+fn scale(heaviest: f64) -> f64 {
+    const EXPONENT: u64 = 0x7FF;
+    let exponent = heaviest.to_bits() >> 52 & EXPONENT;
+    f64::from_bits((2046 - exponent.min(2045)) << 52)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Key, Pattern, Signature, Symbols};
+    use super::*;
+
+    fn rule(weight: Option<f64>) -> Rule {
+        let mut symbols = Symbols::default();
+        symbols.declare(Signature::new("A", &[]).unwrap()).unwrap();
+        Rule::new(Pattern::parse("A", &symbols).unwrap(), weight, false, None)
+    }
+
+    fn candidates(weights: &[Option<f64>]) -> Candidates {
+        let mut candidates = Candidates::default();
+        for (number, weight) in (0u16..).zip(weights) {
+            let rule = rule(*weight);
+            if candidates.admit(&rule) {
+                candidates.add(number, &rule);
+            }
+        }
+        candidates
+    }
+
+    fn shares(weights: &[f64]) -> Vec<f64> {
+        let candidates = candidates(&weights.iter().map(|weight| Some(*weight)).collect::<Vec<_>>());
+        let mut counts = vec![0.0; weights.len()];
+        for seed in 0..4000 {
+            let chosen = candidates.choose(|| Key::seed(seed).stream()).unwrap();
+            counts[usize::from(chosen)] += 1.0 / 4000.0;
+        }
+        counts
+    }
+
+    #[test]
+    fn a_rule_without_weight_wins_only_as_the_first_candidate() {
+        let chosen = |weights: &[Option<f64>]| candidates(weights).choose(|| Key::seed(1).stream());
+        assert_eq!(chosen(&[]), None);
+        assert_eq!(chosen(&[None, Some(1e9), None]), Some(0));
+        assert_eq!(chosen(&[Some(1.0), None]), Some(0));
+    }
+
+    #[test]
+    fn weights_of_any_size_are_drawn_in_proportion() {
+        for unit in [1.0, 3e-324, 5e-324, 1e-310, 1e-200, 0.7, 1e200, 4e307] {
+            for (counted, expected) in shares(&[unit, 2.0 * unit, unit]).iter().zip([0.25, 0.5, 0.25]) {
+                assert!((counted - expected).abs() < 0.04, "{unit:e}: {counted} in place of {expected}");
+            }
+        }
+        assert!(shares(&[f64::MAX; 50]).iter().all(|share| (share - 0.02).abs() < 0.02));
+        assert!(shares(&[f64::MAX, 5e-324])[0] > 0.999);
+    }
+
+    #[test]
+    fn a_power_of_two_leaves_what_is_drawn_as_it_was() {
+        let weights = [3.0, 0.1, 7.25, 0.3];
+        let candidates = candidates(&weights.map(Some));
+        for seed in 0..2000 {
+            let total: f64 = weights.iter().sum();
+            let mut left = Key::seed(seed).stream().uniform() * total;
+            let plain = weights.iter().position(|weight| {
+                left -= weight;
+                left < 0.0
+            });
+            assert_eq!(candidates.choose(|| Key::seed(seed).stream()).map(usize::from), plain);
+        }
+    }
+}

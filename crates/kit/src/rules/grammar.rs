@@ -1,0 +1,180 @@
+//! A system's rules, ready for derivation.
+
+use std::sync::Arc;
+
+use super::chain::{END, Symbol};
+use super::matching::{Ahead, Branches};
+use super::pattern::{Item, Pattern};
+use super::symbols::Symbols;
+use burgeon_base::error::Place;
+
+/// The largest number of rules that a system may have: they are numbered in 16 bits.
+pub const MOST_RULES: usize = 65_000;
+
+/// A production, without its successor: that is a function in each of the script's virtual machines.
+#[derive(Debug, Clone)]
+pub struct Rule {
+    /// What it matches.
+    pub pattern: Pattern,
+    /// Its share among the weighted candidates; a rule without a weight always wins.
+    pub weight: Option<f64>,
+    /// Whether a guard decides on top of the contexts.
+    pub guarded: bool,
+    /// Where it was declared.
+    pub place: Option<Place>,
+    contexts: Vec<Item>,
+}
+
+impl Rule {
+    /// A rule for `pattern`.
+    pub fn new(pattern: Pattern, weight: Option<f64>, guarded: bool, place: Option<Place>) -> Self {
+        let contexts = pattern.context_items();
+        Self { pattern, weight, guarded, place, contexts }
+    }
+
+    /// The context modules, in the order in which the pattern names them.
+    pub fn contexts(&self) -> &[Item] {
+        &self.contexts
+    }
+
+    /// The number of values that the rule's functions take besides `this`.
+    pub fn arguments(&self) -> usize {
+        self.pattern.formals.len()
+    }
+}
+
+/// How a rule is chosen among those of a symbol.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Choice {
+    /// There is one, and it always applies.
+    Sole(u16),
+    /// Contexts and weights decide.
+    Contexts,
+    /// Guards have a say.
+    Guards,
+}
+
+impl Choice {
+    fn among<'a>(rules: impl Iterator<Item = &'a Rule> + Clone, numbers: &[u16]) -> Self {
+        if rules.clone().any(|rule| rule.guarded) {
+            return Self::Guards;
+        }
+        let mut first = rules;
+        match (first.next(), numbers) {
+            (Some(rule), [number]) if rule.contexts.is_empty() && rule.weight.is_none() => {
+                Self::Sole(*number)
+            }
+            _ => Self::Contexts,
+        }
+    }
+}
+
+/// All rules of a system, unchanging while it derives.
+#[derive(Debug, Clone)]
+pub struct Grammar {
+    symbols: Arc<Symbols>,
+    rules: Vec<Rule>,
+    by_symbol: Vec<Vec<u16>>,
+    /// By rule: its right context.
+    rights: Vec<Box<[Ahead]>>,
+    branches: Branches,
+    choices: Vec<Choice>,
+    skipped: Vec<bool>,
+    arities: Vec<u8>,
+    left: bool,
+    right: bool,
+    random: bool,
+}
+
+impl Grammar {
+    /// A grammar of `rules` in the order of their declaration, at most [`MOST_RULES`]. A rule of weight 0 is no
+    /// candidate: it never applies.
+    ///
+    /// `ignored` lists the symbols that contexts pass over. `random` tells whether successors may draw random
+    /// numbers; weights are seen from the rules themselves.
+    pub fn new(symbols: Arc<Symbols>, rules: Vec<Rule>, ignored: &[Symbol], random: bool) -> Self {
+        let arities = symbols.arities();
+        let mut by_symbol = vec![Vec::new(); arities.len()];
+        for (index, rule) in (0u16..).zip(&rules).filter(|(_, rule)| rule.weight != Some(0.0)) {
+            by_symbol[usize::from(rule.pattern.predecessor.symbol)].push(index);
+        }
+        let mut skipped = vec![false; arities.len()];
+        for symbol in ignored.iter().filter(|symbol| **symbol > END) {
+            skipped[usize::from(*symbol)] = true;
+        }
+        let left = rules.iter().any(|rule| !rule.pattern.left.is_empty());
+        let right = rules.iter().any(|rule| !rule.pattern.right.is_empty());
+        let mut branches = Branches::default();
+        let rights = rules.iter().map(|rule| branches.number(&rule.pattern.right)).collect();
+        let choices = by_symbol
+            .iter()
+            .map(|of| Choice::among(of.iter().map(|rule| &rules[usize::from(*rule)]), of))
+            .collect();
+        let random = random || rules.iter().any(|rule| rule.weight.is_some());
+        Self { symbols, rules, by_symbol, rights, branches, choices, skipped, arities, left, right, random }
+    }
+
+    /// The declared modules.
+    pub fn symbols(&self) -> &Arc<Symbols> {
+        &self.symbols
+    }
+
+    /// The rules in the order of their declaration.
+    pub fn rules(&self) -> &[Rule] {
+        &self.rules
+    }
+
+    /// The rules of a symbol that can be chosen, in the order of their declaration.
+    #[inline]
+    pub fn rules_of(&self, symbol: Symbol) -> &[u16] {
+        &self.by_symbol[usize::from(symbol)]
+    }
+
+    /// The right context of rule number `rule`.
+    #[inline]
+    pub fn right_of(&self, rule: u16) -> &[Ahead] {
+        &self.rights[usize::from(rule)]
+    }
+
+    /// The branches that contexts name.
+    pub fn branches(&self) -> &Branches {
+        &self.branches
+    }
+
+    /// How the rule for a module with this symbol is chosen.
+    #[inline]
+    pub fn choice(&self, symbol: Symbol) -> Choice {
+        self.choices[usize::from(symbol)]
+    }
+
+    /// Whether contexts pass over `symbol`.
+    #[inline]
+    pub fn is_skipped(&self, symbol: Symbol) -> bool {
+        self.skipped[usize::from(symbol)]
+    }
+
+    /// The number of parameters by symbol, brackets included.
+    pub fn arities(&self) -> &[u8] {
+        &self.arities
+    }
+
+    /// Whether modules need random keys.
+    pub fn draws_random(&self) -> bool {
+        self.random
+    }
+
+    /// Whether a rule looks at the neighbours of its module.
+    pub fn has_contexts(&self) -> bool {
+        self.left || self.right
+    }
+
+    /// Whether a rule looks at what comes before its module.
+    pub fn has_left_contexts(&self) -> bool {
+        self.left
+    }
+
+    /// Whether a rule looks at what comes after its module.
+    pub fn has_right_contexts(&self) -> bool {
+        self.right
+    }
+}

@@ -1,0 +1,81 @@
+//! Keys of random numbers: they depend on the seed and on where a module comes from, and on nothing else.
+
+use crate::random::Stream;
+
+/// The seed and a module's lineage, mixed into one number.
+///
+/// A child's key follows from its parent's and its place among the successors, so a module keeps its random
+/// numbers whatever happens elsewhere in the chain.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
+pub struct Key(pub u64);
+
+impl Key {
+    /// The key of a whole system.
+    pub fn seed(seed: u64) -> Self {
+        Self(mix(seed))
+    }
+
+    /// The key of a chain that came from the feature with this id.
+    #[must_use]
+    pub fn feature(self, id: &str) -> Self {
+        id.bytes().fold(Self(mix(self.0 ^ 0xFEA7)), |key, byte| Self(mix(key.0 ^ u64::from(byte))))
+    }
+
+    /// The key of the successor's module number `ordinal`, from 0.
+    #[must_use]
+    #[inline]
+    pub fn child(self, ordinal: usize) -> Self {
+        Self(mix(self.0.wrapping_add((ordinal as u64 + 1).wrapping_mul(GOLDEN))))
+    }
+
+    /// The key after a rule ran and left the module.
+    #[must_use]
+    pub fn advanced(self) -> Self {
+        Self(mix(self.0 ^ 0x5A17))
+    }
+
+    /// The numbers of this key, from the first.
+    pub fn stream(self) -> Stream {
+        Stream::new(self.0)
+    }
+
+    /// The key of the numbers that an interpretation rule draws.
+    #[must_use]
+    pub fn interpretation(self) -> Self {
+        Self(mix(self.0 ^ 0x1D7E))
+    }
+}
+
+const GOLDEN: u64 = 0x9E37_79B9_7F4A_7C15;
+
+/// The finaliser of `SplitMix64` (Steele, Lea and Flood, "Fast splittable pseudorandom number generators", 2014).
+#[inline]
+fn mix(state: u64) -> u64 {
+    let mut z = state.wrapping_add(GOLDEN);
+    z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
+    z ^ (z >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_stream_depends_on_the_seed_the_ordinal_and_the_feature() {
+        let root = Key::seed(1);
+        let keys = [
+            root,
+            Key::seed(2),
+            root.child(0),
+            root.child(1),
+            root.advanced(),
+            root.feature("a"),
+            root.feature("b"),
+        ];
+        let mut first: Vec<u64> = keys.iter().map(|key| key.stream().uniform().to_bits()).collect();
+        first.sort_unstable();
+        first.dedup();
+        assert_eq!(first.len(), keys.len());
+    }
+}

@@ -1,0 +1,149 @@
+//! Neighbours along the tree, found once a step so that a context costs O(1) for each of its modules.
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::chain::{CLOSE, Chain, END, OPEN};
+use super::grammar::Grammar;
+
+/// No neighbour.
+pub(super) const NONE: u32 = u32::MAX;
+
+/// The neighbours of every symbol of a chain, as columns. Only those that the grammar's contexts need are filled.
+#[derive(Debug, Default)]
+pub struct Links {
+    /// The nearest module towards the axiom that is not ignored. A closed branch is not on that path.
+    pub(crate) left: Vec<u32>,
+    /// For [`OPEN`] its closing bracket; for a module the next one on its own branch that is not ignored; for [`CLOSE`]
+    /// the first such module behind the branch.
+    pub(crate) right: Vec<u32>,
+    /// The first branch on the symbol's own that begins there or behind it, with only ignored modules before it.
+    pub(crate) branch: Vec<u32>,
+    /// Where each symbol's parameters begin.
+    pub param: Vec<u32>,
+    /// For each branch that the grammar names, what searches for it have found.
+    known: Vec<OnceLock<Known>>,
+    stack: Vec<u32>,
+}
+
+/// What the searches of a step for one named branch have found, by the opening bracket that they came by. All threads
+/// add to it: whoever finds something finds the same.
+#[derive(Debug)]
+pub struct Known(Vec<AtomicU32>);
+
+/// Nothing is known yet; an opening bracket is never so far that it could stand for a place.
+const UNKNOWN: u32 = NONE - 1;
+
+impl Known {
+    pub fn get(&self, open: u32) -> Option<u32> {
+        let found = self.0[open as usize].load(Ordering::Relaxed);
+        (found != UNKNOWN).then_some(found)
+    }
+
+    pub fn note(&self, open: u32, found: u32) {
+        self.0[open as usize].store(found, Ordering::Relaxed);
+    }
+}
+
+impl Links {
+    /// Finds the neighbours in `chain`, one pass to each side.
+    pub fn build(&mut self, chain: &Chain, grammar: &Grammar) {
+        self.left.clear();
+        self.right.clear();
+        self.branch.clear();
+        self.param.clear();
+        self.known.clear();
+        if grammar.has_contexts() {
+            self.find_params(chain, grammar);
+        }
+        if grammar.has_left_contexts() {
+            self.find_left(chain, grammar);
+        }
+        if grammar.has_right_contexts() {
+            self.find_right(chain, grammar);
+        }
+        let named = grammar.branches().len();
+        if named > 0 {
+            self.find_branches(chain, grammar);
+            self.known.resize_with(named, OnceLock::new);
+        }
+    }
+
+    /// What is known of the named branch of this number. It takes memory only once it is asked for.
+    pub fn known(&self, number: u32) -> &Known {
+        self.known[number as usize]
+            .get_or_init(|| Known((0..self.right.len()).map(|_| AtomicU32::new(UNKNOWN)).collect()))
+    }
+
+    fn find_params(&mut self, chain: &Chain, grammar: &Grammar) {
+        let arities = grammar.arities();
+        let mut param = 0u32;
+        self.param.extend(chain.symbols.iter().map(|symbol| {
+            let begin = param;
+            param += u32::from(arities[usize::from(*symbol)]);
+            begin
+        }));
+    }
+
+    fn find_left(&mut self, chain: &Chain, grammar: &Grammar) {
+        self.stack.clear();
+        let mut nearest = NONE;
+        self.left.reserve(chain.symbols.len());
+        for (index, symbol) in (0u32..).zip(&chain.symbols) {
+            self.left.push(nearest);
+            match *symbol {
+                OPEN => self.stack.push(nearest),
+                CLOSE => nearest = self.stack.pop().unwrap_or(NONE),
+                END => nearest = NONE,
+                symbol if grammar.is_skipped(symbol) => {}
+                _ => nearest = index,
+            }
+        }
+    }
+
+    fn find_right(&mut self, chain: &Chain, grammar: &Grammar) {
+        self.stack.clear();
+        self.right.resize(chain.symbols.len(), NONE);
+        let mut nearest = NONE;
+        for (index, symbol) in chain.symbols.iter().enumerate().rev() {
+            let here = narrow(index);
+            match *symbol {
+                CLOSE => {
+                    self.right[index] = nearest;
+                    self.stack.push(here);
+                    nearest = NONE;
+                }
+                OPEN => {
+                    let closing = self.stack.pop().unwrap_or(NONE);
+                    self.right[index] = closing;
+                    nearest = self.right.get(closing as usize).copied().unwrap_or(NONE);
+                }
+                END => nearest = NONE,
+                symbol => {
+                    self.right[index] = nearest;
+                    if !grammar.is_skipped(symbol) {
+                        nearest = here;
+                    }
+                }
+            }
+        }
+    }
+
+    fn find_branches(&mut self, chain: &Chain, grammar: &Grammar) {
+        self.branch.resize(chain.symbols.len(), NONE);
+        let mut next = NONE;
+        for (index, symbol) in chain.symbols.iter().enumerate().rev() {
+            next = match *symbol {
+                OPEN => narrow(index),
+                symbol if symbol > END && grammar.is_skipped(symbol) => next,
+                _ => NONE,
+            };
+            self.branch[index] = next;
+        }
+    }
+}
+
+/// Chains have fewer than 2^32 symbols; the limit on modules sees to that.
+fn narrow(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(NONE)
+}

@@ -1,0 +1,197 @@
+//! How contexts match along the tree, with links that are found once a step: O(1) for each context module.
+
+use rustc_hash::FxHashMap;
+use smallvec::SmallVec;
+
+use super::chain::{CLOSE, Chain, END, OPEN, Symbol};
+use super::grammar::Grammar;
+use super::links::{Links, NONE};
+use super::pattern::Context;
+
+/// The places of the context modules that a pattern matched, in the order in which it names them.
+pub type Bindings = SmallVec<[u32; 8]>;
+
+/// One element of a right context.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Ahead {
+    /// A module on the main path.
+    Module(Symbol),
+    /// A branch that begins like the grammar's named branch of this number.
+    Branch(u32),
+}
+
+/// The branches that the contexts of a grammar name, each once.
+#[derive(Debug, Clone, Default)]
+pub struct Branches {
+    list: Vec<Box<[Ahead]>>,
+    numbers: FxHashMap<Box<[Ahead]>, u32>,
+}
+
+impl Branches {
+    /// A right context with its branches replaced by their numbers.
+    pub fn number(&mut self, contexts: &[Context]) -> Box<[Ahead]> {
+        let ahead = contexts.iter().map(|context| match context {
+            Context::Module(item) => Ahead::Module(item.symbol),
+            Context::Branch(inner) => {
+                let inner = self.number(inner);
+                let next = u32::try_from(self.list.len()).unwrap_or(u32::MAX);
+                let number = *self.numbers.entry(inner.clone()).or_insert(next);
+                if number == next {
+                    self.list.push(inner);
+                }
+                Ahead::Branch(number)
+            }
+        });
+        ahead.collect()
+    }
+
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        self.list.len()
+    }
+}
+
+/// The contexts of a grammar's rules around the modules of a chain.
+#[derive(Debug, Clone, Copy)]
+pub struct Around<'a> {
+    /// The chain.
+    pub chain: &'a Chain,
+    /// What [`Links::build`] made of the chain and the grammar.
+    pub links: &'a Links,
+    /// The rules.
+    pub grammar: &'a Grammar,
+}
+
+/// Where a right context continues.
+#[derive(Clone, Copy)]
+enum Behind {
+    /// Behind a module, whose next neighbour is linked.
+    Module(usize),
+    /// At this symbol, which may be anything.
+    At(usize),
+}
+
+impl Around<'_> {
+    /// Whether the contexts of rule number `rule` match around the module at `index`.
+    #[inline]
+    pub fn matches(self, rule: u16, index: usize) -> bool {
+        let declared = &self.grammar.rules()[usize::from(rule)];
+        if declared.contexts().is_empty() {
+            return true;
+        }
+        let mut nearest = if declared.pattern.left.is_empty() { NONE } else { self.links.left[index] };
+        for item in declared.pattern.left.iter().rev() {
+            if nearest == NONE || self.chain.symbols[nearest as usize] != item.symbol {
+                return false;
+            }
+            nearest = self.links.left[nearest as usize];
+        }
+        let right = self.grammar.right_of(rule);
+        right.is_empty() || self.ahead(right, Behind::Module(index), None)
+    }
+
+    /// Fills `bindings` for a rule and a module that match.
+    pub fn bind(self, rule: u16, index: usize, bindings: &mut Bindings) {
+        bindings.clear();
+        let mut here = index;
+        for _ in &self.grammar.rules()[usize::from(rule)].pattern.left {
+            let nearest = self.links.left[here];
+            bindings.push(nearest);
+            here = nearest as usize;
+        }
+        bindings.reverse();
+        self.ahead(self.grammar.right_of(rule), Behind::Module(index), Some(bindings));
+    }
+
+    /// Whether `contexts` match from a place on. What is named within branches is only gone through to be bound.
+    fn ahead(self, contexts: &[Ahead], from: Behind, mut bindings: Option<&mut Bindings>) -> bool {
+        let mut here = from;
+        for context in contexts {
+            here = match context {
+                Ahead::Module(symbol) => {
+                    let found = match here {
+                        Behind::Module(index) => self.links.right[index],
+                        Behind::At(index) => self.next_module(index),
+                    };
+                    if found == NONE || self.chain.symbols[found as usize] != *symbol {
+                        return false;
+                    }
+                    if let Some(bindings) = &mut bindings {
+                        bindings.push(found);
+                    }
+                    Behind::Module(found as usize)
+                }
+                Ahead::Branch(number) => {
+                    let next = match here {
+                        Behind::Module(index) => index + 1,
+                        Behind::At(index) => index,
+                    };
+                    let found = self.first_branch(*number, self.links.branch[next]);
+                    if found == NONE {
+                        return false;
+                    }
+                    if let Some(bindings) = &mut bindings {
+                        let inner = &self.grammar.branches().list[*number as usize];
+                        self.ahead(inner, Behind::At(found as usize + 1), Some(bindings));
+                    }
+                    Behind::At(self.links.right[found as usize] as usize + 1)
+                }
+            };
+        }
+        true
+    }
+
+    /// The first module at or behind `index` on its own branch that is not ignored.
+    fn next_module(self, index: usize) -> u32 {
+        let right = &self.links.right;
+        match self.chain.symbols[index] {
+            CLOSE | END => NONE,
+            OPEN => right[right[index] as usize],
+            symbol if self.grammar.is_skipped(symbol) => right[index],
+            _ => u32::try_from(index).unwrap_or(NONE),
+        }
+    }
+
+    /// The first branch that begins like the named one: `open` itself or one that can be reached from it.
+    ///
+    /// Where it is not `open` itself, the answer is noted for every branch that was passed, so that all searches of a
+    /// step together try each branch once.
+    fn first_branch(self, number: u32, open: u32) -> u32 {
+        if open == NONE || self.begins_so(number, open) {
+            return open;
+        }
+        let second = self.branch_behind(open);
+        if second == NONE {
+            return NONE;
+        }
+        let known = self.links.known(number);
+        let mut here = second;
+        let found = loop {
+            if here == NONE {
+                break NONE;
+            }
+            if let Some(found) = known.get(here) {
+                break found;
+            }
+            if self.begins_so(number, here) {
+                break here;
+            }
+            here = self.branch_behind(here);
+        };
+        let mut passed = second;
+        while passed != here {
+            known.note(passed, found);
+            passed = self.branch_behind(passed);
+        }
+        found
+    }
+
+    /// The next branch behind the one that begins at `open`, with nothing but ignored modules between them.
+    fn branch_behind(self, open: u32) -> u32 {
+        self.links.branch[self.links.right[open as usize] as usize + 1]
+    }
+
+    fn begins_so(self, number: u32, open: u32) -> bool {
+        self.ahead(&self.grammar.branches().list[number as usize], Behind::At(open as usize + 1), None)
+    }
+}

@@ -1,0 +1,258 @@
+//! Patterns such as `A B < S(x) > C [D] E`, and how they are read.
+
+use super::chain::{DEEPEST, Symbol};
+use super::symbols::Symbols;
+use burgeon_base::error::{Error, Result};
+
+/// Characters of a pattern that are shown before the place where reading stopped, and behind it.
+const AROUND: usize = 100;
+
+/// A predecessor with its contexts.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Pattern {
+    /// The left context, as written: the last one is the nearest.
+    pub left: Vec<Item>,
+    /// The module to be rewritten.
+    pub predecessor: Item,
+    /// The right context, as written.
+    pub right: Vec<Context>,
+    /// The names of all formal parameters, in the order in which they are written.
+    pub formals: Vec<String>,
+    /// The pattern as written, with single spaces.
+    pub text: String,
+}
+
+/// One module of a pattern.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Item {
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// How many of its parameters are bound to names: all, or none where it is written without any.
+    pub bound: usize,
+}
+
+/// One element of a right context.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Context {
+    /// A module on the main path.
+    Module(Item),
+    /// A branch that begins so.
+    Branch(Vec<Context>),
+}
+
+impl Pattern {
+    /// Reads a pattern; its symbols must be declared in `symbols`.
+    pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
+        Reader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
+    }
+
+    /// The context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
+    pub fn context_items(&self) -> Vec<Item> {
+        fn flatten(contexts: &[Context], items: &mut Vec<Item>) {
+            for context in contexts {
+                match context {
+                    Context::Module(item) => items.push(*item),
+                    Context::Branch(inner) => flatten(inner, items),
+                }
+            }
+        }
+        let mut items = self.left.clone();
+        flatten(&self.right, &mut items);
+        items
+    }
+}
+
+struct Reader<'a> {
+    text: &'a str,
+    at: usize,
+    /// How many branches are open there.
+    depth: usize,
+    symbols: &'a Symbols,
+    formals: Vec<String>,
+}
+
+impl Reader<'_> {
+    fn pattern(mut self) -> Result<Pattern> {
+        let mut groups: Vec<Vec<Context>> = vec![Vec::new()];
+        let mut separators: Vec<char> = Vec::new();
+        loop {
+            match self.peek() {
+                None => break,
+                Some(separator @ ('<' | '>')) => {
+                    if separators.contains(&separator) || (separator == '<' && !separators.is_empty()) {
+                        return Err(
+                            self.unexpected("a pattern is: left context < predecessor > right context")
+                        );
+                    }
+                    self.at += 1;
+                    separators.push(separator);
+                    groups.push(Vec::new());
+                }
+                Some(_) => {
+                    let context = self.context()?;
+                    if let Some(group) = groups.last_mut() {
+                        group.push(context);
+                    }
+                }
+            }
+        }
+        let mut groups = groups.into_iter();
+        let mut take = || groups.next().unwrap_or_default();
+        let left = if separators.contains(&'<') { take() } else { Vec::new() };
+        let middle = take();
+        let right = if separators.contains(&'>') { take() } else { Vec::new() };
+        for (separator, group) in [('<', &left), ('>', &right)] {
+            if separators.contains(&separator) && group.is_empty() {
+                return Err(self.error(
+                    &format!("the context beside {separator} is empty"),
+                    "name a module there, or leave it out",
+                ));
+            }
+        }
+        let predecessor = match middle.as_slice() {
+            [Context::Module(item)] => *item,
+            [] => return Err(self.error("there is no predecessor", "name the module to be rewritten")),
+            _ => {
+                return Err(self.error(
+                    "there is more than one predecessor",
+                    "a rule rewrites one module; put the others into a context: A < B > C",
+                ));
+            }
+        };
+        let left = left
+            .into_iter()
+            .map(|context| match context {
+                Context::Module(item) => Ok(item),
+                Context::Branch(_) => Err(self.error(
+                    "a left context has no branches",
+                    "it is the path towards the axiom; name only the modules on it",
+                )),
+            })
+            .collect::<Result<_>>()?;
+        let text = self.text.split_whitespace().collect::<Vec<_>>().join(" ");
+        Ok(Pattern { left, predecessor, right, formals: self.formals, text })
+    }
+
+    fn context(&mut self) -> Result<Context> {
+        if self.peek() != Some('[') {
+            return self.item().map(Context::Module);
+        }
+        let begin = self.at;
+        if self.depth == DEEPEST {
+            return Err(self.unexpected(&format!("branches are nested at most {DEEPEST} deep")));
+        }
+        self.depth += 1;
+        self.at += 1;
+        let mut inner = Vec::new();
+        loop {
+            match self.peek() {
+                Some(']') => {
+                    self.at += 1;
+                    break;
+                }
+                None => {
+                    self.at = begin;
+                    return Err(self.unexpected("this branch is not closed"));
+                }
+                Some(_) => inner.push(self.context()?),
+            }
+        }
+        self.depth -= 1;
+        if inner.is_empty() {
+            self.at = begin;
+            return Err(self.unexpected("a branch in a context names at least one module"));
+        }
+        Ok(Context::Branch(inner))
+    }
+
+    fn item(&mut self) -> Result<Item> {
+        let begin = self.at;
+        let name = self.name("a module's name")?;
+        let symbol = self.symbols.find(&name).map_err(|error| {
+            let text = format!("{} in the pattern \"{}\"", error.message(), self.text.trim());
+            error.saying(text)
+        })?;
+        if self.peek() != Some('(') {
+            return Ok(Item { symbol, bound: 0 });
+        }
+        self.at += 1;
+        let mut bound = 0;
+        while self.peek() != Some(')') {
+            if bound > 0 {
+                if self.peek() != Some(',') {
+                    return Err(self.unexpected("a comma or a closing bracket belongs here"));
+                }
+                self.at += 1;
+            }
+            let before = self.at;
+            let formal = self.name("a parameter's name")?;
+            if formal != "_" && self.formals.contains(&formal) {
+                self.at = before;
+                self.peek();
+                return Err(self.unexpected(&format!("two parameters are called {formal}; rename one")));
+            }
+            self.formals.push(formal);
+            bound += 1;
+        }
+        self.at += 1;
+        let signature = self.symbols.signature(symbol);
+        if bound != signature.arity() {
+            self.at = begin;
+            return Err(self.error(
+                &format!("{} has {}, not {bound}", signature.name, signature.count()),
+                &format!("it was declared as {}; write all parameters or no brackets", signature.usage()),
+            ));
+        }
+        Ok(Item { symbol, bound })
+    }
+
+    fn name(&mut self, what: &str) -> Result<String> {
+        let rest = {
+            self.peek();
+            &self.text[self.at..]
+        };
+        let length = rest.find(|c: char| !(c.is_ascii_alphanumeric() || c == '_')).unwrap_or(rest.len());
+        if length == 0 || rest.starts_with(|c: char| c.is_ascii_digit()) {
+            return Err(self.unexpected(&format!("{what} belongs here")));
+        }
+        self.at += length;
+        Ok(rest[..length].to_owned())
+    }
+
+    /// The next character that is not a space; `at` stands on it.
+    fn peek(&mut self) -> Option<char> {
+        let rest = &self.text[self.at..];
+        self.at += rest.len() - rest.trim_start().len();
+        self.text[self.at..].chars().next()
+    }
+
+    /// An error that shows the place where reading stopped.
+    fn unexpected(&self, help: &str) -> Error {
+        let found = match self.text[self.at..].chars().next() {
+            Some(c) => format!("unexpected '{c}'"),
+            None => "unexpected end".to_owned(),
+        };
+        let before = self.text[..self.at].chars().count();
+        let shown = |c: char| if c.is_whitespace() { ' ' } else { c };
+        let mut line: String =
+            self.text.chars().skip(before.saturating_sub(AROUND)).take(2 * AROUND).map(shown).collect();
+        let mut column = before.min(AROUND);
+        if before > AROUND {
+            line.insert_str(0, "...");
+            column += 3;
+        }
+        if self.text.chars().count() > before.saturating_sub(AROUND) + 2 * AROUND {
+            line.push_str("...");
+        }
+        Error::syntax(format!(
+            "malformed pattern: {found} at character {}\n    {line}\n    {}^",
+            before + 1,
+            " ".repeat(column)
+        ))
+        .help(help)
+    }
+
+    fn error(&self, message: &str, help: &str) -> Error {
+        Error::syntax(format!("malformed pattern \"{}\": {message}", self.text.trim())).help(help)
+    }
+}

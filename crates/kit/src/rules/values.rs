@@ -1,0 +1,163 @@
+//! The parameters of modules that are not numbers, kept once each.
+
+use std::sync::RwLock;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rustc_hash::FxHashMap;
+
+use crate::{Boxed, Value};
+
+/// The strings, tables and objects that the modules of one derivation carry, each kept once.
+#[derive(Default)]
+pub struct Values {
+    shelf: RwLock<Shelf>,
+    survivors: AtomicUsize,
+    epoch: AtomicUsize,
+}
+
+#[derive(Default)]
+struct Shelf {
+    list: Vec<Option<Value>>,
+    handles: FxHashMap<Value, u32>,
+    free: Vec<u32>,
+}
+
+impl Values {
+    /// Stores `value` and gives the f64 for the column.
+    pub fn pack(&self, value: Value) -> f64 {
+        let boxed = match value {
+            Value::Nil => Boxed::Nil,
+            Value::Boolean(value) => Boxed::Boolean(value),
+            Value::Number(value) => Boxed::Number(value),
+            other => Boxed::Handle(self.handle(other)),
+        };
+        boxed.pack()
+    }
+
+    /// The value that a column's f64 stands for.
+    pub fn unpack(&self, stored: f64) -> Value {
+        match Boxed::unpack(stored) {
+            Boxed::Number(value) => Value::Number(value),
+            Boxed::Nil => Value::Nil,
+            Boxed::Boolean(value) => Value::Boolean(value),
+            Boxed::Handle(handle) => self.get(handle).unwrap_or(Value::Nil),
+        }
+    }
+
+    /// The value with this handle, unless it has been dropped.
+    pub fn get(&self, handle: u32) -> Option<Value> {
+        self.read().list.get(handle as usize).cloned().flatten()
+    }
+
+    /// The number of values kept.
+    pub fn len(&self) -> usize {
+        let shelf = self.read();
+        shelf.list.len() - shelf.free.len()
+    }
+
+    /// Whether no value is kept.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Drops every value that `columns` do not name, if there have been many new ones since the last time.
+    ///
+    /// A dropped handle may be given to another value, so caches of handles must be emptied when
+    /// [`Values::epoch`] has changed.
+    pub fn retain_if_many(&self, columns: &[&[f64]]) {
+        let held = self.len();
+        if held > 2 * self.survivors.load(Ordering::Relaxed) + 10_000 {
+            self.retain(columns);
+            self.survivors.store(self.len(), Ordering::Relaxed);
+        }
+    }
+
+    /// The number of times that values have been dropped.
+    pub fn epoch(&self) -> usize {
+        self.epoch.load(Ordering::Acquire)
+    }
+
+    fn retain(&self, columns: &[&[f64]]) {
+        self.epoch.fetch_add(1, Ordering::AcqRel);
+        let mut shelf = self.shelf.write().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut used = vec![false; shelf.list.len()];
+        for stored in columns.iter().copied().flatten().filter(|stored| stored.is_nan()) {
+            if let Boxed::Handle(handle) = Boxed::unpack(*stored)
+                && let Some(slot) = used.get_mut(handle as usize)
+            {
+                *slot = true;
+            }
+        }
+        for (handle, used) in (0u32..).zip(used) {
+            if !used && let Some(value) = shelf.list[handle as usize].take() {
+                shelf.handles.remove(&value);
+                shelf.free.push(handle);
+            }
+        }
+    }
+
+    fn handle(&self, value: Value) -> u32 {
+        if let Some(handle) = self.read().handles.get(&value) {
+            return *handle;
+        }
+        let mut shelf = self.shelf.write().unwrap_or_else(std::sync::PoisonError::into_inner);
+        if let Some(handle) = shelf.handles.get(&value) {
+            return *handle;
+        }
+        let handle = match shelf.free.pop() {
+            Some(handle) => {
+                shelf.list[handle as usize] = Some(value.clone());
+                handle
+            }
+            None => {
+                shelf.list.push(Some(value.clone()));
+                u32::try_from(shelf.list.len() - 1).unwrap_or(u32::MAX)
+            }
+        };
+        shelf.handles.insert(value, handle);
+        handle
+    }
+
+    fn read(&self) -> std::sync::RwLockReadGuard<'_, Shelf> {
+        self.shelf.read().unwrap_or_else(std::sync::PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{Key, Table};
+
+    #[test]
+    fn every_kind_of_value_survives_a_column() {
+        let values = Values::default();
+        let table = Table { class: None, entries: vec![(Key::Index(1), Value::Number(2.0))] };
+        for value in [
+            Value::Nil,
+            Value::Boolean(true),
+            Value::Boolean(false),
+            Value::Number(-0.0),
+            Value::Number(f64::INFINITY),
+            Value::Text("café".into()),
+            Value::Table(Arc::new(table)),
+        ] {
+            assert!(values.unpack(values.pack(value.clone())) == value, "{value}");
+        }
+        let nan = values.unpack(values.pack(Value::Number(f64::NAN)));
+        assert!(matches!(nan, Value::Number(number) if number.is_nan()));
+    }
+
+    #[test]
+    fn equal_values_are_kept_once_and_unused_ones_are_dropped() {
+        let values = Values::default();
+        let a = values.pack(Value::Text("a".into()));
+        assert_eq!(a.to_bits(), values.pack(Value::Text("a".into())).to_bits());
+        values.pack(Value::Text("b".into()));
+        assert_eq!(values.len(), 2);
+        values.retain(&[&[1.0, a]]);
+        assert_eq!(values.len(), 1);
+        assert!(values.unpack(a) == Value::Text("a".into()));
+    }
+}

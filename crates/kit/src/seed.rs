@@ -1,0 +1,34 @@
+//! Seeds as scripts give them.
+
+use super::{Expected, Parameter, Value};
+use crate::rules::Key;
+
+/// What random numbers come from: 64 bits, as a number or a string.
+///
+/// A string of 16 hexadecimal digits is those bits, as other objects give them; any other string is as good.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Seed(pub u64);
+
+impl Parameter for Seed {
+    fn luau() -> String {
+        "number | string".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            #[allow(clippy::cast_possible_truncation, reason = "the number is whole and below 2^53")]
+            Value::Number(number) if number.fract() == 0.0 && number.abs() < 9_007_199_254_740_992.0 => {
+                Ok(Self((number as i64).cast_unsigned()))
+            }
+            Value::Text(text) if text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_hexdigit()) => {
+                u64::from_str_radix(&text, 16).map(Self).map_err(|_| Expected::new("a seed"))
+            }
+            Value::Text(text) => Ok(Self(Key::default().feature(&text).0)),
+            _ => Err(Expected::new("a whole number below 2^53, or a string")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Text(format!("{:016x}", self.0).into())
+    }
+}

@@ -1,0 +1,89 @@
+//! A run in the words of pages: its counts, systems, rules and times; and why there is nothing to see.
+
+use std::time::Duration;
+
+use super::message::{Bounds, Model, System, Times};
+use super::state::State;
+use super::trace;
+use super::work::{Job, PROBLEMS};
+use burgeon_engine::run::Run;
+use burgeon_engine::script::Session;
+
+/// What pages are told of a run, but for what depends on the wish and on the model's bytes.
+pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
+    let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
+    let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
+    let textures = textures.filter(|texture| texture.content.is_none());
+    files.extend(textures.map(|texture| state.name(&texture.path)));
+    files.extend(state.options.stdlib.iter().map(|path| path.display().to_string()));
+    files.sort();
+    files.dedup();
+    let systems = run.systems.iter().map(|system| {
+        let place = system.place.as_ref();
+        System {
+            system: system.system,
+            place: place.map(|it| format!("{}:{}", state.short(&it.file), it.line)).unwrap_or_default(),
+            chains: system.features.len(),
+            modules: system.modules(),
+            steps: system.steps,
+            symbols: trace::symbols(system),
+        }
+    });
+    let bounds = run.scene.bounds();
+    Model {
+        run: job.run,
+        cause: job.due.cause,
+        url: None,
+        bytes: 0,
+        triangles: run.scene.triangles(),
+        instances: run.scene.instances.len(),
+        modules: run.systems.iter().map(|system| system.modules()).sum(),
+        bounds: bounds.map(|(low, high)| Bounds { low: low.to_array(), high: high.to_array() }),
+        steps: run.systems.iter().map(|system| system.steps).max().unwrap_or(0),
+        last_step: 0,
+        step_limit: job.inputs.steps,
+        seed: job.inputs.seed.to_string(),
+        preset: None,
+        nothing: (run.scene.triangles() == 0).then(|| nothing(run, job.inputs.steps)),
+        params: Vec::new(),
+        systems: systems.collect(),
+        rules: trace::rules(state, run),
+        times: Times {
+            script: ms(run.times.script),
+            rewriting: ms(run.times.derivation.rewriting),
+            interpretation: ms(run.times.derivation.interpretation),
+            scene: ms(run.times.scene),
+            encode: 0.0,
+            total: 0.0,
+        },
+        files,
+        warnings: run.warnings.iter().take(PROBLEMS).map(|warning| state.warning_json(warning)).collect(),
+    }
+}
+
+/// Why a run shows nothing, and what to do about it.
+fn nothing(run: &Run, limit: Option<usize>) -> String {
+    let modules: usize = run.systems.iter().map(|system| system.modules()).sum();
+    let steps = run.systems.iter().map(|system| system.steps).max().unwrap_or(0);
+    let at_limit = limit.is_some_and(|limit| steps >= limit);
+    let after = if steps == 1 { "1 step".to_owned() } else { format!("{steps} steps") };
+    if run.systems.is_empty() {
+        "the script derives no system: end it with system:derive()".to_owned()
+    } else if at_limit {
+        format!("nothing is drawn after {after}: look at a later one")
+    } else if modules == 0 {
+        format!("no module is left after {after}: let the rules end in modules that are drawn")
+    } else {
+        let counts = run.systems.iter().flat_map(|system| trace::symbols(system));
+        let most = counts.max_by_key(|symbol| symbol.count).map_or_else(String::new, |symbol| symbol.name);
+        let who = match modules {
+            1 => "the only module draws nothing".to_owned(),
+            _ => format!("none of the {modules} modules draws anything"),
+        };
+        format!("{who}: give them an interpretation, system:interpret(\"{most}\", function(this) ... end)")
+    }
+}
+
+pub(super) fn ms(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}

@@ -1,0 +1,167 @@
+//! The present model as a file to keep, in any format that `run` writes.
+
+use std::fs::{self, File};
+use std::io::{BufReader, Cursor};
+use std::sync::Arc;
+
+use zip::write::SimpleFileOptions;
+use zip::{CompressionMethod, ZipWriter};
+
+use burgeon_base::error::{Error, Result};
+use burgeon_base::stop::Stop;
+use burgeon_export::picture::Picture;
+use burgeon_export::{Files, Format};
+use burgeon_scene::Scene;
+
+/// The largest width and height (pixels) of a picture.
+const LARGEST: u32 = 8192;
+
+/// A file to keep.
+pub(super) struct Download {
+    /// The name that it is kept under.
+    pub name: String,
+    pub media_type: &'static str,
+    pub bytes: Vec<u8>,
+}
+
+/// What `make` gives, made by threads of its own: a run that is under way shares the others, and is not to wait until a
+/// large picture is done.
+pub(super) fn apart<T: Send>(make: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().thread_name(|_| "burgeon export".to_owned()).build() {
+        Ok(pool) => pool.install(make),
+        Err(_) => make(),
+    }
+}
+
+/// `scene` as a file called `name`, whose extension picks the format. What comes as several files is one archive. Fails
+/// soon after a stop was asked for.
+pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<Stop>) -> Result<Download> {
+    stop.check()?;
+    let format = Format::of(name.as_ref())?;
+    let stem = name.rsplit_once('.').map_or(name, |(stem, _)| stem);
+    // The parts of a model name each other by the stem.
+    let stem: String =
+        stem.chars().map(|it| if it.is_alphanumeric() || "-_. ()".contains(it) { it } else { '_' }).collect();
+    let stem = stem.trim_matches(['.', ' ']);
+    let stem = if stem.is_empty() { "model" } else { stem };
+    let name = format!("{stem}.{}", format.extension());
+    let failed = |error: std::io::Error| Error::system(format!("cannot write a temporary file: {error}"));
+    let folder = tempfile::tempdir().map_err(failed)?;
+    let mut written = Files::new(stop);
+    written.scene(scene, &folder.path().join(&name), picture)?;
+    written.publish()?;
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder.path()).map_err(failed)? {
+        let entry = entry.map_err(failed)?;
+        files.push((entry.file_name().to_string_lossy().into_owned(), entry.path()));
+    }
+    files.sort();
+    if let [(_, path)] = &files[..] {
+        return Ok(Download { name, media_type: media_type(format), bytes: fs::read(path).map_err(failed)? });
+    }
+    let mut archive = ZipWriter::new(Cursor::new(Vec::new()));
+    let options = SimpleFileOptions::default()
+        .compression_method(CompressionMethod::Deflated)
+        .compression_level(Some(1))
+        .large_file(true);
+    for (name, path) in files {
+        stop.check()?;
+        archive.start_file(name, options).map_err(|error| Error::internal(error.to_string()))?;
+        // A large model in memory besides its archive would be too much.
+        let mut file = BufReader::with_capacity(1 << 18, File::open(&path).map_err(failed)?);
+        std::io::copy(&mut file, &mut archive).map_err(failed)?;
+    }
+    let bytes = archive.finish().map_err(|error| Error::internal(error.to_string()))?.into_inner();
+    Ok(Download { name: format!("{stem}.{}.zip", format.extension()), media_type: "application/zip", bytes })
+}
+
+/// The picture that the query of an address wishes: `azimuth`, `elevation` (degrees), `width`, `height` (pixels).
+///
+/// Larger pictures than can be made soon become smaller. Fails on other names and on what is no number.
+pub(super) fn picture(query: &str) -> Result<Picture> {
+    let mut picture = Picture::default();
+    for pair in query.split('&').filter(|pair| !pair.is_empty()) {
+        let (name, value) = pair.split_once('=').unwrap_or((pair, ""));
+        let number: f64 = value
+            .parse()
+            .ok()
+            .filter(|number: &f64| number.is_finite())
+            .ok_or_else(|| Error::argument(format!("{name} is a number, not {value:?}")))?;
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "bounded before")]
+        let pixels = number.clamp(1.0, f64::from(LARGEST)).round() as u32;
+        match name {
+            "azimuth" => picture.azimuth = Some(number.rem_euclid(360.0)),
+            "elevation" => picture.elevation = Some(number.clamp(-90.0, 90.0)),
+            "width" => picture.width = pixels,
+            "height" => picture.height = pixels,
+            _ => {
+                return Err(Error::argument(format!("a picture has no {name:?}"))
+                    .help("it has azimuth, elevation, width and height"));
+            }
+        }
+    }
+    Ok(picture)
+}
+
+fn media_type(format: Format) -> &'static str {
+    match format {
+        Format::Glb => "model/gltf-binary",
+        Format::Gltf => "model/gltf+json",
+        Format::Obj => "model/obj",
+        Format::Png => "image/png",
+        Format::Svg => "image/svg+xml",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_run_does_not_wait_for_an_export() {
+        use std::sync::Mutex;
+        use std::sync::mpsc::channel;
+        use std::time::Duration;
+
+        let (begun, begins) = channel();
+        let (ended, ends) = channel();
+        let (begun, ends) = (Mutex::new(begun), Mutex::new(ends));
+        let export = std::thread::spawn(move || {
+            apart(|| {
+                rayon::broadcast(|_| {
+                    begun.lock().unwrap().send(()).unwrap();
+                    // All of its threads are busy until the run has ended.
+                    ends.lock().unwrap().recv_timeout(Duration::from_secs(5)).is_ok()
+                })
+            })
+        });
+        begins.recv().unwrap();
+        let busy = rayon::current_num_threads();
+        rayon::join(|| (), || ());
+        (0..busy).for_each(|_| ended.send(()).unwrap());
+        assert!(export.join().unwrap().into_iter().all(|ended| ended));
+    }
+
+    #[test]
+    fn a_query_wishes_a_picture_of_at_most_the_largest_size() {
+        let wished = picture("azimuth=-30&elevation=95.5&width=99999&height=0").unwrap();
+        assert_eq!((wished.azimuth, wished.elevation), (Some(330.0), Some(90.0)));
+        assert_eq!((wished.width, wished.height), (LARGEST, 1));
+        assert_eq!(picture("").unwrap(), Picture::default());
+        for wrong in ["width", "width=", "width=NaN", "height=inf", "depth=3", "width=1&=", "azimuth=%31"] {
+            assert!(picture(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_lose_what_has_a_meaning_in_paths_and_formats_of_several_files_become_archives() {
+        let scene = Scene::default();
+        let name =
+            |name: &str| download(&scene, name, &Picture::default(), &Arc::default()).map(|it| it.name);
+        assert_eq!(name("to wer-2.glb").unwrap(), "to wer-2.glb");
+        assert_eq!(name("../../etc/\"x\r\n.GLB").unwrap(), "_.._etc__x__.glb");
+        assert_eq!(name("..glb").unwrap(), "model.glb");
+        assert!(name("tower.obj").unwrap().starts_with("tower.obj"));
+        assert!(name("tower.exe").is_err() && name("glb").is_err());
+    }
+}

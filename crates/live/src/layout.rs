@@ -1,0 +1,187 @@
+//! Triangles by glTF's indices, as pages name them, and by the scene's, as the engine does.
+//!
+//! A document leaves out meshes and parts that have nothing to show, and triangles that cover nothing.
+
+use std::collections::BTreeMap;
+
+use super::message::{Pick, Range};
+use burgeon_base::error::{Error, Result};
+use burgeon_engine::trace::{self, Run, exported_triangle};
+use burgeon_export::gltf::Layout;
+use burgeon_scene::{Mesh, Part, Scene};
+
+/// A scene and where its things are in the document that pages have.
+pub(super) struct Indices<'a> {
+    pub scene: &'a Scene,
+    pub layout: &'a Layout,
+}
+
+impl Indices<'_> {
+    /// The triangle of the scene that a page has picked. Fails if the document has no such triangle.
+    pub(super) fn triangle(&self, pick: &Pick) -> Result<trace::Pick> {
+        let gone = || Error::unavailable("there is no such triangle; this page may show an older model");
+        let shows = |instance: &usize| -> bool {
+            let known = self.layout.places.get(*instance).copied().flatten();
+            let mesh = self.layout.meshes.get(self.scene.instances[*instance].mesh).copied().flatten();
+            mesh == Some(pick.mesh)
+                && known.is_some_and(|place| {
+                    pick.node.is_none_or(|node| place.node == node)
+                        && (place.shared.is_none() || place.shared == Some(pick.instance.unwrap_or(0)))
+                })
+        };
+        let instance = (0..self.scene.instances.len()).find(shows).ok_or_else(gone)?;
+        let mesh = &self.scene.meshes[self.scene.instances[instance].mesh];
+        let (part, found) = shown_parts(mesh).nth(pick.primitive).ok_or_else(gone)?;
+        let triangle = exported_triangle(found, pick.triangle).ok_or_else(gone)?;
+        Ok(trace::Pick { instance, part, triangle })
+    }
+
+    /// `runs` as ranges of the document, those that touch as one.
+    pub(super) fn ranges(&self, runs: &[Run]) -> Vec<Range> {
+        let mut sorted: Vec<&Run> = runs.iter().collect();
+        sorted.sort_by_key(|run| (run.mesh, run.part, run.from));
+        let mut ranges: Vec<Range> = Vec::new();
+        let mut parts: BTreeMap<(usize, usize), Option<Written>> = BTreeMap::new();
+        for run in sorted {
+            let written = parts.entry((run.mesh, run.part)).or_insert_with(|| self.written(run));
+            let Some(written) = written else { continue };
+            let (from, end) = (written.before(run.from), written.before(run.from + run.count));
+            if from == end {
+                continue;
+            }
+            let (mesh, primitive) = (written.mesh, written.primitive);
+            match ranges.last_mut() {
+                Some(last)
+                    if last.mesh == mesh && last.primitive == primitive && last.from + last.count >= from =>
+                {
+                    last.count = last.count.max(end - last.from);
+                }
+                _ => ranges.push(Range {
+                    mesh,
+                    primitive,
+                    from,
+                    count: end - from,
+                    node: None,
+                    instances: None,
+                }),
+            }
+        }
+        ranges
+    }
+
+    /// All that these instances show.
+    pub(super) fn placed(&mut self, instances: &[usize]) -> Vec<Range> {
+        let mut nodes: BTreeMap<(usize, usize), Option<Vec<usize>>> = BTreeMap::new();
+        for instance in instances {
+            let Some(place) = self.layout.places.get(*instance).copied().flatten() else { continue };
+            let shared = nodes.entry((self.scene.instances[*instance].mesh, place.node)).or_default();
+            if let Some(number) = place.shared {
+                shared.get_or_insert_default().push(number);
+            }
+        }
+        let mut ranges = Vec::new();
+        for ((mesh, node), instances) in nodes {
+            let Some(index) = self.layout.meshes.get(mesh).copied().flatten() else { continue };
+            for (primitive, (_, part)) in shown_parts(&self.scene.meshes[mesh]).enumerate() {
+                let count = part.triangles.len() - degenerate(part).count();
+                let (node, instances) = (Some(node), instances.clone());
+                ranges.push(Range { mesh: index, primitive, from: 0, count, node, instances });
+            }
+        }
+        ranges
+    }
+
+    fn written(&self, run: &Run) -> Option<Written> {
+        let mesh = self.layout.meshes.get(run.mesh).copied().flatten()?;
+        let primitive =
+            shown_parts(self.scene.meshes.get(run.mesh)?).position(|(part, _)| part == run.part)?;
+        let part = self.scene.meshes[run.mesh].parts.get(run.part)?;
+        Some(Written { mesh, primitive, left_out: degenerate(part).collect(), count: part.triangles.len() })
+    }
+}
+
+/// A part as it is in the document.
+struct Written {
+    mesh: usize,
+    primitive: usize,
+    /// The triangles that are not, in order.
+    left_out: Vec<usize>,
+    count: usize,
+}
+
+impl Written {
+    /// How many triangles of the document come before triangle `index` of the part.
+    fn before(&self, index: usize) -> usize {
+        let index = index.min(self.count);
+        index - self.left_out.partition_point(|left_out| *left_out < index)
+    }
+}
+
+/// The parts that are written, with their indices.
+fn shown_parts(mesh: &Mesh) -> impl Iterator<Item = (usize, &Part)> {
+    mesh.parts.iter().enumerate().filter(|(_, part)| exported_triangle(part, 0).is_some())
+}
+
+/// The triangles that are not written.
+fn degenerate(part: &Part) -> impl Iterator<Item = usize> {
+    let triangles = part.triangles.iter().enumerate();
+    triangles.filter(|(_, [a, b, c])| a == b || b == c || c == a).map(|(index, _)| index)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_export::gltf::Place;
+    use burgeon_scene::Instance;
+
+    /// Two instances of a mesh whose first part has nothing to show and whose second has a triangle without area.
+    fn scene() -> (Scene, Layout) {
+        let part = |triangles: Vec<[u32; 3]>| Part { triangles: triangles.into(), ..Part::default() };
+        let mesh = Mesh {
+            parts: vec![part(vec![[1, 1, 2]]), part(vec![[0, 1, 2], [3, 3, 4], [0, 2, 3], [1, 2, 3]])],
+            ..Mesh::default()
+        };
+        let instance = || Instance {
+            mesh: 1,
+            transform: glam::DAffine3::IDENTITY,
+            name: String::new(),
+            feature: None,
+            origin: None,
+            placement: None,
+        };
+        let scene = Scene {
+            meshes: vec![Mesh::default(), mesh],
+            instances: vec![instance(), instance()],
+            ..Scene::default()
+        };
+        let place = |shared| Some(Place { node: 5, shared: Some(shared) });
+        (scene, Layout { places: vec![place(0), place(1)], meshes: vec![None, Some(0)] })
+    }
+
+    #[test]
+    fn picked_triangles_skip_what_is_not_written() {
+        let (scene, layout) = scene();
+        let indices = Indices { scene: &scene, layout: &layout };
+        let pick = |instance, triangle| {
+            let (node, instance) = (Some(5), Some(instance));
+            indices.triangle(&Pick { id: 0, mesh: 0, primitive: 0, triangle, instance, node })
+        };
+        assert_eq!(pick(1, 1).unwrap(), trace::Pick { instance: 1, part: 1, triangle: 2 });
+        assert!(pick(2, 0).is_err() && pick(0, 3).is_err());
+    }
+
+    #[test]
+    fn ranges_count_only_what_is_written_and_grow_together() {
+        let (scene, layout) = scene();
+        let mut indices = Indices { scene: &scene, layout: &layout };
+        let run = |part, from, count| Run { mesh: 1, part, from, count };
+        let told = |ranges: Vec<Range>| -> Vec<(usize, usize)> {
+            ranges.iter().map(|range| (range.from, range.count)).collect()
+        };
+        assert_eq!(told(indices.ranges(&[run(1, 2, 1), run(1, 0, 2), run(0, 0, 1)])), [(0, 2)]);
+        assert_eq!(told(indices.ranges(&[run(1, 3, 9), run(1, 0, 1)])), [(0, 1), (2, 1)]);
+        assert_eq!(told(indices.ranges(&[run(1, 1, 1), Run { mesh: 0, part: 0, from: 0, count: 1 }])), []);
+        let placed = indices.placed(&[0, 1]);
+        assert_eq!((placed[0].count, placed[0].instances.clone()), (3, Some(vec![0, 1])));
+    }
+}

@@ -1,0 +1,278 @@
+//! The routes: the page, models, exports and the socket, for those who know the address.
+
+use std::sync::Arc;
+
+use axum::body::{Body, Bytes};
+use axum::extract::ws::WebSocketUpgrade;
+use axum::extract::{FromRequestParts, Request};
+use axum::http::header::{self, HeaderMap, HeaderName, HeaderValue};
+use axum::http::{Method, StatusCode};
+use axum::response::{IntoResponse, Response};
+use percent_encoding::{AsciiSet, NON_ALPHANUMERIC, percent_decode_str, utf8_percent_encode};
+use tokio::sync::Semaphore;
+
+use super::Token;
+use super::address::admits;
+use super::export;
+use super::socket;
+use super::state::State;
+use burgeon_base::error::Error;
+use burgeon_base::stop::Stop;
+use burgeon_export::gltf;
+
+const INDEX: &[u8] = include_bytes!("../../../viewer/dist/index.html");
+const SCRIPT: &[u8] = include_bytes!("../../../viewer/dist/viewer.js");
+const STYLE: &[u8] = include_bytes!("../../../viewer/dist/viewer.css");
+
+/// Only what comes from this server; textures inside of models are read from the browser's own memory.
+const POLICY: &str = "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; \
+                      connect-src 'self' blob: data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
+
+/// How the name of a model ends that has all its texture coordinates.
+const MEASURED: &str = ".uv.glb";
+
+const FOR_EVER: &str = "private, max-age=31536000, immutable";
+const NEVER: &str = "no-store";
+
+/// What every request needs.
+pub(super) struct Site {
+    pub state: Arc<State>,
+    pub token: Token,
+    /// Exports are made one at a time; those that were given up count until they have ended.
+    pub exports: Arc<Semaphore>,
+}
+
+/// Stops what is made for a request when the page has gone and nobody waits for it any more.
+struct Waiting(Arc<Stop>);
+
+impl Drop for Waiting {
+    fn drop(&mut self) {
+        self.0.stop(Error::stopped("nobody waits for it any more"));
+    }
+}
+
+impl Site {
+    /// What `make` gives, in its turn and apart from runs; it ends early when the page goes. `None` if it panicked.
+    async fn export<T: Send + 'static>(
+        &self,
+        make: impl FnOnce(&Arc<Stop>) -> T + Send + 'static,
+    ) -> Option<T> {
+        let turn = Arc::clone(&self.exports).acquire_owned().await.ok()?;
+        let waiting = Waiting(Arc::default());
+        let stop = Arc::clone(&waiting.0);
+        let made = tokio::task::spawn_blocking(move || {
+            let made = export::apart(|| make(&stop));
+            drop(turn);
+            made
+        });
+        made.await.ok()
+    }
+}
+
+/// The answer to a request; `known` is called before it is made if the request has the token.
+pub(super) async fn answer(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
+    let mut response = route(site, request, known).await;
+    let headers = response.headers_mut();
+    let always: [(HeaderName, &str); 6] = [
+        (header::CONTENT_SECURITY_POLICY, POLICY),
+        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
+        (header::X_FRAME_OPTIONS, "DENY"),
+        (header::REFERRER_POLICY, "no-referrer"),
+        (HeaderName::from_static("cross-origin-resource-policy"), "same-origin"),
+        (HeaderName::from_static("cross-origin-opener-policy"), "same-origin"),
+    ];
+    for (name, value) in always {
+        headers.insert(name, HeaderValue::from_static(value));
+    }
+    headers.entry(header::CACHE_CONTROL).or_insert(HeaderValue::from_static(NEVER));
+    response
+}
+
+async fn route(site: &Arc<Site>, request: Request, known: impl FnOnce()) -> Response {
+    let headers = request.headers();
+    if !admits(
+        only(headers, &header::HOST).unwrap_or(None),
+        only(headers, &header::ORIGIN).unwrap_or(Some("")),
+    ) {
+        return plain(StatusCode::FORBIDDEN, "this server answers only pages of its own");
+    }
+    let path = request.uri().path().to_owned();
+    let (token, inner) = match path.strip_prefix('/').unwrap_or("").split_once('/') {
+        Some((token, inner)) => (token, Some(inner)),
+        None => (path.strip_prefix('/').unwrap_or(""), None),
+    };
+    if let ("proof", Some(question), &Method::GET) = (token, inner, request.method()) {
+        return match site.token.proof(question) {
+            Some(proof) => plain_text(StatusCode::OK, proof),
+            None => missing(),
+        };
+    }
+    if !site.token.is(token) {
+        return plain(
+            StatusCode::FORBIDDEN,
+            "open the address that burgeon live printed: it ends with a token",
+        );
+    }
+    known();
+    if request.method() != Method::GET {
+        let refused = plain(StatusCode::METHOD_NOT_ALLOWED, "only GET is answered");
+        return ([(header::ALLOW, "GET")], refused).into_response();
+    }
+    match inner {
+        // The page's addresses are relative to the folder.
+        None => (StatusCode::PERMANENT_REDIRECT, [(header::LOCATION, format!("/{token}/"))]).into_response(),
+        Some("") => file(INDEX, "text/html; charset=utf-8"),
+        Some("viewer.js") => file(SCRIPT, "text/javascript; charset=utf-8"),
+        Some("viewer.css") => file(STYLE, "text/css; charset=utf-8"),
+        Some("socket") => open_socket(site, request).await,
+        Some(inner) => match inner.split_once('/') {
+            Some(("model", name)) if name.ends_with(MEASURED) => measured(site, name).await,
+            Some(("model", name)) => kept(name, ".glb", "model/gltf-binary", |hash| site.state.model(hash)),
+            Some(("picture", name)) => kept(name, ".png", "image/png", |hash| site.state.picture(hash)),
+            Some(("export", name)) if !name.contains('/') => {
+                let query = request.uri().query().unwrap_or("").to_owned();
+                save(site, name, &query).await
+            }
+            _ => missing(),
+        },
+    }
+}
+
+/// The value of a header that may be there once; `Err` if it is there more often or is not text.
+fn only<'a>(headers: &'a HeaderMap, name: &HeaderName) -> std::result::Result<Option<&'a str>, ()> {
+    let mut values = headers.get_all(name).iter();
+    match (values.next(), values.next()) {
+        (None, _) => Ok(None),
+        (Some(value), None) => value.to_str().map(Some).map_err(|_| ()),
+        (Some(_), Some(_)) => Err(()),
+    }
+}
+
+async fn open_socket(site: &Arc<Site>, request: Request) -> Response {
+    let (mut parts, _) = request.into_parts();
+    match WebSocketUpgrade::from_request_parts(&mut parts, &()).await {
+        Ok(upgrade) => {
+            let state = Arc::clone(&site.state);
+            socket::limited(upgrade).on_upgrade(move |socket| socket::talk(socket, state))
+        }
+        Err(refused) => refused.into_response(),
+    }
+}
+
+/// A file that is named by its content.
+fn kept(name: &str, ending: &str, kind: &'static str, find: impl Fn(&str) -> Option<Bytes>) -> Response {
+    match name.strip_suffix(ending).and_then(find) {
+        Some(bytes) => {
+            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
+        }
+        None => missing(),
+    }
+}
+
+/// The present model as [`gltf::glb_with_texture_coordinates`] has it, which few ever want to see.
+async fn measured(site: &Arc<Site>, name: &str) -> Response {
+    let shown = site.state.lock().shown.clone();
+    let url = name.strip_suffix(MEASURED).map(|hash| format!("model/{hash}.glb"));
+    let Some(shown) = shown.filter(|shown| shown.message.url == url) else { return missing() };
+    match site.export(move |stop| gltf::glb_with_texture_coordinates(&shown.run.scene, stop)).await {
+        Some(Ok(bytes)) => {
+            let kind = "model/gltf-binary";
+            ([(header::CONTENT_TYPE, kind), (header::CACHE_CONTROL, FOR_EVER)], bytes).into_response()
+        }
+        Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+        None => {
+            plain(StatusCode::INTERNAL_SERVER_ERROR, "the model ended early: this is a mistake in Burgeon")
+        }
+    }
+}
+
+async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
+    let refuse = |text: String| plain_text(StatusCode::BAD_REQUEST, text);
+    let Some(name) = decoded(name) else { return missing() };
+    if burgeon_export::Format::of(name.as_ref()).is_err() {
+        return missing();
+    }
+    let picture = match export::picture(query) {
+        Ok(picture) => picture,
+        Err(error) => return refuse(error.to_string()),
+    };
+    let Some(shown) = site.state.lock().shown.clone() else {
+        return plain(StatusCode::CONFLICT, "there is no model yet");
+    };
+    match site.export(move |stop| export::download(&shown.run.scene, &name, &picture, stop)).await {
+        Some(Ok(download)) => {
+            let disposition = disposition(&download.name);
+            let headers = [
+                (header::CONTENT_TYPE, HeaderValue::from_static(download.media_type)),
+                (header::CONTENT_DISPOSITION, disposition),
+            ];
+            (headers, download.bytes).into_response()
+        }
+        Some(Err(error)) => plain_text(StatusCode::UNPROCESSABLE_ENTITY, error.to_string()),
+        None => {
+            plain(StatusCode::INTERNAL_SERVER_ERROR, "the export ended early: this is a mistake in Burgeon")
+        }
+    }
+}
+
+/// `name` without the escapes of addresses; `None` if that is no text or leads to another folder.
+fn decoded(name: &str) -> Option<String> {
+    let is_escape = |rest: &str| rest.len() >= 2 && rest.bytes().take(2).all(|it| it.is_ascii_hexdigit());
+    if !name.split('%').skip(1).all(is_escape) {
+        return None;
+    }
+    let name = percent_decode_str(name).decode_utf8().ok()?.into_owned();
+    let leads_away = name.contains(['/', '\\', '\0']) || name.starts_with("..") || name.len() > 255;
+    (!leads_away).then_some(name)
+}
+
+/// What is escaped in the name of a file in a header.
+const ESCAPED: &AsciiSet = &NON_ALPHANUMERIC.remove(b'-').remove(b'_').remove(b'.');
+
+/// Has a browser keep a file under `name`.
+fn disposition(name: &str) -> HeaderValue {
+    let plain: String =
+        name.chars().map(|it| if it.is_ascii_graphic() && it != '"' { it } else { '_' }).collect();
+    let escaped = utf8_percent_encode(name, ESCAPED);
+    let text = format!("attachment; filename=\"{plain}\"; filename*=UTF-8''{escaped}");
+    HeaderValue::from_str(&text).unwrap_or(HeaderValue::from_static("attachment"))
+}
+
+fn file(content: &'static [u8], media_type: &'static str) -> Response {
+    ([(header::CONTENT_TYPE, media_type)], Bytes::from_static(content)).into_response()
+}
+
+fn missing() -> Response {
+    plain(StatusCode::NOT_FOUND, "there is nothing here")
+}
+
+fn plain(status: StatusCode, text: &'static str) -> Response {
+    (status, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], Body::from(text)).into_response()
+}
+
+fn plain_text(status: StatusCode, text: String) -> Response {
+    (status, [(header::CONTENT_TYPE, "text/plain; charset=utf-8")], Body::from(text)).into_response()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn escaped_names_are_read_and_those_that_lead_away_are_not() {
+        assert_eq!(decoded("my%20t%C3%B6wer.glb").as_deref(), Some("my t\u{f6}wer.glb"));
+        for wrong in
+            ["%2e%2e%2fx.glb", "..%2Fx.glb", "a%5Cb.glb", "%", "%2", "%zz", "%ff.glb", "a%00.glb", "%+1.glb"]
+        {
+            assert_eq!(decoded(wrong), None, "{wrong}");
+        }
+    }
+
+    #[test]
+    fn names_of_any_letters_become_headers() {
+        assert_eq!(
+            disposition("t\u{f6} \"w\".glb"),
+            "attachment; filename=\"t___w_.glb\"; filename*=UTF-8''t%C3%B6%20%22w%22.glb"
+        );
+    }
+}

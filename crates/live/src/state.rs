@@ -1,0 +1,376 @@
+//! What all pages share: the wish, the run that is under way, the present model, and what is wrong.
+
+use std::collections::{BTreeSet, VecDeque};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use axum::body::Bytes;
+use axum::extract::ws::Utf8Bytes;
+use tokio::sync::broadcast;
+
+use super::message::{Cause, Hello, Model, Say};
+use super::open::Editor;
+use super::wish::{Inputs, Wish};
+use super::{Settings, Told};
+use burgeon_base::error::{Error, Place};
+use burgeon_base::stop::Stop;
+use burgeon_base::warning::Warning;
+use burgeon_engine::run::Run;
+use burgeon_engine::script::{Options, Param, Session};
+use burgeon_export::Format;
+use burgeon_export::gltf::Layout;
+use burgeon_presets::Presets;
+use burgeon_watch::Change;
+
+/// Messages that wait for a page at most; a page that is slower gets the present state instead.
+const QUEUE: usize = 64;
+
+/// Models that are kept at most, and their size (bytes) beyond which only the present one is.
+const KEPT: usize = 3;
+const KEPT_BYTES: usize = 256 << 20;
+
+/// Lines that an error shows before and after its own.
+const AROUND: usize = 2;
+
+/// Small pictures that are kept at most.
+const PICTURES: usize = 512;
+
+/// A run that is likely to take less is not stopped for a newer value, so that a page sees pictures while a
+/// slider moves.
+const SHORT: Duration = Duration::from_millis(400);
+
+/// What all pages share.
+pub(super) struct State {
+    pub script: PathBuf,
+    pub options: Options,
+    pub editor: Option<Editor>,
+    tell: Box<dyn Fn(&Told) + Send + Sync>,
+    inner: Mutex<Inner>,
+    /// Wakes the worker and whoever tells of progress.
+    pub wake: Condvar,
+    pages: broadcast::Sender<Utf8Bytes>,
+    /// Ends the variations that are being made.
+    pub variations: Mutex<Option<Arc<Stop>>>,
+    /// The names of presets that pages know; held while their file is written or read, so that a change is told once.
+    pub presets: Mutex<Vec<String>>,
+    /// Held while a chain is traced, since each may take all cores.
+    pub tracing: Mutex<()>,
+}
+
+pub(super) struct Inner {
+    pub wish: Wish,
+    pub due: Option<Due>,
+    pub running: Option<Running>,
+    pub shown: Option<Arc<Shown>>,
+    /// Why there is no newer model: the script is missing or has an error.
+    pub trouble: Option<Say>,
+    /// That the last run was stopped by a page, so that what is shown is older than what is wished.
+    pub cancelled: Option<Say>,
+    /// Since when failures are kept back because files change.
+    pub doubts: Option<Instant>,
+    /// What the last run that came to an end was made from.
+    pub finished: Option<Inputs>,
+    /// How long that took.
+    pub took: Duration,
+    /// Counts the changes of files.
+    pub generation: u64,
+    pub runs: u64,
+    /// The parameters of the script as it is; unknown while it has an error.
+    pub params: Option<Vec<Param>>,
+    models: VecDeque<(String, Bytes)>,
+    pictures: VecDeque<(String, Bytes)>,
+    /// For these inputs, but for their limit, the number of steps to the end.
+    pub last_step: Option<(Inputs, usize)>,
+    /// Values that could not be used, as far as that has been told.
+    pub left_out: BTreeSet<String>,
+    /// The warnings of the last model, as far as they have been told.
+    pub warnings: BTreeSet<String>,
+    /// The script's files, which an editor may open.
+    pub files: Vec<PathBuf>,
+    /// Ends what is made besides models, for it is about a script that has changed.
+    pub aside: Arc<Stop>,
+    pub over: bool,
+}
+
+/// A run that is to be made.
+#[derive(Clone)]
+pub(super) struct Due {
+    pub cause: Cause,
+    pub files: Vec<String>,
+    /// When its cause was seen.
+    pub at: Instant,
+}
+
+/// A run that is under way.
+pub(super) struct Running {
+    pub run: u64,
+    pub cause: Cause,
+    pub files: Vec<String>,
+    pub session: Arc<Session>,
+    pub begin: Instant,
+    pub cancelled: Arc<AtomicBool>,
+    /// Whether pages do not know of it.
+    pub quiet: bool,
+}
+
+/// The present model.
+pub(super) struct Shown {
+    pub run: Arc<Run>,
+    /// What it was made from.
+    pub inputs: Inputs,
+    /// Where the scene's things are in the model's bytes.
+    pub layout: Arc<Layout>,
+    pub message: Model,
+}
+
+impl State {
+    pub(super) fn new(mut settings: Settings) -> Self {
+        let wish = Wish::new(&settings.options);
+        // Its values are a part of the wish from now on.
+        settings.options.preset = None;
+        settings.options.cache = Some(std::sync::Arc::default());
+        let presets = super::tools::presets(&settings.script);
+        let inner = Inner {
+            wish,
+            due: None,
+            running: None,
+            shown: None,
+            trouble: None,
+            cancelled: None,
+            doubts: None,
+            finished: None,
+            took: Duration::ZERO,
+            generation: 0,
+            runs: 0,
+            params: None,
+            models: VecDeque::new(),
+            pictures: VecDeque::new(),
+            last_step: None,
+            left_out: BTreeSet::new(),
+            warnings: BTreeSet::new(),
+            files: Vec::new(),
+            aside: Arc::default(),
+            over: false,
+        };
+        Self {
+            script: settings.script,
+            options: settings.options,
+            editor: settings.editor,
+            tell: settings.tell,
+            inner: Mutex::new(inner),
+            wake: Condvar::new(),
+            pages: broadcast::channel(QUEUE).0,
+            variations: Mutex::default(),
+            presets: Mutex::new(presets),
+            tracing: Mutex::default(),
+        }
+    }
+
+    pub(super) fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Says something to all pages. Called with the lock held, it comes in order.
+    pub(super) fn say(&self, say: &Say) {
+        // There may be no page.
+        let _ = self.pages.send(say.to_text().into());
+    }
+
+    /// Says something where the server was started.
+    pub(super) fn tell(&self, told: &Told) {
+        (self.tell)(told);
+    }
+
+    /// What a new page is told first, and where it hears the rest.
+    pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
+        let presets = self.presets.lock().unwrap_or_else(PoisonError::into_inner);
+        let inner = self.lock();
+        let mut texts: Vec<Utf8Bytes> = vec![Say::Hello(self.hello(presets.clone())).to_text().into()];
+        if let Some(model) = inner.present() {
+            texts.push(Say::Model(Box::new(model)).to_text().into());
+        }
+        texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|say| say.to_text().into()));
+        if let Some(running) = inner.running.as_ref().filter(|running| !running.quiet) {
+            let (run, cause, files) = (running.run, running.cause, running.files.clone());
+            let say = Say::Working { run, cause, files };
+            texts.push(say.to_text().into());
+        }
+        (texts, self.pages.subscribe())
+    }
+
+    fn hello(&self, presets: Vec<String>) -> Hello {
+        Hello {
+            version: env!("CARGO_PKG_VERSION"),
+            script: self.script_name(),
+            path: self.script.display().to_string(),
+            editor: self.editor.is_some(),
+            formats: Format::ALL.map(Format::extension).to_vec(),
+            presets,
+        }
+    }
+
+    /// The script's file name.
+    pub(super) fn script_name(&self) -> String {
+        self.script.file_name().unwrap_or(self.script.as_os_str()).to_string_lossy().into_owned()
+    }
+
+    /// A file as pages name it: from the script's folder.
+    pub(super) fn name(&self, path: &Path) -> String {
+        if path == self.script {
+            return self.script_name();
+        }
+        let script = self.script.canonicalize().ok();
+        if script.as_deref() == Some(path) {
+            return self.script_name();
+        }
+        let root = script.as_deref().and_then(Path::parent);
+        let inner = root.and_then(|root| path.strip_prefix(root).ok());
+        inner.unwrap_or(path).display().to_string()
+    }
+
+    /// An error whose file is named as pages name it, with the lines around its own.
+    pub(super) fn error_json(&self, error: &Error) -> serde_json::Value {
+        self.placed(error.to_json(), error.place())
+    }
+
+    /// The same of a warning.
+    pub(super) fn warning_json(&self, warning: &Warning) -> serde_json::Value {
+        self.placed(warning.to_json(), warning.place())
+    }
+
+    fn placed(&self, mut object: serde_json::Value, place: Option<&Place>) -> serde_json::Value {
+        if let Some(place) = place {
+            object["file"] = self.short(&place.file).into();
+            let excerpt = place.excerpt(AROUND, AROUND);
+            if !excerpt.is_empty() {
+                let line = |(line, text)| serde_json::json!({ "line": line, "text": text });
+                object["excerpt"] = excerpt.into_iter().map(line).collect();
+            }
+        }
+        object
+    }
+
+    /// A file of an error or a rule as pages name it.
+    pub(super) fn short(&self, file: &str) -> String {
+        let file = Path::new(file);
+        let folder = self.script.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let inner = folder.and_then(|folder| file.strip_prefix(folder).ok());
+        inner.map_or_else(|| self.name(file), |inner| inner.display().to_string())
+    }
+
+    /// The model of that name, if it is kept.
+    pub(super) fn model(&self, hash: &str) -> Option<Bytes> {
+        self.lock().models.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
+    }
+
+    /// The small picture of that name, if it is kept.
+    pub(super) fn picture(&self, hash: &str) -> Option<Bytes> {
+        self.lock().pictures.iter().find(|(known, _)| known == hash).map(|(_, bytes)| bytes.clone())
+    }
+
+    /// Keeps a small picture. Returns where pages find it.
+    pub(super) fn keep_picture(&self, png: Vec<u8>) -> String {
+        let hash = blake3::hash(&png).to_hex()[..32].to_owned();
+        let mut inner = self.lock();
+        inner.pictures.retain(|(known, _)| *known != hash);
+        inner.pictures.push_back((hash.clone(), png.into()));
+        if inner.pictures.len() > PICTURES {
+            inner.pictures.pop_front();
+        }
+        format!("picture/{hash}.png")
+    }
+
+    /// Ends the variations that are being made, for they are of no use any more.
+    fn stop_variations(&self, why: &str) {
+        if let Some(stop) = self.variations.lock().unwrap_or_else(PoisonError::into_inner).take() {
+            stop.stop(Error::stopped(why));
+        }
+    }
+
+    /// Takes notice of changed files.
+    pub(super) fn changed(&self, change: &Change) {
+        let presets = Presets::path_of(&self.script);
+        if change.files.contains(&presets) {
+            super::tools::presets_changed(self);
+        }
+        let files: Vec<String> =
+            change.files.iter().filter(|path| **path != presets).map(|path| self.name(path)).collect();
+        if files.is_empty() {
+            return;
+        }
+        self.stop_variations("the script has changed");
+        let mut inner = self.lock();
+        std::mem::take(&mut inner.aside).stop(Error::stopped("the script has changed"));
+        inner.generation += 1;
+        inner.post(Due { cause: Cause::Save, files, at: change.at });
+        self.wake.notify_all();
+    }
+
+    /// Ends the worker, and the run that is under way.
+    pub(super) fn end(&self) {
+        self.stop_variations("the server ends");
+        let mut inner = self.lock();
+        inner.over = true;
+        inner.aside.stop(Error::stopped("the server ends"));
+        inner.stop("the server ends");
+        self.wake.notify_all();
+    }
+}
+
+impl Inner {
+    /// Has a run made as soon as may be.
+    pub(super) fn post(&mut self, mut due: Due) {
+        let soon_over = self.took < SHORT
+            && self.running.as_ref().is_some_and(|running| !running.quiet && running.begin.elapsed() < SHORT);
+        if due.cause == Cause::Save || !soon_over {
+            self.stop("there is something newer");
+        }
+        if let Some(waiting) = self.due.take() {
+            due.files = waiting.files.into_iter().chain(due.files).collect();
+            due.files.dedup();
+            if waiting.cause == Cause::Save {
+                due.cause = Cause::Save;
+            }
+        }
+        self.due = Some(due);
+    }
+
+    /// The model that is shown, as pages are told it now.
+    pub(super) fn present(&self) -> Option<Model> {
+        let shown = self.shown.as_ref()?;
+        Some(Model { preset: self.wish.preset(), ..shown.message.clone() })
+    }
+
+    /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is wished.
+    pub(super) fn cancelled(&mut self, state: &State, run: u64) {
+        let stale = self.due.is_none();
+        let say = Say::Cancelled { run, stale };
+        state.say(&say);
+        if stale {
+            self.cancelled = Some(say);
+        }
+    }
+
+    /// Stops the run that is under way. Returns whether there is one that pages know of.
+    pub(super) fn stop(&self, why: &str) -> bool {
+        let Some(running) = &self.running else { return false };
+        running.cancelled.store(true, Ordering::Release);
+        running.session.stop.stop(Error::stopped(why));
+        !running.quiet
+    }
+
+    /// Keeps a model; those that came before it go when they are too many or too large.
+    pub(super) fn keep(&mut self, hash: String, bytes: Bytes) -> VecDeque<(String, Bytes)> {
+        self.models.retain(|(known, _)| *known != hash);
+        self.models.push_back((hash, bytes));
+        let mut gone = VecDeque::new();
+        let size =
+            |models: &VecDeque<(String, Bytes)>| models.iter().map(|(_, bytes)| bytes.len()).sum::<usize>();
+        while self.models.len() > 1 && (self.models.len() > KEPT || size(&self.models) > KEPT_BYTES) {
+            gone.extend(self.models.pop_front());
+        }
+        gone
+    }
+}

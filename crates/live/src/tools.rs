@@ -1,0 +1,240 @@
+//! Presets and variations: the wish under a name, and small pictures of other wishes.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Arc, PoisonError};
+use std::time::Duration;
+
+use axum::extract::ws::Utf8Bytes;
+use tokio::sync::mpsc::Sender;
+
+use super::message::{Cause, Say, json};
+use super::state::State;
+use super::wish::seed;
+use burgeon_base::error::{Error, Result};
+use burgeon_engine::script::{Options, Param, Preset};
+use burgeon_export::encode_png;
+use burgeon_export::picture::{Background, Picture, Quality};
+use burgeon_presets::Presets;
+use burgeon_variations::{Cell, Framing, Over, Variations};
+
+/// How often a page is told how many scripts of variations have run.
+const TICK: Duration = Duration::from_millis(500);
+
+/// Width and height (pixels) of a small picture.
+const SIZE: (u32, u32) = (320, 240);
+
+/// The names of the script's presets; none if their file is broken, which is told when one of them is used.
+pub(super) fn presets(script: &Path) -> Vec<String> {
+    Presets::read(script).map(|presets| names(&presets)).unwrap_or_default()
+}
+
+fn names(presets: &Presets) -> Vec<String> {
+    presets.names().map(str::to_owned).collect()
+}
+
+/// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
+/// that asked is answered.
+pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> Option<Say> {
+    let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let done = match action {
+        "save" => save(state, name, replace).map(Some),
+        "delete" => Presets::remove(&state.script, name).map(Some),
+        "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
+            Ok(preset) => {
+                return state.change(Cause::Preset, |inner| {
+                    inner.wish.load(&preset);
+                    Ok(())
+                });
+            }
+            Err(error) => Err(error),
+        },
+        _ => Err(Error::argument(format!("{action:?} cannot be done with a preset"))
+            .help("save, load or delete it")),
+    };
+    match done {
+        Ok(presets) => {
+            let mut inner = state.lock();
+            if let Some(presets) = &presets {
+                *known = names(presets);
+                inner.wish.look_for_preset(presets);
+            }
+            state.say(&Say::Presets { names: known.clone(), chosen: inner.wish.preset() });
+            None
+        }
+        Err(error) => Some(Say::refused(None, &error)),
+    }
+}
+
+/// Tells pages of presets that someone has changed in their file.
+pub(super) fn presets_changed(state: &State) {
+    let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
+    let read = Presets::read(&state.script);
+    let mut inner = state.lock();
+    let say = match read {
+        Ok(presets) => {
+            let before = inner.wish.preset();
+            inner.wish.look_for_preset(&presets);
+            let (names, chosen) = (names(&presets), inner.wish.preset());
+            if *known == names && chosen == before {
+                return;
+            }
+            known.clone_from(&names);
+            Say::Presets { names, chosen }
+        }
+        Err(error) => Say::refused(None, &error),
+    };
+    state.say(&say);
+}
+
+/// Saves the values that are set and used, and the seed.
+fn save(state: &State, name: &str, replace: bool) -> Result<Presets> {
+    if !replace && Presets::read(&state.script)?.names().any(|known| known == name) {
+        return Err(Error::argument(format!("there is a preset called {name} already"))
+            .help("choose another name, or say that it is to be replaced"));
+    }
+    let preset = {
+        let inner = state.lock();
+        let Some(params) = &inner.params else {
+            return Err(Error::unavailable("a preset is saved when the script runs without an error"));
+        };
+        let params = inner.wish.used(params);
+        Preset { name: name.to_owned(), seed: Some(inner.wish.seed()), params, ..Preset::default() }
+    };
+    let presets = Presets::save(&state.script, preset.clone())?;
+    let inner = &mut *state.lock();
+    // Another page may have changed them since.
+    let same = |params: &[Param]| inner.wish.used(params) == preset.params;
+    if inner.params.as_deref().is_some_and(same) && preset.seed == Some(inner.wish.seed()) {
+        inner.wish.is_preset(preset);
+    }
+    Ok(presets)
+}
+
+/// Has small pictures of other values made, and sent to the page that asked through `page`, in place of those
+/// that are being made. Returns why that cannot be.
+pub(super) fn variations(
+    state: &Arc<State>,
+    id: u64,
+    over: Result<Over>,
+    page: Sender<Utf8Bytes>,
+) -> Option<Say> {
+    let begin = || -> Result<Variations> {
+        let (inputs, params) = {
+            let inner = state.lock();
+            (inner.wish.inputs(inner.generation), inner.params.clone())
+        };
+        let options = Options {
+            set: inputs.set,
+            seed: inputs.seed,
+            steps: inputs.steps,
+            preset: None,
+            forgiving: true,
+            ..state.options.clone()
+        };
+        let over = over?;
+        if let (Over::Param { name, .. }, Some(params)) = (&over, &params)
+            && !params.iter().any(|param| param.name == *name)
+        {
+            let names = params.iter().map(|param| param.name.as_str());
+            let message = format!("the script has no parameter called {name}");
+            return Err(Error::not_found("parameter", name, names, message));
+        }
+        Variations::new(&state.script, &options, &over)
+    };
+    let variations = match begin() {
+        Ok(variations) => variations,
+        Err(error) => return Some(Say::refused(Some(id), &error)),
+    };
+    let stop = Arc::clone(&variations.stop);
+    let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
+    if let Some(before) = before {
+        before.stop(Error::stopped("others are made"));
+    }
+    let state = Arc::clone(state);
+    let make = move || {
+        let picture = Picture {
+            width: SIZE.0,
+            height: SIZE.1,
+            background: Background::Clear,
+            quality: Quality::Draft,
+            ..Picture::default()
+        };
+        let of = variations.len();
+        let (over, ended) = channel::<()>();
+        let (running, page, gone) = (&variations, &page, || stop.stop(Error::stopped("the page has gone")));
+        let tell = move || {
+            // It ends with the other end of the channel.
+            while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
+                let say = Say::Variations { id, ran: running.ran(), of };
+                if page.blocking_send(say.to_text().into()).is_err() {
+                    return gone();
+                }
+            }
+        };
+        let made = std::thread::scope(|scope| {
+            scope.spawn(tell);
+            // What looks larger is larger, so that seeds and values can be compared.
+            let made = variations.make(&picture, Framing::Together, |cell| {
+                let say = variation(&state, id, of, cell);
+                if page.blocking_send(say.to_text().into()).is_err() {
+                    gone();
+                }
+            });
+            drop(over);
+            made
+        });
+        if let Err(error) = made
+            && !stop.is_stopped()
+        {
+            // The page may have gone.
+            let _ = page.blocking_send(Say::refused(Some(id), &error).to_text().into());
+        }
+    };
+    match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
+        Ok(_) => None,
+        Err(error) => Some(Say::refused(Some(id), &Error::system(format!("cannot start a thread: {error}")))),
+    }
+}
+
+fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Say {
+    let mut params: BTreeMap<String, serde_json::Value> = BTreeMap::new();
+    let picture = cell.made.and_then(|made| {
+        params.extend(made.params.iter().map(|param| (param.name.clone(), json(&param.value))));
+        encode_png(&made.picture)
+    });
+    if let Some((name, value)) = cell.set {
+        params.entry(name).or_insert_with(|| value.into());
+    }
+    let (url, error) = match picture {
+        Ok(png) => (Some(state.keep_picture(png)), None),
+        Err(error) => (None, Some(error.to_string())),
+    };
+    Say::Variation {
+        id,
+        index: cell.index,
+        of,
+        label: cell.label,
+        seed: cell.seed.to_string(),
+        params,
+        url,
+        error,
+    }
+}
+
+/// What a page wants other values of: seeds, or a parameter.
+pub(super) fn over(
+    seeds: Option<&[String]>,
+    param: Option<String>,
+    values: Option<Vec<String>>,
+) -> Result<Over> {
+    match (seeds, param, values) {
+        (Some(seeds), None, None) => {
+            let seeds = seeds.iter().map(|text| seed(&text.as_str().into()));
+            Ok(Over::Seeds(seeds.collect::<Result<_>>()?))
+        }
+        (None, Some(name), Some(values)) => Ok(Over::Param { name, values }),
+        _ => Err(Error::argument("variations have seeds, or a param and its values")),
+    }
+}

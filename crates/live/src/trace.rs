@@ -1,0 +1,177 @@
+//! From the picture to the script and back: which module made a triangle, what a line of the script made.
+//!
+//! The engine speaks of the scene's meshes and parts, pages speak of glTF's meshes and primitives (`layout`).
+
+use std::sync::{Arc, PoisonError};
+use std::time::Duration;
+
+use super::layout::Indices;
+use super::message::{
+    Around, Count, Highlighted, Made, Module, Named, Pick, Picked, Rule, RuleAt, Say, Step,
+};
+use super::state::{Shown, State};
+use super::work;
+use burgeon_base::error::{Error, Place, Result};
+use burgeon_engine::derive::{Derived, RuleName};
+use burgeon_engine::run::Run;
+use burgeon_engine::script::Options;
+use burgeon_engine::trace as engine;
+use burgeon_kit::rules::END;
+
+/// How long it may take to find out what made something.
+const PATIENCE: Duration = Duration::from_secs(30);
+
+/// The number of modules of each symbol that occurs, the most frequent first.
+pub(super) fn symbols(system: &Derived) -> Vec<Count> {
+    let mut counts = vec![0; system.symbols.arities().len()];
+    for symbol in &system.chain.symbols {
+        counts[usize::from(*symbol)] += 1;
+    }
+    let found = (0u16..).zip(counts).filter(|(symbol, count)| *symbol > END && *count > 0);
+    let mut found: Vec<Count> = found
+        .map(|(symbol, count)| Count { name: system.symbols.signature(symbol).name.clone(), count })
+        .collect();
+    found.sort_by_key(|symbol| std::cmp::Reverse(symbol.count));
+    found
+}
+
+/// The rules of all systems with what they cost.
+pub(super) fn rules(state: &State, run: &Run) -> Vec<Rule> {
+    let reports = run.systems.iter().flat_map(|system| &system.rules);
+    let rules = reports.map(|report| {
+        let (file, line) = place(state, report.name.place.as_ref());
+        Rule {
+            text: report.name.text.clone(),
+            kind: if report.interprets { "interpretation" } else { "rule" },
+            file,
+            line,
+            applied: report.done.applied,
+            made: report.done.made,
+            ms: report.done.time.as_secs_f64() * 1e3,
+        }
+    });
+    rules.collect()
+}
+
+/// A place as pages name it; no file and line 0 if there is none.
+fn place(state: &State, place: Option<&Place>) -> (String, usize) {
+    place.map_or_else(|| (String::new(), 0), |place| (state.short(&place.file), place.line))
+}
+
+/// The module that made a triangle.
+pub(super) fn pick(state: &State, pick: &Pick) -> Say {
+    let find = || -> Result<Picked> {
+        let (shown, options) = present(state)?;
+        let scene = &shown.run.scene;
+        let indices = Indices { scene, layout: &shown.layout };
+        let wanted = indices.triangle(pick)?;
+        let _turn = state.tracing.lock().unwrap_or_else(PoisonError::into_inner);
+        let found = engine::pick(&state.script, &options, scene, wanted)?;
+        let tell = |made: &engine::Made| tell_made(state, &shown, made);
+        let (main, placed) = match (&found.drawn, &found.placed) {
+            (Some(drawn), placed) => (Some(tell(drawn)), placed.as_ref().map(tell)),
+            (None, placed) => (placed.as_ref().map(tell), None),
+        };
+        Ok(Picked { id: pick.id, found: main.is_some(), made: main, placed, instance: pick.instance })
+    };
+    find().map_or_else(|error| refused(pick.id, &error), |picked| Say::Picked(Box::new(picked)))
+}
+
+/// What a line of a script made.
+pub(super) fn highlight(state: &State, id: u64, file: &str, line: usize) -> Say {
+    let find = || -> Result<Highlighted> {
+        let (shown, options) = present(state)?;
+        let path = state.own_file(file)?;
+        let lines = std::fs::read_to_string(&path).map_or(0, |text| text.lines().count());
+        if !(1..=lines).contains(&line) {
+            let number = if lines == 1 { "1 line".to_owned() } else { format!("{lines} lines") };
+            let message = format!("{file} has {number}, so there is no line {line}");
+            return Err(Error::not_found("line", line, [], message));
+        }
+        let name = state.engine_name(&path);
+        let scene = &shown.run.scene;
+        let _turn = state.tracing.lock().unwrap_or_else(PoisonError::into_inner);
+        let systems = shown.run.systems.len();
+        let found = engine::highlight(&state.script, &options, scene, systems, &name, line)?;
+        let mut indices = Indices { scene, layout: &shown.layout };
+        let mut ranges = indices.ranges(&found.runs);
+        ranges.extend(indices.placed(&found.instances));
+        let what = found.what.join(", ");
+        Ok(Highlighted { id, file: file.to_owned(), line, what, modules: found.modules, ranges })
+    };
+    find().map_or_else(|error| refused(id, &error), |found| Say::Highlighted(Box::new(found)))
+}
+
+/// A part of a chain.
+pub(super) fn chain(state: &State, id: u64, system: usize, chain: usize, module: usize) -> Say {
+    let shown = state.lock().shown.clone();
+    let derived = shown.as_ref().and_then(|shown| system_of(&shown.run, system));
+    match derived.filter(|derived| chain < derived.features.len()) {
+        Some(derived) => {
+            let ([before, at, after], of) = engine::around(derived, chain, module);
+            Say::Chain { id, system, chain, module, of, text: Around { before, at, after } }
+        }
+        None => refused(id, &Error::unavailable(format!("there is no chain {chain} of system {system}"))),
+    }
+}
+
+/// The present model, and how to run the script as it was run for it. Fails if the script has changed since.
+fn present(state: &State) -> Result<(Arc<Shown>, Options)> {
+    let inner = state.lock();
+    let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("there is no model yet")) };
+    if inner.generation != shown.inputs.generation {
+        return Err(Error::unavailable("the script has changed since this model was made")
+            .help("repair the script, so that there is a new one"));
+    }
+    let mut options = work::options(state, &shown.inputs);
+    options.print = None;
+    options.profile = false;
+    options.limits.time = options.limits.time.min(PATIENCE);
+    options.stop = Some(Arc::clone(&inner.aside));
+    Ok((shown, options))
+}
+
+fn system_of(run: &Run, number: usize) -> Option<&Arc<Derived>> {
+    run.systems.iter().find(|system| system.system == number)
+}
+
+fn tell_made(state: &State, shown: &Shown, made: &engine::Made) -> Made {
+    let rule_at = |rule: &RuleName| {
+        let (file, line) = place(state, rule.place.as_ref());
+        RuleAt { text: rule.text.clone(), file, line }
+    };
+    let path = made.path.iter().map(|ancestor| {
+        let rule = ancestor.rule.as_ref();
+        let (file, line) = place(state, rule.map_or(made.axiom.as_ref(), |rule| rule.place.as_ref()));
+        Step {
+            step: ancestor.step,
+            module: ancestor.module.text.clone(),
+            rule: rule.map(|rule| rule.text.clone()),
+            file,
+            line,
+            ordinal: ancestor.ordinal,
+        }
+    });
+    let [before, at, after] = made.around.clone();
+    let params = made.module.params.iter();
+    let features = system_of(&shown.run, made.origin.system).map(|system| &system.features);
+    Made {
+        system: made.origin.system,
+        chain: made.origin.chain,
+        feature: features.and_then(|features| features.get(made.origin.chain)?.clone()),
+        module: Module {
+            text: made.module.text.clone(),
+            symbol: made.module.symbol.clone(),
+            params: params.map(|(name, value)| Named { name: name.clone(), value: value.clone() }).collect(),
+            index: made.index,
+        },
+        interpretation: made.interpretation.as_ref().map(rule_at),
+        path: path.collect(),
+        chain_text: Around { before, at, after },
+        ranges: Indices { scene: &shown.run.scene, layout: &shown.layout }.ranges(&made.runs),
+    }
+}
+
+fn refused(id: u64, error: &Error) -> Say {
+    Say::refused(Some(id), error)
+}

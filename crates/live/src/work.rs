@@ -1,0 +1,432 @@
+//! The worker: one thread that runs the script as it was last wished and makes the model's bytes.
+
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant, SystemTime};
+
+use axum::body::Bytes;
+
+use super::message::{Cause, Model, Say};
+use super::state::{Due, Inner, Running, Shown, State};
+use super::wish::Inputs;
+use super::{Told, describe};
+use burgeon_base::error::{Error, ErrorKind, Limit, Result};
+use burgeon_base::warning::Warning;
+use burgeon_engine::run::{Run, run_session};
+use burgeon_engine::script::{Limits, Options, Session, make_ready};
+use burgeon_export::gltf::{self, Layout};
+use burgeon_presets::Presets;
+use burgeon_watch::{Watch, unsettled};
+
+/// How often pages are told how far a run has come.
+const TICK: Duration = Duration::from_millis(100);
+
+/// The largest model (bytes) that is sent to pages: browsers hold no larger array.
+const LARGEST: usize = 2_000_000_000;
+
+/// Problems of one run, and warnings, that pages are told at most.
+pub(super) const PROBLEMS: usize = 50;
+
+/// How long a file that was there may be missing, as in the middle of a save, before a page is told.
+const MISSING: Duration = Duration::from_millis(150);
+
+/// How long failures may be kept back because files change.
+const DOUBT: Duration = Duration::from_secs(2);
+
+/// What finding the number of steps may take when nothing else is to be done.
+const IDLE_LIMITS: Limits =
+    Limits { time: Duration::from_secs(10), memory: 1 << 30, modules: 5_000_000, triangles: 10_000_000 };
+
+/// A run to be made.
+pub(super) struct Job {
+    pub run: u64,
+    pub due: Due,
+    pub inputs: Inputs,
+}
+
+/// What came of a run.
+enum Outcome {
+    Made(Box<Made>),
+    Missing,
+    Failed(Error),
+    Cancelled,
+}
+
+struct Made {
+    run: Run,
+    file: File,
+    /// What pages are told of it, but for what depends on the wish.
+    message: Model,
+}
+
+/// The model as pages get it.
+#[derive(Default)]
+struct File {
+    /// Its name, which depends on its content alone, and its content; nothing if there is nothing to show.
+    content: Option<(String, Bytes)>,
+    layout: Layout,
+    /// Why there is nothing, if there is too much.
+    note: Option<String>,
+}
+
+/// Works until the state is over.
+pub(super) fn work(state: &State, watch: &Watch) {
+    let mut followed: Vec<(PathBuf, bool)> = Vec::new();
+    while let Some(job) = next(state) {
+        let since = SystemTime::now();
+        let mut session = None;
+        let attempt = catch_unwind(AssertUnwindSafe(|| attempt(state, &job, &mut session)));
+        let outcome = attempt.unwrap_or_else(|panic| Outcome::Failed(internal(panic.as_ref())));
+        // Files that were looked for in vain are watched too: the run may succeed once they are there.
+        let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
+        // These are watched from the beginning.
+        files.extend(always(state).into_iter().map(|path| (path, true)));
+        let presets = Presets::path_of(&state.script);
+        let there = presets.is_file();
+        files.push((presets, there));
+        if matches!(outcome, Outcome::Cancelled) {
+            // It has not come to all of its files.
+            followed.extend(files);
+        } else {
+            followed = files;
+        }
+        watch.follow(followed.clone(), since);
+        let failed = matches!(outcome, Outcome::Failed(_) | Outcome::Missing);
+        let outcome = match failed && superseded(state, &job, &followed, watch) {
+            true => Outcome::Cancelled,
+            false => outcome,
+        };
+        finish(state, &job, session.as_deref(), outcome);
+        drop(session);
+        if let Some(inputs) = wants_last_step(state) {
+            let found = catch_unwind(AssertUnwindSafe(|| last_step(state, &inputs)));
+            note_last_step(state, inputs, found.ok().flatten());
+        }
+        if state.lock().due.is_none() {
+            make_ready();
+        }
+    }
+}
+
+/// Waits until `files`, on which a run has failed, have been as they are for a while. Returns whether something newer is
+/// to be made: what was read may have been the half of what was being written.
+fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
+    let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
+    let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
+    let wait = young.max(gone.then_some(MISSING)).unwrap_or_default();
+    let mut inner = state.lock();
+    // A file that is written all the time is not waited for.
+    if inner.doubts.is_some_and(|since| since.elapsed() > DOUBT) {
+        return false;
+    }
+    inner.doubts.get_or_insert_with(Instant::now);
+    let end = Instant::now() + wait;
+    while inner.due.is_none() && !inner.over {
+        let Some(left) = end.checked_duration_since(Instant::now()) else {
+            drop(inner);
+            watch.catch_up();
+            return state.lock().due.is_some();
+        };
+        inner = state.wake.wait_timeout(inner, left).unwrap_or_else(std::sync::PoisonError::into_inner).0;
+    }
+    true
+}
+
+/// Tells pages how far the run has come, until the state is over.
+pub(super) fn report(state: &State) {
+    let mut inner = state.lock();
+    while !inner.over {
+        if inner.running.as_ref().is_none_or(|running| running.quiet) {
+            inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
+            continue;
+        }
+        drop(inner);
+        std::thread::sleep(TICK);
+        inner = state.lock();
+        if let Some(running) = inner.running.as_ref().filter(|it| !it.quiet && it.begin.elapsed() >= TICK) {
+            let (step, steps, modules) = running.session.progress.counts();
+            let message = running.session.progress.message(running.begin.elapsed());
+            state.say(&Say::Progress { run: running.run, message, step, steps, modules });
+        }
+    }
+}
+
+/// The files that decide what is made even if the script cannot be read.
+pub(super) fn always(state: &State) -> Vec<PathBuf> {
+    std::iter::once(state.script.clone()).chain(state.options.stdlib.clone()).collect()
+}
+
+/// Waits for something to do.
+fn next(state: &State) -> Option<Job> {
+    let mut inner = state.lock();
+    loop {
+        if inner.over {
+            return None;
+        }
+        if let Some(due) = inner.due.take() {
+            inner.runs += 1;
+            let run = inner.runs;
+            state.say(&Say::Working { run, cause: due.cause, files: due.files.clone() });
+            let inputs = inner.wish.inputs(inner.generation);
+            return Some(Job { run, due, inputs });
+        }
+        inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
+    }
+}
+
+/// Makes `session` the one that others can stop; pages do not know of one without a job. Returns the flag that tells whether they have.
+fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<AtomicBool> {
+    let mut inner = state.lock();
+    let cancelled = Arc::new(AtomicBool::new(inner.over || inner.due.is_some()));
+    if cancelled.load(Ordering::Acquire) {
+        session.stop.stop(Error::stopped("there is something newer"));
+    }
+    inner.running = Some(Running {
+        run: job.map_or(0, |job| job.run),
+        cause: job.map_or(Cause::Steps, |job| job.due.cause),
+        files: job.map(|job| job.due.files.clone()).unwrap_or_default(),
+        session: Arc::clone(session),
+        begin: Instant::now(),
+        cancelled: Arc::clone(&cancelled),
+        quiet: job.is_none(),
+    });
+    state.wake.notify_all();
+    cancelled
+}
+
+/// How the script is run with these inputs.
+pub(super) fn options(state: &State, inputs: &Inputs) -> Options {
+    Options {
+        set: inputs.set.clone(),
+        seed: inputs.seed,
+        steps: inputs.steps,
+        forgiving: true,
+        profile: true,
+        ..state.options.clone()
+    }
+}
+
+fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome {
+    if std::fs::metadata(&state.script).is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) {
+        return Outcome::Missing;
+    }
+    let session = match Session::new(&state.script, options(state, &job.inputs)) {
+        Ok(session) => session,
+        Err(error) => return Outcome::Failed(error),
+    };
+    *kept = Some(Arc::clone(&session));
+    let cancelled = register(state, Some(job), &session);
+    let made = run_session(&session).and_then(|run| {
+        if cancelled.load(Ordering::Acquire) {
+            return Err(Error::stopped("there is something newer"));
+        }
+        let (file, mut message) =
+            rayon::join(|| encode(&run), || describe::describe(state, job, &session, &run));
+        let (file, time) = file?;
+        message.nothing = file.note.clone().or(message.nothing);
+        if let Some((hash, bytes)) = &file.content {
+            message.url = Some(format!("model/{hash}.glb"));
+            message.bytes = bytes.len();
+        }
+        message.times.encode = describe::ms(time);
+        message.times.total = describe::ms(job.due.at.elapsed());
+        Ok(Made { run, file, message })
+    });
+    match made {
+        _ if cancelled.load(Ordering::Acquire) => Outcome::Cancelled,
+        Ok(made) => Outcome::Made(Box::new(made)),
+        Err(error) => Outcome::Failed(error),
+    }
+}
+
+/// The model's bytes, and how long it took to make them.
+fn encode(run: &Run) -> Result<(File, Duration)> {
+    let begin = Instant::now();
+    if run.scene.triangles() == 0 {
+        return Ok((File::default(), begin.elapsed()));
+    }
+    let nothing = |note: String| File { note: Some(note), ..File::default() };
+    let file = match gltf::glb_for_viewer(&run.scene) {
+        Ok((glb, layout)) if glb.len() <= LARGEST => {
+            let hash = blake3::hash(&glb).to_hex()[..32].to_owned();
+            File { content: Some((hash, glb.into())), layout, note: None }
+        }
+        Ok((glb, _)) => {
+            nothing(format!("the model takes {} MB, more than a page can show", glb.len() / 1_000_000))
+        }
+        // The scene is sound, or the run would have failed: it is too large for any file.
+        Err(error) if *error.kind() == ErrorKind::Limit(Limit::Format) => nothing(error.to_string()),
+        Err(error) => return Err(error),
+    };
+    Ok((file, begin.elapsed()))
+}
+
+fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+    Error::internal(format!("internal error: {}", text.unwrap_or("without a message")))
+        .help("this is a mistake in Burgeon; please report it with the script")
+}
+
+/// Takes over what came of a run, and tells everybody.
+fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome) {
+    let mut inner = state.lock();
+    if !matches!(outcome, Outcome::Cancelled) {
+        inner.doubts = None;
+    }
+    let quick = inner.running.take().map(|running| running.begin.elapsed());
+    if let Some(session) = session.filter(|_| !matches!(outcome, Outcome::Cancelled)) {
+        inner.files = session.files();
+    }
+    let mut told = Vec::new();
+    let mut gone = None;
+    match outcome {
+        Outcome::Cancelled => inner.cancelled(state, job.run),
+        Outcome::Missing => {
+            let text = format!("there is no script {} yet", state.script.display());
+            inner.end_badly(state, job, Say::Waiting { text: text.clone() });
+            told.push(Told::Waiting(text));
+        }
+        Outcome::Failed(error) => {
+            let number = error.problems().count();
+            let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
+            let (run, cause) = (job.run, job.due.cause);
+            inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors, number });
+            told.push(Told::Failed(error));
+        }
+        Outcome::Made(made) => {
+            let Made { run, file, mut message } = *made;
+            message.params = inner.wish.knobs(&run.params);
+            message.last_step = inner.last_step_of(&job.inputs, message.steps);
+            message.preset = inner.wish.preset();
+            let File { content, layout, note } = file;
+            let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
+            told.push(Told::Model {
+                triangles: message.triangles,
+                modules: message.modules,
+                total: Duration::from_secs_f64(message.times.total / 1e3),
+            });
+            inner.params = Some(run.params.clone());
+            inner.trouble = None;
+            inner.cancelled = None;
+            inner.took = quick.unwrap_or_default();
+            inner.finished = Some(job.inputs.clone());
+            state.say(&Say::Model(Box::new(message.clone())));
+            let left_out = session.map(Session::left_out).unwrap_or_default();
+            told.extend(inner.tell_left_out(state, &left_out));
+            told.extend(inner.new_warnings(&run.warnings));
+            let report = run.report();
+            let remarks = (!report.is_clean())
+                .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
+            for text in remarks.into_iter().chain(note) {
+                state.say(&Say::note(text.clone()));
+                told.push(Told::Note(text));
+            }
+            let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
+            gone = Some((inner.shown.replace(Arc::new(Shown { run, inputs, layout, message })), old));
+        }
+    }
+    drop(inner);
+    // Large models take a while to go.
+    drop(gone);
+    for told in told {
+        state.tell(&told);
+    }
+}
+
+impl Inner {
+    fn end_badly(&mut self, state: &State, job: &Job, say: Say) {
+        self.params = None;
+        self.cancelled = None;
+        self.finished = Some(job.inputs.clone());
+        state.say(&say);
+        self.trouble = Some(say);
+    }
+
+    /// The warnings of a run that the one before did not have.
+    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Told> {
+        let text = |it: &Warning| format!("{:?} {}", it.place(), it.message());
+        let new = warnings.iter().filter(|warning| !self.warnings.contains(&text(warning)));
+        let told = new.cloned().map(Told::Warning).collect();
+        self.warnings = warnings.iter().map(text).collect();
+        told
+    }
+
+    /// Tells of values that the script does not take any more, once each.
+    fn tell_left_out(&mut self, state: &State, left_out: &[(String, Error)]) -> Vec<Told> {
+        let texts: Vec<String> = left_out
+            .iter()
+            .map(|(name, error)| format!("the value of {name} is not used: {error}"))
+            .collect();
+        let mut told = Vec::new();
+        for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
+            state.say(&Say::note(text.clone()));
+            told.push(Told::Note(text.clone()));
+        }
+        self.left_out = texts.into_iter().collect();
+        told
+    }
+
+    /// The number of steps to the end, of a run with these inputs that took `steps`; the best guess if it was
+    /// stopped by a limit and the number is not known.
+    fn last_step_of(&mut self, inputs: &Inputs, steps: usize) -> usize {
+        let whole = Inputs { steps: None, ..inputs.clone() };
+        if inputs.steps.is_none_or(|limit| steps < limit) {
+            self.last_step = Some((whole, steps));
+            return steps;
+        }
+        match &self.last_step {
+            Some((known, last)) if *known == whole => *last,
+            _ => self.shown.as_ref().map_or(0, |shown| shown.message.last_step).max(steps),
+        }
+    }
+}
+
+/// The inputs of the shown model without their limit, if the number of its steps is not known.
+fn wants_last_step(state: &State) -> Option<Inputs> {
+    let inner = state.lock();
+    let inputs = inner.finished.as_ref()?;
+    if inner.due.is_some() || inner.over || inner.trouble.is_some() || inputs.steps.is_none() {
+        return None;
+    }
+    let whole = Inputs { steps: None, ..inputs.clone() };
+    (inner.last_step.as_ref().is_none_or(|(known, _)| *known != whole)).then_some(whole)
+}
+
+/// Runs the script without a limit of steps, only to count them; `None` if it was stopped for something newer.
+fn last_step(state: &State, inputs: &Inputs) -> Option<usize> {
+    let mut options = options(state, inputs);
+    options.print = None;
+    options.profile = false;
+    let limits = &mut options.limits;
+    limits.time = limits.time.min(IDLE_LIMITS.time);
+    limits.memory = limits.memory.min(IDLE_LIMITS.memory);
+    limits.modules = limits.modules.min(IDLE_LIMITS.modules);
+    limits.triangles = limits.triangles.min(IDLE_LIMITS.triangles);
+    let session = Session::new(&state.script, options).ok()?;
+    let cancelled = register(state, None, &session);
+    let run = run_session(&session);
+    let stopped = cancelled.load(Ordering::Acquire);
+    match run {
+        _ if stopped => None,
+        Ok(run) => run.systems.iter().map(|system| system.steps).max(),
+        // It goes at least as far as it came.
+        Err(_) => Some(session.progress.counts().0),
+    }
+}
+
+fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
+    let mut inner = state.lock();
+    inner.running = None;
+    let (Some(found), Some(steps)) = (found, inner.shown.as_ref().map(|shown| shown.message.steps)) else {
+        return;
+    };
+    let last_step = found.max(steps);
+    inner.last_step = Some((inputs, last_step));
+    let Some(shown) = inner.shown.as_mut() else { return };
+    let message = Model { last_step, ..shown.message.clone() };
+    let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
+    *shown = Arc::new(Shown { run, inputs: shown.inputs.clone(), layout, message });
+    inner.present().into_iter().for_each(|model| state.say(&Say::Model(Box::new(model))));
+}

@@ -1,0 +1,196 @@
+//! Measured heights of the ground, to be asked for by place.
+
+use std::fmt;
+use std::sync::{Arc, LazyLock};
+
+use glam::{DVec2, DVec3};
+
+use burgeon_base::error::{Error, Result};
+use burgeon_data::elevation::{Raster, Relief, Wanted};
+use burgeon_kit::{Expected, Loaded, Loader, Loading, object};
+use burgeon_kit::{Kind, Object, Parameter, Table, Value, Vector};
+use burgeon_terrain::Measured;
+
+/// The one encoding of heights as colours that is known.
+const TERRAIN_RGB: &str = "terrain-rgb";
+
+fields! {
+    /// What `elevation(file, options)` takes besides the file.
+    pub struct ElevationOptions for "elevation" {
+        /// The EPSG code of the coordinates, in place of the file's.
+        pub crs: Option<u32> = None,
+        /// The height (m) of black in a 16-bit PNG.
+        pub low: Option<f64> = None,
+        /// The height (m) of white in a 16-bit PNG.
+        pub high: Option<f64> = None,
+        /// The outer edges of the samples, `{ west, south, east, north }`, in `crs`, or in metres without one.
+        pub bounds: Option<Vec<f64>> = None,
+        /// How colours of a PNG are heights: `"terrain-rgb"`.
+        pub encoding: Option<String> = None,
+    }
+}
+
+impl ElevationOptions {
+    /// What is wanted of the file. Fails if the bounds are not four numbers, or the encoding is not known.
+    pub fn wanted(self) -> Result<Wanted> {
+        let bounds = self.bounds.map(|edges| {
+            <[f64; 4]>::try_from(edges).map_err(|edges| {
+                Error::argument(format!("elevation: bounds has {} numbers, not 4", edges.len()))
+                    .help("write { west, south, east, north }")
+            })
+        });
+        if let Some(encoding) = self.encoding.as_deref().filter(|encoding| *encoding != TERRAIN_RGB) {
+            return Err(Error::argument(format!("elevation: there is no encoding {encoding:?}"))
+                .help(format!("write encoding = {TERRAIN_RGB:?}, or leave it out")));
+        }
+        Ok(Wanted {
+            crs: self.crs,
+            low: self.low,
+            high: self.high,
+            bounds: bounds.transpose()?,
+            terrain_rgb: self.encoding.is_some(),
+        })
+    }
+}
+
+/// Measured heights of the ground, from a file. It never changes, and copies share it.
+#[derive(Clone)]
+pub struct Elevation {
+    relief: Arc<Relief>,
+}
+
+methods! {
+    Elevation = "elevation" {
+        /// The height of the ground (m) at a place; fails outside of the file's bounds.
+        pub fn height(&self, place: Vector) -> Result<f64> {
+            self.height_at(place.0.truncate()).ok_or_else(|| self.outside(place.0))
+        }
+
+        /// The lowest corner of the box around it (m).
+        pub fn low(&self) -> DVec3 {
+            self.relief.low()
+        }
+
+        /// The highest corner of the box around it (m).
+        pub fn high(&self) -> DVec3 {
+            self.relief.high()
+        }
+
+        /// The distance of neighbouring samples (m).
+        pub fn step(&self) -> f64 {
+            self.relief.step()
+        }
+    }
+}
+
+impl Elevation {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let loader = Loader {
+                what: "file of heights",
+                example: "elevation(\"N43E007.hgt\")",
+                example_with_fields: "elevation(\"N43E007.hgt\", { crs = 4326 })",
+                load,
+            };
+            let kind = Kind::new("elevation", "Measured heights of the ground, from a file.");
+            Arc::new(kind.loaded(ElevationOptions::fields(), loader).methods(Elevation::methods()))
+        });
+        &KIND
+    }
+
+    /// The heights of `relief`.
+    pub fn new(relief: Arc<Relief>) -> Self {
+        Self { relief }
+    }
+
+    /// The height of the ground (m) at `place` (m); `None` outside of the file's bounds.
+    pub fn height_at(&self, place: DVec2) -> Option<f64> {
+        self.relief.height(place)
+    }
+
+    /// What it asks.
+    pub fn relief(&self) -> &Relief {
+        &self.relief
+    }
+
+    fn outside(&self, place: DVec3) -> Error {
+        let (low, high) = (self.relief.low(), self.relief.high());
+        Error::argument(format!(
+            "elevation: {:.1}, {:.1} lies outside of {}, which reaches from {:.1}, {:.1} to {:.1}, {:.1}",
+            place.x,
+            place.y,
+            self.relief.raster().name,
+            low.x,
+            low.y,
+            high.x,
+            high.y
+        ))
+        .help("ask within its bounds, or use a file that reaches farther")
+        .of_data()
+    }
+}
+
+/// Reads the heights of a file, as the options of the script want them.
+fn load(file: &mut Loading<'_>, options: &Table) -> Result<Loaded> {
+    let wanted = ElevationOptions::from_table(options)?.wanted()?;
+    let raster = match file.resources.cache() {
+        Some(cache) => cache.raster(file.path, file.name, &wanted, file.budget),
+        None => Raster::open(file.path, file.name, &wanted, file.budget).map(Arc::new),
+    };
+    let raster = raster?;
+    // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
+    let memory = raster.heights.len() * size_of::<f32>();
+    let warnings = raster.warnings().into_iter().collect();
+    let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, file.frame)?)));
+    Ok(Loaded { object, memory, warnings })
+}
+
+impl Measured for Elevation {
+    fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)> {
+        self.relief.ground(place, smooth)
+    }
+
+    fn freedom(&self, place: DVec2) -> f64 {
+        self.relief.between(place)
+    }
+
+    fn step(&self) -> f64 {
+        self.relief.step()
+    }
+
+    fn samples(&self, low: DVec2, high: DVec2) -> Vec<DVec2> {
+        self.relief.samples(low, high)
+    }
+}
+
+impl Parameter for Elevation {
+    fn luau() -> String {
+        "Elevation".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = "an elevation, made once before: elevation(\"N43E007.hgt\")";
+        object(value, what).map(|elevation: Arc<Self>| (*elevation).clone())
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(Arc::new(self))
+    }
+}
+
+impl fmt::Debug for Elevation {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "elevation of {}", self.relief.raster().name)
+    }
+}
+
+impl Object for Elevation {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}

@@ -1,0 +1,112 @@
+//! Tests of extruders: solids with the volumes of their formulas.
+
+use super::*;
+use burgeon_geometry::solid;
+
+/// Draws with an extruder; gives its volume (m³) after having checked that it is a closed solid.
+fn volume(options: Options, draw: impl FnOnce(&mut Extruder) -> Result<()>) -> f64 {
+    let mut extruder = Extruder::new(options).expect("the options are valid");
+    extruder.begin();
+    draw(&mut extruder).expect("it can be drawn");
+    extruder.end().expect("it can be closed");
+    let check = solid::check(extruder.drawing.parts());
+    assert!(check.is_solid(), "{check:?}");
+    solid::volume(extruder.drawing.parts())
+}
+
+/// The area of a regular polygon with radius 1.
+fn regular(sides: f64) -> f64 {
+    sides / 2.0 * (std::f64::consts::TAU / sides).sin()
+}
+
+fn near(volume: f64, expected: f64) {
+    assert!((volume - expected).abs() < 1e-5 * expected, "{volume} m³, expected {expected} m³");
+}
+
+#[test]
+fn a_prism_a_frustum_and_a_pyramid_have_their_volumes() {
+    let six = || Options { sides: 6, ..Options::default() };
+    near(
+        volume(six(), |it| {
+            it.scale(2.0, None);
+            it.extrude(3.0)
+        }),
+        regular(6.0) * 4.0 * 3.0,
+    );
+    near(
+        volume(six(), |it| {
+            it.scale(2.0, None);
+            it.taper(1.0, None);
+            it.extrude(3.0)
+        }),
+        regular(6.0) * 3.0 / 3.0 * (4.0 + 2.0 + 1.0),
+    );
+    near(
+        volume(six(), |it| {
+            it.taper(0.0, None);
+            it.extrude(3.0)
+        }),
+        regular(6.0),
+    );
+}
+
+#[test]
+fn a_hole_is_taken_from_the_volume() {
+    let ring = |half: f64| {
+        let points = [(-half, -half), (half, -half), (half, half), (-half, half)];
+        points.map(|(x, y)| Vector(DVec3::new(x, y, 0.0))).to_vec()
+    };
+    near(
+        volume(Options::default(), |it| {
+            it.polygon(ring(1.0), Some(vec![ring(0.5)]))?;
+            it.extrude(2.0)
+        }),
+        (4.0 - 1.0) * 2.0,
+    );
+}
+
+#[test]
+fn a_bent_segment_follows_pappus() {
+    // A quarter of a torus: the area times the length of the centre line, less what the chords cut off.
+    let bent = volume(Options { sides: 24, along: 200, ..Options::default() }, |it| {
+        it.bend(90.0, None);
+        it.extrude(6.0)
+    });
+    let expected = regular(24.0) * 6.0;
+    assert!((bent - expected).abs() < 1e-4 * expected, "{bent} m³, expected about {expected} m³");
+}
+
+#[test]
+fn segments_that_continue_one_another_are_one_solid() {
+    near(
+        volume(Options { sides: 4, smooth: false, ..Options::default() }, |it| {
+            it.extrude(1.0)?;
+            it.extrude(2.0)?;
+            it.roll(10.0);
+            it.extrude(1.0)
+        }),
+        regular(4.0) * 4.0,
+    );
+}
+
+#[test]
+fn a_missing_cap_is_counted_as_open_edges() {
+    let mut extruder = Extruder::new(Options { sides: 5, ..Options::default() }).expect("valid options");
+    extruder.begin();
+    extruder.caps(true, Some(false));
+    extruder.extrude(1.0).expect("it can be drawn");
+    extruder.end().expect("it can be closed");
+    assert_eq!(extruder.open_edges(), 5);
+}
+
+#[test]
+fn every_method_and_field_is_documented() {
+    for kind in crate::registry().kinds() {
+        for method in &kind.methods {
+            assert!(method.doc.trim().ends_with('.'), "{}:{}", kind.name, method.name);
+        }
+        for field in &kind.fields {
+            assert!(field.doc.trim().len() > 8, "{}.{}", kind.name, field.name);
+        }
+    }
+}

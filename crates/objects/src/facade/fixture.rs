@@ -1,0 +1,67 @@
+//! Models that walls carry: windows, doors, guardrails.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use burgeon_kit::{Expected, Model, Parameter, Value};
+
+/// A model and how it sits on a wall.
+///
+/// Models are seen from the front: x to the right, z up, y into the wall, whose surface is at y = 0.
+#[derive(Clone)]
+pub struct Fixture {
+    /// The model.
+    pub model: Arc<Model>,
+    /// Whether it is stretched to the wall's width and height.
+    pub stretch: bool,
+    /// Where it sits: 0 at the bottom of the wall, 1 at the top.
+    pub anchor: f64,
+    /// The lowest corner of the box around it (m).
+    pub low: DVec3,
+    /// The highest corner of the box around it (m).
+    pub high: DVec3,
+}
+
+impl Fixture {
+    /// A fixture of `model`.
+    pub fn new(model: Arc<Model>, stretch: bool, at: Anchor) -> Self {
+        let (low, high) = (model.low(), model.high());
+        Self { model, stretch, anchor: at.0, low, high }
+    }
+
+    /// Its width and height (m).
+    pub fn extent(&self) -> [f64; 2] {
+        [self.high.x - self.low.x, self.high.z - self.low.z]
+    }
+}
+
+/// Where a model sits on a wall: 0 at the bottom, 1 at the top.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Anchor(pub f64);
+
+impl Default for Anchor {
+    /// In the middle.
+    fn default() -> Self {
+        Self(0.5)
+    }
+}
+
+const ANCHORS: [(&str, f64); 3] = [("bottom", 0.0), ("center", 0.5), ("top", 1.0)];
+
+impl Parameter for Anchor {
+    fn luau() -> String {
+        "string".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let named = ANCHORS.iter().find(|(name, _)| matches!(&value, Value::Text(text) if **text == **name));
+        let what = || Expected::new("\"bottom\", \"center\" or \"top\"");
+        named.map(|(_, height)| Self(*height)).ok_or_else(what)
+    }
+
+    fn into_value(self) -> Value {
+        let nearest = ANCHORS.iter().min_by(|a, b| (a.1 - self.0).abs().total_cmp(&(b.1 - self.0).abs()));
+        nearest.map_or("center", |(name, _)| name).to_owned().into_value()
+    }
+}

@@ -1,0 +1,303 @@
+//! Joins the faces of a frontage: those of one material that lie beside one another become one surface, and where
+//! faces meet they have the same corners.
+
+use std::cell;
+
+use glam::DVec3;
+
+use super::lay::Face;
+use burgeon_geometry::{Cell, Crossing, Union};
+
+/// Coordinates (m) that differ by less are one.
+const SAME: f64 = 1e-9;
+
+/// A corner of a face, by the numbers of its coordinates.
+type Corner = [u32; 3];
+
+/// A corner as a number: those of a line along some axis follow one another.
+type Key = u128;
+
+/// A face between such corners.
+#[derive(Clone, Copy)]
+struct Bounds {
+    /// The lowest left corner, and the one across.
+    ends: [Corner; 2],
+    /// The axes along which it goes to the right and upwards.
+    axes: [usize; 2],
+}
+
+/// Surfaces with their corners (m) and triangles. It keeps its memory from one frontage to the next.
+#[derive(Default)]
+pub struct Joiner {
+    /// The coordinates (m) of all corners, along each axis and in order.
+    places: [Vec<f64>; 3],
+    bounds: Vec<Bounds>,
+    /// The corners of all surfaces, as far as others may have to know them: in three orders, of which each has those of
+    /// a line along an axis in a row.
+    corners: [Vec<Key>; 3],
+    /// Faces that others may join, with what they need to have in common and their numbers.
+    fronts: Vec<(Front, Cell, usize)>,
+    union: Union,
+    cells: Vec<Cell>,
+    others: Vec<Crossing>,
+    mesh: FaceMesh,
+}
+
+/// What faces of one surface have in common.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Front {
+    /// The number of the part of the drawing.
+    part: usize,
+    /// The number of how far it stands out.
+    depth: u32,
+}
+
+/// Some faces as one.
+#[derive(Debug, Default)]
+pub struct FaceMesh {
+    /// Its corners (m).
+    pub corners: Vec<DVec3>,
+    /// Counter-clockwise from outside, by the numbers of corners.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+thread_local! {
+    /// The last one of the thread, whose memory the next one uses again: a city has a hundred thousand frontages.
+    static SPARE: cell::Cell<Option<Box<Joiner>>> = const { cell::Cell::new(None) };
+}
+
+impl Joiner {
+    /// One that has the memory of an earlier one, if there is any.
+    pub fn spare() -> Box<Self> {
+        SPARE.take().unwrap_or_default()
+    }
+
+    /// Leaves its memory to the next one.
+    pub fn retire(self: Box<Self>) {
+        SPARE.set(Some(self));
+    }
+
+    /// Joins `faces`, each of which belongs to one of `parts`. Gives each surface to `draw` with the number of a face
+    /// that it is like.
+    pub fn join(&mut self, faces: &[Face<'_>], parts: &[usize], mut draw: impl FnMut(usize, &FaceMesh)) {
+        if let [face] = faces {
+            self.mesh.cover(face);
+            return draw(0, &self.mesh);
+        }
+        self.measure(faces);
+        self.gather(faces, parts);
+        self.draw_fronts(&mut draw);
+        for (number, face) in faces.iter().enumerate() {
+            let bounds = self.bounds[number];
+            if !bounds.is_empty() && (face.stretched || bounds.as_front().is_none()) {
+                self.draw_face(&bounds);
+                draw(number, &self.mesh);
+            }
+        }
+    }
+
+    /// Finds the faces that others may join, and the corners of all surfaces.
+    fn gather(&mut self, faces: &[Face<'_>], parts: &[usize]) {
+        self.fronts.clear();
+        self.corners.iter_mut().for_each(Vec::clear);
+        let [all, ..] = &mut self.corners;
+        // Whether a single face may have corners of others between its own.
+        let mut is_wide = false;
+        for (number, (face, bounds)) in faces.iter().zip(&self.bounds).enumerate() {
+            match bounds.as_front().filter(|_| !face.stretched) {
+                Some(cell) => {
+                    let front = Front { part: parts[number], depth: bounds.ends[0][2] };
+                    self.fronts.push((front, cell, number));
+                }
+                None => {
+                    all.extend(bounds.corners().map(|corner| key(corner, 0)));
+                    is_wide |= bounds.axes.iter().any(|axis| bounds.is_wide(*axis));
+                }
+            }
+        }
+        self.fronts.sort_unstable();
+        let is_one = self.fronts.first().map(|front| front.0) == self.fronts.last().map(|front| front.0);
+        let groups = self.fronts.chunk_by(|a, b| a.0 == b.0);
+        for group in groups.filter(|_| is_wide || !is_one) {
+            self.cells.clear();
+            self.cells.extend(group.iter().map(|(_, cell, _)| *cell));
+            self.union.corners(&self.cells, |[x, y]| all.push(key([x, y, group[0].0.depth], 0)));
+        }
+        all.sort_unstable();
+        all.dedup();
+        if is_wide {
+            let [x, y, z] = &mut self.corners;
+            for (axis, corners) in [(1, y), (2, z)] {
+                corners.extend(x.iter().map(|known| key(corner(*known, 0), axis)));
+                corners.sort_unstable();
+            }
+        }
+    }
+
+    /// Numbers the coordinates of the faces.
+    fn measure(&mut self, faces: &[Face<'_>]) {
+        self.places.iter_mut().for_each(Vec::clear);
+        let ends = |face: &Face<'_>| [face.at, face.at + face.right + face.up];
+        for end in faces.iter().flat_map(ends) {
+            for (places, place) in self.places.iter_mut().zip(end.to_array()) {
+                let number = number(places, place);
+                if places.get(number).is_none_or(|known| *known > place + SAME) {
+                    places.insert(number, place);
+                }
+            }
+        }
+        let places = &self.places;
+        self.bounds.clear();
+        self.bounds.extend(faces.iter().map(|face| {
+            let ends = ends(face).map(|end| {
+                let end = end.to_array();
+                std::array::from_fn(|axis| number(&places[axis], end[axis]) as u32)
+            });
+            let axis = |way: DVec3| way.abs().max_position();
+            Bounds { ends, axes: [axis(face.right), axis(face.up)] }
+        }));
+    }
+
+    /// Draws the surfaces of faces that others may join.
+    fn draw_fronts(&mut self, draw: &mut impl FnMut(usize, &FaceMesh)) {
+        let Self { places, corners: [corners, ..], fronts, union, cells, others, mesh, .. } = self;
+        for group in fronts.chunk_by(|a, b| a.0 == b.0) {
+            let (Front { depth, .. }, _, number) = group[0];
+            cells.clear();
+            cells.extend(group.iter().map(|(_, cell, _)| *cell));
+            let from = corners.partition_point(|known| *known < key([0, 0, depth], 0));
+            let plane = corners[from..].iter().map(|known| corner(*known, 0));
+            others.clear();
+            others.extend(plane.take_while(|corner| corner[2] == depth).map(|[x, y, _]| [x, y]));
+            union.triangulate(cells, others, [&places[0], &places[1]]);
+            mesh.take(union, false, |[x, y]| place(places, [x, y, depth]));
+            draw(number, mesh);
+        }
+    }
+
+    /// Makes a surface of a single face.
+    fn draw_face(&mut self, bounds: &Bounds) {
+        let Self { places, corners, union, others, mesh, .. } = self;
+        let ring = bounds.corners();
+        others.clear();
+        for (side, &from) in ring.iter().enumerate() {
+            let axis = bounds.axes[side % 2];
+            if bounds.is_wide(axis) {
+                let to = ring[(side + 1) % 4];
+                let [low, high] = [from.min(to), from.max(to)].map(|end| key(end, axis));
+                let line = &corners[axis];
+                let begin = line.partition_point(|known| *known <= low);
+                let between = line[begin..].iter().take_while(|known| **known < high);
+                let between = between.map(|known| corner(*known, axis));
+                others.extend(between.map(|corner| bounds.axes.map(|axis| corner[axis])));
+            }
+        }
+        if others.is_empty() {
+            mesh.set(ring.map(|corner| place(places, corner)));
+            return;
+        }
+        others.sort_unstable_by_key(|[x, y]| [*y, *x]);
+        let [right, up] = bounds.axes;
+        let [x, y] = bounds.axes.map(|axis| bounds.ends.map(|end| end[axis]));
+        let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+        let cell = Cell { x: sorted(x), y: sorted(y) };
+        union.triangulate(&[cell], others, [&places[right], &places[up]]);
+        let mirrored = (x[0] > x[1]) != (y[0] > y[1]);
+        mesh.take(union, mirrored, |[x, y]| {
+            let mut corner = bounds.ends[0];
+            corner[right] = x;
+            corner[up] = y;
+            place(places, corner)
+        });
+    }
+}
+
+impl Bounds {
+    fn is_empty(&self) -> bool {
+        let [low, high] = self.ends;
+        self.axes.iter().any(|axis| low[*axis] == high[*axis])
+    }
+
+    /// Whether there is a coordinate between its ends along `axis`.
+    fn is_wide(&self, axis: usize) -> bool {
+        self.ends[0][axis].abs_diff(self.ends[1][axis]) > 1
+    }
+
+    /// The four corners, counter-clockwise from outside.
+    fn corners(&self) -> [Corner; 4] {
+        let [low, high] = self.ends;
+        let [right, up] = self.axes;
+        let mut corners = [low, low, high, low];
+        corners[1][right] = high[right];
+        corners[3][up] = high[up];
+        corners
+    }
+
+    /// Where it is among the lines, if it looks out of the building.
+    fn as_front(&self) -> Option<Cell> {
+        let [low, high] = self.ends;
+        let is_front = self.axes == [0, 1] && low[0] < high[0] && low[1] < high[1];
+        is_front.then_some(Cell { x: [low[0], high[0]], y: [low[1], high[1]] })
+    }
+}
+
+impl FaceMesh {
+    /// That of a face by itself.
+    pub fn of(face: &Face<'_>) -> Self {
+        let mut mesh = Self::default();
+        mesh.cover(face);
+        mesh
+    }
+
+    /// Becomes that of a face by itself.
+    fn cover(&mut self, face: &Face<'_>) {
+        let Face { at, right, up, .. } = *face;
+        self.set([at, at + right, at + right + up, at + up]);
+    }
+
+    /// Becomes that of a face with these corners (m).
+    fn set(&mut self, corners: [DVec3; 4]) {
+        self.corners.clear();
+        self.corners.extend(corners);
+        self.triangles.clear();
+        self.triangles.extend([[0, 1, 2], [0, 2, 3]]);
+    }
+
+    /// Takes over what `union` has found. It is seen from behind if it is `mirrored`.
+    fn take(&mut self, union: &Union, mirrored: bool, place: impl Fn(Crossing) -> DVec3) {
+        self.corners.clear();
+        self.corners.extend(union.vertices.iter().map(|crossing| place(*crossing)));
+        self.triangles.clear();
+        let turned = |[a, b, c]: [u32; 3]| if mirrored { [a, c, b] } else { [a, b, c] };
+        self.triangles.extend(union.triangles.iter().map(|triangle| turned(*triangle)));
+    }
+}
+
+/// The number of a coordinate (m) among `places`, or that which it would have.
+fn number(places: &[f64], place: f64) -> usize {
+    places.partition_point(|known| *known < place - SAME)
+}
+
+fn place(places: &[Vec<f64>; 3], corner: Corner) -> DVec3 {
+    DVec3::from(std::array::from_fn(|axis| places[axis][corner[axis] as usize]))
+}
+
+/// The key of a corner by which those of a line along `axis` are in a row.
+fn key([x, y, z]: Corner, axis: usize) -> Key {
+    let in_order = match axis {
+        0 => [z, y, x],
+        1 => [z, x, y],
+        _ => [x, y, z],
+    };
+    in_order.into_iter().fold(0, |key, number| key << 32 | Key::from(number))
+}
+
+/// The corner that has this key.
+fn corner(key: Key, axis: usize) -> Corner {
+    let [a, b, c] = [64, 32, 0].map(|bits| (key >> bits) as u32);
+    match axis {
+        0 => [c, b, a],
+        1 => [b, c, a],
+        _ => [a, b, c],
+    }
+}

@@ -1,0 +1,194 @@
+//! Lays a wall out over a frontage: which faces and models it takes, and where.
+
+use glam::{DVec2, DVec3};
+
+use super::fixture::Fixture;
+use super::grid::count;
+use super::wall::{Rule, Wall};
+use burgeon_scene::Material;
+
+/// A part of a frontage: its lowest left corner and its size (m).
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Rectangle {
+    /// From the frontage's lowest left corner.
+    pub at: DVec2,
+    /// Width and height.
+    pub size: DVec2,
+}
+
+/// A rectangle in the frontage's coordinates (m): x to the right, y upwards, z out of the building.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Face<'a> {
+    /// Its lowest left corner.
+    pub at: DVec3,
+    /// Its lower side, from that corner.
+    pub right: DVec3,
+    /// Its left side, from that corner.
+    pub up: DVec3,
+    /// What it is made of; the template's material if `None`.
+    pub material: Option<&'a Material>,
+    /// Whether the material's image covers it once.
+    pub stretched: bool,
+}
+
+/// What a wall is laid out into. Faces of no area are left out.
+#[derive(Default)]
+pub struct Laid<'a> {
+    /// The faces.
+    pub faces: Vec<Face<'a>>,
+    /// Models with the lowest left corner of what they sit on (m) and its size.
+    pub(super) fixtures: Vec<(&'a Fixture, DVec3, DVec2)>,
+    /// Whether the wall was given up, as it has more than [`MOST`] faces or models.
+    pub too_many: bool,
+}
+
+impl std::fmt::Debug for Laid<'_> {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Laid").field("faces", &self.faces).finish_non_exhaustive()
+    }
+}
+
+/// The most faces or models that a frontage may have.
+pub const MOST: usize = 2_000_000;
+
+/// Sides shorter than this (m) are none.
+const NONE: f64 = 1e-6;
+
+impl<'a> Laid<'a> {
+    /// Forgets everything but keeps the memory.
+    pub fn clear(&mut self) {
+        self.faces.clear();
+        self.fixtures.clear();
+        self.too_many = false;
+    }
+
+    /// Lays `wall` out over `over`, `depth` (m) in front of the frontage; false if it does not fit or has too many
+    /// faces.
+    pub fn lay(&mut self, wall: &'a Wall, over: Rectangle, depth: f64) -> bool {
+        let inner = &*wall.0;
+        let material = inner.material.as_ref();
+        let Rectangle { at, size } = over;
+        match &inner.rule {
+            Rule::Panel { decoration, fixture, background } => {
+                if *background {
+                    let (material, stretched) = match decoration {
+                        Some(decoration) => (Some(decoration), true),
+                        None => (material, false),
+                    };
+                    self.front(over, depth, material, stretched);
+                }
+                self.fixture(fixture.as_ref(), over, depth);
+                true
+            }
+            Rule::Bordered { columns, rows, wall } => {
+                let (Some(columns), Some(rows)) = (columns.divide(size.x), rows.divide(size.y)) else {
+                    return false;
+                };
+                let low = at + DVec2::new(columns[0], rows[0]);
+                let high = low + DVec2::new(columns[1], rows[1]);
+                let mut margin =
+                    |at: DVec2, size: DVec2| self.front(Rectangle { at, size }, depth, material, false);
+                margin(at, DVec2::new(columns[0], size.y));
+                margin(DVec2::new(low.x, at.y), DVec2::new(columns[1], rows[0]));
+                margin(DVec2::new(low.x, high.y), DVec2::new(columns[1], rows[2]));
+                margin(DVec2::new(high.x, at.y), DVec2::new(columns[2], size.y));
+                self.lay(wall, Rectangle { at: low, size: high - low }, depth)
+            }
+            Rule::Extruded { depth: by, sides, fixture, wall } => {
+                let out = DVec3::new(0.0, 0.0, *by);
+                let (right, up) = (DVec3::new(size.x, 0.0, 0.0), DVec3::new(0.0, size.y, 0.0));
+                let corner = at.extend(depth);
+                // Each seen from outside, or from within where the wall lies back.
+                let faces = [
+                    (corner, out, up),
+                    (corner + right + out, -out, up),
+                    (corner, right, out),
+                    (corner + up + out, right, -out),
+                ];
+                for ((at, right, up), shown) in faces.into_iter().zip(sides) {
+                    if *shown {
+                        self.face(Face { at, right, up, material, stretched: false });
+                    }
+                }
+                self.fixture(fixture.as_ref(), over, depth);
+                self.lay(wall, over, depth + by)
+            }
+            Rule::List { upwards, split, walls } => {
+                let along = if *upwards { DVec2::Y } else { DVec2::X };
+                let Some(lengths) = split.divide(size.dot(along)) else { return false };
+                let mut at = at;
+                for (wall, length) in walls.iter().zip(lengths) {
+                    let size = along * length + size * (DVec2::ONE - along);
+                    if !self.lay(wall, Rectangle { at, size }, depth) {
+                        return false;
+                    }
+                    at += along * length;
+                }
+                true
+            }
+            Rule::Grid { counts, wall } => {
+                let number =
+                    |side: usize| count(size[side], &counts[side], &wall.0.sizes[side], wall.0.targets[side]);
+                let (Some(columns), Some(rows)) = (number(0), number(1)) else { return false };
+                self.grid(wall, over, [columns, rows], depth)
+            }
+        }
+    }
+
+    /// Lays one cell out and repeats it.
+    fn grid(&mut self, wall: &'a Wall, over: Rectangle, [columns, rows]: [u32; 2], depth: f64) -> bool {
+        let cell = over.size / DVec2::new(f64::from(columns), f64::from(rows));
+        let (first_face, first_fixture) = (self.faces.len(), self.fixtures.len());
+        if !self.lay(wall, Rectangle { at: over.at, size: cell }, depth) {
+            return false;
+        }
+        let (faces, fixtures) = (self.faces.len(), self.fixtures.len());
+        let each = (faces - first_face).max(fixtures - first_fixture);
+        if each.saturating_mul(columns as usize * rows as usize) > MOST {
+            self.too_many = true;
+            return false;
+        }
+        for (row, column) in (0..rows).flat_map(|row| (0..columns).map(move |column| (row, column))).skip(1) {
+            let by = (cell * DVec2::new(f64::from(column), f64::from(row))).extend(0.0);
+            for index in first_face..faces {
+                let face = self.faces[index];
+                self.faces.push(Face { at: face.at + by, ..face });
+            }
+            for index in first_fixture..fixtures {
+                let (fixture, at, size) = self.fixtures[index];
+                self.fixtures.push((fixture, at + by, size));
+            }
+        }
+        true
+    }
+
+    fn front(&mut self, over: Rectangle, depth: f64, material: Option<&'a Material>, stretched: bool) {
+        let (right, up) = (DVec3::new(over.size.x, 0.0, 0.0), DVec3::new(0.0, over.size.y, 0.0));
+        self.face(Face { at: over.at.extend(depth), right, up, material, stretched });
+    }
+
+    fn face(&mut self, face: Face<'a>) {
+        if face.right.abs().max_element() > NONE && face.up.abs().max_element() > NONE {
+            self.faces.push(face);
+        }
+    }
+
+    fn fixture(&mut self, fixture: Option<&'a Fixture>, over: Rectangle, depth: f64) {
+        if let Some(fixture) = fixture {
+            self.fixtures.push((fixture, over.at.extend(depth), over.size));
+        }
+    }
+
+    /// The models, each with where its origin is in the frontage (m) and how it is scaled along x, y and z.
+    pub fn models(&self) -> impl Iterator<Item = (&'a Fixture, DVec3, DVec3)> + '_ {
+        self.fixtures.iter().map(|&(fixture, at, size)| {
+            let [width, height] = fixture.extent();
+            let stretch = |to: f64, from: f64| if fixture.stretch && from > NONE { to / from } else { 1.0 };
+            let scale = DVec3::new(stretch(size.x, width), 1.0, stretch(size.y, height));
+            let low = fixture.low * scale;
+            let x = (size.x - width * scale.x) / 2.0 - low.x;
+            let y = (size.y - height * scale.z) * fixture.anchor - low.z;
+            (fixture, at + DVec3::new(x, y, 0.0), scale)
+        })
+    }
+}

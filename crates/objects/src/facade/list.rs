@@ -1,0 +1,87 @@
+//! `list { ... }`: walls beside or above each other.
+
+use std::sync::{Arc, LazyLock};
+
+use super::size::Size;
+use super::wall::{Rule, Wall, range};
+use crate::Surface;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_geometry::{Share, Split};
+use burgeon_kit::Kind;
+
+fields! {
+    /// What `list { ... }` takes.
+    pub struct Options for "list" {
+        /// The walls, from left to right or from the bottom up.
+        pub walls: Vec<Wall> = Vec::new(),
+        /// "horizontal" or "vertical".
+        pub direction: String = "horizontal".into(),
+        /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+        pub width: Option<Size> = None,
+        /// Height (m), in the same way.
+        pub height: Option<Size> = None,
+    }
+}
+
+/// The type, as scripts see it.
+pub fn kind() -> &'static Arc<Kind> {
+    static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+        let kind = Kind::new("list", "Walls from left to right, or from the bottom up.");
+        Arc::new(
+            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+                .first("walls")
+                .methods(Wall::methods()),
+        )
+    });
+    &KIND
+}
+
+/// The most walls in a list.
+const MOST: usize = 500;
+
+fn make(options: &Options) -> Result<Wall> {
+    let upwards = match options.direction.as_str() {
+        "horizontal" => false,
+        "vertical" => true,
+        other => {
+            return Err(Error::argument(format!("list: direction is {other:?}"))
+                .help("there are \"horizontal\" and \"vertical\""));
+        }
+    };
+    let Some(first) = options.walls.first() else {
+        return Err(Error::argument("list: there are no walls").help("write list({ panel { }, panel { } })"));
+    };
+    if options.walls.len() > MOST {
+        return Err(Error::limit(Limit::Size, format!("list: there are {} walls", options.walls.len()))
+            .help(format!("give at most {MOST}, or repeat one with grid")));
+    }
+    let (along, across) = (usize::from(upwards), usize::from(!upwards));
+    let shares = options.walls.iter().map(|wall| {
+        let target = wall.0.targets[along];
+        Share { sizes: wall.0.sizes[along].clone(), target, order: if target.is_some() { 2 } else { 0 } }
+    });
+    let split = Split::new(shares.collect()).map_err(|error| error.about("list"))?;
+    let mut common = first.0.sizes[across].clone();
+    for (index, wall) in options.walls.iter().enumerate() {
+        let side = ["wide", "high"][across];
+        let both = common.and(&wall.0.sizes[across]);
+        if both.is_empty() {
+            let message = format!(
+                "list: it can never fit: wall {} is {}, the walls before it are {}",
+                index + 1,
+                range(&wall.0.sizes[across], side),
+                range(&common, side)
+            );
+            return Err(Error::argument(message).help("put a margin around one of them: bordered { ... }"));
+        }
+        common = both;
+    }
+    let mut sizes = [split.sizes().clone(), common];
+    let mut targets = [split.target(), options.walls.iter().find_map(|wall| wall.0.targets[across])];
+    if upwards {
+        sizes.reverse();
+        targets.reverse();
+    }
+    let rule = Rule::List { upwards, split, walls: options.walls.clone() };
+    Wall::new(rule, sizes, targets, [options.width, options.height], None::<&Surface>)
+}

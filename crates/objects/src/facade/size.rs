@@ -1,0 +1,171 @@
+//! How scripts say how wide, high or many something may be.
+
+use burgeon_geometry::{SAME, Sizes};
+use burgeon_kit::{Expected, Parameter, Value};
+
+/// A preferred length (m), or the least and the greatest, or least, preferred and greatest.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Size {
+    low: f64,
+    high: f64,
+    target: Option<f64>,
+}
+
+impl Default for Size {
+    /// Any length.
+    fn default() -> Self {
+        Self { low: 0.0, high: f64::INFINITY, target: None }
+    }
+}
+
+impl Parameter for Size {
+    fn luau() -> String {
+        "number | { number }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what =
+            || Expected::new("a preferred length (m), { least, greatest } or { least, preferred, greatest }");
+        let numbers = match &value {
+            Value::Number(number) => vec![*number],
+            _ => Vec::<f64>::from_value(value).map_err(|_| what())?,
+        };
+        let size = match numbers.as_slice() {
+            [target] => Self { target: Some(*target), ..Self::default() },
+            [low, high] => Self { low: *low, high: *high, target: None },
+            [low, target, high] => Self { low: *low, high: *high, target: Some(*target) },
+            _ => return Err(what()),
+        };
+        let rises = [size.low, size.target.unwrap_or(size.low), size.high].is_sorted();
+        if rises && size.low >= 0.0 && size.high > 0.0 { Ok(size) } else { Err(what()) }
+    }
+
+    fn into_value(self) -> Value {
+        match (self.target, self.low == 0.0 && self.high.is_infinite()) {
+            (Some(target), true) => target.into_value(),
+            (None, true) => Value::Nil,
+            (None, false) => vec![self.low, self.high].into_value(),
+            (Some(target), false) => vec![self.low, target, self.high].into_value(),
+        }
+    }
+}
+
+impl Size {
+    /// The lengths that it allows.
+    pub fn sizes(&self) -> Sizes {
+        Sizes::between(self.low, self.high)
+    }
+
+    /// The preferred length.
+    pub fn target(&self) -> Option<f64> {
+        self.target
+    }
+}
+
+/// A margin: its size (m) and whether that is the least, the greatest or the only one.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Margin {
+    /// Its size (m).
+    pub size: f64,
+    /// How far it keeps to it.
+    pub policy: Policy,
+}
+
+/// How far a margin keeps to its size.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub enum Policy {
+    /// It cannot be smaller.
+    #[default]
+    Min,
+    /// It cannot be greater.
+    Max,
+    /// It is exactly that.
+    Fixed,
+}
+
+impl Parameter for Margin {
+    fn luau() -> String {
+        "number | { any }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what =
+            || Expected::new("a size (m), or a size and \"min\", \"max\" or \"fixed\": { 0.5, \"max\" }");
+        let (size, policy) = match &value {
+            Value::Number(size) => (*size, Policy::Min),
+            Value::Table(table) => match table.list().as_slice() {
+                [Value::Number(size), Value::Text(policy)] => {
+                    let policy = match &**policy {
+                        "min" => Policy::Min,
+                        "max" => Policy::Max,
+                        "fixed" => Policy::Fixed,
+                        _ => return Err(what()),
+                    };
+                    (*size, policy)
+                }
+                _ => return Err(what()),
+            },
+            _ => return Err(what()),
+        };
+        if size >= 0.0 && size.is_finite() { Ok(Self { size, policy }) } else { Err(what()) }
+    }
+
+    fn into_value(self) -> Value {
+        self.size.into_value()
+    }
+}
+
+impl Margin {
+    /// The sizes that it may have.
+    pub fn sizes(&self) -> Sizes {
+        match self.policy {
+            // A margin that is left out stays out.
+            Policy::Min if self.size <= SAME => Sizes::between(0.0, 0.0),
+            Policy::Min => Sizes::between(self.size, f64::INFINITY),
+            Policy::Max => Sizes::between(0.0, self.size),
+            Policy::Fixed => Sizes::between(self.size, self.size),
+        }
+    }
+}
+
+/// How often something is repeated: a number, or the least and the greatest one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Count {
+    /// The least number.
+    pub low: u32,
+    /// The greatest number.
+    pub high: u32,
+}
+
+/// The most repetitions.
+const MOST: u32 = 1000;
+
+impl Default for Count {
+    fn default() -> Self {
+        Self { low: 1, high: MOST }
+    }
+}
+
+impl Parameter for Count {
+    fn luau() -> String {
+        "number | { number }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new(format!("a whole number from 1 to {MOST}, or {{ least, greatest }}"));
+        let numbers = match &value {
+            Value::Number(_) => vec![u32::from_value(value).map_err(|_| what())?],
+            _ => Vec::<u32>::from_value(value).map_err(|_| what())?,
+        };
+        let (low, high) = match numbers.as_slice() {
+            [count] => (*count, *count),
+            [low, high] => (*low, *high),
+            _ => return Err(what()),
+        };
+        if (1..=high).contains(&low) && high <= MOST { Ok(Self { low, high }) } else { Err(what()) }
+    }
+
+    fn into_value(self) -> Value {
+        vec![self.low, self.high].into_value()
+    }
+}

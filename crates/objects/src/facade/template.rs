@@ -1,0 +1,238 @@
+//! Templates: which wall goes on which frontage.
+
+use std::any::Any;
+use std::sync::{Arc, LazyLock};
+
+use super::wall::Wall;
+use crate::Surface;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::{Expected, Kind, Object, Parameter, Value};
+use burgeon_scene::Material;
+
+fields! {
+    /// What `template { ... }` takes.
+    pub struct Options for "template" {
+        /// The primary wall, which covers the whole frontage.
+        pub wall: Option<Wall> = None,
+        /// Words that say which frontages it is for, such as "entry door" or "blind".
+        pub keywords: Vec<String> = Vec::new(),
+        /// Material of every wall that does not say its own.
+        pub material: Surface = Surface::default(),
+        /// How often it is taken where others suit as well.
+        pub weight: f64 = 1.0,
+    }
+}
+
+fields! {
+    /// What `facade { ... }` takes.
+    pub struct FacadeOptions for "facade" {
+        /// The templates to choose from.
+        pub templates: Vec<Template> = Vec::new(),
+    }
+}
+
+/// A wall and the frontages that it is for. It never changes.
+#[derive(Clone)]
+pub struct Template(Arc<Inner>);
+
+struct Inner {
+    wall: Wall,
+    keywords: Vec<String>,
+    material: Material,
+    weight: f64,
+}
+
+methods! {
+    Template = "template" {
+        /// Whether a frontage may be exactly this wide and this high (m).
+        pub fn fits(&self, width: f64, height: f64) -> bool {
+            self.0.wall.fits(width, height)
+        }
+    }
+}
+
+impl Template {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind =
+                Kind::new("template", "A wall for a whole frontage, with keywords that say for which.");
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Template::new(&Options::from_table(table)?))
+                    .first("wall")
+                    .methods(Template::methods()),
+            )
+        });
+        &KIND
+    }
+
+    fn new(options: &Options) -> Result<Self> {
+        let Some(wall) = options.wall.clone() else {
+            return Err(
+                Error::argument("template: there is no wall").help("write template { wall = panel { } }")
+            );
+        };
+        if !(0.0..=1e9).contains(&options.weight) {
+            return Err(Error::argument(format!("template: weight is {}", options.weight))
+                .help("give a number from 0 on"));
+        }
+        let material = options.material.material()?;
+        let inner = Inner { wall, keywords: options.keywords.clone(), material, weight: options.weight };
+        Ok(Self(Arc::new(inner)))
+    }
+
+    /// The wall that covers the frontage.
+    pub fn wall(&self) -> &Wall {
+        &self.0.wall
+    }
+
+    /// The material of walls that do not say their own.
+    pub fn material(&self) -> &Material {
+        &self.0.material
+    }
+}
+
+/// A set of templates to choose from. It never changes.
+#[derive(Clone)]
+pub struct Facade(Templates);
+
+methods! {
+    Facade = "facade" {
+        /// Whether some template fits a frontage that is exactly this wide and this high (m).
+        pub fn fits(&self, width: f64, height: f64) -> bool {
+            self.0.0.iter().any(|template| template.fits(width, height))
+        }
+    }
+}
+
+impl Facade {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new("facade", "Templates for the frontages of a building.");
+            Arc::new(
+                kind.made_of(FacadeOptions::fields(), |table| Facade::new(FacadeOptions::from_table(table)?))
+                    .first("templates")
+                    .methods(Facade::methods()),
+            )
+        });
+        &KIND
+    }
+
+    fn new(options: FacadeOptions) -> Result<Self> {
+        if options.templates.is_empty() {
+            return Err(Error::argument("facade: there are no templates")
+                .help("write facade({ template { wall = panel { } } })"));
+        }
+        Ok(Self(Templates(options.templates.into())))
+    }
+}
+
+/// The keyword of a frontage that a neighbour covers.
+pub const BLIND: &str = "blind";
+
+/// What walls take as templates: a facade, a template, or a list of templates.
+#[derive(Debug, Clone)]
+pub struct Templates(Arc<[Template]>);
+
+impl Templates {
+    /// The template for a frontage with these keywords and this width and height (m); `chance` is a random number in
+    /// [0, 1).
+    ///
+    /// Of those that fit, the one that shares most keywords; of these, the one with the fewest others; of these, one
+    /// by weight. A frontage that is "blind" takes only a template with that keyword.
+    pub fn choose(&self, keywords: &[&str], width: f64, height: f64, chance: f64) -> Option<&Template> {
+        let blind = keywords.contains(&BLIND);
+        let suits = |template: &Template| {
+            let shared = template.0.keywords.iter().filter(|word| keywords.contains(&word.as_str())).count();
+            (shared, std::cmp::Reverse(template.0.keywords.len() - shared))
+        };
+        let fitting = || {
+            self.0.iter().filter(|template| {
+                (!blind || template.0.keywords.iter().any(|word| word == BLIND))
+                    && template.fits(width, height)
+            })
+        };
+        let best = fitting().map(suits).max()?;
+        let equal = || fitting().filter(|template| suits(template) == best);
+        let mut drawn = chance * equal().map(|template| template.0.weight).sum::<f64>();
+        for template in equal() {
+            if drawn < template.0.weight {
+                return Some(template);
+            }
+            drawn -= template.0.weight;
+        }
+        equal().next_back()
+    }
+
+    /// The first one, whose material plain walls take.
+    pub fn first(&self) -> Option<&Template> {
+        self.0.first()
+    }
+}
+
+impl Parameter for Template {
+    fn luau() -> String {
+        "Template".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a template: template { wall = ... }");
+        let Value::Object(object) = value else { return Err(what()) };
+        let any: &dyn Any = &*object;
+        any.downcast_ref::<Self>().cloned().ok_or_else(what)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(Arc::new(self))
+    }
+}
+
+impl Parameter for Templates {
+    fn luau() -> String {
+        "Facade | Template | { Template }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a facade, a template or a list of templates");
+        if let Value::Object(object) = &value {
+            let any: &dyn Any = &**object;
+            if let Some(facade) = any.downcast_ref::<Facade>() {
+                return Ok(facade.0.clone());
+            }
+            return Template::from_value(value).map(|one| Self([one].into())).map_err(|_| what());
+        }
+        let list = Vec::<Template>::from_value(value).map_err(|_| what())?;
+        if list.is_empty() { Err(what()) } else { Ok(Self(list.into())) }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(Arc::new(Facade(self)))
+    }
+}
+
+impl Object for Template {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}
+
+impl Object for Facade {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}
+
+impl std::fmt::Debug for Template {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Template").field(&self.0.keywords).finish()
+    }
+}

@@ -1,0 +1,178 @@
+//! What all walls share: the sizes that they can have, their material, and how scripts ask them.
+
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
+use super::fixture::Fixture;
+use super::size::Size;
+use super::{bordered, extruded, grid, list, panel};
+use crate::Surface;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_geometry::{Sizes, Split};
+use burgeon_kit::{Expected, Kind, Object, Parameter, Value};
+use burgeon_scene::Material;
+
+/// A wall of a facade, made by one of five rules. It never changes.
+#[derive(Clone)]
+pub struct Wall(pub(super) Arc<Inner>);
+
+pub(super) struct Inner {
+    /// The widths and heights that it can have (m).
+    pub sizes: [Sizes; 2],
+    /// The width and height that it has where it is free to.
+    pub targets: [Option<f64>; 2],
+    /// What its own faces are made of, if it says so.
+    pub material: Option<Material>,
+    /// How many walls are within one another.
+    pub depth: usize,
+    pub rule: Rule,
+}
+
+/// The most walls that may be within one another.
+const DEEPEST: usize = 100;
+
+/// How a wall is made up.
+pub(super) enum Rule {
+    Panel { decoration: Option<Material>, fixture: Option<Fixture>, background: bool },
+    Bordered { columns: Split, rows: Split, wall: Wall },
+    Extruded { depth: f64, sides: [bool; 4], fixture: Option<Fixture>, wall: Wall },
+    List { upwards: bool, split: Split, walls: Vec<Wall> },
+    Grid { counts: [RangeInclusive<u32>; 2], wall: Wall },
+}
+
+methods! {
+    Wall = "wall" {
+        /// The least width (m) that it can have.
+        pub fn min_width(&self) -> f64 {
+            self.0.sizes[0].low()
+        }
+
+        /// The greatest width (m) that it can have; math.huge if there is none.
+        pub fn max_width(&self) -> f64 {
+            self.0.sizes[0].high()
+        }
+
+        /// The least height (m) that it can have.
+        pub fn min_height(&self) -> f64 {
+            self.0.sizes[1].low()
+        }
+
+        /// The greatest height (m) that it can have; math.huge if there is none.
+        pub fn max_height(&self) -> f64 {
+            self.0.sizes[1].high()
+        }
+
+        /// Whether it can be exactly this wide and this high (m).
+        pub fn fits(&self, width: f64, height: f64) -> bool {
+            self.0.sizes[0].contains(width) && self.0.sizes[1].contains(height)
+        }
+    }
+}
+
+impl Wall {
+    /// A wall by `rule`, which can have the sizes that both its parts and its owner allow.
+    pub(super) fn new(
+        rule: Rule,
+        of_parts: [Sizes; 2],
+        of_targets: [Option<f64>; 2],
+        own: [Option<Size>; 2],
+        material: Option<&Surface>,
+    ) -> Result<Self> {
+        let name = &rule.kind().name;
+        let depth = 1 + rule.parts().iter().map(|wall| wall.0.depth).max().unwrap_or(0);
+        if depth > DEEPEST {
+            return Err(Error::limit(
+                Limit::Size,
+                format!("{name}: more than {DEEPEST} walls are within one another"),
+            )
+            .help("repeat a wall with grid or list"));
+        }
+        let own = own.map(Option::unwrap_or_default);
+        let mut sizes = of_parts;
+        for ((sizes, own), side) in sizes.iter_mut().zip(&own).zip(["wide", "high"]) {
+            let both = sizes.and(&own.sizes());
+            if both.is_empty() {
+                return Err(Error::argument(format!(
+                    "{name}: it can never fit: its parts are {}, and it must be {}",
+                    range(sizes, side),
+                    range(&own.sizes(), side)
+                ))
+                .help("widen what the parts or the wall itself allow"));
+            }
+            *sizes = both;
+        }
+        let target = |side: usize| own[side].target().or(of_targets[side]);
+        let material = material.map(Surface::material).transpose()?;
+        let targets = [target(0), target(1)];
+        Ok(Self(Arc::new(Inner { sizes, targets, material, depth, rule })))
+    }
+}
+
+/// Sizes in words: "2 m wide", "at least 2 m wide", "0.5 to 2 m wide".
+pub(super) fn range(sizes: &Sizes, side: &str) -> String {
+    let shown = |length: f64| (length * 1e6).round() / 1e6;
+    let (low, high) = (shown(sizes.low()), shown(sizes.high()));
+    if high.is_infinite() {
+        format!("at least {low} m {side}")
+    } else if low < high {
+        format!("{low} to {high} m {side}")
+    } else {
+        format!("{low} m {side}")
+    }
+}
+
+impl Rule {
+    /// The walls that it is made up of.
+    fn parts(&self) -> &[Wall] {
+        match self {
+            Self::Panel { .. } => &[],
+            Self::Bordered { wall, .. } | Self::Extruded { wall, .. } | Self::Grid { wall, .. } => {
+                std::slice::from_ref(wall)
+            }
+            Self::List { walls, .. } => walls,
+        }
+    }
+
+    fn kind(&self) -> &'static Arc<Kind> {
+        match self {
+            Self::Panel { .. } => panel::kind(),
+            Self::Bordered { .. } => bordered::kind(),
+            Self::Extruded { .. } => extruded::kind(),
+            Self::List { .. } => list::kind(),
+            Self::Grid { .. } => grid::kind(),
+        }
+    }
+}
+
+impl Parameter for Wall {
+    fn luau() -> String {
+        "Wall".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a wall: panel, bordered, extruded, list or grid");
+        let Value::Object(object) = value else { return Err(what()) };
+        let any: &dyn std::any::Any = &*object;
+        any.downcast_ref::<Self>().cloned().ok_or_else(what)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(Arc::new(self))
+    }
+}
+
+impl Object for Wall {
+    fn kind(&self) -> &Arc<Kind> {
+        self.0.rule.kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}
+
+impl std::fmt::Debug for Wall {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(&self.0.rule.kind().name)
+    }
+}

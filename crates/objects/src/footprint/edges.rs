@@ -1,0 +1,313 @@
+//! What a footprint knows of each of its edges: words, neighbours, and which one is on the street.
+
+use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use glam::DVec2;
+
+use super::neighbors::Touch;
+use super::{Footprint, edges};
+use crate::facade::template::BLIND;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::Expected;
+use burgeon_kit::{Key, Parameter, Table, Value};
+
+/// The word for the edge on the street.
+const STREET: &str = "street";
+/// The word for the edge with the entry.
+const ENTRY: &str = "entry door";
+/// The cosine of the angle to the street's edge from which on a wall runs along the street.
+const ALONG_STREET: f64 = 0.7;
+/// How much lower (m) the walls of a neighbour are than eaves that jut out over it.
+const LOWER: f64 = 1.0;
+/// How much nearer (m) to a street an edge must be to be preferred to a longer one.
+const NEARER: f64 = 2.0;
+
+/// Words by the number of the edge that they are about, counted from 1 over the rings as they were given.
+#[derive(Debug, Clone, Default)]
+pub struct EdgeKeywords(pub BTreeMap<usize, Vec<String>>);
+
+impl Parameter for EdgeKeywords {
+    fn luau() -> String {
+        "{ [number]: { string } }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what =
+            || Expected::new("a table from numbers of edges to lists of words: { [2] = { \"entry door\" } }");
+        let Value::Table(table) = value else { return Err(what()) };
+        let edge = |(key, words): &(Key, Value)| {
+            let Key::Index(number) = key else { return Err(what()) };
+            let number = usize::try_from(*number).map_err(|_| what())?;
+            Ok((number, Vec::<String>::from_value(words.clone()).map_err(|_| what())?))
+        };
+        table.entries.iter().map(edge).collect::<Result<_, _>>().map(Self)
+    }
+
+    fn into_value(self) -> Value {
+        let index = |number: usize| Key::Index(i64::try_from(number).unwrap_or(i64::MAX));
+        let entries = self.0.into_iter().map(|(number, words)| (index(number), words.into_value()));
+        Value::Table(Table { class: None, entries: entries.collect() }.into())
+    }
+}
+
+/// What is known of the edges of a plan, over all of its rings.
+#[derive(Debug, Default)]
+pub(super) struct Edges {
+    keywords: Vec<Vec<Cow<'static, str>>>,
+    touch: Touch,
+    street: Option<usize>,
+    /// By edge that was given: the edge of the plan that stands for it, if there is one.
+    stands_for: Vec<Option<usize>>,
+}
+
+impl Edges {
+    fn new(footprint: &Footprint) -> Self {
+        let plan = &footprint.plan;
+        let mut stands_for = vec![None; plan.given()];
+        let mut keywords = vec![Vec::new(); plan.edges()];
+        for (edge, given) in plan.given_edges().into_iter().enumerate() {
+            for number in given {
+                stands_for[number] = Some(edge);
+                for word in footprint.options.edge_keywords.0.get(&(number + 1)).into_iter().flatten() {
+                    add(&mut keywords[edge], word.clone());
+                }
+            }
+        }
+        let touch = match &footprint.place {
+            Some((all, own)) => all.touch(*own),
+            None => Touch { shared: vec![0.0; plan.edges()], neighbors: 0 },
+        };
+        for (keywords, shared) in keywords.iter_mut().zip(&touch.shared) {
+            if *shared >= 0.5 {
+                add(keywords, BLIND);
+            }
+        }
+        let street = street(footprint, &touch);
+        if let Some(street) = street {
+            add(&mut keywords[street], STREET);
+            if !keywords.iter().flatten().any(|word| word == ENTRY) {
+                add(&mut keywords[street], ENTRY);
+            }
+        }
+        Self { keywords, touch, street, stands_for }
+    }
+}
+
+fn add(words: &mut Vec<Cow<'static, str>>, word: impl Into<Cow<'static, str>>) {
+    let word = word.into();
+    if !words.contains(&word) {
+        words.push(word);
+    }
+}
+
+/// The outer edge on the street: the nearest to a street that it faces, or else the longest, if it is no party wall.
+fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
+    let flat = footprint.plan.flat();
+    let outer: Vec<[DVec2; 2]> = edges(flat.first()?).collect();
+    let length = |edge: usize| outer[edge][0].distance(outer[edge][1]);
+    let free: Vec<usize> = (0..outer.len()).filter(|&edge| touch.shared[edge] < 0.5).collect();
+    let longest = |among: &[usize]| {
+        among.iter().copied().max_by(|&a, &b| length(a).total_cmp(&length(b)).then(b.cmp(&a)))
+    };
+    if let Some(streets) = &footprint.options.streets {
+        let mut near: Vec<(usize, f64)> = Vec::new();
+        let mut least = f64::INFINITY;
+        for &edge in &free {
+            let [a, b] = outer[edge].map(|point| point + footprint.origin.truncate());
+            if let Some(distance) = streets.faced(a, b, least + NEARER) {
+                least = least.min(distance);
+                near.push((edge, distance));
+            }
+        }
+        let near = near.iter().filter(|(_, distance)| *distance <= least + NEARER).map(|(edge, _)| *edge);
+        if let Some(street) = longest(&near.collect::<Vec<_>>()) {
+            return Some(street);
+        }
+    }
+    longest(&free).or_else(|| longest(&(0..outer.len()).collect::<Vec<_>>()))
+}
+
+impl Footprint {
+    /// What is known of the edges, from the first question about them on.
+    fn known_edges(&self) -> &Edges {
+        self.edges.get_or_init(|| Edges::new(self))
+    }
+
+    /// The words about an edge of the plan, by its number over all rings: those that were given, and "blind",
+    /// "street" and "entry door". The footprint's own keywords are not among them.
+    pub(super) fn edge_keywords(&self, edge: usize) -> &[Cow<'static, str>] {
+        self.known_edges().keywords.get(edge).map_or(&[], Vec::as_slice)
+    }
+
+    /// The "blind" edges of the plan that run away from its street rather than along it.
+    pub(super) fn party_walls(&self) -> Vec<usize> {
+        let flat = self.plan.flat();
+        let all: Vec<DVec2> =
+            flat.iter().flat_map(|ring| edges(ring)).map(|[a, b]| (b - a).normalize_or_zero()).collect();
+        let Some(street) = self.known_edges().street.map(|street| all[street]) else { return Vec::new() };
+        let blind = |edge: &usize| self.edge_keywords(*edge).iter().any(|word| word == BLIND);
+        (0..all.len()).filter(blind).filter(|edge| all[*edge].dot(street).abs() < ALONG_STREET).collect()
+    }
+
+    /// How far (m) over each edge there may be a roof that is to go `furthest`, whose eaves fall by `drop` (m): not over
+    /// edges where a neighbour stands that is as high, or lower by so little that its roof would be in the way.
+    pub(super) fn reach(&self, furthest: f64, drop: f64) -> Vec<f64> {
+        let Some((all, own)) = &self.place else { return Vec::new() };
+        let height = self.origin.z + self.shell.top - drop - LOWER;
+        all.reach(*own, furthest, height)
+    }
+
+    /// Checks the number, from 1, of an edge of the rings that were given; counted from 0.
+    fn given_edge(&self, method: &str, number: u32) -> Result<usize> {
+        let count = self.plan.given();
+        let number = number as usize;
+        if (1..=count).contains(&number) {
+            return Ok(number - 1);
+        }
+        let message = format!("footprint:{method}: there is no edge {number}");
+        Err(Error::not_found("edge", number, [], message).help(if count == 0 {
+            "the footprint has no geometry".to_owned()
+        } else {
+            format!("it has the edges 1 to {count}, those of holes after those of the outer ring")
+        }))
+    }
+
+    /// The two ends (m) of an edge that was given.
+    pub(super) fn ends(&self, method: &str, number: u32) -> Result<[DVec2; 2]> {
+        let mut index = self.given_edge(method, number)?;
+        for ring in &self.options.geometry.0 {
+            if index < ring.len() {
+                return Ok([ring[index], ring[(index + 1) % ring.len()]].map(|point| point.truncate()));
+            }
+            index -= ring.len();
+        }
+        Ok([DVec2::ZERO; 2])
+    }
+
+    /// The edge of the plan that stands for an edge that was given, if there is one.
+    fn standing(&self, method: &str, number: u32) -> Result<Option<usize>> {
+        let index = self.given_edge(method, number)?;
+        Ok(self.known_edges().stands_for.get(index).copied().flatten())
+    }
+
+    pub(super) fn facing(&self, number: u32) -> Result<f64> {
+        let Some(edge) = self.standing("edge_facing", number)? else { return Ok(0.0) };
+        let flat = self.plan.flat();
+        let found = flat.iter().flat_map(|ring| edges(ring)).nth(edge);
+        Ok(found.map_or(0.0, |[a, b]| {
+            let out = -(b - a).perp();
+            out.y.atan2(out.x).to_degrees().rem_euclid(360.0)
+        }))
+    }
+
+    pub(super) fn words_of(&self, number: u32) -> Result<&[Cow<'static, str>]> {
+        Ok(self.standing("edge_has", number)?.map_or(&[], |edge| self.edge_keywords(edge)))
+    }
+
+    pub(super) fn part_shared(&self, number: u32) -> Result<f64> {
+        let edge = self.standing("shared", number)?;
+        Ok(edge.map_or(0.0, |edge| self.known_edges().touch.shared[edge]))
+    }
+
+    pub(super) fn touching(&self) -> u32 {
+        self.known_edges().touch.neighbors
+    }
+
+    /// The number, from 1, of the longest edge that was given on the street side; 0 if there is no edge.
+    pub(super) fn on_street(&self) -> u32 {
+        let known = self.known_edges();
+        let Some(street) = known.street else { return 0 };
+        let numbers = (1u32..).zip(&known.stands_for);
+        let candidates = numbers.filter(|(_, edge)| **edge == Some(street)).map(|(number, _)| number);
+        let length = |number: u32| self.ends("street_edge", number).map_or(0.0, |[a, b]| a.distance(b));
+        candidates.max_by(|a, b| length(*a).total_cmp(&length(*b)).then(b.cmp(a))).unwrap_or(0)
+    }
+
+    /// Fails if words are given to an edge that there is not.
+    pub(super) fn check_edge_keywords(&self) -> Result<()> {
+        let count = self.plan.given();
+        match self.options.edge_keywords.0.keys().find(|number| !(1..=count).contains(*number)) {
+            None => Ok(()),
+            Some(number) => Err(Error::argument(format!("footprint: edge_keywords names edge {number}"))
+                .help(format!("the geometry has the edges 1 to {count}"))),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::{Options, Rings};
+    use super::*;
+    use crate::Streets;
+
+    fn ring(points: &[[f64; 2]]) -> Vec<DVec3> {
+        points.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect()
+    }
+
+    fn words(edges: &[(usize, &str)]) -> EdgeKeywords {
+        EdgeKeywords(edges.iter().map(|(edge, word)| (*edge, vec![(*word).to_owned()])).collect())
+    }
+
+    const RECTANGLE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 6.0], [0.0, 6.0]];
+
+    #[test]
+    fn words_keep_the_numbers_of_the_edges_that_were_given() {
+        // Point 2 lies on a straight line, and the ring turns right.
+        let given = [[0.0, 0.0], [0.0, 3.0], [0.0, 6.0], [10.0, 6.0], [10.0, 0.0]];
+        let footprint = Footprint::new(Options {
+            geometry: Rings(vec![ring(&given)]),
+            edge_keywords: words(&[(1, "a"), (2, "b"), (4, "c")]),
+            ..Options::default()
+        })
+        .unwrap();
+        assert_eq!((footprint.edges(), footprint.plan.edges()), (5, 4));
+        let has = |edge, word: &str| footprint.edge_has(edge, word.into()).unwrap();
+        assert!(has(1, "a") && has(1, "b") && has(2, "a") && !has(2, "c") && has(4, "c") && !has(3, "c"));
+        assert_eq!((footprint.edge_length(2).unwrap(), footprint.edge_length(3).unwrap()), (3.0, 10.0));
+        assert_eq!((footprint.edge_facing(2).unwrap(), footprint.edge_facing(3).unwrap()), (180.0, 90.0));
+        assert!(footprint.edge_has(6, "a".into()).is_err() && footprint.edge_length(0).is_err());
+    }
+
+    #[test]
+    fn edges_of_holes_count_on_and_words_for_no_edge_are_refused() {
+        let hole = ring(&[[2.0, 2.0], [4.0, 2.0], [4.0, 4.0]]);
+        let options = |edge| Options {
+            geometry: Rings(vec![ring(&RECTANGLE), hole.clone()]),
+            edge_keywords: words(&[(edge, "gate")]),
+            ..Options::default()
+        };
+        let footprint = Footprint::new(options(5)).unwrap();
+        assert!(
+            footprint.edge_has(5, "gate".into()).unwrap() && !footprint.edge_has(6, "gate".into()).unwrap()
+        );
+        // The hole is turned, so that its first edge is the plan's last.
+        assert_eq!(footprint.edge_keywords(6), ["gate"]);
+        assert!(Footprint::new(options(8)).is_err());
+    }
+
+    #[test]
+    fn the_street_edge_is_the_longest_or_the_one_that_faces_the_nearest_street() {
+        let make = |streets: Option<Streets>, keywords| {
+            Footprint::new(Options {
+                geometry: Rings(vec![ring(&RECTANGLE)]),
+                edge_keywords: keywords,
+                streets,
+                ..Options::default()
+            })
+            .unwrap()
+        };
+        let plain = make(None, EdgeKeywords::default());
+        assert_eq!(plain.street_edge(), 1);
+        assert!(plain.edge_has(1, "entry door".into()).unwrap());
+        let street = |points: &[[f64; 2]]| Streets::over(&[ring(points)]);
+        // The street to the right runs past the corner, nearer to edge 1 than to the front that faces it.
+        let right = street(&[[13.0, -40.0], [13.0, 40.0]]);
+        let facing = make(Some(right), words(&[(3, "entry door")]));
+        assert_eq!(facing.street_edge(), 2);
+        assert!(facing.edge_has(2, "street".into()).unwrap());
+        assert!(!facing.edge_has(2, "entry door".into()).unwrap());
+    }
+}

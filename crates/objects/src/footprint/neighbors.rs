@@ -1,0 +1,346 @@
+//! What the footprints of a system learn from one another: which parts of their edges others touch.
+
+use std::sync::{Arc, OnceLock};
+
+use glam::DVec2;
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, RTree};
+use smallvec::SmallVec;
+
+use super::{Footprint, edges};
+use burgeon_geometry::Plan;
+use burgeon_kit::Object;
+
+/// How far (m) walls that touch may be apart, or overlap.
+const APART: f64 = 0.3;
+/// The cosine of the angle (8 degrees) by which walls that touch may diverge.
+const OPPOSITE: f64 = 0.990_27;
+/// The least length (m) along which buildings touch.
+const LEAST: f64 = 0.1;
+/// What is in front of an edge along less than this (m) is beside it.
+const NARROW: f64 = 0.01;
+
+type Boxed = GeomWithData<Rectangle<[f64; 2]>, u32>;
+
+/// All footprints of a system. What is made for all of them together is made when the first one asks.
+pub(super) struct Neighborhood {
+    plans: Vec<(Arc<Plan>, DVec2)>,
+    /// Where the walls of each end (m), as far as it is known before they are built.
+    tops: Vec<Option<f64>>,
+    map: OnceLock<Map>,
+}
+
+/// Where the footprints are.
+struct Map {
+    /// The walls of all.
+    walls: Vec<Wall>,
+    /// Where the walls of each begin among them; one more for the end.
+    begins: Vec<usize>,
+    boxes: RTree<Boxed>,
+}
+
+impl Map {
+    fn new(plans: &[(Arc<Plan>, DVec2)]) -> Self {
+        let mut walls = Vec::with_capacity(plans.iter().map(|(plan, _)| plan.edges()).sum());
+        let mut begins = vec![0];
+        for (plan, origin) in plans {
+            let all = plan.rings().iter().flat_map(|ring| edges(ring));
+            walls.extend(all.map(|edge| edge.map(|point| point.truncate() + *origin)));
+            begins.push(walls.len());
+        }
+        let mut map = Self { walls, begins, boxes: RTree::default() };
+        let boxes = (0u32..).zip(0..plans.len()).filter_map(|(index, own)| {
+            let [low, high] = bounds(map.walls_of(own))?;
+            let (low, high) = (low - APART, high + APART);
+            Some(GeomWithData::new(Rectangle::from_corners(low.to_array(), high.to_array()), index))
+        });
+        map.boxes = RTree::bulk_load(boxes.collect());
+        map
+    }
+
+    fn walls_of(&self, index: usize) -> &[Wall] {
+        match self.begins.get(index..index + 2) {
+            Some(&[begin, end]) => &self.walls[begin..end],
+            _ => &[],
+        }
+    }
+}
+
+/// The two ends (m) of an edge.
+type Wall = [DVec2; 2];
+
+/// What the others touch of a footprint.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub(super) struct Touch {
+    /// By edge, over all rings: the part of its length, 0 to 1.
+    pub shared: Vec<f64>,
+    /// How many others there are.
+    pub neighbors: u32,
+}
+
+/// Tells the footprints among `objects` of one another.
+pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
+    let mut found: Vec<&mut Footprint> = objects
+        .iter_mut()
+        .filter_map(|object| {
+            let any: &mut dyn std::any::Any = &mut **object;
+            any.downcast_mut::<Footprint>()
+        })
+        .collect();
+    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin.truncate()));
+    let top = |footprint: &&mut Footprint| {
+        footprint.options.height.map(|height| footprint.origin.z + footprint.plan.ground().1 + height.0)
+    };
+    let (plans, tops) = (plans.collect(), found.iter().map(top).collect());
+    let all = Arc::new(Neighborhood { plans, tops, map: OnceLock::new() });
+    for (index, footprint) in found.iter_mut().enumerate() {
+        footprint.place = Some((Arc::clone(&all), index));
+        footprint.edges = Arc::default();
+    }
+}
+
+fn bounds(walls: &[Wall]) -> Option<[DVec2; 2]> {
+    let [first, _] = *walls.first()?;
+    Some(walls.iter().fold([first; 2], |[low, high], [point, _]| [low.min(*point), high.max(*point)]))
+}
+
+impl Neighborhood {
+    fn map(&self) -> &Map {
+        self.map.get_or_init(|| Map::new(&self.plans))
+    }
+
+    /// What the others touch of footprint `own`: walls that run the other way, at most 8 degrees askew and 0.3 m away.
+    pub(super) fn touch(&self, own: usize) -> Touch {
+        let map = self.map();
+        let walls = map.walls_of(own);
+        let Some([low, high]) = bounds(walls) else { return Touch::default() };
+        let mut covered: Vec<Vec<[f64; 2]>> = vec![Vec::new(); walls.len()];
+        let mut neighbors = 0;
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let found = map.boxes.locate_in_envelope_intersecting(&around);
+        let mut others: SmallVec<[&Boxed; 16]> = found.filter(|found| found.data as usize != own).collect();
+        others.sort_unstable_by_key(|other| other.data);
+        for other in others {
+            let near =
+                |[a, b]: &&Wall| a.max(*b).cmpge(low - APART).all() && a.min(*b).cmple(high + APART).all();
+            let theirs = map.walls_of(other.data as usize).iter().filter(near);
+            let theirs: SmallVec<[Wall; 16]> = theirs.copied().collect();
+            let [least, most] = [other.geom().lower(), other.geom().upper()].map(DVec2::from);
+            let mut longest = 0f64;
+            for (&[a, b], covered) in walls.iter().zip(&mut covered) {
+                // Its box is as much larger as walls that touch may be apart.
+                if a.max(b).cmplt(least).any() || a.min(b).cmpgt(most).any() {
+                    continue;
+                }
+                for part in theirs.iter().filter_map(|their| overlap([a, b], *their)) {
+                    longest = longest.max(part[1] - part[0]);
+                    covered.push(part);
+                }
+            }
+            neighbors += u32::from(longest >= LEAST);
+        }
+        let shared = walls.iter().zip(&mut covered).map(|([a, b], parts)| {
+            let length = a.distance(*b);
+            if length > 0.0 { (union(parts) / length).min(1.0) } else { 0.0 }
+        });
+        Touch { shared: shared.collect(), neighbors }
+    }
+
+    /// How far (m) each edge of footprint `own` is from others in front of it, halved so that theirs have room as well,
+    /// up to `furthest`; 0 where they touch. Only what ends above `height` (m), or may do so, is in the way.
+    pub(super) fn reach(&self, own: usize, furthest: f64, height: f64) -> Vec<f64> {
+        let map = self.map();
+        let walls = map.walls_of(own);
+        let mut reach = vec![f64::INFINITY; walls.len()];
+        let (Some([low, high]), Some((plan, _))) = (bounds(walls), self.plans.get(own)) else { return reach };
+        let search = 2.0 * furthest + APART;
+        let (low, high) = (low - search, high + search);
+        let around = AABB::from_corners(low.to_array(), high.to_array());
+        let is_near = |[a, b]: &&Wall| a.max(*b).cmpge(low).all() && a.min(*b).cmple(high).all();
+        let others = map.boxes.locate_in_envelope_intersecting(&around).map(|found| found.data as usize);
+        let in_the_way =
+            others.filter(|&other| other != own && self.tops[other].is_none_or(|top| top > height));
+        let theirs: Vec<Wall> =
+            in_the_way.flat_map(|other| map.walls_of(other).iter().filter(is_near)).copied().collect();
+        for (wall, reach) in walls.iter().zip(&mut reach) {
+            let mut parts = theirs.iter().filter_map(|their| overlap(*wall, *their));
+            if parts.any(|[begin, end]| end - begin > APART) {
+                *reach = 0.0;
+            }
+        }
+        for (edge, front) in fronts(walls, plan.rings().iter().map(Vec::len), &reach).iter().enumerate() {
+            let distances = theirs.iter().filter_map(|their| front.distance(*their, search));
+            let free = distances.map(|distance| if distance <= APART { 0.0 } else { distance / 2.0 });
+            reach[edge] = free.fold(reach[edge], f64::min);
+        }
+        reach
+    }
+}
+
+/// What is in front of an edge: up to the mitres at its ends, or beside the lines of edges that others touch.
+struct Front {
+    from: DVec2,
+    out: DVec2,
+    /// Points and the ways from there into it.
+    sides: [[DVec2; 2]; 2],
+}
+
+/// The front of each edge of rings of these sizes; what others touch has no `reach`.
+fn fronts(walls: &[Wall], sizes: impl Iterator<Item = usize>, reach: &[f64]) -> Vec<Front> {
+    let mut fronts = Vec::with_capacity(walls.len());
+    for count in sizes {
+        let first = fronts.len();
+        for index in 0..count {
+            let [a, b] = walls[first + index];
+            let along = (b - a).normalize_or_zero();
+            let side = |neighbour: usize, end: DVec2, way: DVec2| {
+                let neighbour = first + neighbour % count;
+                let [c, d] = walls[neighbour];
+                let turned = (d - c).normalize_or_zero();
+                let inward = turned.perp();
+                // Walls that touch may overlap by so much.
+                if reach[neighbour] == 0.0 && inward.dot(way) > 0.0 {
+                    [end + inward * APART, inward]
+                } else {
+                    [end, way]
+                }
+            };
+            let sides = [side(index + count - 1, a, along), side(index + 1, b, -along)];
+            fronts.push(Front { from: a, out: -along.perp(), sides });
+        }
+    }
+    fronts
+}
+
+impl Front {
+    /// The distance (m) of the nearest place of a wall that is in front, up to `most`.
+    fn distance(&self, [mut a, mut b]: Wall, most: f64) -> Option<f64> {
+        let near = [self.from + self.out * most, -self.out];
+        let behind = [self.from - self.out * APART, self.out];
+        for [at, way] in [near, behind, self.sides[0], self.sides[1]] {
+            let [from, to] = [a, b].map(|point| way.dot(point - at));
+            if from.max(to) <= 0.0 {
+                return None;
+            }
+            if from.min(to) < 0.0 {
+                let crossing = a.lerp(b, from / (from - to));
+                *(if from < 0.0 { &mut a } else { &mut b }) = crossing;
+            }
+        }
+        let along = self.out.perp();
+        let wide = along.dot(b - a).abs() > NARROW;
+        wide.then(|| self.out.dot(a - self.from).min(self.out.dot(b - self.from)))
+    }
+}
+
+/// From where to where (m) along `wall` the wall `their` touches it.
+fn overlap([a, b]: Wall, [c, d]: Wall) -> Option<[f64; 2]> {
+    let low = a.min(b) - APART;
+    let high = a.max(b) + APART;
+    if c.max(d).cmplt(low).any() || c.min(d).cmpgt(high).any() {
+        return None;
+    }
+    let (along, back) = ((b - a).try_normalize()?, (c - d).try_normalize()?);
+    if along.dot(back) < OPPOSITE {
+        return None;
+    }
+    // Theirs from its end to its beginning, which runs as this wall does: distances along it and to its left.
+    let [from, to] = [d - a, c - a].map(|point| DVec2::new(point.dot(along), along.perp_dot(point)));
+    let (mut begin, mut end) = (from.x.max(0.0), to.x.min(a.distance(b)));
+    let slope = (to.y - from.y) / (to.x - from.x);
+    if slope.abs() > 1e-9 {
+        let at = |side: f64| from.x + (side - from.y) / slope;
+        let [one, two] = [at(-APART), at(APART)];
+        begin = begin.max(one.min(two));
+        end = end.min(one.max(two));
+    } else if from.y.abs() > APART {
+        return None;
+    }
+    (end - begin > 1e-3).then_some([begin, end])
+}
+
+/// The length (m) that `parts` cover together.
+fn union(parts: &mut [[f64; 2]]) -> f64 {
+    parts.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let (mut length, mut reached) = (0.0, f64::NEG_INFINITY);
+    for &mut [begin, end] in parts {
+        if end > reached {
+            length += end - begin.max(reached);
+            reached = end;
+        }
+    }
+    length
+}
+
+#[cfg(test)]
+mod tests {
+    use glam::DVec3;
+
+    use super::super::{Options, Rings};
+    use super::*;
+
+    fn all(rings: &[&[[f64; 2]]]) -> Neighborhood {
+        let plan = |ring: &&[[f64; 2]]| {
+            let ring = ring.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect();
+            (Arc::new(Plan::new(&[ring]).unwrap()), DVec2::ZERO)
+        };
+        let tops = vec![None; rings.len()];
+        Neighborhood { plans: rings.iter().map(plan).collect(), tops, map: OnceLock::new() }
+    }
+
+    fn rectangle(x: f64, y: f64, width: f64, depth: f64) -> Vec<[f64; 2]> {
+        vec![[x, y], [x + width, y], [x + width, y + depth], [x, y + depth]]
+    }
+
+    #[test]
+    fn walls_that_touch_are_shared_as_far_as_they_overlap() {
+        let (a, b) = (rectangle(0.0, 0.0, 10.0, 8.0), rectangle(10.2, 4.0, 10.0, 8.0));
+        let alone = rectangle(0.0, 8.5, 4.0, 4.0);
+        let all = all(&[&a, &b, &alone]);
+        let touch = all.touch(0);
+        assert_eq!(touch.neighbors, 1);
+        assert_eq!(touch.shared, [0.0, 0.5, 0.0, 0.0]);
+        assert_eq!(all.touch(1).shared, [0.0, 0.0, 0.0, 0.5]);
+        assert_eq!(all.touch(2), Touch { shared: vec![0.0; 4], neighbors: 0 });
+    }
+
+    #[test]
+    fn two_neighbours_along_one_wall_cover_it_together_and_once() {
+        let long = rectangle(0.0, 0.0, 20.0, 8.0);
+        let (left, right) = (rectangle(0.0, 8.0, 12.0, 5.0), rectangle(10.0, 8.1, 8.0, 5.0));
+        let touch = all(&[&long, &left, &right]).touch(0);
+        assert_eq!(touch.neighbors, 2);
+        assert!((touch.shared[2] - 0.9).abs() < 1e-9, "{touch:?}");
+    }
+
+    #[test]
+    fn walls_askew_touch_only_where_they_are_near() {
+        let wall = rectangle(0.0, 0.0, 10.0, 8.0);
+        // A twentieth of its length askew: within 0.3 m along 6 of 10 m.
+        let askew = [[0.0, 8.0], [10.0, 8.5], [10.0, 14.0], [0.0, 14.0]];
+        let turned = [[0.0, 8.0], [10.0, 10.0], [10.0, 14.0], [0.0, 14.0]];
+        let shared = |other: &[[f64; 2]]| all(&[&wall, other]).touch(0).shared[2];
+        assert!((shared(&askew) - 0.6).abs() < 1e-6, "{}", shared(&askew));
+        assert_eq!(shared(&turned), 0.0);
+    }
+
+    #[test]
+    fn a_building_that_fills_a_courtyard_touches_its_walls() {
+        let point = |&[x, y]: &[f64; 2]| DVec3::new(x, y, 0.0);
+        let ring = |ring: Vec<[f64; 2]>| ring.iter().map(point).collect::<Vec<_>>();
+        let make = |rings: Vec<Vec<DVec3>>| {
+            let options = Options { geometry: Rings(rings), ..Options::default() };
+            Box::new(Footprint::new(options).unwrap()) as Box<dyn Object>
+        };
+        let outer = make(vec![ring(rectangle(0.0, 0.0, 20.0, 20.0)), ring(rectangle(5.0, 5.0, 10.0, 10.0))]);
+        let inner = make(vec![ring(rectangle(5.0, 5.0, 10.0, 10.0))]);
+        let mut objects = vec![outer, inner];
+        gather(&mut objects);
+        let shared = |object: &dyn Object, edge: f64| {
+            let any: &dyn std::any::Any = object;
+            any.downcast_ref::<Footprint>().unwrap().shared(edge as u32).unwrap()
+        };
+        assert_eq!((1..=8).map(|edge| shared(&*objects[0], f64::from(edge))).sum::<f64>(), 4.0);
+        assert_eq!((1..=4).map(|edge| shared(&*objects[1], f64::from(edge))).sum::<f64>(), 4.0);
+    }
+}

@@ -1,0 +1,184 @@
+//! Plans of a source's polygons, made while a script is still at the features before them.
+//!
+//! A script's function makes the footprints of a source one after another, on one thread, and most of that work are
+//! their plans. So another thread makes the plans of what comes next. One that is not there in time is made where it is
+//! needed: whoever makes it, it is the same.
+
+use std::collections::VecDeque;
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+
+use glam::DVec3;
+
+use super::Rings;
+use burgeon_base::error::{Error, Result};
+use burgeon_data::Layer;
+use burgeon_geometry::Plan;
+use burgeon_kit::Prefetch;
+
+/// From this many plans on, no more are made until some have been taken.
+const READY: usize = 256;
+/// Plans that are made at a time, so that the threads seldom wait for one another.
+const BATCH: usize = 16;
+
+/// A plan near its own origin.
+#[derive(Debug, Clone)]
+pub(super) struct Grounded {
+    pub plan: Arc<Plan>,
+    /// Where the origin is (m): a whole number of metres near the plan.
+    pub origin: DVec3,
+}
+
+impl Grounded {
+    /// The plan of `rings`; an empty one of no rings.
+    pub(super) fn new(rings: &Rings) -> Result<Self> {
+        if rings.0.is_empty() {
+            return Ok(Self { plan: Arc::default(), origin: DVec3::ZERO });
+        }
+        let plan = Plan::new(&rings.0).map_err(Error::of_data)?;
+        let points = || plan.rings().iter().flatten();
+        let low = points().fold(DVec3::INFINITY, |low, point| low.min(*point));
+        let high = points().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
+        let origin = low.midpoint(high).truncate().extend(low.z).floor();
+        Ok(Self { plan: Arc::new(plan.moved(-origin)), origin })
+    }
+}
+
+/// Plans of a layer's polygons that are made ahead.
+pub(super) struct PlanPrefetch {
+    layer: Arc<Layer>,
+    state: Mutex<State>,
+    changed: Condvar,
+}
+
+#[derive(Default)]
+struct State {
+    /// The feature whose plan was asked for last, if any was.
+    asked: Option<usize>,
+    /// Plans by feature, in the order of the features.
+    made: VecDeque<(usize, Result<Grounded>)>,
+    /// Whether a thread waits to go on.
+    waits: bool,
+    /// Whether nobody will ask any more.
+    over: bool,
+}
+
+impl PlanPrefetch {
+    pub(super) fn new(layer: &Arc<Layer>) -> Self {
+        Self { layer: Arc::clone(layer), state: Mutex::default(), changed: Condvar::new() }
+    }
+
+    /// The plan of the feature with this number, if it has been made.
+    pub(super) fn take(&self, number: usize) -> Option<Result<Grounded>> {
+        let mut state = self.state();
+        state.asked = Some(number);
+        while state.made.front().is_some_and(|(made, _)| *made < number) {
+            state.made.pop_front();
+        }
+        // To wake a thread takes longer than to look whether there is one to wake.
+        if state.waits && state.made.len() < READY / 2 {
+            self.changed.notify_one();
+        }
+        let there = state.made.front().is_some_and(|(made, _)| *made == number);
+        if there { state.made.pop_front().map(|(_, plan)| plan) } else { None }
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Prefetch for PlanPrefetch {
+    fn work(&self) {
+        let features = &self.layer.features;
+        let mut next = 0;
+        let mut state = self.state();
+        loop {
+            while !state.over && (state.asked.is_none() || state.made.len() >= READY) {
+                state.waits = true;
+                state = self.changed.wait(state).unwrap_or_else(PoisonError::into_inner);
+                state.waits = false;
+            }
+            next = next.max(state.asked.map_or(0, |asked| asked + 1));
+            if state.over || next >= features.len() {
+                return;
+            }
+            drop(state);
+            let numbers = next..features.len().min(next + BATCH);
+            next = numbers.end;
+            let plan = |number: usize| Some((number, Grounded::new(&Rings::of(&features[number].geometry)?)));
+            let made: Vec<_> = numbers.filter_map(plan).collect();
+            state = self.state();
+            state.made.extend(made);
+        }
+    }
+
+    fn end(&self) {
+        self.state().over = true;
+        self.changed.notify_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_data::{Feature, Geometry};
+
+    /// Squares on a line, every seventh of which has no area.
+    fn squares(count: u32) -> Arc<Layer> {
+        let square = |number: u32| {
+            let (x, size) = (10.0 * f64::from(number), if number.is_multiple_of(7) { 0.0 } else { 4.0 });
+            let ring = vec![[x, 0.0, 1.0], [x + 4.0, 0.0, 1.0], [x + 4.0, size, 1.0], [x, size, 1.0]];
+            let geometry = Geometry::Polygon(vec![ring]);
+            Feature { id: number.to_string(), geometry, attributes: Arc::default() }
+        };
+        Arc::new(Layer {
+            name: String::new(),
+            shown: String::new(),
+            crs: String::new(),
+            origin: [0.0; 2],
+            names: Vec::new(),
+            features: (0..count).map(square).collect(),
+            bounds: [[0.0; 3]; 2],
+            empty: 0,
+            refused: Vec::new(),
+        })
+    }
+
+    fn told(plan: Result<Grounded>) -> Result<(Vec<Vec<DVec3>>, DVec3), String> {
+        plan.map(|made| (made.plan.rings().to_vec(), made.origin)).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn what_is_made_ahead_is_what_would_be_made_in_its_place() {
+        let layer = squares(1000);
+        let ahead = PlanPrefetch::new(&layer);
+        let mut ready = 0;
+        std::thread::scope(|scope| {
+            scope.spawn(|| ahead.work());
+            // Not every one, and some once more, as a script may.
+            for number in (0..1000).filter(|number| number % 5 != 0).chain([9, 8]) {
+                let Some(plan) = ahead.take(number) else {
+                    std::thread::sleep(std::time::Duration::from_millis(1));
+                    continue;
+                };
+                ready += 1;
+                let here = Grounded::new(&Rings::of(&layer.features[number].geometry).unwrap());
+                assert_eq!(told(plan), told(here), "{number}");
+                assert!(ahead.state().made.len() < READY + BATCH);
+            }
+            ahead.end();
+        });
+        assert!(ready > 0);
+    }
+
+    #[test]
+    fn nothing_is_made_that_nobody_asks_for() {
+        let ahead = PlanPrefetch::new(&squares(20));
+        std::thread::scope(|scope| {
+            let working = scope.spawn(|| ahead.work());
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            assert!(ahead.state().made.is_empty() && !working.is_finished());
+            ahead.end();
+        });
+    }
+}

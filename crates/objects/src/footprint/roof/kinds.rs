@@ -1,0 +1,116 @@
+//! The kinds of roof that scripts can name.
+
+use super::super::unknown;
+use super::Roof;
+use crate::footprint::check_height;
+use burgeon_base::error::{Error, Result};
+use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, Shape, Surface};
+
+/// A kind: what stands at the ends of wings, and the bends of its slopes between eaves and ridge, as parts of the
+/// width and of the height.
+struct Kind {
+    name: &'static str,
+    ends: Ends,
+    bends: &'static [(f64, f64)],
+}
+
+const SLOPED: [Kind; 8] = [
+    Kind { name: "gable", ends: Ends::Gables, bends: &[] },
+    Kind { name: "gambrel", ends: Ends::Gables, bends: &[(0.36, 0.64)] },
+    Kind { name: "shed_gambrel", ends: Ends::Gables, bends: &[(0.26, 0.06), (0.56, 0.66)] },
+    Kind { name: "hip", ends: Ends::Hips, bends: &[] },
+    Kind { name: "mansard", ends: Ends::Hips, bends: &[(0.25, 0.7)] },
+    Kind { name: "pagoda", ends: Ends::Hips, bends: &[(0.35, 0.12), (0.7, 0.42)] },
+    Kind { name: "porch", ends: Ends::Hips, bends: &[(0.4, 0.16)] },
+    Kind { name: "dutch_hip", ends: Ends::DutchHips, bends: &[] },
+];
+
+const KINDS: [&str; 10] =
+    ["flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch", "dutch_hip"];
+
+const EAVES: [&str; 3] = ["closed", "open", "slab"];
+
+/// How thick (m) plates are, and how high slabs, where they are given no height.
+const THICKNESS: f64 = 0.15;
+
+/// The shape that a script asks for.
+pub(super) fn shape(options: &Roof) -> Result<Shape> {
+    check(options)?;
+    let kind = options.kind.as_str();
+    let border = Border { height: options.border, width: options.border_width };
+    let surface = match kind {
+        "flat" => Surface::Flat((border.height > 0.0).then_some(border)),
+        "shed" => Surface::Shed,
+        _ => match SLOPED.iter().find(|known| known.name == kind) {
+            Some(Kind { ends, bends, .. }) => Surface::Sloped(*ends, bends),
+            None => return Err(unknown("footprint:roof", kind, &KINDS)),
+        },
+    };
+    let eaves = match options.eaves.as_deref() {
+        Some("closed") => Eaves::Closed,
+        Some("open") => Eaves::Open,
+        Some("slab") => Eaves::Slab,
+        None if options.slab > 0.0 => Eaves::Slab,
+        None => Eaves::Closed,
+        Some(eaves) => {
+            let message = format!("footprint:roof: eaves has no kind called {eaves:?}");
+            let error = Error::not_found("kind", eaves, EAVES, message);
+            return Err(error.help(format!("there are {}", EAVES.join(", "))));
+        }
+    };
+    if eaves == Eaves::Closed && options.slab > 0.0 {
+        return Err(Error::argument("footprint:roof: closed eaves have no slab").help("use eaves = \"slab\""));
+    }
+    let juts_out = options.overhang > 0.0;
+    // What would be thin as paper gets a thickness.
+    let needed = match eaves {
+        Eaves::Slab => true,
+        Eaves::Open => juts_out,
+        Eaves::Closed => juts_out && matches!(surface, Surface::Flat(_)),
+    };
+    let slab = if needed && options.slab == 0.0 { THICKNESS } else { options.slab };
+    let rise = options.height.map_or(Rise::Slope(options.slope.to_radians().tan()), Rise::Height);
+    Ok(Shape { surface, rise, overhang: options.overhang, eaves, slab })
+}
+
+fn check(options: &Roof) -> Result<()> {
+    if let Some(height) = options.height {
+        check_height("footprint:roof: height", height)?;
+    }
+    if !(options.slope > 0.0 && options.slope <= 85.0) {
+        return Err(Error::argument(format!("footprint:roof: slope is {} degrees", options.slope))
+            .help("give degrees above 0, up to 85"));
+    }
+    for (name, length) in [("overhang", options.overhang), ("slab", options.slab), ("border", options.border)]
+    {
+        if !(0.0..=100.0).contains(&length) {
+            return Err(
+                Error::argument(format!("footprint:roof: {name} is {length} m")).help("give 0 to 100 m")
+            );
+        }
+    }
+    if !(0.05..=100.0).contains(&options.border_width) {
+        return Err(Error::argument(format!("footprint:roof: border_width is {} m", options.border_width))
+            .help("give 0.05 to 100 m"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_kind_has_a_shape_and_others_are_refused_with_the_nearest() {
+        for kind in KINDS {
+            assert!(shape(&Roof { kind: kind.into(), ..Roof::default() }).is_ok(), "{kind}");
+        }
+        let error = shape(&Roof { kind: "mansarde".into(), ..Roof::default() }).expect_err("no such kind");
+        assert!(error.to_string().contains("mansard"), "{error}");
+        let error =
+            shape(&Roof { eaves: Some("shut".into()), ..Roof::default() }).expect_err("no such eaves");
+        assert!(error.to_string().contains("closed, open, slab"), "{error}");
+        let both = Roof { eaves: Some("closed".into()), slab: 0.2, ..Roof::default() };
+        assert!(shape(&both).is_err());
+    }
+}

@@ -1,0 +1,103 @@
+//! What stands on a building whose own roof cannot be made.
+
+use geo::buffer::{BufferStyle, LineJoin};
+use geo::{Area, Buffer, Coord, LineString, Polygon, Simplify};
+use glam::{DVec2, DVec3};
+
+use burgeon_base::error::Result;
+use burgeon_geometry::Plan;
+use burgeon_geometry::roof::{Cover, Patch, PatchKind, Shape, Support, Surface, floor};
+
+/// A roof, and what it is in place of.
+pub(super) struct Made {
+    pub cover: Cover,
+    /// What was done instead, and why.
+    pub replaced: Option<(String, String)>,
+}
+
+/// How far (m) the outline of a simpler roof may be within the true one, in turn.
+const SIMPLER: [f64; 3] = [0.05, 0.2, 0.5];
+/// Parts of an outline that are smaller than this (m²) are left to the deck.
+const LEAST: f64 = 1.0;
+
+/// The roof that `make` makes over its support; where it fails, a level deck closes the walls, and a roof over a simpler
+/// outline stands on it as a solid of its own, nowhere over a courtyard; or the deck alone.
+pub(super) fn cover(
+    shape: &Shape,
+    kind: &str,
+    support: &Support<'_>,
+    make: &mut impl FnMut(&Shape, &Support<'_>) -> Result<Cover>,
+) -> Made {
+    let why = match make(shape, support) {
+        Ok(cover) => return Made { cover, replaced: None },
+        Err(error) => error.message().to_owned(),
+    };
+    let &Support { walls, base, .. } = support;
+    let level = |walls: &[Vec<DVec2>], upwards: bool| Patch {
+        kind: if upwards { PatchKind::Slope } else { PatchKind::Underside },
+        edge: 0,
+        flap: 0,
+        along: DVec2::X,
+        rings: if upwards {
+            walls.iter().map(|ring| ring.iter().map(|at| at.extend(base)).collect()).collect()
+        } else {
+            floor(walls, base)
+        },
+    };
+    let flush = Shape { overhang: 0.0, ..*shape };
+    for distance in SIMPLER {
+        let outlines = within(walls, distance);
+        let covers = outlines.iter().map(|outline| make(&flush, &Support::new(outline, base)));
+        let Ok(covers) = covers.collect::<Result<Vec<Cover>>>() else { continue };
+        if covers.is_empty() {
+            break;
+        }
+        let mut patches = vec![level(walls, true)];
+        for (outline, cover) in outlines.iter().zip(covers) {
+            patches.push(level(outline, false));
+            patches.extend(cover.patches);
+        }
+        let text = format!("a {kind} roof over an outline simplified to {distance} m");
+        return Made { cover: Cover { patches, ..Cover::default() }, replaced: Some((text, why)) };
+    }
+    let deck = Shape { surface: Surface::Flat(None), slab: 0.0, ..flush };
+    let cover = make(&deck, &Support::new(walls, base))
+        .unwrap_or_else(|_| Cover { patches: vec![level(walls, true)], ..Cover::default() });
+    Made { cover, replaced: Some((format!("a flat roof in place of a {kind} roof"), why)) }
+}
+
+fn line(ring: &[DVec2]) -> LineString {
+    ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect()
+}
+
+fn points(line: &LineString) -> Vec<DVec3> {
+    let open = line.0.split_last().map_or(&[][..], |(_, open)| open);
+    open.iter().map(|at| DVec3::new(at.x, at.y, 0.0)).collect()
+}
+
+/// Simpler outlines within that of the walls, none of them nearer to it than the simplification may move them, so that
+/// all courtyards stay open; none if one would not be sound.
+///
+/// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent
+/// a digitized line or its caricature", 1973, over the walls moved inwards with mitres.
+fn within(walls: &[Vec<DVec2>], distance: f64) -> Vec<Vec<Vec<DVec2>>> {
+    let Some((outer, holes)) = walls.split_first() else { return Vec::new() };
+    let whole = Polygon::new(line(outer), holes.iter().map(|ring| line(ring)).collect());
+    // Slivers between the walls and where they were moved to are no outlines.
+    let inward = BufferStyle::new(-1.5 * distance).line_join(LineJoin::Miter(1.0));
+    let mut outlines = Vec::new();
+    for part in whole.buffer_with_style(inward) {
+        let rings: Vec<Vec<DVec3>> = std::iter::once(part.exterior())
+            .chain(part.interiors())
+            .map(|ring| points(&ring.simplify(distance)))
+            .collect();
+        match Plan::new(&rings) {
+            Ok(plan) if plan.repairs().0.is_empty() && plan.rings().len() == rings.len() => {
+                outlines.push(plan.flat());
+            }
+            _ if part.unsigned_area() < LEAST => {}
+            _ => return Vec::new(),
+        }
+    }
+    outlines
+}

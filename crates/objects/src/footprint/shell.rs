@@ -1,0 +1,79 @@
+//! The lower part of a building: its groundwork, and how far it has got.
+
+use glam::DVec3;
+
+use super::{Footprint, Surface, along, edges, unknown};
+use burgeon_base::error::{Error, Result};
+use burgeon_geometry::{Plan, fill};
+
+/// How far a building has got.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Shell {
+    /// The height (m) that has been reached.
+    pub top: f64,
+    /// The height (m) where walls begin, for textures.
+    pub bottom: f64,
+    /// Whether there is a floor.
+    pub begun: bool,
+    /// Whether there is a roof.
+    pub closed: bool,
+}
+
+impl Shell {
+    pub(super) fn new(plan: &Plan) -> Self {
+        let low = if plan.rings().is_empty() { 0.0 } else { plan.ground().0 };
+        Self { top: low, bottom: low, begun: false, closed: false }
+    }
+}
+
+const GROUNDWORK: [&str; 3] = ["z_min", "z_max", "extruded"];
+
+impl Footprint {
+    pub(super) fn lay(&mut self, kind: &str, material: Option<Surface>) -> Result<()> {
+        self.check_open("groundwork")?;
+        if self.shell.begun {
+            return Err(Error::script("footprint:groundwork: the building has been begun already")
+                .help("the groundwork comes first"));
+        }
+        let (low, high) = self.plan.ground();
+        let base = match kind {
+            "z_min" => low,
+            "z_max" | "extruded" => high,
+            _ => return Err(unknown("footprint:groundwork", kind, &GROUNDWORK)),
+        };
+        let part = self.part(None, material.as_ref())?;
+        if self.detail == 0 {
+            let plan: Vec<Vec<DVec3>> = self
+                .plan
+                .rings()
+                .iter()
+                .map(|ring| ring.iter().map(|at| at.with_z(base)).collect())
+                .collect();
+            self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
+            return fill(self.drawing.part(part), &plan, DVec3::X, DVec3::ZERO).map_err(Error::of_data);
+        }
+        self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
+        let plan = std::sync::Arc::clone(&self.plan);
+        let part = self.drawing.part(part);
+        if kind == "extruded" {
+            for [a, b] in plan.rings().iter().flat_map(|ring| edges(ring)) {
+                let mut corners = vec![a, b, b.with_z(base), a.with_z(base)];
+                corners.dedup();
+                if corners.first() == corners.last() {
+                    corners.pop();
+                }
+                if corners.len() > 2 {
+                    fill(part, &[corners], along(a.truncate(), b.truncate()), a.with_z(base))?;
+                }
+            }
+        }
+        // Seen from below, rings run the other way.
+        let floor = plan.rings().iter().map(|ring| {
+            ring.iter()
+                .rev()
+                .map(|point| if kind == "extruded" { *point } else { point.with_z(base) })
+                .collect()
+        });
+        fill(part, &floor.collect::<Vec<Vec<DVec3>>>(), DVec3::X, DVec3::ZERO).map_err(Error::of_data)
+    }
+}

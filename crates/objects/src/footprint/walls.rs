@@ -1,0 +1,346 @@
+//! The walls of a building: plain ones, photos, and facades laid out by templates.
+
+use glam::{DAffine3, DMat3, DVec2, DVec3};
+
+use super::sides::material_of;
+use super::{Footprint, Height, along, check_height, edges};
+use crate::Surface;
+use crate::facade::lay::MOST;
+use crate::facade::template::BLIND;
+use crate::facade::{Face, FaceMesh, Joiner, Laid, Rectangle, Template, Templates};
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_geometry::{SAME, fill};
+use burgeon_kit::random::Stream;
+use burgeon_kit::{Color, Note};
+use burgeon_scene::{Material, Part};
+
+fields! {
+    /// What `footprint:walls { ... }` takes.
+    pub struct Walls for "footprint:walls" {
+        /// How high they are (m); as high as the footprint says if left out.
+        pub height: Option<Height> = None,
+        /// What the frontages look like: a facade, a template or a list of templates.
+        pub templates: Option<Templates> = None,
+        /// A material whose image covers each frontage once, as a photo of the building does.
+        pub photo: Option<Surface> = None,
+        /// Colour of plain walls.
+        pub color: Option<Color> = None,
+        /// Material of plain walls, in place of the colour.
+        pub material: Option<Surface> = None,
+        /// Whether models on the walls become faces of the building, and not instances.
+        pub expand: bool = false,
+    }
+}
+
+/// Plain walls that have been asked for but not drawn, since more may follow above them.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plain {
+    /// The height (m) where they begin.
+    from: f64,
+    part: usize,
+    maker: u32,
+}
+
+/// A side of the building for as high as the walls go.
+#[derive(Debug, Clone, Copy)]
+struct Frontage {
+    /// Its lowest corners, the left and the right one, seen from outside (m).
+    ends: [DVec3; 2],
+    /// Its width and height (m).
+    size: DVec2,
+    /// To the right, upwards and out of the building.
+    axes: DMat3,
+    /// How far (m) what stands out by 1 m goes on beyond its left and its right end, to meet what is around the corner.
+    miters: [f64; 2],
+    /// Where textures begin: how far it is around the building and above the ground (m).
+    passed: DVec2,
+}
+
+/// The most that a miter goes on beyond a corner, for 1 m that it stands out.
+const STEEPEST_MITER: f64 = 1.5;
+
+impl Footprint {
+    pub(super) fn raise(&mut self, options: &Walls) -> Result<()> {
+        self.check_open("walls")?;
+        let Some(Height(height)) = options.height.or(self.options.height) else {
+            return Err(Error::argument(
+                "footprint:walls: neither the walls nor the footprint have a height",
+            )
+            .help("write this:walls { height = 6 }")
+            .of_data());
+        };
+        check_height("footprint:walls: height", height)?;
+        if !self.shell.begun {
+            self.lay("z_min", options.material.clone())?;
+        }
+        let (from, to) = (self.shell.top, self.shell.top + height);
+        self.shell.top = to;
+        self.raised += 1;
+        if self.detail == 0 {
+            return Ok(());
+        }
+        let template = options.templates.as_ref().and_then(Templates::first);
+        let plain = match (&options.material, options.color, template) {
+            (None, None, Some(template)) => self.drawing.material(template.material()),
+            (material, color, _) => self.part(color, material.as_ref())?,
+        };
+        (0..self.plan.edges()).for_each(|edge| self.note_part(edge, plain));
+        if self.detail < 3 {
+            if self.plain.is_none_or(|known| known.part != plain) {
+                self.finish_walls_up_to(from)?;
+                self.plain = Some(Plain { from, part: plain, maker: self.drawing.maker() });
+            }
+            return Ok(());
+        }
+        match (&options.templates, &options.photo) {
+            (None, None) => self.draw_plain(plain, from, to),
+            (None, Some(photo)) => {
+                let photo = photo.material()?;
+                self.draw_photo(&photo, from, to);
+                Ok(())
+            }
+            (Some(templates), None) => self.draw_facades(templates, plain, options.expand, from, to),
+            (Some(_), Some(_)) => {
+                Err(Error::argument("footprint:walls: there are both templates and a photo")
+                    .help("give one of them"))
+            }
+        }
+    }
+
+    /// Draws the plain walls that were waiting for what follows above them.
+    pub(super) fn finish_walls(&mut self) -> Result<()> {
+        self.finish_walls_up_to(self.shell.top)
+    }
+
+    fn finish_walls_up_to(&mut self, top: f64) -> Result<()> {
+        let Some(Plain { from, part, maker }) = self.plain.take() else { return Ok(()) };
+        let done = self.drawing.triangles_of(part);
+        self.drawing.made(self.drawing.maker(), part, done);
+        self.draw_plain(part, from, top)?;
+        let count = self.drawing.triangles_of(part);
+        self.drawing.made(maker, part, count);
+        Ok(())
+    }
+
+    fn draw_plain(&mut self, part: usize, from: f64, to: f64) -> Result<()> {
+        for frontage in self.frontages(from, to) {
+            frontage.fill(self.drawing.part(part))?;
+        }
+        Ok(())
+    }
+
+    fn draw_photo(&mut self, photo: &Material, from: f64, to: f64) {
+        let part = self.drawing.material(photo);
+        for frontage in self.frontages(from, to) {
+            let (right, up) = (DVec3::new(frontage.size.x, 0.0, 0.0), DVec3::new(0.0, frontage.size.y, 0.0));
+            let face = Face { at: DVec3::ZERO, right, up, material: None, stretched: true };
+            frontage.draw(self.drawing.part(part), &face, &FaceMesh::of(&face), photo);
+        }
+    }
+
+    fn draw_facades(
+        &mut self,
+        templates: &Templates,
+        plain: usize,
+        expand: bool,
+        from: f64,
+        to: f64,
+    ) -> Result<()> {
+        let mut laid = Laid::default();
+        let mut joiner = Joiner::spare();
+        // Parts by the addresses of materials, which templates keep where they are.
+        let mut parts: Vec<(*const Material, usize)> = Vec::new();
+        let mut without: Vec<DVec2> = Vec::new();
+        let mut frontages = self.frontages(from, to);
+        let chosen = self.choose(templates, &mut frontages);
+        for (edge, (frontage, (chosen, blind))) in frontages.iter().zip(chosen).enumerate() {
+            laid.clear();
+            let over = Rectangle { at: DVec2::ZERO, size: frontage.size };
+            let Some(template) = chosen.filter(|template| laid.lay(template.wall(), over, 0.0)) else {
+                if laid.too_many {
+                    return Err(Error::limit(
+                        Limit::Size,
+                        format!("footprint:walls: a frontage has more than {MOST} faces"),
+                    )
+                    .help("repeat fewer or larger walls in its template"));
+                }
+                if !blind {
+                    without.push(frontage.size);
+                }
+                frontage.fill(self.drawing.part(plain))?;
+                continue;
+            };
+            self.draw_laid(&laid, template, frontage, &mut parts, &mut joiner);
+            let material: *const Material = material_of(&laid, template.material());
+            if let Some((_, part)) = parts.iter().find(|(known, _)| *known == material) {
+                self.note_part(edge, *part);
+            }
+            self.note_storey(edge, &laid, frontage.size, from);
+            for (fixture, at, scale) in laid.models() {
+                // Models look towards -y.
+                let DMat3 { x_axis, y_axis, z_axis } = frontage.axes;
+                let turned = DMat3::from_cols(x_axis * scale.x, -z_axis * scale.y, y_axis * scale.z);
+                let frame = DAffine3 { matrix3: turned, translation: frontage.place(at) };
+                if expand {
+                    self.drawing.draw_model(&fixture.model, &frame);
+                } else {
+                    self.drawing.place(&fixture.model, frame);
+                }
+            }
+        }
+        joiner.retire();
+        if let Some(first) = without.first() {
+            let why = format!(
+                "no template fits {} of {} frontages, the first {:.2} m wide and {:.2} m high",
+                without.len(),
+                frontages.len(),
+                first.x,
+                first.y
+            );
+            self.notes.push(Note::new("plain walls where no template fits", why));
+        }
+        Ok(())
+    }
+
+    /// The template of each frontage, and whether it is blind; also lets what stands out meet at the corners.
+    fn choose<'a>(
+        &self,
+        templates: &'a Templates,
+        frontages: &mut [Frontage],
+    ) -> Vec<(Option<&'a Template>, bool)> {
+        let keywords: Vec<Vec<&str>> = (0..frontages.len()).map(|edge| self.keywords_of(edge)).collect();
+        self.miter(frontages, &keywords);
+        let choose = |(edge, (frontage, keywords)): (usize, (&Frontage, &Vec<&str>))| {
+            let chance = Stream::new(self.seed ^ mixed(self.raised, edge)).uniform();
+            let chosen = templates.choose(keywords, frontage.size.x, frontage.size.y, chance);
+            (chosen, keywords.contains(&BLIND))
+        };
+        frontages.iter().zip(&keywords).enumerate().map(choose).collect()
+    }
+
+    fn draw_laid<'a>(
+        &mut self,
+        laid: &Laid<'a>,
+        template: &'a Template,
+        frontage: &Frontage,
+        parts: &mut Vec<(*const Material, usize)>,
+        joiner: &mut Joiner,
+    ) {
+        let material_of = |face: &Face<'a>| face.material.unwrap_or_else(|| template.material());
+        let part_of = |face: &Face<'a>| {
+            let material = material_of(face);
+            let address: *const Material = material;
+            let known = parts.iter().find(|(known, _)| *known == address).map(|(_, part)| *part);
+            known.unwrap_or_else(|| {
+                let part = self.drawing.material(material);
+                parts.push((address, part));
+                part
+            })
+        };
+        let of_faces: Vec<usize> = laid.faces.iter().map(part_of).collect();
+        joiner.join(&laid.faces, &of_faces, |number, mesh| {
+            let face = &laid.faces[number];
+            frontage.draw(self.drawing.part(of_faces[number]), face, mesh, material_of(face));
+        });
+    }
+
+    fn frontages(&self, from: f64, to: f64) -> Vec<Frontage> {
+        let mut frontages = Vec::with_capacity(self.plan.edges());
+        for ring in self.plan.flat() {
+            let mut passed = 0.0;
+            for [a, b] in edges(&ring) {
+                let right = along(a, b);
+                let length = a.distance(b);
+                frontages.push(Frontage {
+                    miters: [0.0; 2],
+                    ends: [a.extend(from), b.extend(from)],
+                    size: DVec2::new(length, to - from),
+                    axes: DMat3::from_cols(right, DVec3::Z, right.cross(DVec3::Z)),
+                    // Textures run on around the corners.
+                    passed: DVec2::new(passed, from - self.shell.bottom),
+                });
+                passed += length;
+            }
+        }
+        frontages
+    }
+
+    /// Lets what stands out meet at the corners of frontages; nothing reaches over a neighbour's wall.
+    fn miter(&self, frontages: &mut [Frontage], keywords: &[Vec<&str>]) {
+        let mut first = 0;
+        for count in self.plan.rings().iter().map(Vec::len) {
+            for index in 0..count {
+                let [before, after] = [index, index + 1].map(|index| first + index % count);
+                let turn = frontages[before].axes.x_axis.truncate();
+                let turn = turn.angle_to(frontages[after].axes.x_axis.truncate());
+                let miter = (turn / 2.0).tan().clamp(-STEEPEST_MITER, STEEPEST_MITER);
+                let reach = |other: usize| if keywords[other].contains(&BLIND) { 0.0 } else { miter };
+                frontages[before].miters[1] = reach(after);
+                frontages[after].miters[0] = reach(before);
+            }
+            first += count;
+        }
+    }
+
+    /// The words that say what kind of frontage an edge has.
+    fn keywords_of(&self, edge: usize) -> Vec<&str> {
+        let own = self.options.keywords.iter().map(String::as_str);
+        own.chain(self.edge_keywords(edge).iter().map(|word| &**word)).collect()
+    }
+}
+
+impl Frontage {
+    /// A point of the frontage in the footprint's coordinates (m).
+    ///
+    /// From the nearer end, so that frontages meet to the last bit.
+    fn place(&self, at: DVec3) -> DVec3 {
+        if at.x < self.size.x / 2.0 {
+            self.ends[0] + self.axes * at
+        } else {
+            self.ends[1] + self.axes * DVec3::new(at.x - self.size.x, at.y, at.z)
+        }
+    }
+
+    /// Adds all of it as one plain face.
+    fn fill(&self, part: &mut Part) -> Result<()> {
+        let up = DVec3::Z * self.size.y;
+        let [a, b] = self.ends;
+        let origin = a - self.axes.x_axis * self.passed.x - DVec3::Z * self.passed.y;
+        fill(part, &[vec![a, b, b + up, a + up]], self.axes.x_axis, origin)
+    }
+
+    /// Adds `mesh`, which is like `face`, with its texture coordinates (m).
+    fn draw(&self, part: &mut Part, face: &Face<'_>, mesh: &FaceMesh, material: &Material) {
+        let Ok(base) = u32::try_from(part.positions.len()) else { return };
+        let normal = (self.axes * face.right.cross(face.up)).normalize_or_zero().as_vec3();
+        let (size, lies) =
+            (material.texture.as_ref().map_or([1.0; 2], |texture| texture.size), face.up.y == 0.0);
+        part.make_room(mesh.corners.len(), mesh.triangles.len());
+        for &given in &mesh.corners {
+            let mut corner = given;
+            if corner.z > 0.0 && corner.x < SAME {
+                corner.x -= corner.z * self.miters[0];
+            } else if corner.z > 0.0 && corner.x > self.size.x - SAME {
+                corner.x += corner.z * self.miters[1];
+            }
+            let uv = if face.stretched {
+                let part = |way: DVec3| (given - face.at).dot(way) / way.length_squared();
+                DVec2::new(part(face.right) * size[0], part(face.up) * size[1])
+            } else if lies {
+                self.passed + DVec2::new(corner.x, corner.y + corner.z)
+            } else {
+                // Around the edges of what stands out or lies back, too.
+                self.passed + DVec2::new(corner.x + corner.z, corner.y)
+            };
+            part.positions.push(self.place(corner).as_vec3());
+            part.normals.push(normal.into());
+            part.uvs.push(uv.as_vec2());
+        }
+        part.triangles.extend(mesh.triangles.iter().map(|triangle| triangle.map(|corner| base + corner)));
+    }
+}
+
+/// A number of its own for an edge of the walls that were raised as number `raised`.
+fn mixed(raised: u64, edge: usize) -> u64 {
+    raised.wrapping_mul(0x9E37_79B9_7F4A_7C15) ^ (edge as u64).wrapping_mul(0xD134_2543_DE82_EF95)
+}

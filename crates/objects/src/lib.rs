@@ -1,0 +1,56 @@
+//! The types of objects that come with Burgeon, one type to a file.
+//!
+//! Comes in: values from scripts. Goes out: geometry for the scene. Objects know nothing of Lua or of chains.
+//!
+//! A new type is a new file and one line in [`registry`]: a struct, `fields!` for what its constructor takes,
+//! `methods!` for what scripts may call, and an implementation of [`Object`](burgeon_kit::Object).
+
+#[macro_use]
+extern crate burgeon_kit;
+
+mod elevation;
+mod extruder;
+pub mod facade;
+mod footprint;
+mod import;
+pub mod planet;
+mod streets;
+mod surface;
+pub mod terrain;
+mod turtle;
+mod universe;
+
+pub use elevation::{Elevation, ElevationOptions};
+pub use extruder::Extruder;
+pub use facade::{Facade, Template, Templates, Wall};
+pub use footprint::{Detail, EdgeKeywords, Footprint, Rings, Roof, Walls};
+pub use planet::Planet;
+pub use streets::{Lines, Streets};
+pub use surface::Surface;
+pub use terrain::{EditFile, Terrain};
+pub use turtle::Turtle;
+pub use universe::Universe;
+
+use std::sync::Arc;
+
+use burgeon_kit::Registry;
+
+/// The types that come with Burgeon.
+pub fn registry() -> Registry {
+    let model = Arc::new(import::kind());
+    let own = [
+        Extruder::kind(),
+        Footprint::kind(),
+        Planet::kind(),
+        Streets::kind(),
+        Terrain::kind(),
+        Turtle::kind(),
+        Universe::kind(),
+        Template::kind(),
+        Facade::kind(),
+        &model,
+        Elevation::kind(),
+        EditFile::kind(),
+    ];
+    own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
+}

@@ -1,0 +1,100 @@
+//! `material { ... }`: how scripts say what a surface looks like.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::{Color, Parameter, Table, Value};
+use burgeon_scene::{Material, Texture};
+
+/// What a texture is multiplied with.
+const WHITE: Color = Color([1.0; 4]);
+
+/// What has neither a colour nor a texture.
+const GREY: Color = Color([0.6, 0.6, 0.6, 1.0]);
+
+fields! {
+    /// What `material { ... }` takes.
+    pub struct Surface for "material" {
+        /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1; if left out, white under a texture, and grey.
+        pub color: Option<Color> = None,
+        /// 0 for wood, stone and plaster, 1 for bare metal.
+        pub metallic: f64 = 0.0,
+        /// 0 like a mirror, 1 like chalk.
+        pub roughness: f64 = 0.8,
+        /// Light that the surface gives off itself, as a colour.
+        pub emissive: Color = Color([0.0, 0.0, 0.0, 1.0]),
+        /// An image file beside the script, PNG or JPEG.
+        pub texture: Option<String> = None,
+        /// Width and height (m) of one repetition of the image.
+        pub texture_size: Vec<f64> = vec![1.0, 1.0],
+        /// Whether both sides are seen, as with leaves.
+        pub double_sided: bool = false,
+        /// A name for people.
+        pub name: String = String::new(),
+    }
+}
+
+impl Parameter for Surface {
+    fn luau() -> String {
+        "Material".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, burgeon_kit::Expected> {
+        match value {
+            Value::Table(table) => Self::from_table(&table)
+                .map_err(|error| burgeon_kit::Expected::new(format!("a material ({})", error.message()))),
+            Value::Nil => Ok(Self::default()),
+            _ => Err(burgeon_kit::Expected::new("a table of a material's fields")),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(std::sync::Arc::new(Table::default()))
+    }
+}
+
+impl Surface {
+    /// The material for the scene.
+    pub fn material(&self) -> Result<Material> {
+        for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
+            if !(0.0..=1.0).contains(&factor) {
+                return Err(Error::argument(format!("material: {name} must be from 0 to 1, not {factor}")));
+            }
+        }
+        let texture = match (&self.texture, self.texture_size.as_slice()) {
+            (None, _) => None,
+            (Some(path), [width, height]) if *width > 0.0 && *height > 0.0 => {
+                Some(Texture { path: path.into(), size: [*width, *height], content: None })
+            }
+            _ => {
+                return Err(Error::argument(
+                    "material: texture_size must be { width, height } in metres, above 0",
+                ));
+            }
+        };
+        let [red, green, blue, _] = self.emissive.0;
+        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
+        let narrow = |factor: f64| factor as f32;
+        Ok(Material {
+            name: self.name.clone(),
+            base_color: self.color.unwrap_or(if texture.is_some() { WHITE } else { GREY }).0,
+            metallic: narrow(self.metallic),
+            roughness: narrow(self.roughness),
+            emissive: [red, green, blue],
+            texture,
+            double_sided: self.double_sided,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_image_without_a_colour_is_shown_as_it_is() {
+        let textured = Surface { texture: Some("brick.png".into()), ..Surface::default() };
+        assert_eq!(textured.material().unwrap().base_color, [1.0; 4]);
+        let tinted = Surface { color: Some(Color([0.5, 0.4, 0.3, 1.0])), ..textured };
+        assert_eq!(tinted.material().unwrap().base_color, [0.5, 0.4, 0.3, 1.0]);
+        assert_eq!(Surface::default().material().unwrap(), Material::default());
+    }
+}

@@ -1,0 +1,100 @@
+//! The world of a terrain, out of what its constructor was given.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::{Options, rules};
+use crate::Elevation;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::rules::Key;
+use burgeon_terrain::{Layer, Measured, Rules, World};
+
+/// The world that `options` describe. Fails for what cannot be.
+pub(super) fn world(options: &Options) -> Result<World> {
+    if !(options.size > 0.0 && options.size <= 1e9) {
+        return Err(Error::argument(format!("terrain: size is {} m", options.size))
+            .help("give a length above 0 and up to 1e9 m"));
+    }
+    if options.error.is_some_and(|error| error < 0.0) {
+        return Err(Error::argument("terrain: error is below 0").help("give metres from 0 on"));
+    }
+    let masks = options.covers.iter().map(|cover| &cover.on);
+    if masks.chain(options.plants.iter().map(|plants| &plants.on)).any(|mask| !mask.latitude.is_empty()) {
+        return Err(Error::argument("terrain: flat ground has no latitude")
+            .help("tell by height or slope where something is, or make a planet"));
+    }
+    if options.rules.0.is_empty() && options.elevation.is_none() {
+        return Err(rules::none("terrain"));
+    }
+    let corner = options.position.0.truncate() - options.size / 2.0;
+    let fine = match &options.elevation {
+        Some(elevation) => finer(elevation, corner, options.size)?,
+        None => 0,
+    };
+    let mut built =
+        options.rules.build("terrain", options.start.as_ref(), (options.height, options.decay), fine)?;
+    if options.elevation.is_some() {
+        let level = Layer {
+            from: 0,
+            rules: Rules::None,
+            start: 0,
+            height: 0.0,
+            rest: Vec::new(),
+            names: Arc::default(),
+        };
+        built.layers.insert(0, level);
+    }
+    Ok(World {
+        corner,
+        size: options.size,
+        layers: built.layers,
+        smooth: options.smooth,
+        remap: remap(&options.remap)?,
+        key: built.drawn.then(Key::default),
+        measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
+    })
+}
+
+/// The pairs of heights (m) of a change, in order.
+fn remap(pairs: &[Vec<f64>]) -> Result<Vec<[f64; 2]>> {
+    let wrong = |what: String| {
+        Error::argument(format!("terrain: {what}"))
+            .help("write remap = { { -100, 0 }, { 0, 10 }, { 100, 80 } }: pairs from lower to higher heights")
+    };
+    let pair = |pair: &Vec<f64>| <[f64; 2]>::try_from(pair.as_slice()).ok();
+    let pairs = pairs.iter().map(pair).collect::<Option<Vec<_>>>();
+    let pairs = pairs.ok_or_else(|| wrong("remap has something that is no pair of heights".into()))?;
+    if let Some(pair) = pairs.windows(2).find(|pair| pair[0][0] >= pair[1][0]) {
+        return Err(wrong(format!("remap goes from {} to {}", pair[0][0], pair[1][0])));
+    }
+    Ok(pairs)
+}
+
+/// In how many pieces a side of a terrain is looked at for heights.
+const PIECES: u32 = 64;
+
+/// The first level whose cells are smaller than the distance of the samples of `elevation`. Fails unless it has heights
+/// for all of the square of `size` (m) from `corner` (m) on.
+fn finer(elevation: &Elevation, corner: DVec2, size: f64) -> Result<u32> {
+    // A raster that is projected may be missing in the middle of a side.
+    let sides = [DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
+    let along =
+        (0..4).flat_map(|side| (0..PIECES).map(move |part| (side, f64::from(part) / f64::from(PIECES))));
+    for (side, part) in along {
+        let at = corner + sides[side].lerp(sides[(side + 1) % 4], part) * size;
+        if elevation.height_at(at).is_none() {
+            let (low, high) = (elevation.low(), elevation.high());
+            return Err(Error::argument(format!("terrain: the elevation has no height at ({:.1}, {:.1})", at.x, at.y)).help(
+                format!(
+                    "it reaches from ({:.1}, {:.1}) to ({:.1}, {:.1}) m: make the terrain smaller, or move it with position",
+                    low.x, low.y, high.x, high.y
+                ),
+            ));
+        }
+    }
+    let levels = (size / elevation.step()).log2().max(0.0).ceil();
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 30")]
+    let levels = levels.min(30.0) as u32;
+    Ok(levels.max(1))
+}

@@ -1,0 +1,137 @@
+//! What the ground looks like: layers of colour, blended into an image for each tile.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use image::{ExtendedColorType, ImageEncoder};
+use rayon::prelude::*;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::{Color, Expected, Parameter, Table, Value};
+use burgeon_scene::{Material, Texture};
+use burgeon_terrain::{Ground, Tile};
+
+use super::mask::{Mask, Spot};
+
+fields! {
+    /// A layer of what lies on the ground.
+    pub struct Cover for "cover" {
+        /// Its colour.
+        pub color: Color = Color([0.2, 0.25, 0.1, 1.0]),
+        /// Where it lies; everywhere, if that is left out.
+        pub on: Mask = Mask::default(),
+        /// How much (0 to 1) of what lies below is hidden at most.
+        pub amount: f64 = 1.0,
+    }
+}
+
+impl Parameter for Cover {
+    fn luau() -> String {
+        "{ color: Color?, on: Mask?, amount: number? }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let Value::Table(table) = &value else { return Err(Expected::new("a table of a cover's fields")) };
+        let cover = Self::from_table(table)
+            .map_err(|error| Expected::new(format!("a cover ({})", error.message())))?;
+        if !(0.0..=1.0).contains(&cover.amount) {
+            return Err(Expected::new("a cover whose amount is from 0 to 1"));
+        }
+        Ok(cover)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(Arc::new(Table::default()))
+    }
+}
+
+/// How many texels a side of a tile's image has at most.
+const MOST_TEXELS: usize = 2048;
+
+/// The image of what lies on `tile`, and how many texels a side
+/// of it has. Its outermost texels lie on the tile's rim, so that images of neighbours meet.
+pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover]) -> (Vec<u8>, usize) {
+    let (corner, size) = tile.bounds(ground.world());
+    // One tile alone is seen as a whole, many of them are far from most eyes.
+    let fine = if ground.tiles().len() == 1 { 2 } else { 1 };
+    let across = texels(tile, fine);
+    #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+    let step = size / (across - 1) as f64;
+    let reach = ground.world().cell(tile.level());
+    let bent = covers.iter().any(|cover| cover.on.is_bent());
+    let bytes = image(across, |column, row| {
+        #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+        let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
+        let place = (corner + offset).min(corner + size);
+        blend(&Spot::new(ground, place, reach, bent), covers)
+    });
+    (bytes, across)
+}
+
+/// How many texels a side of a tile's image has, `fine` for each cell.
+pub(crate) fn texels(tile: &Tile, fine: usize) -> usize {
+    ((1usize << tile.detail) * fine).min(MOST_TEXELS) + 1
+}
+
+/// An image of `across` texels a side, each of the colour that `color` gives for its column and row from the north.
+pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sync) -> Vec<u8> {
+    let row = |row: usize| (0..across).flat_map(|column| color(column, row).map(to_srgb)).collect();
+    let rows: Vec<Vec<u8>> = (0..across).into_par_iter().map(row).collect();
+    rows.concat()
+}
+
+/// The colour of a spot under `covers`.
+pub(crate) fn blend(spot: &Spot<'_>, covers: &[Cover]) -> [f32; 3] {
+    let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
+    for (number, cover) in (0..).zip(covers).skip(1) {
+        #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
+        let amount = (cover.on.at(spot, number) * cover.amount) as f32;
+        for (at, into) in color.iter_mut().enumerate() {
+            *into += (cover.color.0[at] - *into) * amount;
+        }
+    }
+    color
+}
+
+/// A linear channel as a byte of an sRGB image.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "a float to integer cast saturates"
+)]
+pub(super) fn to_srgb(channel: f32) -> u8 {
+    let value =
+        if channel <= 0.003_130_8 { channel * 12.92 } else { 1.055 * channel.powf(1.0 / 2.4) - 0.055 };
+    (value * 255.0).round() as u8
+}
+
+/// How far (m) the texels of an image with `across` a side lie from its rim, laid over a tile of `size` (m).
+#[allow(clippy::cast_precision_loss, reason = "texels are few")]
+pub(super) fn half_texel(size: f64, across: usize) -> f64 {
+    size / (across - 1) as f64 / 2.0
+}
+
+/// A material with an image of `across` texels a side, laid over a tile of `size` (m).
+pub(crate) fn material(
+    name: String,
+    bytes: &[u8],
+    across: usize,
+    size: f64,
+    roughness: f32,
+) -> Result<Material> {
+    let mut png = Vec::new();
+    let encoder = image::codecs::png::PngEncoder::new_with_quality(
+        &mut png,
+        image::codecs::png::CompressionType::Fast,
+        image::codecs::png::FilterType::Adaptive,
+    );
+    let side = u32::try_from(across).unwrap_or(0);
+    encoder
+        .write_image(bytes, side, side, ExtendedColorType::Rgb8)
+        .map_err(|error| Error::internal(format!("an image of the ground cannot be written: {error}")))?;
+    #[allow(clippy::cast_precision_loss, reason = "texels are few")]
+    let whole = size * across as f64 / (across - 1) as f64;
+    let texture =
+        Texture { path: format!("{name}.png").into(), size: [whole, whole], content: Some(png.into()) };
+    Ok(Material { name, base_color: [1.0; 4], roughness, texture: Some(texture), ..Material::default() })
+}

@@ -1,0 +1,138 @@
+//! Plants and other models that are scattered over the ground, each where its place says, whatever else is seen.
+
+use std::sync::Arc;
+
+use glam::{DAffine3, DQuat, DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::mask::{Mask, Spot};
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_kit::random::Stream;
+use burgeon_kit::rules::Key;
+use burgeon_kit::{Drawing, Expected, Model, Parameter, Table, Value};
+use burgeon_terrain::Ground;
+
+fields! {
+    /// A kind of model that is scattered over the ground.
+    pub struct Plants for "plants" {
+        /// What is scattered: several models are drawn from with equal chances.
+        pub models: Vec<Arc<Model>> = Vec::new(),
+        /// How many there are on a hectare where they grow best.
+        pub density: f64 = 100.0,
+        /// Where they grow; everywhere, if that is left out.
+        pub on: Mask = Mask::default(),
+        /// The least and the greatest size, as a multiple of the model's.
+        pub size: Vec<f64> = vec![0.8, 1.2],
+        /// How deep (m) they stand in the ground.
+        pub sink: f64 = 0.0,
+    }
+}
+
+/// The most models that are scattered.
+const MOST: f64 = 5_000_000.0;
+
+impl Parameter for Plants {
+    fn luau() -> String {
+        "{ models: { Model }, density: number?, on: Mask?, size: { number }?, sink: number? }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let Value::Table(table) = &value else {
+            return Err(Expected::new("a table of the fields of plants"));
+        };
+        let plants = Self::from_table(table)
+            .map_err(|error| Expected::new(format!("plants ({})", error.message())))?;
+        if plants.models.is_empty() {
+            return Err(Expected::new("plants with at least one model: { models = { tree:derive() } }"));
+        }
+        if plants.density <= 0.0 {
+            return Err(Expected::new("plants whose density is above 0"));
+        }
+        if !matches!(plants.size.as_slice(), [low, high] if 0.0 < *low && low <= high) {
+            return Err(Expected::new("plants whose size is { least, greatest }, above 0"));
+        }
+        Ok(plants)
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(Arc::new(Table::default()))
+    }
+}
+
+impl Plants {
+    /// Places them on all of `ground`. Which there are depends on the world, the `key` and the place alone.
+    pub(super) fn scatter(&self, ground: &Ground, key: Key, drawing: &mut Drawing) -> Result<()> {
+        let world = ground.world();
+        // The squares of a level on each of which at most one grows.
+        let most = 10_000.0 / self.density;
+        let level =
+            (0..burgeon_terrain::DEEPEST).find(|level| world.cell(*level).powi(2) <= most).unwrap_or(0);
+        let cell = world.cell(level);
+        let chance = self.density * cell * cell / 10_000.0;
+        let area: f64 = ground.tiles().iter().map(|tile| tile.bounds(world).1.powi(2)).sum();
+        let count = area / (cell * cell);
+        if count > MOST {
+            return Err(Error::limit(
+                Limit::Size,
+                format!("plants: up to {count:.0} models would be scattered"),
+            )
+            .help(format!("at most {MOST} are: lower the density, or show less of the terrain")));
+        }
+        for tile in ground.tiles() {
+            let (corner, size) = tile.bounds(world);
+            let first = (corner - world.corner) / cell;
+            #[allow(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "squares are below 2^31"
+            )]
+            let [x, y, across] =
+                [first.x.ceil(), first.y.ceil(), (size / cell).max(1.0).round()].map(|it| it as u64);
+            // A square larger than a tile belongs to the tile with its south-west corner.
+            if cell > size && (first.fract().abs().max_element() > 1e-9) {
+                continue;
+            }
+            let reach = world.cell(tile.level());
+            let grown: Vec<Vec<(usize, DAffine3)>> = (y..y + across)
+                .into_par_iter()
+                .map(|y| {
+                    let one = |x: u64| self.one(ground, key, (x, y), (cell, chance), reach);
+                    (x..x + across).filter_map(one).collect()
+                })
+                .collect();
+            for (model, frame) in grown.into_iter().flatten() {
+                drawing.place(&self.models[model], frame);
+            }
+        }
+        Ok(())
+    }
+
+    /// The plant of one square, if one grows there: its model and where it stands.
+    #[allow(clippy::cast_precision_loss, reason = "squares are below 2^31")]
+    fn one(
+        &self,
+        ground: &Ground,
+        key: Key,
+        (x, y): (u64, u64),
+        (cell, chance): (f64, f64),
+        reach: f64,
+    ) -> Option<(usize, DAffine3)> {
+        let mut stream: Stream = Key(key.0 ^ (x << 32 | y)).child(0).stream();
+        let (luck, along) = (stream.uniform(), DVec2::new(stream.uniform(), stream.uniform()));
+        if luck >= chance {
+            return None;
+        }
+        let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
+        // They stand on what one sees of the ground.
+        let shown = ground.shown(place)?;
+        let spot = Spot::new(ground, place, reach, self.on.is_bent());
+        if luck >= chance * self.on.at(&spot, key.0) {
+            return None;
+        }
+        let model = stream.below(self.models.len());
+        let turn = DQuat::from_rotation_z(stream.uniform() * std::f64::consts::TAU);
+        let size = self.size[0] + (self.size[1] - self.size[0]) * stream.uniform();
+        let at = place.extend(shown - self.sink);
+        Some((model, DAffine3::from_scale_rotation_translation(DVec3::splat(size), turn, at)))
+    }
+}

@@ -1,0 +1,300 @@
+//! How scripts write the rules of a terrain: rule tables, systems, and lists of them by level.
+
+use std::sync::Arc;
+
+use burgeon_base::error::{did_you_mean, nearest};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::rules::Symbol;
+use burgeon_kit::{Expected, Key, Parameter, System, Table, Value};
+use burgeon_terrain::{Draw, Layer, Quadrants, RuleTable, Rules};
+
+/// The rules of a terrain, by level; the first are from level 0.
+#[derive(Debug, Clone, Default)]
+pub struct RuleLayers(pub Vec<RuleLayer>);
+
+/// The rules from a level on, as a script gives them.
+#[derive(Debug, Clone)]
+pub struct RuleLayer {
+    /// The level of the cells that are divided first.
+    pub from: u32,
+    /// What divides them.
+    pub rules: LayerRules,
+    /// The symbol that they get, if it is given.
+    pub start: Option<String>,
+    /// What is added to their heights (m).
+    pub height: f64,
+    /// Their decay (m), if it is given.
+    pub decay: Option<f64>,
+}
+
+/// What divides cells.
+#[derive(Debug, Clone)]
+pub enum LayerRules {
+    /// A rule table.
+    Table(Arc<RuleTable>),
+    /// A system of the script.
+    System(Arc<System>),
+}
+
+const WHAT: &str = "a table of rules, such as { A = { \"A\", \"B\", \"B\", \"A\", change = { 1, -1, 0, 0.5 }, decay = 0.5 }, ... }, \
+                    a system whose rules divide cells, or a list of { from = level, rules = ... }";
+
+impl Parameter for RuleLayers {
+    fn luau() -> String {
+        "any".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let list = match &value {
+            Value::Table(table) if !table.list().is_empty() => table.list(),
+            _ => {
+                let rules = LayerRules::from_value(value)?;
+                return Ok(Self(vec![RuleLayer { from: 0, rules, start: None, height: 0.0, decay: None }]));
+            }
+        };
+        let layers = list.into_iter().map(layer).collect::<Result<Vec<_>, _>>()?;
+        if layers[0].from != 0 || layers.windows(2).any(|pair| pair[0].from >= pair[1].from) {
+            return Err(Expected::new(
+                "a list of rules from level 0 on and then from higher levels, in order",
+            ));
+        }
+        Ok(Self(layers))
+    }
+
+    fn into_value(self) -> Value {
+        Value::Table(Arc::new(Table::default()))
+    }
+}
+
+fn layer(value: Value) -> Result<RuleLayer, Expected> {
+    let Value::Table(table) = &value else { return Err(Expected::new(WHAT)) };
+    let known = ["from", "rules", "start", "height", "decay"];
+    for (key, _) in &table.entries {
+        if !matches!(key, Key::Name(name) if known.contains(&&**name)) {
+            return Err(Expected::new("a list of tables with from, rules, start, height and decay"));
+        }
+    }
+    let number = |name: &str| match table.get(name) {
+        None => Ok(None),
+        Some(value) => f64::from_value(value.clone())
+            .map(Some)
+            .map_err(|_| Expected::new(format!("a list whose {name}s are numbers"))),
+    };
+    let from = table.get("from").map_or(Ok(0), |from| u32::from_value(from.clone()));
+    let start = table.get("start").map(|start| String::from_value(start.clone())).transpose();
+    Ok(RuleLayer {
+        from: from.map_err(|_| Expected::new("a list where each from is a level: a whole number from 0"))?,
+        rules: LayerRules::from_value(table.get("rules").cloned().unwrap_or(Value::Nil))?,
+        start: start.map_err(|_| Expected::new("a list where each start is the name of a symbol"))?,
+        height: number("height")?.unwrap_or(0.0),
+        decay: number("decay")?,
+    })
+}
+
+impl LayerRules {
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        match value {
+            Value::Object(object) => {
+                let any: Arc<dyn std::any::Any + Send + Sync> = object;
+                any.downcast().map(Self::System).map_err(|_| Expected::new(WHAT))
+            }
+            Value::Table(table) => Ok(Self::Table(Arc::new(rule_table(&table)?))),
+            _ => Err(Expected::new(WHAT)),
+        }
+    }
+}
+
+/// Reads a rule table.
+fn rule_table(table: &Table) -> Result<RuleTable, Expected> {
+    let mut names = Vec::new();
+    for (key, _) in &table.entries {
+        let Key::Name(name) = key else { return Err(Expected::new(WHAT)) };
+        names.push(name.to_string());
+    }
+    if names.is_empty() || names.len() > usize::from(Symbol::MAX) {
+        return Err(Expected::new(WHAT));
+    }
+    let mut rules = Vec::new();
+    for ((_, value), name) in table.entries.iter().zip(&names) {
+        let Value::Table(rule) = value else {
+            return Err(Expected::new(format!("a table whose rule for {name} is a table of four symbols")));
+        };
+        // A list of tables is a choice of rules.
+        let choice = rule.list();
+        let alternatives: Vec<Arc<Table>> = match choice.first() {
+            Some(Value::Table(_)) => choice
+                .iter()
+                .filter_map(|item| match item {
+                    Value::Table(table) => Some(Arc::clone(table)),
+                    _ => None,
+                })
+                .collect(),
+            _ => vec![Arc::clone(rule)],
+        };
+        rules.push(alternatives.iter().map(|rule| quadrants(rule, name, &names)).collect::<Result<_, _>>()?);
+    }
+    Ok(RuleTable { names, rules })
+}
+
+/// Reads one rule of the symbol `name`.
+fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Expected> {
+    let list = rule.list();
+    let count = list.len();
+    let four: [Value; 4] = list.try_into().map_err(|_| {
+        Expected::new(format!(
+            "a table whose rule for {name} has four symbols, one for each quadrant; it has {count}"
+        ))
+    })?;
+    let mut symbols = [0; 4];
+    for (into, value) in symbols.iter_mut().zip(four) {
+        let Value::Text(text) = &value else {
+            return Err(Expected::new(format!(
+                "a table whose rule for {name} has names of symbols, not {value}"
+            )));
+        };
+        let found = names.iter().position(|known| *known == **text).and_then(|at| Symbol::try_from(at).ok());
+        *into = found.ok_or_else(|| {
+            let near = nearest(text, names.iter().map(String::as_str));
+            let near = near.map(|near| format!(" ({})", did_you_mean(near))).unwrap_or_default();
+            Expected::new(format!(
+                "a table with a rule for each symbol: the rule for {name} has {text}, which has none{near}"
+            ))
+        })?;
+    }
+    for (key, _) in &rule.entries {
+        if let Key::Name(field) = key
+            && !["change", "decay", "weight"].contains(&&**field)
+        {
+            return Err(Expected::new(format!(
+                "a table whose rules have change, decay and weight; the rule for {name} has {field}"
+            )));
+        }
+    }
+    let draws = |field: &str, default: f64| -> Result<[Draw; 4], Expected> {
+        let wrong = || {
+            Expected::new(format!(
+                "a table whose rule for {name} has {field} as a number, or one or a range {{ least, greatest }} for each quadrant"
+            ))
+        };
+        match rule.get(field) {
+            None => Ok([Draw::exactly(default); 4]),
+            Some(Value::Number(number)) if number.is_finite() => Ok([Draw::exactly(*number); 4]),
+            Some(Value::Table(table)) => {
+                let draws =
+                    table.list().into_iter().map(draw).collect::<Option<Vec<_>>>().ok_or_else(wrong)?;
+                draws.try_into().map_err(|_| wrong())
+            }
+            Some(_) => Err(wrong()),
+        }
+    };
+    let weight = rule.get("weight").map_or(Ok(1.0), |weight| f64::from_value(weight.clone()));
+    let weight = weight.ok().filter(|weight| *weight > 0.0);
+    Ok(Quadrants {
+        weight: weight
+            .ok_or_else(|| Expected::new(format!("a table whose rules for {name} have weights above 0")))?,
+        symbols,
+        change: draws("change", 0.0)?,
+        decay: draws("decay", 0.5)?,
+    })
+}
+
+/// A finite number, or a range of them.
+fn draw(value: Value) -> Option<Draw> {
+    match value {
+        Value::Number(number) => number.is_finite().then(|| Draw::exactly(number)),
+        Value::Table(_) => match Vec::<f64>::from_value(value).ok()?.as_slice() {
+            [low, high] if low <= high => Some(Draw { low: *low, high: *high }),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
+/// The rules of a world.
+pub(crate) struct Built {
+    pub layers: Vec<Layer>,
+    /// Whether they draw random numbers.
+    pub drawn: bool,
+}
+
+impl RuleLayers {
+    /// The rules as the world of a `kind` of object has them, which begins with the symbol `start`, the height `height`
+    /// (m) and the decay `decay` (m); all of them from `finer` levels farther on.
+    pub(crate) fn build(
+        &self,
+        kind: &str,
+        start: Option<&String>,
+        (height, mut decay): (f64, f64),
+        finer: u32,
+    ) -> Result<Built, burgeon_base::error::Error> {
+        let mut given = self.0.clone();
+        if let Some(first) = given.first_mut() {
+            first.start = first.start.take().or_else(|| start.cloned());
+            first.height += height;
+        }
+        let mut built = Built { layers: Vec::new(), drawn: false };
+        for mut layer in given {
+            decay = layer.decay.unwrap_or(decay);
+            layer.from += finer;
+            built.layers.push(layer.build(kind, decay)?);
+            built.drawn |= match &layer.rules {
+                LayerRules::Table(table) => table.is_random(),
+                LayerRules::System(_) => true,
+            };
+        }
+        Ok(built)
+    }
+
+    /// What to tell people of decays that do not shrink.
+    pub(crate) fn warnings(&self, kind: &str) -> Vec<Warning> {
+        let grown = self.0.iter().find_map(RuleLayer::grows);
+        let warning = |decay| {
+            let text = format!("{kind}: a decay of {decay} does not converge: heights grow with every level");
+            Warning::new(WarningKind::Doubtful, text).help("give a decay below 1, such as decay = 0.5")
+        };
+        grown.map(warning).into_iter().collect()
+    }
+}
+
+/// The error of a `kind` of object without rules.
+pub(crate) fn none(kind: &str) -> burgeon_base::error::Error {
+    burgeon_base::error::Error::argument(format!("{kind}: there are no rules")).help(
+        "write rules = { A = { \"A\", \"A\", \"A\", \"A\", change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }",
+    )
+}
+
+impl RuleLayer {
+    /// The rules as the world has them, where cells get the decay `decay` (m) unless these rules give another.
+    fn build(&self, kind: &str, decay: f64) -> Result<Layer, burgeon_base::error::Error> {
+        let rest = vec![self.decay.unwrap_or(decay)];
+        let (rules, start, rest) = match &self.rules {
+            LayerRules::Table(table) => {
+                let names = table.names.iter().map(String::as_str);
+                let start = match &self.start {
+                    None => 0,
+                    Some(start) => names.clone().position(|name| name == start).ok_or_else(|| {
+                        let message = format!("{kind}: there is no rule for {start}, the start");
+                        burgeon_base::error::Error::not_found("rule", start, names.clone(), message)
+                            .help(format!("there are {}", names.clone().collect::<Vec<_>>().join(", ")))
+                    })?,
+                };
+                (Rules::Table(Arc::clone(table)), start, rest)
+            }
+            LayerRules::System(system) => (Rules::System(system.index), 0, Vec::new()),
+        };
+        let start = Symbol::try_from(start).unwrap_or(0);
+        let names = match &self.rules {
+            LayerRules::Table(table) => Arc::new(table.names.clone()),
+            LayerRules::System(_) => Arc::default(),
+        };
+        Ok(Layer { from: self.from, rules, start, height: self.height, rest, names })
+    }
+
+    /// The greatest factor by which a decay grows where it does not shrink.
+    fn grows(&self) -> Option<f64> {
+        match &self.rules {
+            LayerRules::Table(table) => Some(table.greatest_decay()).filter(|decay| *decay >= 1.0),
+            LayerRules::System(_) => None,
+        }
+    }
+}

@@ -1,0 +1,91 @@
+//! How a terrain shows itself.
+
+use glam::{DAffine3, DVec3};
+
+use super::{Terrain, looks, sides};
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::Drawing;
+use burgeon_kit::rules::Key;
+use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
+use burgeon_terrain::Mesh as Triangulation;
+
+impl Terrain {
+    /// Adds what is expanded to `scene`: a mesh for each tile, sides, water and rivers, and plants.
+    pub(super) fn draw(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        let ground = &self.ground;
+        if ground.heights() == 0 {
+            return Err(Error::script("terrain: nothing of it is expanded").help(
+                "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
+            ));
+        }
+        let mesh = Triangulation::new(ground, self.error());
+        let lift = DVec3::Z * self.options.position.0.z;
+        let masks = self.options.covers.iter().map(|cover| &cover.on);
+        for mask in masks.chain(self.options.plants.iter().map(|plants| &plants.on)) {
+            mask.check("terrain", ground.world())?;
+        }
+        for (number, tile) in ground.tiles().iter().enumerate() {
+            let (corner, size) = tile.bounds(ground.world());
+            let origin = (corner + size / 2.0).extend(0.0);
+            let place = tile.place;
+            let of = format!("{name} {}/{}/{}", place.level, place.x, place.y);
+            let mut parts = Vec::new();
+            let mut part = Part::default();
+            if self.options.covers.is_empty() {
+                mesh.write(number, origin, 0.0, &mut part);
+                let material =
+                    Material { base_color: self.options.color.0, roughness: 0.95, ..Material::default() };
+                part.material = scene.material(&material);
+            } else {
+                let (bytes, across) = looks::paint(ground, tile, &self.options.covers);
+                mesh.write(number, origin, looks::half_texel(size, across), &mut part);
+                let material = looks::material(of.clone(), &bytes, across, size, 0.95)?;
+                part.material = scene.material(&material);
+            }
+            parts.push(part);
+            let water = self.options.water.as_ref();
+            if let Some((part, bytes, across)) = water.and_then(|water| water.surface(ground, tile, origin)) {
+                let material = looks::material(format!("{of} water"), &bytes, across, size, 0.12)?;
+                parts.push(Part { material: scene.material(&material), ..part });
+            }
+            scene.meshes.push(Mesh { name: of.clone(), parts, ..Mesh::default() });
+            scene.instances.push(Instance {
+                mesh: scene.meshes.len() - 1,
+                transform: DAffine3::from_translation(origin + lift),
+                name: of,
+                feature: feature.map(str::to_owned),
+                origin: None,
+                placement: None,
+            });
+        }
+        let mut drawing = Drawing::default();
+        if let Some(base) = self.options.base {
+            let material =
+                Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
+            let part = drawing.material(&material);
+            sides::draw(&mesh.rim(), base, drawing.part(part))?;
+        }
+        if let Some(water) = &self.options.water {
+            let material = Material { base_color: water.color.0, roughness: 0.12, ..Material::default() };
+            let part = drawing.material(&material);
+            sides::draw_water(&mesh.rim(), water.level, drawing.part(part));
+        }
+        for river in &self.rivers {
+            let water = self.options.water.clone().unwrap_or_default();
+            let material = Material { base_color: water.shallow.0, roughness: 0.12, ..Material::default() };
+            let part = drawing.material(&material);
+            river.draw(drawing.part(part));
+        }
+        for (number, plants) in (1u64..).zip(&self.options.plants) {
+            let key = Key(self.key.0.wrapping_add(number)).child(0);
+            plants.scatter(ground, key, &mut drawing)?;
+        }
+        drawing.show(scene, lift, name, feature);
+        Ok(())
+    }
+
+    /// How far (m) triangles may be from the surface.
+    fn error(&self) -> f64 {
+        self.options.error.unwrap_or_else(|| self.ground.world().cell(self.ground.finest()) / 10.0)
+    }
+}

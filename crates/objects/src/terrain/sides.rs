@@ -1,0 +1,55 @@
+//! The sides and the underside of a piece of ground, and of the water on it.
+
+use glam::{DVec3, Vec2, Vec3};
+
+use burgeon_base::error::{Error, Result};
+use burgeon_scene::Part;
+
+/// Draws upright faces from the edges of `rim` (m), which have the ground on their left, down to the height `base`
+/// (m), and an underside.
+pub(super) fn draw(rim: &[[DVec3; 2]], base: f64, part: &mut Part) -> Result<()> {
+    let lowest = rim.iter().flatten().map(|at| at.z).fold(f64::INFINITY, f64::min);
+    if lowest <= base {
+        return Err(Error::argument(format!("terrain: base is {base} m, above the ground at its rim"))
+            .help(format!("give a height below {lowest:.1} m")));
+    }
+    let middle = rim.iter().flatten().sum::<DVec3>() / (rim.len().max(1) * 2) as f64;
+    for [from, to] in rim {
+        let down = |at: &DVec3| DVec3::new(at.x, at.y, base);
+        let way = *to - *from;
+        let out = DVec3::new(way.y, -way.x, 0.0).normalize_or_zero().as_vec3();
+        face(part, &[down(from), down(to), *to, *from], out);
+        face(part, &[down(to), down(from), down(&middle)], Vec3::NEG_Z);
+    }
+    Ok(())
+}
+
+/// Draws upright faces from the edges of `rim` (m) that lie below the height `level` (m) of standing water, up to it.
+pub(super) fn draw_water(rim: &[[DVec3; 2]], level: f64, part: &mut Part) {
+    for [from, to] in rim.iter().filter(|edge| edge.iter().any(|end| end.z < level)) {
+        let up = |at: &DVec3| DVec3::new(at.x, at.y, at.z.max(level));
+        let way = *to - *from;
+        let out = DVec3::new(way.y, -way.x, 0.0).normalize_or_zero().as_vec3();
+        let corners: Vec<DVec3> = match (from.z < level, to.z < level) {
+            (true, true) => vec![*from, *to, up(to), up(from)],
+            (true, false) => vec![*from, from.lerp(*to, (level - from.z) / (to.z - from.z)), up(from)],
+            _ => vec![from.lerp(*to, (level - from.z) / (to.z - from.z)), *to, up(to)],
+        };
+        face(part, &corners, out);
+    }
+}
+
+/// Adds a face with this normal.
+fn face(part: &mut Part, corners: &[DVec3], normal: Vec3) {
+    let Ok(first) = u32::try_from(part.positions.len()) else { return };
+    for at in corners {
+        part.positions.push(at.as_vec3());
+        part.normals.push(normal.into());
+        let along = if normal.z == 0.0 { at.truncate().length() } else { at.x };
+        let up = if normal.z == 0.0 { at.z } else { at.y };
+        #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
+        part.uvs.push(Vec2::new(along as f32, up as f32));
+    }
+    part.triangles
+        .extend((2..).zip(&corners[2..]).map(|(corner, _)| [first, first + corner - 1, first + corner]));
+}

@@ -1,0 +1,463 @@
+//! The turtle: walks, turns and draws branches, polygons and instances.
+
+use std::sync::{Arc, LazyLock};
+
+use glam::{DAffine3, DQuat, DVec3};
+
+use super::Surface;
+use burgeon_base::error::{Error, Result};
+use burgeon_geometry::{Frame, Strand, face, sphere};
+use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector};
+use burgeon_scene::Material;
+
+fields! {
+    /// What `turtle { ... }` takes.
+    pub struct Options for "turtle" {
+        /// Length of a step where none is given (m).
+        pub step: f64 = 1.0,
+        /// Angle of a turn where none is given (degrees).
+        pub angle: f64 = 90.0,
+        /// Diameter of what is drawn (m).
+        pub width: f64 = 0.1,
+        /// Number of faces around what is drawn.
+        pub sides: u32 = 8,
+        /// Colour of what is drawn.
+        pub color: Color = Color([0.22, 0.13, 0.07, 1.0]),
+        /// 0 like a mirror, 1 like chalk.
+        pub roughness: f64 = 0.85,
+        /// 0 for wood, stone and plaster, 1 for bare metal.
+        pub metallic: f64 = 0.0,
+        /// Colours that `paint` chooses from, the first being number 1.
+        pub palette: Vec<Color> = Vec::new(),
+        /// Where it begins (m).
+        pub position: Vector = Vector(DVec3::ZERO),
+        /// Where it looks at first.
+        pub heading: Vector = Vector(DVec3::Z),
+        /// Direction that its heading bends to with each step drawn.
+        pub tropism: Vector = Vector(DVec3::NEG_Z),
+        /// How strongly it bends there, from 0; 0.2 is much.
+        pub elasticity: f64 = 0.0,
+    }
+}
+
+/// A turtle as in *The Algorithmic Beauty of Plants*, which draws round branches in three dimensions.
+#[derive(Clone)]
+pub struct Turtle {
+    options: Options,
+    state: State,
+    stack: Vec<State>,
+    drawing: Drawing,
+    angles: Angles,
+    polygons: Vec<Vec<DVec3>>,
+}
+
+/// The sines and cosines of angles used lately: most systems turn by the same few over and over.
+#[derive(Clone, Default)]
+struct Angles {
+    /// The bits of an angle (degrees), its sine and its cosine, at a place that the bits decide.
+    known: [(u64, f64, f64); 16],
+}
+
+impl Angles {
+    #[inline]
+    fn sin_cos(&mut self, angle: f64) -> (f64, f64) {
+        // One more, since an empty place has the bits of 0.
+        let bits = angle.to_bits().wrapping_add(1);
+        let place = bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> 60;
+        let known = &mut self.known[place as usize];
+        if known.0 != bits {
+            let (sin, cos) = angle.to_radians().sin_cos();
+            *known = (bits, sin, cos);
+        }
+        (known.1, known.2)
+    }
+}
+
+#[derive(Clone)]
+struct State {
+    frame: Frame,
+    width: f64,
+    /// The part of the drawing, and so the material.
+    part: usize,
+    tropism: DVec3,
+    elasticity: f64,
+    /// The branch that is being drawn.
+    strand: Option<Branch>,
+}
+
+/// A strand, the part that it is drawn into, and the module that drew its last piece.
+#[derive(Clone)]
+struct Branch {
+    part: usize,
+    strand: Strand,
+    maker: u32,
+}
+
+methods! {
+    Turtle = "turtle" {
+        /// Goes forward by `length` (m) and draws a branch; within a polygon it only moves.
+        pub fn forward(&mut self, length: Option<f64>) -> Result<()> {
+            self.draw(length.unwrap_or(self.options.step))
+        }
+
+        /// Goes forward by `length` (m) without drawing.
+        pub fn advance(&mut self, length: Option<f64>) {
+            self.lift();
+            self.state.frame.forward(length.unwrap_or(self.options.step));
+        }
+
+        /// Turns to the left by `angle` (degrees); a negative one turns right.
+        pub fn turn(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.turn_by(angle);
+        }
+
+        /// Pitches down by `angle` (degrees); a negative one pitches up.
+        pub fn pitch(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.pitch_by(angle);
+        }
+
+        /// Rolls about the heading by `angle` (degrees), the left side up; a negative one rolls back.
+        pub fn roll(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.roll_by(angle);
+        }
+
+        /// Turns to the right by `angle` (degrees).
+        pub fn turn_right(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.turn_by((-angle.0, angle.1));
+        }
+
+        /// Pitches up by `angle` (degrees).
+        pub fn pitch_up(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.pitch_by((-angle.0, angle.1));
+        }
+
+        /// Rolls about the heading by `angle` (degrees), the right side up.
+        pub fn roll_back(&mut self, angle: Option<f64>) {
+            let angle = self.angle(angle);
+            self.state.frame.roll_by((-angle.0, angle.1));
+        }
+
+        /// Turns around.
+        pub fn turn_around(&mut self) {
+            self.state.frame.turn(std::f64::consts::PI);
+        }
+
+        /// Rolls so that the left side is horizontal.
+        pub fn level(&mut self) {
+            self.state.frame.level();
+        }
+
+        /// Turns the heading to `direction`.
+        pub fn face(&mut self, direction: Vector) -> Result<()> {
+            if direction.0.length_squared() < 1e-24 {
+                return Err(Error::argument("turtle:face: direction has no length").help("give a vector that is not zero"));
+            }
+            self.state.frame.face(direction.0);
+            Ok(())
+        }
+
+        /// Goes to a place (m) without drawing.
+        pub fn jump(&mut self, position: Vector) {
+            self.lift();
+            self.state.frame.position = position.0 - self.options.position.0;
+        }
+
+        /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
+        pub fn width(&mut self, width: f64) -> Result<()> {
+            if width < 0.0 {
+                return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
+            }
+            self.state.width = width;
+            Ok(())
+        }
+
+        /// Sets the colour of what is drawn.
+        pub fn color(&mut self, color: Color) {
+            self.paint_with(color);
+        }
+
+        /// Chooses a colour of the palette, the first being number 1.
+        pub fn paint(&mut self, number: u32) -> Result<()> {
+            let color = (number as usize).checked_sub(1).and_then(|index| self.options.palette.get(index));
+            let Some(color) = color else {
+                return Err(Error::argument(format!("turtle:paint: the palette has no colour number {number}"))
+                    .help(format!("it has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}", self.options.palette.len())));
+            };
+            self.paint_with(*color);
+            Ok(())
+        }
+
+        /// Sets the whole material of what is drawn.
+        pub fn material(&mut self, material: Surface) -> Result<()> {
+            self.state.part = self.drawing.material(&material.material()?);
+            Ok(())
+        }
+
+        /// Bends the heading towards `direction` with each step drawn, by `elasticity`.
+        pub fn tropism(&mut self, direction: Vector, elasticity: f64) {
+            self.state.tropism = direction.0.normalize_or_zero();
+            self.state.elasticity = elasticity;
+        }
+
+        /// Sets how strongly the heading bends with each step drawn.
+        pub fn elasticity(&mut self, elasticity: f64) {
+            self.state.elasticity = elasticity;
+        }
+
+        /// Begins a polygon: `point` adds its corners, `end_polygon` fills it.
+        pub fn begin_polygon(&mut self) {
+            self.lift();
+            self.polygons.push(Vec::new());
+        }
+
+        /// Adds the turtle's place to the polygon that was begun last.
+        pub fn point(&mut self) -> Result<()> {
+            let position = self.state.frame.position;
+            match self.polygons.last_mut() {
+                Some(polygon) => polygon.push(position),
+                None => return Err(no_polygon("point")),
+            }
+            Ok(())
+        }
+
+        /// Fills the polygon that was begun last; it is seen from both sides.
+        pub fn end_polygon(&mut self) -> Result<()> {
+            let Some(corners) = self.polygons.pop() else { return Err(no_polygon("end_polygon")) };
+            let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
+            let part = self.drawing.material(&material);
+            face(self.drawing.part(part), &corners)
+        }
+
+        /// Draws a ball with `radius` (m) around the turtle's place.
+        pub fn sphere(&mut self, radius: f64) -> Result<()> {
+            let sides = self.options.sides.max(6);
+            sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
+        }
+
+        /// Places what another system has drawn at the turtle's frame, scaled.
+        pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
+            let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
+            self.drawing.place(&model, self.state.frame.transform() * scale);
+        }
+
+        /// Its place (m).
+        pub fn position(&self) -> DVec3 {
+            self.options.position.0 + self.state.frame.position
+        }
+
+        /// The direction in which it looks.
+        pub fn heading(&self) -> DVec3 {
+            self.state.frame.heading
+        }
+
+        /// The direction to its left.
+        pub fn left(&self) -> DVec3 {
+            self.state.frame.left
+        }
+
+        /// The direction above it.
+        pub fn up(&self) -> DVec3 {
+            self.state.frame.up
+        }
+
+        /// Distance (m) from a place to the nearest point of what it has drawn.
+        pub fn distance(&self, place: Vector) -> f64 {
+            self.drawing.distance(place.0 - self.options.position.0)
+        }
+    }
+}
+
+#[cold]
+fn no_polygon(method: &str) -> Error {
+    Error::script(format!("turtle:{method}: no polygon has been begun")).help("begin it with BeginPolygon()")
+}
+
+impl Turtle {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "turtle",
+                "A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Turtle::new(Options::from_table(table)?))
+                    .methods(Turtle::methods())
+                    .begins_empty()
+                    .draws::<Turtle>(),
+            )
+        });
+        &KIND
+    }
+
+    /// A turtle at its beginning.
+    pub fn new(options: Options) -> Result<Self> {
+        if !(3..=64).contains(&options.sides) {
+            return Err(Error::argument(format!(
+                "turtle: sides must be from 3 to 64, not {}",
+                options.sides
+            )));
+        }
+        if options.width < 0.0 {
+            return Err(Error::argument(format!(
+                "turtle: width must not be negative, and is {}",
+                options.width
+            )));
+        }
+        if options.heading.0.length_squared() < 1e-24 {
+            return Err(Error::argument("turtle: heading has no length"));
+        }
+        let mut drawing = Drawing::default();
+        let state = State::begin(&options, &mut drawing);
+        Ok(Self {
+            options,
+            state,
+            stack: Vec::new(),
+            drawing,
+            angles: Angles::default(),
+            polygons: Vec::new(),
+        })
+    }
+
+    /// The sine and cosine of `angle` (degrees), or of the usual one.
+    #[inline]
+    fn angle(&mut self, angle: Option<f64>) -> (f64, f64) {
+        self.angles.sin_cos(angle.unwrap_or(self.options.angle))
+    }
+
+    fn paint_with(&mut self, color: Color) {
+        let material = self.drawing.material_of(self.state.part);
+        self.state.part = self.drawing.material(&Material { base_color: color.0, ..material });
+    }
+
+    fn draw(&mut self, length: f64) -> Result<()> {
+        if self.polygons.is_empty() && self.state.width > 0.0 {
+            let part = self.state.part;
+            if self.state.strand.as_ref().is_none_or(|branch| branch.part != part) {
+                self.lift();
+                let frame = &self.state.frame;
+                let sides = self.options.sides as usize;
+                let strand = Strand::begin(sides, frame.position, frame.left, self.state.width / 2.0)?;
+                self.state.strand = Some(Branch { part, strand, maker: self.drawing.maker() });
+            }
+            self.state.frame.forward(length);
+            let position = self.state.frame.position;
+            if let Some(Branch { part, strand, maker }) = &mut self.state.strand {
+                // The faces that are added now are those of the piece before this one.
+                let radius = self.state.width / 2.0;
+                self.drawing.draw_for(*maker, *part, |part| strand.extend_to(part, position, radius))?;
+                *maker = self.drawing.maker();
+            }
+        } else {
+            self.lift();
+            self.state.frame.forward(length);
+        }
+        if self.state.elasticity != 0.0 {
+            self.bend();
+        }
+        Ok(())
+    }
+
+    /// Bends the heading as in *The Algorithmic Beauty of Plants*, section 2.1: by elasticity times |H x T|.
+    fn bend(&mut self) {
+        let axis = self.state.frame.heading.cross(self.state.tropism);
+        let torque = axis.length();
+        if torque > 1e-9 {
+            let turn = DQuat::from_axis_angle(axis / torque, self.state.elasticity * torque);
+            self.state.frame.rotate(turn);
+        }
+    }
+
+    /// Ends the branch that is being drawn.
+    fn lift(&mut self) {
+        if let Some(Branch { part, strand, maker }) = self.state.strand.take() {
+            self.drawing.draw_for(maker, part, |part| strand.end(part));
+        }
+    }
+}
+
+impl State {
+    fn begin(options: &Options, drawing: &mut Drawing) -> Self {
+        let mut frame = Frame::default();
+        frame.face(options.heading.0);
+        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
+        let material = Material {
+            base_color: options.color.0,
+            roughness: options.roughness as f32,
+            metallic: options.metallic as f32,
+            ..Material::default()
+        };
+        Self {
+            frame,
+            width: options.width,
+            part: drawing.material(&material),
+            tropism: options.tropism.0.normalize_or_zero(),
+            elasticity: options.elasticity,
+            strand: None,
+        }
+    }
+}
+
+impl Object for Turtle {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self) {
+        self.stack.clear();
+        self.drawing.clear();
+        self.state = State::begin(&self.options, &mut self.drawing);
+        self.polygons.clear();
+    }
+
+    fn push(&mut self) {
+        // A copy of the strand is dropped here and does not go on.
+        self.stack.push(self.state.clone());
+        self.state.strand = None;
+    }
+
+    fn pop(&mut self) -> Result<()> {
+        self.lift();
+        // Taken by its fields: moving it out of the stack would copy it twice.
+        if let Some(state) = self.stack.last() {
+            self.state.clone_from(state);
+            self.stack.truncate(self.stack.len() - 1);
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<()> {
+        self.lift();
+        if let Some(open) = self.polygons.first() {
+            return Err(Error::script(format!(
+                "a polygon of {} corners is still open at the end",
+                open.len()
+            ))
+            .help("end it with EndPolygon()"));
+        }
+        Ok(())
+    }
+}
+
+impl Draw for Turtle {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
+    }
+
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
+    }
+
+    fn origin(&self) -> DVec3 {
+        self.options.position.0
+    }
+}

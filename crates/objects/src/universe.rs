@@ -1,0 +1,401 @@
+//! The universe: galaxies, their stars and the planets of these, made of a seed and a place, with nothing stored.
+
+use std::f64::consts::TAU;
+use std::sync::{Arc, LazyLock};
+
+use glam::DVec3;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::random::Stream;
+use burgeon_kit::rules::Key as Numbers;
+use burgeon_kit::{Expected, Key, Kind, Object, Parameter, Seed, Table, Value};
+
+fields! {
+    /// What `universe { ... }` takes.
+    pub struct Options for "universe" {
+        /// What all of it comes from: a number or a string.
+        pub seed: Seed = Seed(0),
+    }
+}
+
+/// Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.
+#[derive(Debug, Clone)]
+pub struct Universe {
+    key: Numbers,
+}
+
+methods! {
+    Universe = "universe" {
+        /// The galaxy in a cube of space, by its column, row and layer: a table with `position` and `radius` (light years),
+        /// `kind`, `color`, `seed`, and `stars`, how many it has.
+        pub fn galaxy(&self, x: f64, y: f64, z: f64) -> Result<Value> {
+            let cell = DVec3::new(x, y, z);
+            let mut key = self.key;
+            for at in cell.to_array() {
+                key = key.child(whole(at)?);
+            }
+            let mut stream = key.stream();
+            let sort = Sort::draw(GALAXIES, |_| true, &mut stream);
+            let radius = sort.size(&mut stream);
+            let place = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform());
+            // The Milky Way has some 2e11 stars within 5e4 light years.
+            let stars = (2e11 * (radius / 5e4).powi(3)).floor();
+            Ok(sort.table(key, (cell + place) * CUBE, radius, ("stars", stars)))
+        }
+
+        /// Star number `index` of a galaxy, from 1: a table with `position` (light years from the galaxy's middle),
+        /// `radius` (m), `kind`, `color`, `seed`, and `planets`, how many it has.
+        pub fn star(&self, galaxy: Galaxy, index: f64) -> Result<Value> {
+            let key = galaxy.0.key.child(galaxy.0.number("star", index)?);
+            let mut stream = key.stream();
+            let sort = Sort::draw(STARS, |_| true, &mut stream);
+            let radius = sort.size(&mut stream);
+            let position = galaxy.0.sort.place(&mut stream) * galaxy.0.radius;
+            #[allow(clippy::cast_precision_loss, reason = "a small number")]
+            let planets = stream.below(13) as f64;
+            Ok(sort.table(key, position, radius, ("planets", planets)))
+        }
+
+        /// Planet number `index` of a star, from 1, the nearest first: a table with `position` (m from the star), `radius`
+        /// (m), `kind`, `color`, `seed`, and `light`, of which the Earth gets 1. A planet takes its radius and seed.
+        pub fn planet(&self, star: Star, index: f64) -> Result<Value> {
+            let number = star.0.number("planet", index)?;
+            let key = star.0.key.child(number);
+            let mut stream = key.stream();
+            // Each orbit is wider than the one before by about the same factor, and all are wider around bright stars.
+            let first = 0.25 * star.0.sort.light.powf(0.3);
+            let orbit = first * 1.7f64.powf(index + 0.6 * stream.uniform());
+            let (turn, tilt) = (stream.uniform() * TAU, (stream.uniform() - 0.5) * 0.08);
+            let position = DVec3::new(turn.cos(), turn.sin(), tilt) * orbit * EARTH_ORBIT;
+            let light = star.0.sort.light / (orbit * orbit);
+            let sort = Sort::draw(PLANETS, |sort| sort.lit.0 <= light && light < sort.lit.1, &mut stream);
+            let radius = sort.size(&mut stream);
+            Ok(sort.table(key, position, radius, ("light", light)))
+        }
+    }
+}
+
+impl Universe {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "universe",
+                "Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.",
+            );
+            Arc::new(
+                kind.made_of(Options::fields(), |table| Ok(Universe::new(&Options::from_table(table)?)))
+                    .methods(Universe::methods()),
+            )
+        });
+        &KIND
+    }
+
+    /// The universe of a seed.
+    pub fn new(options: &Options) -> Self {
+        Self { key: Numbers::seed(options.seed.0) }
+    }
+}
+
+impl Object for Universe {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+}
+
+/// The length (light years) of the sides of the cubes of space.
+const CUBE: f64 = 3e6;
+
+/// The distance (m) of the Earth from the sun.
+const EARTH_ORBIT: f64 = 1.496e11;
+
+/// A sort of galaxy, star or planet.
+#[derive(Debug, Clone)]
+struct Sort {
+    name: &'static str,
+    /// How many there are, to others.
+    weight: f64,
+    /// The least and the greatest radius: of galaxies in light years, of others in metres.
+    radius: (f64, f64),
+    color: [u8; 3],
+    /// Of stars, how much light they give, of which the sun gives 1.
+    light: f64,
+    /// Of planets, with how much light there are any.
+    lit: (f64, f64),
+    /// Of galaxies, how high they are for their width, and how many arms they have.
+    shape: (f64, u32),
+}
+
+const PLAIN: Sort = Sort {
+    name: "",
+    weight: 1.0,
+    radius: (1.0, 1.0),
+    color: [255; 3],
+    light: 1.0,
+    lit: (0.0, f64::INFINITY),
+    shape: (1.0, 0),
+};
+
+const GALAXIES: &[Sort] = &[
+    Sort {
+        name: "spiral",
+        weight: 6.0,
+        radius: (2e4, 9e4),
+        color: [190, 205, 255],
+        shape: (0.04, 2),
+        ..PLAIN
+    },
+    Sort {
+        name: "barred",
+        weight: 3.0,
+        radius: (2e4, 8e4),
+        color: [215, 212, 240],
+        shape: (0.04, 4),
+        ..PLAIN
+    },
+    Sort {
+        name: "elliptical",
+        weight: 2.0,
+        radius: (1e4, 2e5),
+        color: [255, 225, 185],
+        shape: (0.6, 0),
+        ..PLAIN
+    },
+    Sort {
+        name: "irregular",
+        weight: 3.0,
+        radius: (3e3, 1.5e4),
+        color: [185, 215, 255],
+        shape: (0.4, 0),
+        ..PLAIN
+    },
+];
+
+/// By the classes of Morgan and Keenan, as often as near the sun.
+const STARS: &[Sort] = &[
+    Sort { name: "M", weight: 76.5, radius: (9e7, 4.8e8), color: [255, 180, 107], light: 0.03, ..PLAIN },
+    Sort { name: "K", weight: 12.1, radius: (4.8e8, 6.6e8), color: [255, 214, 170], light: 0.3, ..PLAIN },
+    Sort { name: "G", weight: 7.6, radius: (6.6e8, 8e8), color: [255, 241, 224], light: 1.0, ..PLAIN },
+    Sort { name: "F", weight: 3.0, radius: (8e8, 9.7e8), color: [248, 247, 255], light: 3.0, ..PLAIN },
+    Sort { name: "A", weight: 0.6, radius: (9.7e8, 1.25e9), color: [202, 215, 255], light: 14.0, ..PLAIN },
+    Sort { name: "B", weight: 0.13, radius: (1.25e9, 4.6e9), color: [170, 191, 255], light: 800.0, ..PLAIN },
+    Sort { name: "O", weight: 0.01, radius: (4.6e9, 9e9), color: [155, 176, 255], light: 4e4, ..PLAIN },
+];
+
+const PLANETS: &[Sort] = &[
+    Sort { name: "molten", radius: (1.5e6, 7e6), color: [110, 62, 48], lit: (4.0, f64::INFINITY), ..PLAIN },
+    Sort { name: "desert", radius: (2e6, 7.5e6), color: [196, 152, 96], lit: (0.6, 6.0), ..PLAIN },
+    Sort { name: "ocean", weight: 1.5, radius: (4e6, 9e6), color: [48, 96, 150], lit: (0.4, 1.6), ..PLAIN },
+    Sort { name: "ice", radius: (1e6, 7e6), color: [214, 230, 238], lit: (0.0, 0.4), ..PLAIN },
+    Sort { name: "rock", weight: 0.7, radius: (1e6, 4e6), color: [134, 126, 118], ..PLAIN },
+    Sort { name: "gas", weight: 1.3, radius: (2e7, 8e7), color: [205, 180, 148], lit: (0.0, 0.35), ..PLAIN },
+];
+
+impl Sort {
+    /// One of `sorts` that may be, in proportion to how many there are.
+    fn draw(sorts: &'static [Self], may: impl Fn(&Self) -> bool, stream: &mut Stream) -> &'static Self {
+        let whole: f64 = sorts.iter().filter(|sort| may(sort)).map(|sort| sort.weight).sum();
+        let mut left = stream.uniform() * whole;
+        let mut found = &sorts[0];
+        for sort in sorts.iter().filter(|sort| may(sort)) {
+            found = sort;
+            left -= sort.weight;
+            if left < 0.0 {
+                break;
+            }
+        }
+        found
+    }
+
+    fn size(&self, stream: &mut Stream) -> f64 {
+        let (least, greatest) = self.radius;
+        least * (greatest / least).powf(stream.uniform())
+    }
+
+    /// Where in a galaxy a star is, whose radius is 1.
+    fn place(&self, stream: &mut Stream) -> DVec3 {
+        let (flatness, arms) = self.shape;
+        let out = stream.uniform().powf(if arms > 0 { 0.7 } else { 1.2 });
+        let spread = (stream.uniform() + stream.uniform() - 1.0) * (1.0 - 0.8 * out);
+        let turn = if arms > 0 {
+            // Arms are logarithmic spirals.
+            let arm = f64::from(u32::try_from(stream.below(arms as usize)).unwrap_or(0));
+            arm / f64::from(arms) * TAU + 3.2 * (out + 0.05).ln() + spread
+        } else {
+            stream.uniform() * TAU
+        };
+        let up = (stream.uniform() + stream.uniform() - 1.0) * flatness * (1.0 - out * out).max(0.0).sqrt();
+        DVec3::new(turn.cos() * out, turn.sin() * out, up)
+    }
+
+    /// What scripts know of one of it.
+    fn table(&self, key: Numbers, position: DVec3, radius: f64, more: (&str, f64)) -> Value {
+        let [red, green, blue] = self.color;
+        let mut entries = vec![
+            (Key::Name("color".into()), Value::Text(format!("#{red:02x}{green:02x}{blue:02x}").into())),
+            (Key::Name("kind".into()), Value::Text(self.name.into())),
+            (Key::Name(more.0.into()), Value::Number(more.1)),
+            (Key::Name("position".into()), position.into_value()),
+            (Key::Name("radius".into()), Value::Number(radius)),
+            (Key::Name("seed".into()), Seed(key.0).into_value()),
+        ];
+        entries.sort_by(|one, other| one.0.cmp(&other.0));
+        Value::Table(Arc::new(Table { class: None, entries }))
+    }
+}
+
+/// What a galaxy or a star tells of those in it.
+#[derive(Debug)]
+struct Whose {
+    key: Numbers,
+    sort: &'static Sort,
+    radius: f64,
+    /// How many it has.
+    count: f64,
+}
+
+impl Whose {
+    /// Reads the table of one of `sorts`, where `count` says how many it has.
+    fn read(value: &Value, sorts: &'static [Sort], count: &str) -> Option<Self> {
+        let Value::Table(table) = value else { return None };
+        let number = |name: &str| match table.get(name) {
+            Some(Value::Number(number)) if number.is_finite() => Some(*number),
+            _ => None,
+        };
+        let kind = String::from_value(table.get("kind")?.clone()).ok()?;
+        let seed = Seed::from_value(table.get("seed")?.clone()).ok()?;
+        let sort = sorts.iter().find(|sort| sort.name == kind)?;
+        Some(Self { key: Numbers(seed.0), sort, radius: number("radius")?, count: number(count)? })
+    }
+
+    /// A number of a `what` that it has. Fails if it has not so many.
+    fn number(&self, what: &str, index: f64) -> Result<usize> {
+        if !(1.0..=self.count).contains(&index) {
+            return Err(Error::not_found(
+                "number",
+                index,
+                [],
+                format!("universe:{what}: there is no {what} number {index}"),
+            )
+            .help(format!("there are {}, from 1", self.count)));
+        }
+        whole(index)
+    }
+}
+
+/// A number of a thing or a cube. Fails if it is not whole.
+#[allow(
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "the number is whole and below 2^53"
+)]
+fn whole(number: f64) -> Result<usize> {
+    if number.fract() == 0.0 && number.abs() < 9_007_199_254_740_992.0 {
+        return Ok((number as i64) as usize);
+    }
+    Err(Error::argument(format!("universe: {number} is no whole number below 2^53"))
+        .help("galaxies, stars and planets are numbered"))
+}
+
+/// A galaxy, as [`Universe::galaxy`] gives it.
+#[derive(Debug)]
+pub struct Galaxy(Whose);
+
+impl Parameter for Galaxy {
+    fn luau() -> String {
+        "{ kind: string, seed: string, radius: number, stars: number }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let found = Whose::read(&value, GALAXIES, "stars");
+        found.map(Self).ok_or_else(|| Expected::new("a galaxy, as universe:galaxy gives it"))
+    }
+
+    fn into_value(self) -> Value {
+        self.0.sort.table(self.0.key, DVec3::ZERO, self.0.radius, ("stars", self.0.count))
+    }
+}
+
+/// A star, as [`Universe::star`] gives it.
+#[derive(Debug)]
+pub struct Star(Whose);
+
+impl Parameter for Star {
+    fn luau() -> String {
+        "{ kind: string, seed: string, radius: number, planets: number }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let found = Whose::read(&value, STARS, "planets");
+        found.map(Self).ok_or_else(|| Expected::new("a star, as universe:star gives it"))
+    }
+
+    fn into_value(self) -> Value {
+        self.0.sort.table(self.0.key, DVec3::ZERO, self.0.radius, ("planets", self.0.count))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use burgeon_kit::Color;
+
+    fn field(value: &Value, name: &str) -> Value {
+        let Value::Table(table) = value else { panic!("{value}") };
+        table.get(name).unwrap().clone()
+    }
+
+    fn read<T: Parameter>(value: &Value) -> T {
+        T::from_value(value.clone()).unwrap()
+    }
+
+    #[test]
+    fn who_comes_back_finds_all_of_it_the_same() {
+        let universe = |seed| Universe::new(&Options { seed: Seed(seed) });
+        let tour = |universe: &Universe, x: f64| {
+            let galaxy = universe.galaxy(x, -3.0, 12.0).unwrap();
+            let star = universe.star(read(&galaxy), 4_000_123.0).unwrap();
+            (galaxy, star)
+        };
+        assert_eq!(tour(&universe(1), 7.0), tour(&universe(1), 7.0));
+        assert_ne!(tour(&universe(1), 7.0), tour(&universe(2), 7.0));
+        assert_ne!(tour(&universe(1), 7.0), tour(&universe(1), 8.0));
+    }
+
+    #[test]
+    fn things_are_where_they_belong() {
+        let universe = Universe::new(&Options { seed: Seed(5) });
+        let mut kinds = std::collections::BTreeSet::new();
+        let mut warm = 0;
+        for x in 0..20 {
+            let galaxy = universe.galaxy(f64::from(x), 0.0, 0.0).unwrap();
+            let position = DVec3::from_value(field(&galaxy, "position")).unwrap();
+            assert!((position / CUBE - DVec3::X * f64::from(x)).cmpge(DVec3::ZERO).all());
+            let whole = f64::from_value(field(&galaxy, "radius")).unwrap();
+            for index in 1..200 {
+                let star = universe.star(read(&galaxy), f64::from(index)).unwrap();
+                let place = DVec3::from_value(field(&star, "position")).unwrap();
+                assert!(place.length() <= whole * 1.2);
+                let planets = f64::from_value(field(&star, "planets")).unwrap();
+                let mut last = 0.0;
+                for number in 1..=12u32 {
+                    let planet = universe.planet(read(&star), f64::from(number));
+                    assert_eq!(planet.is_ok(), f64::from(number) <= planets);
+                    let Ok(planet) = planet else { continue };
+                    let orbit = DVec3::from_value(field(&planet, "position")).unwrap().length();
+                    assert!(orbit > last);
+                    last = orbit;
+                    kinds.insert(String::from_value(field(&planet, "kind")).unwrap());
+                    warm +=
+                        i32::from((0.5..1.5).contains(&f64::from_value(field(&planet, "light")).unwrap()));
+                    assert!(Color::from_value(field(&planet, "color")).is_ok());
+                }
+            }
+        }
+        assert!(kinds.len() == PLANETS.len() && warm > 100, "{kinds:?} {warm}");
+    }
+}

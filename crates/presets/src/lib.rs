@@ -1,0 +1,410 @@
+//! Presets in a file beside the script: `tower.presets.json` for `tower.lua`.
+//!
+//! ```json
+//! {
+//!   "tall": {
+//!     "seed": 7,
+//!     "params": {
+//!       "floors": 60,
+//!       "twist": 2
+//!     }
+//!   }
+//! }
+//! ```
+//!
+//! A file that is not of this form is refused, and never written over.
+
+use std::fmt;
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+
+use rustc_hash::FxHashSet;
+use serde::de::{Deserializer, MapAccess, Visitor};
+use serde_json::value::RawValue;
+use serde_json::{Map, Number, Value};
+
+use burgeon_base::error::{Error, Limit, Place, Result};
+use burgeon_engine::script::{Preset, Setting};
+use burgeon_watch::settled;
+
+/// The most (bytes) that a file of presets may have.
+const LARGEST: u64 = 16_000_000;
+
+/// The most characters that a preset's name may have.
+const LONGEST: usize = 80;
+
+/// The presets of a script, in the order of their file.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Presets {
+    path: PathBuf,
+    presets: Vec<Preset>,
+}
+
+impl Presets {
+    /// The file that holds the presets of `script`.
+    pub fn path_of(script: &Path) -> PathBuf {
+        script.with_extension("presets.json")
+    }
+
+    /// The presets of `script`; none if there is no file. Fails, with the line, on a file that cannot be understood.
+    pub fn read(script: &Path) -> Result<Self> {
+        let path = Self::path_of(script);
+        settled(&path, || Self::read_once(&path))
+    }
+
+    fn read_once(path: &Path) -> Result<Self> {
+        let path = path.to_path_buf();
+        let cannot = |why: &dyn std::fmt::Display| {
+            Error::file(&path, format!("cannot read the presets in {}: {why}", path.display()))
+                .help("presets are a JSON file that Burgeon can read; move that away if it is something else")
+        };
+        let bytes = match burgeon_base::files::read(&path, LARGEST) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
+                return Ok(Self { path, presets: Vec::new() });
+            }
+            Err(error) if error.kind() == std::io::ErrorKind::FileTooLarge => {
+                return Err(Error::limit(
+                    Limit::Size,
+                    format!("{} is too large for presets", path.display()),
+                )
+                .help(format!("presets have at most {LARGEST} bytes; move that file away")));
+            }
+            Err(error) => return Err(cannot(&error)),
+        };
+        let text = String::from_utf8(bytes).map_err(|_| cannot(&"stream did not contain valid UTF-8"))?;
+        let presets = File { name: path.display().to_string(), text: &text }.presets()?;
+        Ok(Self { path, presets })
+    }
+
+    /// Adds `preset` to those of `script`, in the place of one with the same name, and gives all of them.
+    ///
+    /// The file is written whole or not at all. Fails as [`read`](Self::read) does, if the name cannot be one, and
+    /// if the file cannot be written.
+    pub fn save(script: &Path, preset: Preset) -> Result<Self> {
+        check_name(&preset.name)?;
+        let mut presets = Self::read(script)?;
+        match presets.presets.iter_mut().find(|known| known.name == preset.name) {
+            Some(known) => *known = preset,
+            None => presets.presets.push(preset),
+        }
+        presets.write()?;
+        Ok(presets)
+    }
+
+    /// Removes the preset called `name` from those of `script`, and gives the others.
+    ///
+    /// Fails as [`save`](Self::save) does, and if there is no such preset.
+    pub fn remove(script: &Path, name: &str) -> Result<Self> {
+        let mut presets = Self::read(script)?;
+        presets.get(name)?;
+        presets.presets.retain(|known| known.name != name);
+        presets.write()?;
+        Ok(presets)
+    }
+
+    /// The preset called `name`. Fails with the names that there are.
+    pub fn get(&self, name: &str) -> Result<&Preset> {
+        self.presets.iter().find(|preset| preset.name == name).ok_or_else(|| {
+            let file = self.path.display();
+            if self.presets.is_empty() {
+                return Error::not_found(
+                    "preset",
+                    name,
+                    [],
+                    format!("there is no preset {name}, for there are none"),
+                )
+                .help(format!("write them into {file}, or save one: burgeon run --save-preset NAME"));
+            }
+            let names: Vec<&str> = self.names().collect();
+            let message = format!("{file} has no preset called {name}");
+            Error::not_found("preset", name, names.iter().copied(), message)
+                .help(format!("it has {}", names.join(", ")))
+        })
+    }
+
+    /// The presets' names, in the order of the file.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.presets.iter().map(|preset| preset.name.as_str())
+    }
+
+    fn write(&self) -> Result<()> {
+        let mut file = Map::new();
+        for preset in &self.presets {
+            let mut object = Map::new();
+            if let Some(seed) = preset.seed {
+                object.insert("seed".into(), seed.into());
+            }
+            let params = preset.params.iter().map(|(name, setting)| (name.clone(), value(setting)));
+            object.insert("params".into(), Value::Object(params.collect()));
+            file.insert(preset.name.clone(), object.into());
+        }
+        burgeon_export::write_file(&self.path, |out| writeln!(out, "{:#}", Value::Object(file)))
+    }
+}
+
+/// A setting as JSON; whole numbers without a decimal point.
+fn value(setting: &Setting) -> Value {
+    match setting {
+        #[allow(clippy::cast_possible_truncation, reason = "whole and small enough to be exact")]
+        Setting::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => (*number as i64).into(),
+        Setting::Number(number) => Number::from_f64(*number).map_or(Value::Null, Value::Number),
+        Setting::Boolean(value) => (*value).into(),
+        Setting::Text(text) => text.as_str().into(),
+    }
+}
+
+/// Refuses what would be hard to name again.
+pub fn check_name(name: &str) -> Result<()> {
+    let fits = name.trim() == name && !name.is_empty() && name.chars().count() <= LONGEST;
+    if fits && !name.chars().any(char::is_control) {
+        return Ok(());
+    }
+    Err(Error::argument(format!("{name:?} cannot be the name of a preset")).help(format!(
+        "use 1 to {LONGEST} characters, without line breaks, and no space at the beginning or the end"
+    )))
+}
+
+/// A file of presets that is being read.
+struct File<'a> {
+    name: String,
+    text: &'a str,
+}
+
+/// The members of a JSON object in their order, each as it is written.
+type Members<'a> = Vec<(String, &'a RawValue)>;
+
+impl<'a> File<'a> {
+    fn presets(&self) -> Result<Vec<Preset>> {
+        let text = self.text.trim_start_matches('\u{feff}');
+        let file: &RawValue = serde_json::from_str(text).map_err(|error| {
+            let said = error.to_string();
+            let said = said.split(" at line ").next().unwrap_or_default();
+            let place = Place { file: self.name.clone(), line: error.line().max(1) };
+            Error::data(format!("this is not JSON: {said}"))
+                .at(Some(place))
+                .help("mend the file, or move it away")
+        })?;
+        let mut presets = Vec::new();
+        for (name, raw) in self.members(file, "the file", "{ \"name\": { \"seed\": 0, \"params\": {} } }")? {
+            let what = format!("preset {name}");
+            let mut preset = Preset { name, place: Some(self.place(raw)), ..Preset::default() };
+            for (key, raw) in self.members(raw, &what, "{ \"seed\": 0, \"params\": {} }")? {
+                match key.as_str() {
+                    "seed" => {
+                        let seed = serde_json::from_str(raw.get()).map_err(|_| {
+                            Error::data(format!("{what}: {} is no seed", short(raw)))
+                                .help("write a whole number from 0")
+                                .at(Some(self.place(raw)))
+                        })?;
+                        preset.seed = Some(seed);
+                    }
+                    "params" => {
+                        for (name, raw) in
+                            self.members(raw, &format!("{what}: params"), "{ \"height\": 3 }")?
+                        {
+                            preset.params.push((name.clone(), self.setting(raw, &what, &name)?));
+                            preset.places.push(self.place(raw));
+                        }
+                    }
+                    _ => {
+                        let message = format!("{what} has no field called {key}");
+                        return Err(Error::not_found("field", &key, ["seed", "params"], message)
+                            .help("a preset has a seed and params; parameters belong into params")
+                            .at(Some(self.place(raw))));
+                    }
+                }
+            }
+            presets.push(preset);
+        }
+        Ok(presets)
+    }
+
+    /// The members of `raw`, which must be an object without repeated names.
+    fn members(&self, raw: &'a RawValue, what: &str, form: &str) -> Result<Members<'a>> {
+        let refuse = |message: String, raw: &RawValue| Error::data(message).at(Some(self.place(raw)));
+        let members = if raw.get().starts_with('{') { read_members(raw.get()).ok() } else { None };
+        let members = members.ok_or_else(|| {
+            refuse(format!("{what} is {}, not an object", short(raw)), raw).help(format!("write {form}"))
+        })?;
+        let mut known = FxHashSet::default();
+        for (name, raw) in &members {
+            if !known.insert(name) {
+                return Err(refuse(format!("{what} has two members called {name}"), raw)
+                    .help("remove or rename one of them"));
+            }
+        }
+        Ok(members)
+    }
+
+    fn setting(&self, raw: &RawValue, what: &str, name: &str) -> Result<Setting> {
+        let read = match serde_json::from_str(raw.get()) {
+            Ok(Value::Number(number)) => {
+                number.as_f64().filter(|number| number.is_finite()).map(Setting::Number)
+            }
+            Ok(Value::Bool(value)) => Some(Setting::Boolean(value)),
+            Ok(Value::String(text)) => Some(Setting::Text(text)),
+            _ => None,
+        };
+        read.ok_or_else(|| {
+            Error::data(format!("{what}: {} is no value for {name}", short(raw)))
+                .help("write a number, true, false or a string")
+                .at(Some(self.place(raw)))
+        })
+    }
+
+    /// The line on which `raw`, a part of the text, begins.
+    fn place(&self, raw: &RawValue) -> Place {
+        let from = (raw.get().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
+        let before = self.text.as_bytes().get(..from).unwrap_or_default();
+        let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
+        Place { file: self.name.clone(), line }
+    }
+}
+
+/// What is written there, cut to a length for messages.
+fn short(raw: &RawValue) -> String {
+    let text: String = raw.get().split_whitespace().collect::<Vec<_>>().join(" ");
+    if text.chars().count() <= 40 { text } else { text.chars().take(39).chain(['…']).collect() }
+}
+
+fn read_members(text: &str) -> serde_json::Result<Members<'_>> {
+    struct Reader;
+    impl<'de> Visitor<'de> for Reader {
+        type Value = Members<'de>;
+
+        fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+            f.write_str("an object")
+        }
+
+        fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+            let mut members = Vec::new();
+            while let Some(member) = map.next_entry()? {
+                members.push(member);
+            }
+            Ok(members)
+        }
+    }
+    serde_json::Deserializer::from_str(text).deserialize_map(Reader)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn preset(name: &str, twist: f64) -> Preset {
+        let params = vec![
+            ("twist".to_owned(), Setting::Number(twist)),
+            ("lit".to_owned(), Setting::Boolean(true)),
+            ("kind".to_owned(), Setting::Text("a \"b\"".to_owned())),
+        ];
+        Preset { name: name.to_owned(), seed: Some(u64::MAX), params, ..Preset::default() }
+    }
+
+    fn refused(text: &str) -> String {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("tower.lua");
+        std::fs::write(Presets::path_of(&script), text).unwrap();
+        let error = Presets::read(&script).unwrap_err();
+        assert!(error.place().is_some(), "{error}");
+        Presets::save(&script, preset("tall", 1.0)).unwrap_err();
+        assert_eq!(std::fs::read_to_string(Presets::path_of(&script)).unwrap(), text);
+        error.to_string().replace(&folder.path().display().to_string(), "FOLDER")
+    }
+
+    #[test]
+    fn what_is_saved_reads_back_and_the_others_stay() {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("tower.lua");
+        assert_eq!(Presets::read(&script).unwrap().names().count(), 0);
+        for (name, twist) in [("tall", 2.5), ("flat", 3.0), ("tall", -4.0)] {
+            Presets::save(&script, preset(name, twist)).unwrap();
+        }
+        let presets = Presets::read(&script).unwrap();
+        assert_eq!(presets.names().collect::<Vec<_>>(), ["tall", "flat"]);
+        let tall = presets.get("tall").unwrap();
+        assert_eq!((&tall.params, tall.seed), (&preset("tall", -4.0).params, Some(u64::MAX)));
+        assert_eq!(tall.places.iter().map(|place| place.line).collect::<Vec<_>>(), [5, 6, 7]);
+        insta::assert_snapshot!(std::fs::read_to_string(Presets::path_of(&script)).unwrap(), @r#"
+        {
+          "tall": {
+            "seed": 18446744073709551615,
+            "params": {
+              "twist": -4,
+              "lit": true,
+              "kind": "a \"b\""
+            }
+          },
+          "flat": {
+            "seed": 18446744073709551615,
+            "params": {
+              "twist": 3,
+              "lit": true,
+              "kind": "a \"b\""
+            }
+          }
+        }
+        "#);
+        Presets::remove(&script, "tall").unwrap();
+        assert_eq!(Presets::read(&script).unwrap().names().collect::<Vec<_>>(), ["flat"]);
+        assert!(Presets::remove(&script, "tall").is_err());
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_file_of_another_form_is_refused_with_its_line_and_kept() {
+        insta::assert_snapshot!(refused("{\n  \"tall\": {\n    \"seed\": 7,,\n"), @r"
+        FOLDER/tower.presets.json:3: this is not JSON: key must be a string
+          help: mend the file, or move it away
+        ");
+        insta::assert_snapshot!(refused(""), @r"
+        FOLDER/tower.presets.json:1: this is not JSON: EOF while parsing a value
+          help: mend the file, or move it away
+        ");
+        insta::assert_snapshot!(refused("[1, 2]"), @r#"
+        FOLDER/tower.presets.json:1: the file is [1, 2], not an object
+          help: write { "name": { "seed": 0, "params": {} } }
+        "#);
+        insta::assert_snapshot!(refused("{ \"tall\": 3 }"), @r#"
+        FOLDER/tower.presets.json:1: preset tall is 3, not an object
+          help: write { "seed": 0, "params": {} }
+        "#);
+        insta::assert_snapshot!(refused("{ \"tall\": {\n\"sed\": 3 } }"), @r"
+        FOLDER/tower.presets.json:2: preset tall has no field called sed
+          help: did you mean seed?
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": {\n\"floors\": 3 } }"), @r"
+        FOLDER/tower.presets.json:2: preset tall has no field called floors
+          help: a preset has a seed and params; parameters belong into params
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": -1 } }"), @r"
+        FOLDER/tower.presets.json:1: preset tall: -1 is no seed
+          help: write a whole number from 0
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"seed\": 1e400 } }"), @r"
+        FOLDER/tower.presets.json:1: preset tall: 1e400 is no seed
+          help: write a whole number from 0
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": {\n\n\"a\": [1] } } }"), @r"
+        FOLDER/tower.presets.json:3: preset tall: [1] is no value for a
+          help: write a number, true, false or a string
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": { \"params\": { \"a\": 1e999 } } }"), @r"
+        FOLDER/tower.presets.json:1: preset tall: 1e999 is no value for a
+          help: write a number, true, false or a string
+        ");
+        insta::assert_snapshot!(refused("{ \"tall\": {},\n\"tall\": {} }"), @r"
+        FOLDER/tower.presets.json:2: the file has two members called tall
+          help: remove or rename one of them
+        ");
+    }
+
+    #[test]
+    fn a_name_that_is_hard_to_write_is_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        for name in ["", " ", "a ", "a\nb", "\u{7}", &"x".repeat(81)] {
+            assert!(Presets::save(&folder.path().join("t.lua"), preset(name, 1.0)).is_err(), "{name:?}");
+        }
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
+    }
+}

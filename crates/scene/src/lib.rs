@@ -1,0 +1,121 @@
+//! The scene: what a run has made, ready for an exporter or the renderer.
+//!
+//! Comes in: meshes and instances from objects, in chain order. Goes out: the same, unchanged.
+//! It never builds geometry and never looks at rules.
+
+mod material;
+mod mesh;
+mod normal;
+mod shared;
+mod triangles;
+
+pub use material::{Material, Texture};
+pub use mesh::{Mesh, Part};
+pub use normal::Normal;
+pub use shared::Shared;
+pub use triangles::{Iter, Triangles};
+
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+/// Everything a run has made, in an order that depends only on the scripts, inputs and seed.
+///
+/// Metres, z up, right-handed.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Scene {
+    /// Materials without duplicates, in the order of their first use.
+    pub materials: Vec<Material>,
+    /// Shapes, each in its own coordinates; [`Part::material`] is an index into `materials`.
+    pub meshes: Vec<Mesh>,
+    /// Where the meshes stand. A mesh that no instance names is not shown.
+    pub instances: Vec<Instance>,
+    /// Which meshes are those of placed models; leave it to [`Default`].
+    pub shared: Shared,
+}
+
+/// A mesh put somewhere.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Instance {
+    /// Index into [`Scene::meshes`].
+    pub mesh: usize,
+    /// From the mesh's coordinates to the world's.
+    pub transform: DAffine3,
+    /// A name for people, such as the system's; may repeat, may be empty.
+    pub name: String,
+    /// The id of the data record that it came from, if it came from one.
+    pub feature: Option<String>,
+    /// The chain whose object put it there.
+    pub origin: Option<Origin>,
+    /// Which of the models that the object placed it belongs to, from 0; `None` for what the object drew itself.
+    pub placement: Option<usize>,
+}
+
+/// A chain, among all that a run has derived.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Origin {
+    /// The system's place in the script, from 0.
+    pub system: usize,
+    /// The chain's number in the system, from 0.
+    pub chain: usize,
+}
+
+impl Scene {
+    /// The index of `material`, added if it is new.
+    pub fn material(&mut self, material: &Material) -> usize {
+        // Colours tell most of them apart at once.
+        let same = |known: &Material| known.base_color == material.base_color && known == material;
+        match self.materials.iter().position(same) {
+            Some(index) => index,
+            None => {
+                self.materials.push(material.clone());
+                self.materials.len() - 1
+            }
+        }
+    }
+
+    /// The scene with those instances alone that are to be kept, and what they need.
+    #[must_use]
+    pub fn only(&self, keep: impl Fn(&Instance) -> bool) -> Self {
+        let mut scene = Self::default();
+        let mut meshes = vec![None; self.meshes.len()];
+        for instance in self.instances.iter().filter(|instance| keep(instance)) {
+            let mesh = *meshes[instance.mesh].get_or_insert_with(|| {
+                let mut mesh = self.meshes[instance.mesh].clone();
+                for part in &mut mesh.parts {
+                    part.material = scene.material(&self.materials[part.material]);
+                }
+                scene.meshes.push(mesh);
+                scene.meshes.len() - 1
+            });
+            scene.instances.push(Instance { mesh, ..instance.clone() });
+        }
+        scene
+    }
+
+    /// The number of triangles that are seen, instances counted each.
+    pub fn triangles(&self) -> usize {
+        self.instances.iter().map(|instance| self.meshes[instance.mesh].triangles()).sum()
+    }
+
+    /// The least box (m) around all that is seen, as its lowest and highest corner; `None` if nothing is.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        self.bounds_of(&self.meshes.par_iter().map(Mesh::bounds).collect::<Vec<_>>())
+    }
+
+    /// The same where the boxes (m) around the meshes are known.
+    pub fn bounds_of(&self, boxes: &[Option<(DVec3, DVec3)>]) -> Option<(DVec3, DVec3)> {
+        let mut bounds: Option<(DVec3, DVec3)> = None;
+        for instance in &self.instances {
+            let Some((low, high)) = boxes[instance.mesh] else { continue };
+            for corner in 0..8 {
+                let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+                let point = instance.transform.transform_point3(DVec3::new(pick(0), pick(1), pick(2)));
+                bounds = Some(match bounds {
+                    None => (point, point),
+                    Some((a, b)) => (a.min(point), b.max(point)),
+                });
+            }
+        }
+        bounds
+    }
+}

@@ -1,0 +1,84 @@
+//! Triangle meshes at export precision.
+
+use glam::{DVec3, Vec2, Vec3};
+
+use super::{Normal, Origin, Triangles};
+use burgeon_base::memory::make_room;
+
+/// A shape: parts that share one coordinate system, one part for each material.
+///
+/// Vertices are f32, since that is what every format and graphics card takes; objects compute in f64 and
+/// place the mesh near its own origin, so nothing is lost far from the world's.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Mesh {
+    /// A name for people; may repeat, may be empty.
+    pub name: String,
+    /// The chain whose object drew it.
+    pub origin: Option<Origin>,
+    /// One for each material, in the order of first use; none is empty.
+    pub parts: Vec<Part>,
+}
+
+/// The triangles of one material.
+///
+/// `positions`, `normals` and `uvs` have the same length. Triangles are counter-clockwise seen from outside.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Part {
+    /// Index into the scene's materials.
+    pub material: usize,
+    /// Points (m).
+    pub positions: Vec<Vec3>,
+    /// Unit vectors.
+    pub normals: Vec<Normal>,
+    /// Texture coordinates in metres, u to the right and v upwards; an exporter divides by the texture's size.
+    pub uvs: Vec<Vec2>,
+    /// Indices of corners.
+    pub triangles: Triangles,
+}
+
+impl Part {
+    /// Removes all vertices and triangles but keeps their memory.
+    pub fn clear(&mut self) {
+        self.positions.clear();
+        self.normals.clear();
+        self.uvs.clear();
+        self.triangles.clear();
+    }
+
+    /// Makes room for more vertices and triangles, on huge pages where they are many.
+    #[inline]
+    pub fn make_room(&mut self, vertices: usize, triangles: usize) {
+        make_room(&mut self.positions, vertices);
+        make_room(&mut self.normals, vertices);
+        make_room(&mut self.uvs, vertices);
+        self.triangles.make_room(triangles);
+    }
+}
+
+impl Mesh {
+    /// The number of triangles of all parts.
+    pub fn triangles(&self) -> usize {
+        self.parts.iter().map(|part| part.triangles.len()).sum()
+    }
+
+    /// The lowest and highest corner (m) of the box around all points; `None` without points.
+    pub fn bounds(&self) -> Option<(DVec3, DVec3)> {
+        let mut points = self.parts.iter().flat_map(|part| &part.positions);
+        let first = *points.next()?;
+        let (low, high) =
+            points.fold((first, first), |(low, high), point| (low.min(*point), high.max(*point)));
+        Some((low.as_dvec3(), high.as_dvec3()))
+    }
+
+    /// The part for `material`, added at the end if there is none.
+    pub fn part(&mut self, material: usize) -> &mut Part {
+        let index = match self.parts.iter().position(|part| part.material == material) {
+            Some(index) => index,
+            None => {
+                self.parts.push(Part { material, ..Part::default() });
+                self.parts.len() - 1
+            }
+        };
+        &mut self.parts[index]
+    }
+}

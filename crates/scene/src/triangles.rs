@@ -1,0 +1,335 @@
+//! Lists of triangles in which a tube takes the memory of its rings.
+
+use std::ops::Range;
+
+use burgeon_base::memory::make_room;
+
+/// Triangles as indices of their corners, counter-clockwise seen from outside.
+///
+/// Most of what rewriting draws are tubes. Their faces follow from their rings, so a band or a fan is kept as such and
+/// told triangle by triangle: that is a tenth of the memory, whose first touch costs more than the geometry does.
+///
+/// ```
+/// use burgeon::scene::Triangles;
+///
+/// let mut triangles = Triangles::from(vec![[9, 8, 7]]);
+/// triangles.fan(0, 4, false);
+/// assert_eq!(triangles.iter().collect::<Vec<_>>(), [[9, 8, 7], [0, 1, 2], [0, 2, 3]]);
+/// ```
+#[derive(Debug, Clone, Default)]
+pub struct Triangles {
+    runs: Vec<Run>,
+    listed: Vec<[u32; 3]>,
+    count: usize,
+}
+
+/// Triangles of one kind, up to the next run; there is at least one.
+#[derive(Debug, Clone, Copy)]
+struct Run {
+    /// How many triangles come before.
+    first: u32,
+    faces: Faces,
+}
+
+#[derive(Debug, Clone, Copy)]
+enum Faces {
+    /// Those of the list, from a place on.
+    Listed(u32),
+    Band {
+        from: u32,
+        to: u32,
+        sides: u16,
+    },
+    Fan {
+        first: u32,
+        turned: bool,
+    },
+}
+
+impl Triangles {
+    /// The most triangles that may come before a band or a fan.
+    pub const MOST_BEFORE: usize = u32::MAX as usize;
+
+    /// How many there are.
+    #[inline]
+    pub fn len(&self) -> usize {
+        self.count
+    }
+
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.count == 0
+    }
+
+    /// Adds one.
+    #[inline]
+    pub fn push(&mut self, corners: [u32; 3]) {
+        if !matches!(self.runs.last(), Some(Run { faces: Faces::Listed(_), .. })) {
+            self.begin(Faces::Listed(short(self.listed.len())));
+        }
+        self.listed.push(corners);
+        self.count += 1;
+    }
+
+    /// Adds those between the rings that begin at the corners `from` and `to`, for `sides` faces with one corner more:
+    /// first the halves with two corners of the one ring, then those with two of the other.
+    #[inline]
+    pub fn band(&mut self, from: u32, to: u32, sides: u16) {
+        if sides > 0 {
+            self.begin(Faces::Band { from, to, sides });
+            self.count += 2 * usize::from(sides);
+        }
+    }
+
+    /// Adds those of a convex face of so many `corners`, which begin at `first`; turned, they look the other way.
+    #[inline]
+    pub fn fan(&mut self, first: u32, corners: u16, turned: bool) {
+        if corners > 2 {
+            self.begin(Faces::Fan { first, turned });
+            self.count += usize::from(corners) - 2;
+        }
+    }
+
+    #[inline]
+    fn begin(&mut self, faces: Faces) {
+        make_room(&mut self.runs, 1);
+        self.runs.push(Run { first: short(self.count), faces });
+    }
+
+    /// The one at place `index`.
+    pub fn get(&self, index: usize) -> Option<[u32; 3]> {
+        self.range(index..self.count).next()
+    }
+
+    /// All of them.
+    pub fn iter(&self) -> Iter<'_> {
+        self.range(0..self.count)
+    }
+
+    /// Those at these places, as far as they are there.
+    pub fn range(&self, places: Range<usize>) -> Iter<'_> {
+        let after = self.runs.partition_point(|run| run.first as usize <= places.start);
+        let end = places.end.min(self.count);
+        let next = places.start.min(end);
+        let nothing = Faces::Listed(0);
+        Iter { of: self, next, end, run: after.saturating_sub(1), first: 0, until: next, faces: nothing }
+    }
+
+    /// Leaves the first `count` of them.
+    pub fn truncate(&mut self, count: usize) {
+        if count >= self.count {
+            return;
+        }
+        let kept = self.runs.partition_point(|run| (run.first as usize) < count);
+        let Some(last) = kept.checked_sub(1) else { return self.clear() };
+        let first = self.runs[last].first as usize;
+        let rest: Vec<[u32; 3]> = self.range(first..count).collect();
+        let listed = self.runs[last..].iter().find_map(|run| match run.faces {
+            Faces::Listed(from) => Some(from as usize),
+            _ => None,
+        });
+        self.runs.truncate(last);
+        self.listed.truncate(listed.unwrap_or(self.listed.len()));
+        self.count = first;
+        self.extend(rest);
+    }
+
+    /// Removes all, but keeps their memory.
+    pub fn clear(&mut self) {
+        self.runs.clear();
+        self.listed.clear();
+        self.count = 0;
+    }
+
+    /// Makes room for more that are added one by one, on huge pages where they are many.
+    #[inline]
+    pub fn make_room(&mut self, more: usize) {
+        make_room(&mut self.listed, more);
+    }
+}
+
+/// A place as it is kept. Beyond [`Triangles::MOST_BEFORE`] there may be only one list, which begins at 0.
+#[inline]
+fn short(place: usize) -> u32 {
+    u32::try_from(place).unwrap_or(u32::MAX)
+}
+
+impl PartialEq for Triangles {
+    /// The same triangles in the same order are equal, however they are kept.
+    fn eq(&self, other: &Self) -> bool {
+        self.iter().eq(other.iter())
+    }
+}
+
+impl From<Vec<[u32; 3]>> for Triangles {
+    fn from(listed: Vec<[u32; 3]>) -> Self {
+        let count = listed.len();
+        let run = (count > 0).then_some(Run { first: 0, faces: Faces::Listed(0) });
+        Self { runs: run.into_iter().collect(), listed, count }
+    }
+}
+
+impl FromIterator<[u32; 3]> for Triangles {
+    fn from_iter<T: IntoIterator<Item = [u32; 3]>>(triangles: T) -> Self {
+        Self::from(triangles.into_iter().collect::<Vec<_>>())
+    }
+}
+
+impl Extend<[u32; 3]> for Triangles {
+    #[inline]
+    fn extend<T: IntoIterator<Item = [u32; 3]>>(&mut self, triangles: T) {
+        let mut triangles = triangles.into_iter();
+        if let Some(first) = triangles.next() {
+            self.push(first);
+            let before = self.listed.len();
+            self.listed.extend(triangles);
+            self.count += self.listed.len() - before;
+        }
+    }
+}
+
+impl<'a> IntoIterator for &'a Triangles {
+    type Item = [u32; 3];
+    type IntoIter = Iter<'a>;
+
+    fn into_iter(self) -> Iter<'a> {
+        self.iter()
+    }
+}
+
+/// Triangles one after the other.
+#[derive(Debug, Clone)]
+pub struct Iter<'a> {
+    of: &'a Triangles,
+    next: usize,
+    end: usize,
+    /// The number of the run after the present one.
+    run: usize,
+    /// What the present run is made of, the place where it begins, and the one where the next goes on.
+    faces: Faces,
+    first: usize,
+    until: usize,
+}
+
+impl Iterator for Iter<'_> {
+    type Item = [u32; 3];
+
+    #[inline]
+    fn next(&mut self) -> Option<[u32; 3]> {
+        if self.next == self.until {
+            if self.next == self.end {
+                return None;
+            }
+            let run = self.of.runs[self.run];
+            self.run += 1;
+            let behind = self.of.runs.get(self.run).map_or(self.end, |run| run.first as usize);
+            (self.faces, self.first, self.until) = (run.faces, run.first as usize, behind.min(self.end));
+        }
+        let index = self.next - self.first;
+        self.next += 1;
+        let side = index as u32;
+        Some(match self.faces {
+            Faces::Listed(from) => self.of.listed[from as usize + index],
+            Faces::Band { from, to, sides } => match side.checked_sub(u32::from(sides)) {
+                None => [from + side, from + side + 1, to + side + 1],
+                Some(side) => [from + side, to + side + 1, to + side],
+            },
+            Faces::Fan { first, turned: false } => [first, first + side + 1, first + side + 2],
+            Faces::Fan { first, turned: true } => [first, first + side + 2, first + side + 1],
+        })
+    }
+
+    #[inline]
+    fn size_hint(&self) -> (usize, Option<usize>) {
+        let left = self.end - self.next;
+        (left, Some(left))
+    }
+}
+
+impl ExactSizeIterator for Iter<'_> {}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// What is added to a list of triangles: a few of them, a band or a fan.
+    #[derive(Debug, Clone)]
+    enum Added {
+        Listed(Vec<[u32; 3]>),
+        Band(u32, u32, u16),
+        Fan(u32, u16, bool),
+    }
+
+    fn added() -> impl Strategy<Value = Added> {
+        prop_oneof![
+            prop::collection::vec(prop::array::uniform3(0u32..99), 0..4).prop_map(Added::Listed),
+            (0u32..99, 0u32..99, 0u16..5).prop_map(|(from, to, sides)| Added::Band(from, to, sides)),
+            (0u32..99, 0u16..6, any::<bool>())
+                .prop_map(|(first, corners, turned)| Added::Fan(first, corners, turned)),
+        ]
+    }
+
+    fn both(all: &[Added]) -> (Triangles, Vec<[u32; 3]>) {
+        let (mut triangles, mut plain) = (Triangles::default(), Vec::new());
+        for added in all {
+            match added {
+                Added::Listed(listed) => {
+                    triangles.extend(listed.iter().copied());
+                    plain.extend(listed);
+                }
+                Added::Band(from, to, sides) => {
+                    triangles.band(*from, *to, *sides);
+                    let sides = u32::from(*sides);
+                    plain.extend((0..sides).map(|i| [from + i, from + i + 1, to + i + 1]));
+                    plain.extend((0..sides).map(|i| [from + i, to + i + 1, to + i]));
+                }
+                Added::Fan(first, corners, turned) => {
+                    triangles.fan(*first, *corners, *turned);
+                    let fan = (2..u32::from(*corners)).map(|i| [*first, first + i - 1, first + i]);
+                    plain.extend(fan.map(|[a, b, c]| if *turned { [a, c, b] } else { [a, b, c] }));
+                }
+            }
+        }
+        (triangles, plain)
+    }
+
+    #[test]
+    fn what_is_kept_as_bands_equals_a_plain_list() {
+        let (bands, plain) =
+            both(&[Added::Band(0, 6, 5), Added::Listed(vec![[1, 2, 3]]), Added::Fan(12, 5, true)]);
+        assert_eq!(bands, Triangles::from(plain.clone()));
+        assert_eq!(bands.len(), 14);
+        let mut other = plain;
+        other[13].reverse();
+        assert_ne!(bands, Triangles::from(other));
+        assert!(Triangles::default().is_empty() && Triangles::from(Vec::new()).is_empty());
+    }
+
+    proptest! {
+        #[test]
+        fn all_is_as_if_each_were_listed(
+            before in prop::collection::vec(added(), 0..8),
+            after in prop::collection::vec(added(), 0..4),
+            cut in 0usize..60,
+            from in 0usize..60,
+            to in 0usize..60,
+        ) {
+            let (mut triangles, mut plain) = both(&before);
+            prop_assert_eq!(triangles.len(), plain.len());
+            prop_assert_eq!(triangles.iter().len(), plain.len());
+            prop_assert!(triangles.iter().eq(plain.iter().copied()));
+            prop_assert_eq!(triangles.get(from), plain.get(from).copied());
+            let range = plain.iter().copied().enumerate().filter(|(place, _)| (from..to).contains(place));
+            prop_assert!(triangles.range(from..to).eq(range.map(|(_, triangle)| triangle)));
+            triangles.truncate(cut);
+            plain.truncate(cut);
+            prop_assert!(triangles.iter().eq(plain.iter().copied()));
+            let (more, rest) = both(&after);
+            triangles.extend(more.iter());
+            plain.extend(rest);
+            prop_assert!(triangles.iter().eq(plain.iter().copied()));
+        }
+    }
+}

@@ -1,0 +1,254 @@
+//! Divides the cells of a terrain by the rules of a system: a level of cells is a chain, and a step of its derivation
+//! replaces each cell by its four quadrants.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use rustc_hash::FxHashMap;
+
+use super::block::{Area, Block};
+use super::world::{Begin, Divide};
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_brief};
+use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
+
+/// The parameter of a module that is its cell's height.
+const HEIGHT: &str = "height";
+/// The parameter of a module that is added to its cell's height as it is, without smoothing.
+const FORM: &str = "form";
+
+/// Cells that are divided at a time.
+const STRIP: usize = 1 << 17;
+
+/// Divides cells by the rules of the systems of a script.
+pub struct Cells<'a> {
+    rewriter: &'a dyn Rewriter,
+    systems: RefCell<FxHashMap<usize, Arc<System>>>,
+}
+
+/// A system whose rules divide cells.
+struct System {
+    index: usize,
+    rules: Arc<RuleSet>,
+    begin: Begin,
+    /// By symbol: which of its parameters is the height.
+    heights: Vec<Option<usize>>,
+    /// By symbol: which of its parameters is its form, if it has one.
+    forms: Vec<Option<usize>>,
+}
+
+impl<'a> Cells<'a> {
+    /// Divides by the rules that `rewriter` applies.
+    pub fn new(rewriter: &'a dyn Rewriter) -> Self {
+        Self { rewriter, systems: RefCell::default() }
+    }
+
+    /// System `index`, which is made ready the first time.
+    fn system(&self, index: usize) -> Result<Arc<System>> {
+        if let Some(system) = self.systems.borrow().get(&index) {
+            return Ok(Arc::clone(system));
+        }
+        let system = Arc::new(System::new(self.rewriter, index)?);
+        self.systems.borrow_mut().insert(index, Arc::clone(&system));
+        Ok(system)
+    }
+}
+
+impl Divide for Cells<'_> {
+    fn begin(&self, system: usize) -> Result<Begin> {
+        self.system(system).map(|system| system.begin.clone())
+    }
+
+    fn divide(&self, system: usize, cells: &Block, area: Area, last: bool) -> Result<Block> {
+        self.system(system)?.divide(self.rewriter, cells, area, last)
+    }
+}
+
+impl System {
+    fn new(rewriter: &dyn Rewriter, index: usize) -> Result<Self> {
+        let rules = rewriter.rules(index)?;
+        let named = |error: Error| error.rather_at(rules.place.clone());
+        if rules.has_object {
+            return Err(named(
+                Error::script("a system that divides the cells of a terrain has no object")
+                    .help("leave object out: what the cells are is all that counts"),
+            ));
+        }
+        let grammar = &rules.grammar;
+        if grammar.has_contexts() {
+            return Err(named(
+                Error::script("the cells of a terrain have no neighbours in their chain")
+                    .help("write rules for single modules, without < and >"),
+            ));
+        }
+        let axiom = rewriter.axiom(index)?;
+        let signatures = grammar.symbols();
+        let find = |parameter: &str| -> Vec<Option<usize>> {
+            let of =
+                |symbol| signatures.signature(symbol).parameters.iter().position(|name| name == parameter);
+            let declared = (FIRST_SYMBOL..).take(signatures.names().count());
+            (0..FIRST_SYMBOL).map(|_| None).chain(declared.map(of)).collect()
+        };
+        let (heights, forms) = (find(HEIGHT), find(FORM));
+        let begin = match axiom.symbols.as_slice() {
+            [symbol, END] if *symbol >= FIRST_SYMBOL => {
+                let height = heights[usize::from(*symbol)]
+                    .ok_or_else(|| no_height(&signatures.signature(*symbol).name))?;
+                let mut rest = axiom.params;
+                let height = rest.remove(height);
+                let stride =
+                    grammar.arities().iter().max().map_or(0, |most| usize::from(*most).saturating_sub(1));
+                rest.resize(stride, Boxed::Nil.pack());
+                let reserved = (0..FIRST_SYMBOL).map(|_| String::new());
+                let names = reserved.chain(signatures.names().map(str::to_owned)).collect();
+                Begin { symbol: *symbol, height, rest, names }
+            }
+            _ => {
+                return Err(named(
+                    Error::script("a terrain begins with one cell")
+                        .help("give its system one module without branches: cells:axiom(Hill(0, 100))"),
+                ));
+            }
+        };
+        Ok(Self { index, rules, begin, heights, forms })
+    }
+
+    fn divide(&self, rewriter: &dyn Rewriter, cells: &Block, area: Area, last: bool) -> Result<Block> {
+        let made = area.quadrants();
+        let (count, stride) = (made.len(), self.begin.rest.len());
+        let random = !cells.keys.is_empty();
+        let mut block = Block {
+            level: cells.level + 1,
+            area: made,
+            symbols: vec![0; count],
+            heights: vec![0.0; count],
+            rest: vec![0.0; if last { 0 } else { count * stride }],
+            stride,
+            keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            forms: vec![0.0; if self.forms.iter().any(Option::is_some) { count } else { 0 }],
+            smooth: Vec::new(),
+        };
+        let rows = (STRIP / area.columns.max(1)).max(1);
+        for first in (0..area.rows).step_by(rows) {
+            rewriter.check()?;
+            let rows = rows.min(area.rows - first);
+            #[allow(clippy::cast_possible_wrap, reason = "rows are below 2^31")]
+            let strip = Area { y: area.y + first as i64, rows, ..area };
+            self.strip(rewriter, cells, strip, &mut block)?;
+        }
+        Ok(block)
+    }
+
+    /// Divides the cells of some rows, and puts the quadrants where they belong.
+    fn strip(&self, rewriter: &dyn Rewriter, cells: &Block, area: Area, block: &mut Block) -> Result<()> {
+        let grammar = &self.rules.grammar;
+        let arities = grammar.arities();
+        let random = grammar.draws_random();
+        let mut chain = Chain::default();
+        chain.symbols.reserve(area.len() + 1);
+        for (x, y) in area.cells() {
+            let from = cells.area.index(x, y);
+            let symbol = cells.symbols[from];
+            chain.symbols.push(symbol);
+            let rest = &cells.rest[from * cells.stride..][..usize::from(arities[usize::from(symbol)]) - 1];
+            let height = self.heights[usize::from(symbol)].unwrap_or(0);
+            chain.params.extend_from_slice(&rest[..height]);
+            chain.params.push(cells.heights[from]);
+            chain.params.extend_from_slice(&rest[height..]);
+            if random {
+                chain.keys.push(cells.keys.get(from).copied().unwrap_or_default());
+            }
+        }
+        chain.symbols.push(END);
+        if random {
+            chain.keys.push(Key::default());
+        }
+        chain.mark(self.rules.batch, arities);
+        let step = cells.level as usize + 1;
+        let RewriteOutcome { chain, applied } = rewriter.rewrite(self.index, chain, step)?;
+        let mut here = Mark::default();
+        for ((x, y), (rule, count)) in area.cells().zip(&applied) {
+            let from = cells.area.index(x, y);
+            let whole = *rule == RewriteOutcome::NONE
+                || (*count == 1 && chain.symbols[here.module] == cells.symbols[from]);
+            if !whole && *count != 4 {
+                return Err(self.not_four(cells, from, (*rule, *count), step));
+            }
+            let key = cells.keys.get(from).copied();
+            for ordinal in 0..4 {
+                let symbol = chain.symbols[here.module];
+                let arity = usize::from(arities[usize::from(symbol)]);
+                let Some(at) = self.heights[usize::from(symbol)].filter(|_| symbol > END) else {
+                    return Err(match symbol {
+                        ..=END => self.not_four(cells, from, (*rule, 1), step),
+                        _ => self.blame(no_height(&grammar.symbols().signature(symbol).name), *rule),
+                    });
+                };
+                let params = &chain.params[here.param..here.param + arity];
+                let height = params[at];
+                let form = self.forms[usize::from(symbol)].map_or(0.0, |form| params[form]);
+                if !(height + form).is_finite() {
+                    let module = module_brief(grammar.symbols(), &self.rules.values, symbol, params);
+                    let error = Error::script(format!("the height of {module} is no finite number"))
+                        .help("give each quadrant a height in metres");
+                    return Err(self.blame(error, *rule));
+                }
+                let (column, row) = (x * 2 + i64::from(ordinal & 1 == 1), y * 2 + i64::from(ordinal > 1));
+                let to = block.area.index(column, row);
+                block.symbols[to] = symbol;
+                block.heights[to] = height;
+                if let Some(into) = block.forms.get_mut(to) {
+                    *into = form;
+                }
+                if !block.rest.is_empty() {
+                    let into = &mut block.rest[to * block.stride..][..arity - 1];
+                    into[..at].copy_from_slice(&params[..at]);
+                    into[at..].copy_from_slice(&params[at + 1..]);
+                }
+                if let (Some(into), Some(key)) = (block.keys.get_mut(to), key) {
+                    *into = key.child(ordinal);
+                }
+                if !whole {
+                    here.module += 1;
+                    here.param += arity;
+                }
+            }
+            if whole {
+                here.param += usize::from(arities[usize::from(chain.symbols[here.module])]);
+                here.module += 1;
+            }
+        }
+        rewriter.reuse(self.index, chain);
+        Ok(())
+    }
+
+    /// The error of a cell that did not become four.
+    fn not_four(&self, cells: &Block, from: usize, (rule, count): (u16, u32), step: usize) -> Error {
+        let grammar = &self.rules.grammar;
+        let symbol = cells.symbols[from];
+        let arity = usize::from(grammar.arities()[usize::from(symbol)]);
+        let mut params = cells.rest[from * cells.stride..][..arity - 1].to_vec();
+        params.insert(self.heights[usize::from(symbol)].unwrap_or(0), cells.heights[from]);
+        let module = module_brief(grammar.symbols(), &self.rules.values, symbol, &params);
+        let count = match count {
+            0 => "nothing".to_owned(),
+            1 => "one module or a branch".to_owned(),
+            count => format!("{count} modules"),
+        };
+        let error = Error::script(format!("a cell becomes {count}, where it has four quadrants"))
+            .help("return four modules: north-west, north-east, south-west and south-east; or no value, to leave the cell as it is");
+        self.blame(error, rule).module(module, step)
+    }
+
+    fn blame(&self, error: Error, rule: u16) -> Error {
+        match self.rules.grammar.rules().get(usize::from(rule)) {
+            Some(rule) => error.at(rule.place.clone()).rule(&rule.pattern.text),
+            None => error,
+        }
+    }
+}
+
+fn no_height(name: &str) -> Error {
+    Error::script(format!("{name} is no cell of a terrain: it has no parameter called {HEIGHT}"))
+        .help(format!("declare it with one: module(\"{name}\", \"{HEIGHT}\", ...)"))
+}

@@ -1,0 +1,125 @@
+//! A rule table that was found, as a world and as a module of Luau.
+
+use std::fmt::Write as _;
+use std::sync::Arc;
+
+use glam::DVec2;
+
+use super::code::Code;
+use super::targets::Target;
+use crate::{Area, Draw, Layer, Quadrants, RuleTable, Rules, Tables, World};
+use burgeon_base::error::Result;
+use burgeon_kit::rules::Symbol;
+
+/// A rule table whose map is like a target.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Fitted {
+    code: Code,
+    levels: u32,
+    height: f64,
+    decay: f64,
+    error: f64,
+    /// How many tables were tried to find it.
+    pub tried: usize,
+}
+
+impl Fitted {
+    /// `code`, which makes a map from 0 to 1, for the heights of `target`.
+    pub(super) fn new(code: Code, target: &Target) -> Self {
+        let code = code.tidy().rounded();
+        let (low, high) = target.range();
+        let (height, decay) = (low + code.height * (high - low), high - low);
+        let levels = target.across().trailing_zeros();
+        let mut fitted = Self { code, levels, height, decay, error: f64::INFINITY, tried: 0 };
+        // A table without systems is never refused.
+        fitted.error = fitted.map().map_or(f64::INFINITY, |heights| target.error(&heights));
+        fitted
+    }
+
+    /// How far its map is from the target, as [`Target::error`] tells it.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// How many symbols it has.
+    pub fn symbols(&self) -> usize {
+        self.code.rules.len()
+    }
+
+    /// Its heights (m), row by row from the north-west, as many as the target has.
+    pub fn map(&self) -> Result<Vec<f64>> {
+        let world = World {
+            corner: DVec2::ZERO,
+            size: 1.0,
+            layers: vec![Layer {
+                from: 0,
+                rules: Rules::Table(Arc::new(self.table())),
+                start: 0,
+                height: self.height,
+                rest: vec![self.decay],
+                names: Arc::default(),
+            }],
+            smooth: false,
+            key: None,
+            remap: Vec::new(),
+            measured: None,
+        };
+        let across = 1 << self.levels;
+        let area = Area { x: 0, y: 0, columns: across, rows: across };
+        Ok(world.cells(self.levels, area, &Tables)?.heights)
+    }
+
+    /// The rule table.
+    fn table(&self) -> RuleTable {
+        let rule = |rule: &super::code::Rule| {
+            vec![Quadrants {
+                weight: 1.0,
+                symbols: rule.symbols.map(|symbol| Symbol::try_from(symbol).unwrap_or(0)),
+                change: rule.change.map(Draw::exactly),
+                decay: rule.factor.map(Draw::exactly),
+            }]
+        };
+        RuleTable {
+            names: (0..self.symbols()).map(name).collect(),
+            rules: self.code.rules.iter().map(rule).collect(),
+        }
+    }
+
+    /// A module of Luau that returns the table, its start, and the height (m) and the decay (m) of the whole; `told`
+    /// are the lines of a comment at its top.
+    pub fn module(&self, told: &[String]) -> String {
+        let mut text = String::from("--!strict\n");
+        for line in told {
+            text += "-- ";
+            // A line break would end the comment.
+            text.extend(line.chars().map(|letter| if letter.is_control() { ' ' } else { letter }));
+            text += "\n";
+        }
+        let numbers = |numbers: [f64; 4]| numbers.map(|number| format!("{number:?}")).join(", ");
+        // Writing into a string cannot fail.
+        let _ = writeln!(
+            text,
+            "return {{\n  start = \"A\",\n  levels = {},\n  height = {:?},\n  decay = {:?},\n  rules = {{",
+            self.levels, self.height, self.decay
+        );
+        for (symbol, rule) in self.code.rules.iter().enumerate() {
+            let _ = writeln!(text, "    {} = {{", name(symbol));
+            for child in rule.symbols {
+                let _ = writeln!(text, "      \"{}\",", name(child));
+            }
+            let _ = writeln!(text, "      change = {{ {} }},", numbers(rule.change));
+            let _ = writeln!(text, "      decay = {{ {} }},\n    }},", numbers(rule.factor));
+        }
+        text += "  },\n}\n";
+        text
+    }
+}
+
+/// The name of a symbol by its number: A to Z, then A1 to Z1, and so on.
+fn name(symbol: usize) -> String {
+    let letter = char::from(b"ABCDEFGHIJKLMNOPQRSTUVWXYZ"[symbol % 26]);
+    match symbol / 26 {
+        0 => letter.to_string(),
+        turn => format!("{letter}{turn}"),
+    }
+}

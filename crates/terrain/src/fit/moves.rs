@@ -1,0 +1,260 @@
+//! Changes of which symbols a rule table has: another symbol for a quadrant, two symbols out of one, one out of two.
+
+use super::code::{Code, Level};
+use super::solve::{MOST, dot, improve, misfit};
+use super::targets::{self, number};
+use burgeon_kit::random::Stream;
+
+/// What is to be fitted, scaled to 0..1, along the Z curve.
+pub(super) struct Problem {
+    /// How often the whole is divided.
+    pub levels: usize,
+    /// The height of each cell.
+    pub wanted: Vec<f64>,
+    /// The sum of the heights below each cell of each level.
+    sums: Vec<Vec<f64>>,
+}
+
+/// What a quadrant of a rule may become.
+#[derive(Debug, Clone, Copy)]
+struct Choice {
+    symbol: usize,
+    change: f64,
+    factor: f64,
+    /// How much of the squared height that is left it explains.
+    gain: f64,
+}
+
+/// A quadrant of the rule of a symbol.
+type Place = (usize, usize);
+
+impl Problem {
+    /// The problem of a map along the Z curve with 4 to the power of `levels` cells.
+    pub(super) fn new(wanted: Vec<f64>, levels: usize) -> Self {
+        let mut sums = vec![wanted.clone()];
+        for _ in 0..levels {
+            let below = &sums[sums.len() - 1];
+            sums.push(below.chunks_exact(4).map(|four| four.iter().sum()).collect());
+        }
+        sums.reverse();
+        Self { levels, wanted, sums }
+    }
+
+    /// How far the map of `code` is from what is wanted, each scaled to 0..1.
+    pub(super) fn error(&self, code: &Code) -> f64 {
+        let cells = code.cells(self.levels);
+        targets::error(&self.wanted, &cells[self.levels].heights)
+    }
+
+    /// Better numbers for `code`, in at most `steps` steps.
+    pub(super) fn improve(&self, code: &mut Code, steps: usize) {
+        improve(code, &self.wanted, self.levels, steps);
+    }
+
+    fn misfit(&self, code: &Code) -> f64 {
+        misfit(&code.cells(self.levels), &self.wanted)
+    }
+
+    /// For each symbol, what each quadrant of the rules of `wanted` symbols would best become with it; nothing for rules
+    /// that are not in use.
+    ///
+    /// What a symbol itself makes is taken to stay as it is.
+    fn survey(&self, code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Vec<Choice>> {
+        let cells = code.cells(self.levels);
+        let reliefs = code.reliefs(self.levels - 1);
+        let mut sums = vec![Sums::none(code.rules.len()); code.rules.len() * 4];
+        for (level, here) in cells.iter().enumerate().take(self.levels) {
+            let below = 2 * (self.levels - level - 1);
+            let size = 1 << below;
+            let relief = &reliefs[below / 2];
+            let totals: Vec<(f64, f64)> =
+                relief.chunks_exact(size).map(|part| (part.iter().sum(), dot(part, part))).collect();
+            for (cell, symbol) in here.symbols.iter().enumerate().filter(|(_, symbol)| wanted(**symbol)) {
+                let (base, decay) = (here.heights[cell], here.decays[cell]);
+                for quadrant in 0..4 {
+                    let child = 4 * cell + quadrant;
+                    let wanted = &self.wanted[child << below..][..size];
+                    let sums = &mut sums[symbol * 4 + quadrant];
+                    sums.cover += decay * decay * number(size);
+                    sums.height += decay * (self.sums[level + 1][child] - base * number(size));
+                    if below == 0 {
+                        continue;
+                    }
+                    let parts = relief.chunks_exact(size).zip(&totals);
+                    for (by, (part, (sum, square))) in sums.by.iter_mut().zip(parts) {
+                        by[0] += decay * decay * sum;
+                        by[1] += decay * decay * square;
+                        by[2] += decay * (dot(wanted, part) - base * sum);
+                    }
+                }
+            }
+        }
+        sums.iter().map(Sums::choices).collect()
+    }
+
+    /// Gives a quadrant of a rule another symbol, one that seems good.
+    pub(super) fn turn(&self, code: &mut Code, stream: &mut Stream) {
+        let survey = self.survey(code, |_| true);
+        let mut turns: Vec<(f64, Place, Choice)> = Vec::new();
+        for (place, choices) in survey.iter().enumerate() {
+            let place = (place / 4, place % 4);
+            let now = code.rules[place.0].symbols[place.1];
+            let others = choices.iter().filter(|choice| choice.symbol != now);
+            turns.extend(others.map(|choice| (choices[now].gain - choice.gain, place, *choice)));
+        }
+        turns.sort_by(|a, b| a.0.total_cmp(&b.0));
+        if let Some((_, place, choice)) = turns.get(rank(turns.len(), 0.9, stream)) {
+            set(code, *place, *choice);
+        }
+    }
+
+    /// Does without one of the symbols in use, likely one that others can well replace. Gives its number.
+    pub(super) fn retire(&self, code: &mut Code, stream: &mut Stream) -> Option<usize> {
+        let survey = self.survey(code, |_| true);
+        let mut goers = Vec::new();
+        for gone in used(code).into_iter().skip(1) {
+            let mut cost = 0.0;
+            let mut changes = Vec::new();
+            for place in places(code, |symbol| symbol == gone) {
+                let choices = &survey[place.0 * 4 + place.1];
+                let others = choices.iter().filter(|choice| choice.symbol != gone);
+                let best = others.max_by(|a, b| a.gain.total_cmp(&b.gain));
+                if let Some(best) = best.filter(|_| place.0 != gone) {
+                    cost += choices[gone].gain - best.gain;
+                    changes.push((place, *best));
+                }
+            }
+            goers.push((cost, gone, changes));
+        }
+        goers.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let (_, gone, changes) = goers.get(rank(goers.len(), 0.7, stream))?;
+        for (place, choice) in changes {
+            set(code, *place, *choice);
+        }
+        Some(*gone)
+    }
+
+    /// Makes `spare`, which is not in use or the next new symbol, a second one of a symbol that stands in several
+    /// places, for one of these: likely one where much is missing. Then both are fitted anew.
+    pub(super) fn split(&self, code: &mut Code, spare: usize, stream: &mut Stream) {
+        let uses = code.uses();
+        let several = places(code, |symbol| uses[symbol] > 1);
+        if several.is_empty() {
+            return;
+        }
+        let missing = self.missing(code);
+        let weight = |place: &Place| missing[place.0 * 4 + place.1];
+        let whole: f64 = several.iter().map(weight).sum();
+        let mut left = stream.uniform() * whole;
+        let found = several.iter().find(|place| {
+            left -= weight(place);
+            left < 0.0
+        });
+        let place = *found.unwrap_or(&several[0]);
+        let symbol = code.rules[place.0].symbols[place.1];
+        let copy = code.rules[symbol];
+        match code.rules.get_mut(spare) {
+            Some(rule) => *rule = copy,
+            None => code.rules.push(copy),
+        }
+        code.rules[place.0].symbols[place.1] = spare;
+        self.refit(code, spare);
+        self.refit(code, symbol);
+    }
+
+    /// Gives each quadrant of a rule what seems best, where that is better.
+    pub(super) fn refit(&self, code: &mut Code, symbol: usize) {
+        let survey = self.survey(code, |known| known == symbol);
+        let mut misfit = self.misfit(code);
+        for quadrant in 0..4 {
+            let choices = survey[symbol * 4 + quadrant].iter();
+            let Some(choice) = choices.max_by(|a, b| a.gain.total_cmp(&b.gain)) else { return };
+            let mut made = code.clone();
+            set(&mut made, (symbol, quadrant), *choice);
+            let found = self.misfit(&made);
+            if found < misfit {
+                (*code, misfit) = (made, found);
+            }
+        }
+    }
+
+    /// What is missing (squared) below each quadrant of each rule, summed over the levels.
+    fn missing(&self, code: &Code) -> Vec<f64> {
+        let cells: Vec<Level> = code.cells(self.levels);
+        let heights = &cells[self.levels].heights;
+        let mut below: Vec<f64> = heights.iter().zip(&self.wanted).map(|(a, b)| (a - b).powi(2)).collect();
+        let mut missing = vec![0.0; code.rules.len() * 4];
+        for level in cells.iter().rev().skip(1) {
+            for (child, missed) in below.iter().enumerate() {
+                missing[level.symbols[child >> 2] * 4 + (child & 3)] += missed;
+            }
+            below = below.chunks_exact(4).map(|four| four.iter().sum()).collect();
+        }
+        missing
+    }
+}
+
+/// Of the equations for the change and the factor of a quadrant, for each symbol that it may become.
+#[derive(Clone)]
+struct Sums {
+    /// The squared decays.
+    cover: f64,
+    /// The heights that are wanted, times the decays.
+    height: f64,
+    /// The relief and its square, times the squared decays, and the relief times the heights, for each symbol.
+    by: Vec<[f64; 3]>,
+}
+
+impl Sums {
+    fn none(symbols: usize) -> Self {
+        Self { cover: 0.0, height: 0.0, by: vec![[0.0; 3]; symbols] }
+    }
+
+    /// What the quadrant would best become with each symbol.
+    fn choices(&self) -> Vec<Choice> {
+        let (cover, height) = (self.cover, self.height);
+        if cover <= 1e-12 {
+            return Vec::new();
+        }
+        let choice = |(symbol, [mixed, square, along]): (usize, &[f64; 3])| {
+            let rest = square - mixed * mixed / cover;
+            let factor = if rest > 1e-9 * (1.0 + square) {
+                ((along - mixed * height / cover) / rest).clamp(-MOST, MOST)
+            } else {
+                0.5
+            };
+            let change = (height - mixed * factor) / cover;
+            let explained = 2.0 * (change * height + factor * along)
+                - (change * change * cover + 2.0 * change * factor * mixed + factor * factor * square);
+            Choice { symbol, change, factor, gain: explained }
+        };
+        self.by.iter().enumerate().map(choice).collect()
+    }
+}
+
+/// A number below `count`, each less likely than the one before, `less` times.
+fn rank(count: usize, less: f64, stream: &mut Stream) -> usize {
+    let mut rank = 0;
+    while rank + 1 < count && stream.uniform() < less {
+        rank += 1;
+    }
+    rank
+}
+
+fn set(code: &mut Code, (symbol, quadrant): Place, choice: Choice) {
+    let rule = &mut code.rules[symbol];
+    rule.symbols[quadrant] = choice.symbol;
+    rule.change[quadrant] = choice.change;
+    rule.factor[quadrant] = choice.factor;
+}
+
+/// The symbols in use; the first is the whole.
+fn used(code: &Code) -> Vec<usize> {
+    code.uses().iter().enumerate().filter(|(_, uses)| **uses > 0).map(|(symbol, _)| symbol).collect()
+}
+
+/// The quadrants of rules in use that become a symbol which `wanted` takes.
+fn places(code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Place> {
+    let all = used(code).into_iter().flat_map(|symbol| (0..4).map(move |quadrant| (symbol, quadrant)));
+    all.filter(|(symbol, quadrant)| wanted(code.rules[*symbol].symbols[*quadrant])).collect()
+}

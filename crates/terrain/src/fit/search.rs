@@ -1,0 +1,172 @@
+//! The search for a rule table: several tables change side by side, and the best of them is kept.
+//!
+//! Each begins with one symbol for all cells. Symbols are split where most is missing until there are enough, as a
+//! codebook of vector quantisation grows (Linde, Buzo and Gray, "An algorithm for vector quantizer design", 1980).
+//! Then symbols are retired, split and exchanged at random; what is not much worse is kept, at last only what is
+//! better. After each change the numbers are solved for.
+
+use rayon::prelude::*;
+
+use super::code::{Code, Rule, along};
+use super::fitted::Fitted;
+use super::moves::Problem;
+use super::targets::{Target, number};
+use burgeon_kit::random::Stream;
+
+/// How many cells across the search looks at, at most; what it finds is improved and measured on the whole target.
+const COARSE: usize = 64;
+
+/// How many tables change side by side.
+const CHAINS: u64 = 8;
+
+/// How many changes each table makes between two looks at all of them.
+const CHANGES: usize = 12;
+
+/// How many rounds the tables take from bold to careful changes.
+const CYCLE: usize = 40;
+
+/// How long and how hard to search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// The most symbols that the table may have, at least 1.
+    pub symbols: usize,
+    /// The most rounds.
+    pub rounds: usize,
+    /// The error that is small enough to stop.
+    pub enough: f64,
+    /// How many rounds without a better table are enough to stop.
+    pub patience: usize,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Self { seed: 0, symbols: 16, rounds: usize::MAX, enough: 0.01, patience: 2 * CYCLE }
+    }
+}
+
+/// A table on its way.
+struct Chain {
+    code: Code,
+    error: f64,
+    best: Code,
+    least: f64,
+    stream: Stream,
+    tried: usize,
+}
+
+impl Search {
+    /// The best rule table that is found for `target`, until `stop` says that it is over.
+    ///
+    /// `tell` is told of the best table after each round. The same for the same search and target, on any number of
+    /// threads, unless `stop` ends it.
+    pub fn run(
+        &self,
+        target: &Target,
+        stop: &(dyn Fn() -> bool + Sync),
+        tell: &mut (dyn FnMut(&Fitted) + Send),
+    ) -> Fitted {
+        let (low, high) = target.range();
+        let blank = Rule { symbols: [0; 4], change: [0.0; 4], factor: [0.5; 4] };
+        let begin = Code { rules: vec![blank], height: 0.5 };
+        if low >= high {
+            return Fitted::new(Code { height: 0.0, ..begin }, target);
+        }
+        let fine = problem(target, target.across());
+        let coarse = problem(target, target.across().min(COARSE));
+        let chain = |count| Chain {
+            code: begin.clone(),
+            error: f64::INFINITY,
+            best: begin.clone(),
+            least: f64::INFINITY,
+            stream: Stream::new(self.seed.wrapping_mul(CHAINS).wrapping_add(count)),
+            tried: 0,
+        };
+        let mut chains: Vec<Chain> = (0..CHAINS).map(chain).collect();
+        let mut best = Fitted::new(begin.clone(), target);
+        let (mut least, mut since) = (f64::INFINITY, 0);
+        for round in 0..self.rounds {
+            let boldness = 0.04 * (1.0 - number(round % CYCLE) / number(CYCLE)).powi(2);
+            chains.par_iter_mut().for_each(|chain| chain.round(&coarse, self.symbols, boldness, stop));
+            chains.sort_by(|a, b| a.least.total_cmp(&b.least));
+            since += 1;
+            if chains[0].least < least {
+                if chains[0].least < 0.995 * least {
+                    since = 0;
+                }
+                least = chains[0].least;
+                let mut code = chains[0].best.tidy();
+                if coarse.levels < fine.levels && !stop() {
+                    fine.improve(&mut code, 6);
+                }
+                let found = Fitted::new(code, target);
+                if found.error() < best.error() {
+                    best = found;
+                }
+            }
+            best.tried = chains.iter().map(|chain| chain.tried).sum();
+            tell(&best);
+            if stop() || best.error() <= self.enough || since >= self.patience {
+                break;
+            }
+            if round % CYCLE == CYCLE - 1 {
+                // Each cycle goes on from the better half.
+                let (good, bad) = chains.split_at_mut(usize::try_from(CHAINS / 2).unwrap_or(1));
+                for (good, bad) in good.iter_mut().zip(bad) {
+                    (good.code, good.error) = (good.best.clone(), good.least);
+                    (bad.code, bad.error) = (good.best.clone(), good.least);
+                    (bad.best, bad.least) = (good.best.clone(), good.least);
+                }
+            }
+        }
+        best
+    }
+}
+
+impl Chain {
+    /// Some changes; those that make the error greater by up to `boldness` (a part of it) are kept too.
+    fn round(&mut self, problem: &Problem, symbols: usize, boldness: f64, stop: &(dyn Fn() -> bool + Sync)) {
+        for _ in 0..CHANGES {
+            if stop() {
+                return;
+            }
+            let mut code = self.code.clone();
+            let unused = code.uses().iter().position(|uses| *uses == 0);
+            let spare = unused.or((code.rules.len() < symbols).then_some(code.rules.len()));
+            if !self.error.is_finite() {
+                problem.refit(&mut code, 0);
+            } else if let Some(spare) = spare {
+                problem.split(&mut code, spare, &mut self.stream);
+            } else if symbols > 1 && self.stream.uniform() < 0.5 {
+                if let Some(spare) = problem.retire(&mut code, &mut self.stream) {
+                    problem.split(&mut code, spare, &mut self.stream);
+                }
+            } else {
+                problem.turn(&mut code, &mut self.stream);
+            }
+            problem.improve(&mut code, 3);
+            self.tried += 1;
+            let error = problem.error(&code);
+            if error < self.error * (1.0 + boldness) || spare.is_some() {
+                (self.code, self.error) = (code, error);
+                if self.error < self.least {
+                    (self.best, self.least) = (self.code.clone(), self.error);
+                }
+            }
+        }
+    }
+}
+
+/// `target` as the search sees it, `across` cells across.
+fn problem(target: &Target, across: usize) -> Problem {
+    let (low, high) = target.range();
+    let part = target.across() / across;
+    let mut wanted = vec![0.0; across * across];
+    let share = 1.0 / number(part * part);
+    for (at, height) in target.heights().iter().enumerate() {
+        let (x, y) = (at % target.across() / part, at / target.across() / part);
+        wanted[along(x, y)] += share * (height - low) / (high - low);
+    }
+    Problem::new(wanted, across.trailing_zeros() as usize)
+}

@@ -1,0 +1,322 @@
+//! The tiles of a globe that are expanded, and the surface over them.
+//!
+//! As over flat ground, the surface runs through the corners of cells, and a finer tile follows a coarser one where
+//! they meet. A corner on an edge of the cube is a corner of two faces, or of three: all of them ask the coarsest tile
+//! around it, or the one on the first face, so that they agree to the last bit. Corners are numbered in the grid of the
+//! smallest cells of any tile.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+use rustc_hash::FxHashMap;
+
+use super::expand::{Areas, NONE, expand, padded};
+use super::faces::{Spot, aliases, corner};
+use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
+use super::sphere::{direction, place, side};
+use crate::block::{Area, Block};
+use crate::tile::Tile;
+use crate::world::{Divide, World};
+use burgeon_base::error::Result;
+
+/// A sphere whose six faces are divided, and the tiles of it that are expanded.
+#[derive(Clone)]
+pub struct Globe {
+    world: Arc<World>,
+    radius: f64,
+    /// The height (m) of the water, if there is any.
+    sea: Option<f64>,
+    tree: Tree,
+    /// By leaf of the tree.
+    tiles: Vec<Arc<Tile>>,
+    /// The level of the smallest cells.
+    finest: u32,
+}
+
+impl Globe {
+    /// A globe of this radius (m) and height of the water (m) with nothing expanded. `world` says how each of its faces
+    /// is divided.
+    pub fn new(world: World, radius: f64, sea: Option<f64>) -> Self {
+        let world = World { corner: DVec2::ZERO, size: side(radius), ..world };
+        Self { world: Arc::new(world), radius, sea, tree: Tree::default(), tiles: Vec::new(), finest: 0 }
+    }
+
+    /// How its faces are divided.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// Its radius (m).
+    pub fn radius(&self) -> f64 {
+        self.radius
+    }
+
+    /// The height (m) of the water, if there is any.
+    pub fn sea(&self) -> Option<f64> {
+        self.sea
+    }
+
+    /// Expands what is seen from `eye` (m), or all of it as from four radii away, and contracts everything else. A tile is divided while the eye is nearer to
+    /// it than `closeness` times its size, so that faces are divided at most `levels` times.
+    ///
+    /// Heights depend on the globe and their places alone, and the tiles on the globe and the eye. Fails if there would
+    /// be too many.
+    pub fn focus(
+        &mut self,
+        eye: Option<DVec3>,
+        closeness: f64,
+        levels: u32,
+        divide: &dyn Divide,
+    ) -> Result<()> {
+        let levels = levels.min(DEEPEST);
+        let eye = match eye {
+            Some(eye) => {
+                let above = eye.length() - self.radius - self.shown(self.probe(eye, levels, divide)?);
+                Some(eye.normalize_or(DVec3::X) * (self.radius + above.max(0.0)))
+            }
+            None => None,
+        };
+        let tree = Tree::new(self.radius, &Sight { eye, closeness, levels })?;
+        let known: FxHashMap<Leaf, &Arc<Tile>> = self.tree.leaves.iter().copied().zip(&self.tiles).collect();
+        let mut tiles: Vec<Option<Arc<Tile>>> =
+            tree.leaves.iter().map(|leaf| known.get(leaf).map(|tile| Arc::clone(tile))).collect();
+        // The missing ones by the level of their cells.
+        let mut missing: Vec<Vec<usize>> = Vec::new();
+        let mut wanted: Vec<Areas> = Vec::new();
+        for (index, (face, place)) in tree.leaves.iter().enumerate() {
+            if tiles[index].is_some() {
+                continue;
+            }
+            let level = (place.level + DETAIL) as usize;
+            if wanted.len() <= level {
+                wanted.resize(level + 1, [NONE; 6]);
+                missing.resize(level + 1, Vec::new());
+            }
+            let area = Tile::own(*place, DETAIL).grown(1);
+            wanted[level][*face] = wanted[level][*face].joined(area);
+            missing[level].push(index);
+        }
+        expand(&self.world, &wanted, divide, &mut |level, blocks| {
+            let make = |index: &usize| {
+                let (face, place) = tree.leaves[*index];
+                let area = Tile::own(place, DETAIL).grown(1);
+                let mut heights = padded(blocks, face, area, Block::surface);
+                if blocks.iter().any(|block| !block.forms.is_empty()) {
+                    let forms = padded(blocks, face, area, |block| &block.forms);
+                    heights.iter_mut().zip(forms).for_each(|(height, form)| *height += form);
+                }
+                (*index, Arc::new(Tile::new(place, DETAIL, &blocks[face], area, heights)))
+            };
+            let made: Vec<_> = missing[level as usize].par_iter().map(make).collect();
+            for (index, tile) in made {
+                tiles[index] = Some(tile);
+            }
+        })?;
+        self.tiles = tiles.into_iter().flatten().collect();
+        self.tree = tree;
+        self.finest = self.tiles.iter().map(|tile| tile.level()).max().unwrap_or(0);
+        Ok(())
+    }
+
+    /// The height (m) of the ground below `eye`, as cells that were divided `levels` times have it.
+    fn probe(&self, eye: DVec3, levels: u32, divide: &dyn Divide) -> Result<f64> {
+        let (face, x, y) = spot(eye, levels).0;
+        let mut wanted = vec![[NONE; 6]; levels as usize + 1];
+        wanted[levels as usize][face] = Area { x, y, columns: 1, rows: 1 };
+        let mut height = 0.0;
+        expand(&self.world, &wanted, divide, &mut |_, blocks| {
+            height = blocks[face].surface()[blocks[face].area.index(x, y)];
+        })?;
+        Ok(height)
+    }
+
+    /// The height (m) that is seen where the ground has this one: that of the water, if it is higher.
+    #[inline]
+    pub fn shown(&self, height: f64) -> f64 {
+        self.sea.map_or(height, |sea| height.max(sea))
+    }
+
+    /// The tiles and their faces.
+    pub fn tiles(&self) -> impl Iterator<Item = (usize, &Tile)> {
+        self.tree.leaves.iter().map(|(face, _)| *face).zip(self.tiles.iter().map(|tile| &**tile))
+    }
+
+    /// Whether a point (m) is above the horizon of an eye (m): the angle between them is not greater than those from each
+    /// to where a line through it touches the sphere.
+    pub(super) fn is_above_horizon(&self, eye: DVec3, point: DVec3) -> bool {
+        let to_touch = |at: DVec3| (self.radius / at.length().max(self.radius)).acos();
+        eye.angle_between(point) <= to_touch(eye) + to_touch(point)
+    }
+
+    /// The number of heights that are expanded.
+    pub fn heights(&self) -> usize {
+        self.tiles.iter().map(|tile| tile.heights()).sum()
+    }
+
+    /// The level of the smallest cells.
+    pub fn finest(&self) -> u32 {
+        self.finest
+    }
+
+    /// The number of the tile that holds one of the smallest cells.
+    #[inline]
+    pub(super) fn holder(&self, cell: Spot) -> Option<usize> {
+        self.tree.holder(cell, self.finest)
+    }
+
+    /// A tile and its face.
+    #[inline]
+    pub(super) fn tile(&self, index: usize) -> (usize, &Tile) {
+        (self.tree.leaves[index].0, &self.tiles[index])
+    }
+
+    /// Of the tiles that touch a corner the one with the largest cells, and what its face calls the corner.
+    pub(super) fn coarsest(&self, (face, x, y): Spot) -> Option<(&Tile, Spot)> {
+        let across = World::across(self.finest);
+        if (0..across).contains(&x) && (0..across).contains(&y) {
+            let tile = self.tile(self.holder((face, x, y))?).1;
+            let inside = (1i64 << (self.finest - tile.place.level)) - 1;
+            if x & inside != 0 && y & inside != 0 {
+                return Some((tile, (face, x, y)));
+            }
+        }
+        let mut best: Option<(usize, Spot)> = None;
+        for (face, x, y) in aliases((face, x, y), across) {
+            for (x_cell, y_cell) in [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)] {
+                if !(0..across).contains(&x_cell) || !(0..across).contains(&y_cell) {
+                    continue;
+                }
+                let Some(index) = self.holder((face, x_cell, y_cell)) else { continue };
+                let order = |index: usize, face: usize| (self.tiles[index].level(), face, index);
+                if best.is_none_or(|(known, (on, ..))| order(index, face) < order(known, on)) {
+                    best = Some((index, (face, x, y)));
+                }
+            }
+        }
+        best.map(|(index, spot)| (&*self.tiles[index], spot))
+    }
+
+    /// The height (m) of the ground at a corner of the smallest cells.
+    pub(super) fn corner(&self, spot: Spot) -> f64 {
+        let Some((tile, (face, x, y))) = self.coarsest(spot) else { return 0.0 };
+        let shift = self.finest - tile.level();
+        let mask = (1i64 << shift) - 1;
+        if (x | y) & mask == 0 {
+            return tile.corner(x >> shift, y >> shift);
+        }
+        // Between the corners of larger cells.
+        let part = |at: i64| fraction(at & mask, shift);
+        self.between(tile, (face, x >> shift, y >> shift), DVec2::new(part(x), part(y)))
+    }
+
+    /// The height (m) of the ground within a cell of `tile`, at `part` of the way to the east and to the south.
+    fn between(&self, tile: &Tile, (face, x, y): Spot, part: DVec2) -> f64 {
+        let shift = self.finest - tile.level();
+        let at = |right: i64, down: i64| self.corner((face, (x + right) << shift, (y + down) << shift));
+        let (east, south) = (part.x, part.y);
+        // Along an edge of the cell, its ends alone count.
+        if east == 0.0 {
+            return if south == 0.0 { at(0, 0) } else { mix(at(0, 0), at(0, 1), south) };
+        }
+        if south == 0.0 {
+            return mix(at(0, 0), at(1, 0), east);
+        }
+        if (x + y) & 1 == 0 {
+            let (a, d) = (at(0, 0), at(1, 1));
+            if east >= south {
+                let b = at(1, 0);
+                a + (b - a) * east + (d - b) * south
+            } else {
+                let c = at(0, 1);
+                a + (c - a) * south + (d - c) * east
+            }
+        } else {
+            let (b, c) = (at(1, 0), at(0, 1));
+            if east + south <= 1.0 {
+                let a = at(0, 0);
+                a + (b - a) * east + (c - a) * south
+            } else {
+                let d = at(1, 1);
+                d + (c - d) * (1.0 - east) + (b - d) * (1.0 - south)
+            }
+        }
+    }
+
+    /// The tile in a direction, the cell of it, and how far (0 to 1) to the east and to the south in that cell.
+    fn find(&self, direction: DVec3) -> Option<(&Tile, Spot, DVec2)> {
+        let (face, x, y) = spot(direction, self.finest).0;
+        let (_, tile) = self.tile(self.holder((face, x, y))?);
+        let (cell, part) = spot(direction, tile.level());
+        Some((tile, cell, part))
+    }
+
+    /// The height (m) of the ground in a direction; `None` where nothing is expanded.
+    pub fn height(&self, direction: DVec3) -> Option<f64> {
+        let (tile, cell, part) = self.find(direction)?;
+        Some(self.between(tile, cell, part))
+    }
+
+    /// The symbol of the cell in a direction; `None` where nothing is expanded.
+    pub fn symbol(&self, direction: DVec3) -> Option<&str> {
+        let (tile, (_, x, y), _) = self.find(direction)?;
+        Some(self.world.name(tile.level(), tile.symbol(x, y)))
+    }
+
+    /// The direction (a unit vector) of a corner of the smallest cells, by its name on the first face that has it.
+    #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+    pub(super) fn direction(&self, spot: Spot) -> DVec3 {
+        let across = World::across(self.finest);
+        let (face, x, y) = aliases(spot, across).min().unwrap_or(spot);
+        let at = |at: i64| at as f64 * 2.0 / across as f64 - 1.0;
+        direction(face, DVec2::new(at(x), -at(y)))
+    }
+
+    /// Where the ground or the water is (m) at a corner of the smallest cells.
+    pub(super) fn point(&self, spot: Spot) -> DVec3 {
+        self.direction(spot) * (self.radius + self.shown(self.corner(spot)))
+    }
+
+    /// The way up (a unit vector) from the ground or the water at a corner of the smallest cells.
+    pub(super) fn normal(&self, spot: Spot) -> DVec3 {
+        let Some((tile, (face, x, y))) = self.coarsest(spot) else { return self.direction(spot) };
+        let across = World::across(self.finest);
+        let step = 1i64 << (self.finest - tile.level());
+        let beside = |right: i64, down: i64| {
+            let there = corner((face, x + right * step, y + down * step), across);
+            self.point(there.unwrap_or(spot))
+        };
+        let (east, north) = (beside(1, 0) - beside(-1, 0), beside(0, -1) - beside(0, 1));
+        east.cross(north).normalize_or(self.direction(spot))
+    }
+}
+
+/// The direction (a unit vector) of a place on a tile: from 0 to 1 to the east and to the south.
+#[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+pub fn within(face: usize, tile: &Tile, part: DVec2) -> DVec3 {
+    let across = World::across(tile.place.level) as f64;
+    let along = (DVec2::new(tile.place.x as f64, tile.place.y as f64) + part) * 2.0 / across - 1.0;
+    direction(face, DVec2::new(along.x, -along.y))
+}
+
+/// The cell of `level` in a direction, and how far (0 to 1) to the east and to the south in it.
+#[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "columns are below 2^31")]
+fn spot(way: DVec3, level: u32) -> (Spot, DVec2) {
+    let (face, at) = place(way);
+    let across = World::across(level);
+    let along = DVec2::new(at.x + 1.0, 1.0 - at.y) / 2.0 * across as f64;
+    let cell = |along: f64| (along.floor() as i64).clamp(0, across - 1);
+    let (x, y) = (cell(along.x), cell(along.y));
+    let part = along - DVec2::new(x as f64, y as f64);
+    ((face, x, y), part.clamp(DVec2::ZERO, DVec2::ONE))
+}
+
+#[inline]
+fn mix(a: f64, b: f64, part: f64) -> f64 {
+    a + (b - a) * part
+}
+
+#[allow(clippy::cast_precision_loss, reason = "below 2^53")]
+fn fraction(at: i64, shift: u32) -> f64 {
+    at as f64 / (1i64 << shift) as f64
+}

@@ -1,0 +1,125 @@
+//! Which cells of the six faces are tiles: the nearer to the eye, the smaller.
+
+use glam::{DVec2, DVec3};
+
+use super::sphere::{direction, side};
+use crate::tile::Place;
+use crate::view::MOST_HEIGHTS;
+use crate::world::World;
+use burgeon_base::error::{Error, Limit, Result};
+
+/// How often each tile is divided.
+pub const DETAIL: u32 = 6;
+
+/// How often a face may be divided in all.
+pub const DEEPEST: u32 = 28;
+
+/// From where a globe is seen, and how closely.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Sight {
+    /// Where the eye is (m, from the middle of the globe, with the ground below it at the radius); four radii away on
+    /// all sides, if it is left out.
+    pub eye: Option<DVec3>,
+    /// A tile is divided while the eye is nearer to it than so many times its size.
+    pub closeness: f64,
+    /// How often a face is divided at most, the cells of tiles included.
+    pub levels: u32,
+}
+
+/// A tile and its face.
+pub(super) type Leaf = (usize, Place);
+
+/// What a cell of a face is: divided further, or a tile.
+#[derive(Debug, Clone, Copy)]
+enum Link {
+    Divided(usize),
+    Leaf(usize),
+}
+
+/// The quadtrees of six faces.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Tree {
+    /// Of each face, if there are any tiles.
+    roots: Vec<Link>,
+    /// North-west, north-east, south-west and south-east.
+    divided: Vec<[Link; 4]>,
+    /// The tiles.
+    pub leaves: Vec<Leaf>,
+}
+
+impl Tree {
+    /// The tiles of a globe with this radius (m) that are seen. Fails if that would be too much.
+    pub(super) fn new(radius: f64, sight: &Sight) -> Result<Self> {
+        let mut tree = Self::default();
+        for face in 0..6 {
+            let root = tree.grow(radius, sight, (face, Place { level: 0, y: 0, x: 0 }))?;
+            tree.roots.push(root);
+        }
+        Ok(tree)
+    }
+
+    fn grow(&mut self, radius: f64, sight: &Sight, leaf: Leaf) -> Result<Link> {
+        let (face, Place { level, y, x }) = leaf;
+        let size = side(radius) / 2f64.powi(level.cast_signed());
+        let may = level + DETAIL < sight.levels.min(DEEPEST);
+        if !may || distance(radius, sight, leaf) >= sight.closeness * size {
+            self.leaves.push(leaf);
+            if (self.leaves.len() as u64) << (2 * DETAIL) > MOST_HEIGHTS {
+                return Err(Error::limit(
+                    Limit::Size,
+                    format!("planet: that would be more than {MOST_HEIGHTS} heights"),
+                )
+                .help("lower closeness or levels: most of it is far away"));
+            }
+            return Ok(Link::Leaf(self.leaves.len() - 1));
+        }
+        let index = self.divided.len();
+        self.divided.push([Link::Divided(index); 4]);
+        for quadrant in 0..4usize {
+            let (right, down) = (i64::from(quadrant % 2 == 1), i64::from(quadrant > 1));
+            let place = Place { level: level + 1, y: 2 * y + down, x: 2 * x + right };
+            self.divided[index][quadrant] = self.grow(radius, sight, (face, place))?;
+        }
+        Ok(Link::Divided(index))
+    }
+
+    /// The number of the tile that holds a cell of a face at `level`, which is not above that of the tile.
+    #[inline]
+    pub(super) fn holder(&self, (face, x, y): (usize, i64, i64), level: u32) -> Option<usize> {
+        let mut link = *self.roots.get(face)?;
+        let mut down = level;
+        loop {
+            match link {
+                Link::Leaf(leaf) => return Some(leaf),
+                Link::Divided(index) => {
+                    down = down.checked_sub(1)?;
+                    let quadrant = usize::from(x >> down & 1 == 1) + 2 * usize::from(y >> down & 1 == 1);
+                    link = self.divided[index][quadrant];
+                }
+            }
+        }
+    }
+}
+
+/// The distance (m) of the eye from a tile on the sphere, or less.
+fn distance(radius: f64, sight: &Sight, leaf: Leaf) -> f64 {
+    // From four radii one sees the ground three radii away.
+    let Some(eye) = sight.eye else { return 3.0 * radius };
+    let (middle, reach) = ball(leaf);
+    (eye.distance(middle * radius) - reach * radius).max(0.0)
+}
+
+/// The direction of the middle of a tile on the unit sphere, and how far from it its corners are at most.
+#[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+pub(super) fn ball((face, Place { level, y, x }): Leaf) -> (DVec3, f64) {
+    let across = World::across(level) as f64;
+    let at = |right: f64, down: f64| {
+        direction(
+            face,
+            DVec2::new(2.0 * (x as f64 + right) / across - 1.0, 1.0 - 2.0 * (y as f64 + down) / across),
+        )
+    };
+    let middle = at(0.5, 0.5);
+    let corners = [at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0), at(1.0, 1.0)];
+    (middle, corners.into_iter().map(|corner| corner.distance(middle)).fold(0.0, f64::max))
+}

@@ -1,0 +1,217 @@
+//! Triangles over a globe, few where it is even, within a stated error and without gaps.
+//!
+//! As over flat ground, triangles are halved at the middle of their longest side. What lies on an edge of the cube is
+//! halved on both faces. A triangle is also halved while the sphere bulges out of it by more than the error allows.
+//!
+//! All points lie on a grid that is as fine as the numbers of the coarsest tile at them, and origins lie on it too, so
+//! that neighbours have exactly the same points.
+
+use glam::{DVec3, Vec2};
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::faces::{Spot, aliases};
+use super::globe::Globe;
+use super::leaves::ball;
+use crate::mesh::{Corner, Grid, Triangle, corners, diamond, roots};
+use crate::tile::Tile;
+use crate::world::World;
+use burgeon_scene::Part;
+
+/// A triangulation of a globe.
+pub struct GlobeMesh<'a> {
+    globe: &'a Globe,
+    /// One for each tile.
+    grids: Vec<Grid>,
+    /// The corners where triangles are halved, by their names on the first face that has them.
+    halved: FxHashSet<u64>,
+    /// How far triangles may be from the ground, in sizes of the cells there.
+    error: f64,
+}
+
+/// The triangles over one tile.
+#[derive(Debug, Default)]
+pub struct Pieces {
+    /// What the points of the parts are told from (m, from the middle of the globe).
+    pub origin: DVec3,
+    /// Those of ground.
+    pub land: Part,
+    /// Those of water.
+    pub water: Part,
+}
+
+impl Pieces {
+    /// Whether there are no triangles.
+    pub fn is_empty(&self) -> bool {
+        self.land.triangles.is_empty() && self.water.triangles.is_empty()
+    }
+}
+
+impl<'a> GlobeMesh<'a> {
+    /// The fewest triangles from which the ground is nowhere farther than `error`, in sizes of the cells there.
+    pub fn new(globe: &'a Globe, error: f64) -> Self {
+        let tiles: Vec<(usize, &Tile)> = globe.tiles().collect();
+        let grids = tiles.par_iter().map(|(face, tile)| grid(globe, *face, tile)).collect();
+        let mut mesh = Self { globe, grids, halved: FxHashSet::default(), error };
+        let mut wanted = Vec::new();
+        for (face, tile) in tiles {
+            wanted.extend(corners(tile.place, globe.finest()).map(|[x, y]| (face, x, y)));
+            for triangle in roots(tile.place, globe.finest()) {
+                wanted.extend(mesh.want(face, &triangle));
+            }
+        }
+        while let Some(spot) = wanted.pop() {
+            mesh.halve(spot, &mut wanted);
+        }
+        mesh
+    }
+
+    /// The name of a corner on the first face that has it, as one number.
+    fn key(&self, spot: Spot) -> u64 {
+        let (face, x, y) = aliases(spot, World::across(self.globe.finest())).min().unwrap_or(spot);
+        (face as u64) << 60 | x.cast_unsigned() << 30 | y.cast_unsigned()
+    }
+
+    /// Where a triangle of a face has to be halved, if it has.
+    fn want(&self, face: usize, triangle: &Triangle) -> Option<Spot> {
+        let middle = triangle.middle()?;
+        // A point within it, in thirds, tells whose it is.
+        let [x, y] = [0, 1].map(|axis| (middle[axis] * 2 + triangle.apex[axis]).div_euclid(3));
+        let holder = self.globe.holder((face, x, y))?;
+        let (tile, grid) = (self.globe.tile(holder).1, &self.grids[holder]);
+        let [low, .., high] = corners(tile.place, self.globe.finest());
+        let inside = |corner: Corner| (0..2).all(|axis| (low[axis]..=high[axis]).contains(&corner[axis]));
+        // What is larger than a tile is divided anyway; what is as small as its cells lies on its surface.
+        if ![triangle.a, triangle.b, triangle.apex].into_iter().all(inside)
+            || middle.iter().any(|at| at & ((1 << grid.shift) - 1) != 0)
+        {
+            return None;
+        }
+        let error = self.error * self.globe.world().cell(tile.level());
+        let cell = self.globe.world().cell(self.globe.finest());
+        #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+        let square: f64 =
+            (0..2).map(|axis| ((triangle.a[axis] - triangle.b[axis]) as f64 * cell).powi(2)).sum();
+        let bulge = square * STRETCH / (8.0 * self.globe.radius());
+        (bulge > error || grid.is_far(triangle, error)).then_some((face, middle[0], middle[1]))
+    }
+
+    /// Halves the triangles at a corner; adds to `wanted` where others have to be halved for it, or because of it.
+    fn halve(&mut self, spot: Spot, wanted: &mut Vec<Spot>) {
+        if !self.halved.insert(self.key(spot)) {
+            return;
+        }
+        let across = World::across(self.globe.finest());
+        for (face, x, y) in aliases(spot, across) {
+            let Some((parents, ends)) = diamond([x, y], across) else { continue };
+            for apex in parents {
+                if apex.iter().any(|at| !(0..=across).contains(at)) {
+                    continue;
+                }
+                wanted.push((face, apex[0], apex[1]));
+                let triangle = Triangle { a: ends[0], b: ends[1], apex };
+                for half in triangle.halves([x, y]) {
+                    wanted.extend(self.want(face, &half));
+                }
+            }
+        }
+    }
+
+    /// The triangles over a tile, of which `eye` (m), if there is one, sees any corner above its horizon. The south-west
+    /// corner of the tile gets the texture coordinates `begin` (m), from where they count.
+    pub fn write(&self, face: usize, tile: &Tile, begin: f64, eye: Option<DVec3>) -> Pieces {
+        let globe = self.globe;
+        let own = step(globe, tile);
+        // On the ground in its middle, so that all of it is near.
+        let middle = tile
+            .cell((2 * tile.place.x + 1) << (tile.detail - 1), (2 * tile.place.y + 1) << (tile.detail - 1));
+        let out = globe.radius() + globe.shown(middle);
+        let origin = snapped(ball((face, tile.place)).0 * out, own);
+        // Where all of the tile is above the horizon, its triangles need not be asked.
+        let rim =
+            corners(tile.place, globe.finest()).map(|[x, y]| globe.direction((face, x, y)) * globe.radius());
+        let eye = eye.filter(|eye| !rim.iter().all(|corner| globe.is_above_horizon(*eye, *corner)));
+        let mut pieces = Pieces { origin, ..Pieces::default() };
+        let mut known: [FxHashMap<Corner, u32>; 2] = Default::default();
+        let mut open: Vec<Triangle> = roots(tile.place, globe.finest()).into_iter().rev().collect();
+        while let Some(triangle) = open.pop() {
+            let halved = |middle: &Corner| self.halved.contains(&self.key((face, middle[0], middle[1])));
+            if let Some(middle) = triangle.middle().filter(halved) {
+                open.extend(triangle.halves(middle).into_iter().rev());
+                continue;
+            }
+            let corners = [triangle.a, triangle.b, triangle.apex];
+            let seen =
+                |eye| corners.iter().any(|[x, y]| globe.is_above_horizon(eye, globe.point((face, *x, *y))));
+            if eye.is_some_and(|eye| !seen(eye)) {
+                continue;
+            }
+            let wet = |[x, y]: Corner| globe.sea().is_some_and(|sea| globe.corner((face, x, y)) <= sea);
+            let (part, known) = match corners.into_iter().all(wet) {
+                true => (&mut pieces.water, &mut known[1]),
+                false => (&mut pieces.land, &mut known[0]),
+            };
+            let numbers = corners.map(|corner| {
+                *known.entry(corner).or_insert_with(|| self.add(tile, (face, corner), (origin, begin), part))
+            });
+            part.triangles.push(numbers);
+        }
+        pieces
+    }
+
+    /// Adds a corner to a part, and gives its number there.
+    #[allow(
+        clippy::cast_precision_loss,
+        clippy::cast_possible_truncation,
+        reason = "texture coordinates are f32"
+    )]
+    fn add(
+        &self,
+        tile: &Tile,
+        (face, [x, y]): (usize, Corner),
+        (origin, begin): (DVec3, f64),
+        part: &mut Part,
+    ) -> u32 {
+        let globe = self.globe;
+        let spot = (face, x, y);
+        let coarsest = globe.coarsest(spot).map_or(tile, |(tile, _)| tile);
+        let point = snapped(globe.point(spot), step(globe, coarsest));
+        part.positions.push((point - origin).as_vec3());
+        part.normals.push(globe.normal(spot).into());
+        // From the tile's south-west corner.
+        let [_, _, [west, south], _] = corners(tile.place, globe.finest());
+        let cell = globe.world().cell(globe.finest());
+        let along = |cells: i64| (cells as f64 * cell + begin) as f32;
+        part.uvs.push(Vec2::new(along(x - west), along(south - y)));
+        u32::try_from(part.positions.len() - 1).unwrap_or(u32::MAX)
+    }
+}
+
+/// By how much the square of a length is greater on the sphere than on a face, at most.
+const STRETCH: f64 = 2.0;
+
+/// The heights that are seen at all corners of the cells of a tile.
+fn grid(globe: &Globe, face: usize, tile: &Tile) -> Grid {
+    let shift = globe.finest() - tile.level();
+    let own = Tile::own(tile.place, tile.detail);
+    let across = own.columns + 1;
+    let mut heights = Vec::with_capacity(across * across);
+    for y in (own.y..).take(across) {
+        for x in (own.x..).take(across) {
+            let rim = x == own.x || y == own.y || !own.contains(x, y);
+            let height = if rim { globe.corner((face, x << shift, y << shift)) } else { tile.corner(x, y) };
+            heights.push(globe.shown(height));
+        }
+    }
+    Grid { heights, across, first: [own.x << shift, own.y << shift], shift }
+}
+
+/// The distance (m) of the points of a tile's grid: all that are nearer than four times its size are whole multiples of
+/// it that an f32 holds.
+fn step(globe: &Globe, tile: &Tile) -> f64 {
+    (globe.world().cell(tile.place.level).log2().ceil() - 21.0).exp2()
+}
+
+fn snapped(point: DVec3, step: f64) -> DVec3 {
+    (point / step).round() * step
+}

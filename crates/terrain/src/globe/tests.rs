@@ -1,0 +1,192 @@
+//! Globes of random rules, looked at from random places.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+
+use super::leaves::DETAIL;
+use super::*;
+use crate::{Draw, Layer, Quadrants, RuleTable, Rules, Tables, Tile, World};
+use burgeon_kit::random::Stream;
+use burgeon_kit::rules::{Key, Symbol};
+
+const RADIUS: f64 = 50_000.0;
+
+/// Rules of two symbols, the same for all quadrants, so that nothing but the faces could make edges.
+fn world(seed: u64, smooth: bool) -> World {
+    let rule = |symbol: Symbol, reach: f64, decay: f64| Quadrants {
+        weight: 1.0,
+        symbols: [symbol; 4],
+        change: [Draw { low: -reach, high: reach }; 4],
+        decay: [Draw { low: decay - 0.05, high: decay + 0.05 }; 4],
+    };
+    let table = RuleTable {
+        names: ["A", "B"].map(str::to_owned).to_vec(),
+        rules: vec![vec![rule(0, 1.0, 0.5), rule(1, 1.0, 0.6)], vec![rule(0, 0.5, 0.5)]],
+    };
+    World {
+        corner: DVec2::ZERO,
+        size: 1.0,
+        layers: vec![Layer {
+            from: 0,
+            rules: Rules::Table(Arc::new(table)),
+            start: 0,
+            height: 0.0,
+            rest: vec![800.0],
+            names: Arc::default(),
+        }],
+        smooth,
+        key: Some(Key::seed(seed)),
+        remap: Vec::new(),
+        measured: None,
+    }
+}
+
+fn way(stream: &mut Stream) -> DVec3 {
+    let number = |stream: &mut Stream| stream.uniform() * 2.0 - 1.0;
+    DVec3::new(number(stream), number(stream), number(stream)).normalize()
+}
+
+/// A place above the ground, at a height (m) of any size.
+fn eye(stream: &mut Stream) -> DVec3 {
+    way(stream) * (RADIUS + 10f64.powf(1.0 + 4.0 * stream.uniform()))
+}
+
+/// Checks that each edge of the triangles of a globe has exactly one other at its other side, with the same ends.
+fn check_closed(globe: &Globe, error: f64) -> usize {
+    let mesh = GlobeMesh::new(globe, error);
+    let mut edges: BTreeMap<[[u64; 3]; 2], i32> = BTreeMap::new();
+    let (mut count, mut volume) = (0, 0.0);
+    for (face, tile) in globe.tiles() {
+        let pieces = mesh.write(face, tile, 0.0, None);
+        for part in [&pieces.land, &pieces.water] {
+            let point = |at: u32| pieces.origin + part.positions[at as usize].as_dvec3();
+            let bits = |at: u32| point(at).to_array().map(|number| (number + 0.0).to_bits());
+            for [a, b, c] in &part.triangles {
+                count += 1;
+                volume += point(a).cross(point(b)).dot(point(c)) / 6.0;
+                assert!((point(b) - point(a)).cross(point(c) - point(a)).dot(point(a)) > 0.0);
+                for [from, to] in [[a, b], [b, c], [c, a]].map(|edge| edge.map(bits)) {
+                    assert!(from != to);
+                    *edges.entry([from, to]).or_default() += 1;
+                }
+            }
+        }
+    }
+    for (&[from, to], number) in &edges {
+        assert!(*number == 1 && edges.get(&[to, from]) == Some(&1), "{from:?} {to:?}: {number}");
+    }
+    let whole = std::f64::consts::PI * 4.0 / 3.0 * RADIUS.powi(3);
+    assert!((volume / whole - 1.0).abs() < 0.1, "{volume} of {whole}");
+    count
+}
+
+#[test]
+fn a_globe_at_mixed_detail_has_no_open_edge() {
+    let mut stream = Stream::new(12);
+    let mut eyes: Vec<DVec3> = (0..4).map(|_| eye(&mut stream)).collect();
+    // Where three faces meet, where two do, and a pole.
+    eyes.extend([DVec3::ONE, DVec3::new(1.0, 0.0, 1.0), DVec3::Z].map(|at| at.normalize() * (RADIUS + 30.0)));
+    for (round, eye) in (0u64..).zip(eyes) {
+        let sea = (round % 2 == 0).then_some(50.0);
+        let mut globe = Globe::new(world(round, round % 3 > 0), RADIUS, sea);
+        globe.focus(Some(eye), 0.9, 12, &Tables).unwrap();
+        let levels = globe.tiles().map(|(_, tile)| tile.place.level);
+        let (low, high) = levels.fold((99, 0), |(low, high), level| (level.min(low), level.max(high)));
+        assert!(high - low >= 2, "{low} {high}");
+        let fine = check_closed(&globe, 0.01);
+        let coarse = check_closed(&globe, 0.1);
+        assert!(coarse < fine, "{coarse} {fine}");
+    }
+}
+
+#[test]
+fn the_way_to_a_place_does_not_matter() {
+    let mut stream = Stream::new(5);
+    let mut walker = Globe::new(world(3, true), RADIUS, None);
+    for _ in 0..3 {
+        let at = eye(&mut stream);
+        for _ in 0..3 {
+            let near = at + way(&mut stream) * stream.uniform() * 2000.0;
+            walker.focus(Some(near), 1.2, 14, &Tables).unwrap();
+        }
+        walker.focus(Some(at), 1.2, 14, &Tables).unwrap();
+        let mut fresh = Globe::new(world(3, true), RADIUS, None);
+        fresh.focus(Some(at), 1.2, 14, &Tables).unwrap();
+        assert_eq!(walker.tiles().count(), fresh.tiles().count());
+        for ((face, one), (there, other)) in walker.tiles().zip(fresh.tiles()) {
+            assert!(face == there && one.place == other.place);
+            let cells = Tile::own(one.place, DETAIL).grown(1);
+            assert!(cells.cells().all(|(x, y)| one.cell(x, y).to_bits() == other.cell(x, y).to_bits()));
+        }
+    }
+}
+
+#[test]
+fn the_edges_of_the_cube_do_not_show() {
+    for seed in 0..3 {
+        let mut globe = Globe::new(world(seed, true), RADIUS, None);
+        globe.focus(None, 6.0, 9, &Tables).unwrap();
+        let step = globe.world().cell(globe.finest()) / RADIUS;
+        // Steps across each edge of the cube, and across as many other great circles.
+        let measured = |normal: DVec3, at: &dyn Fn(f64) -> DVec3| -> (f64, f64) {
+            let (mut first, mut second) = (0.0, 0.0);
+            for along in 0..400 {
+                let place = at(f64::from(along) / 400.0);
+                let height = |steps: f64| globe.height(place + normal * step * steps).unwrap();
+                let [a, b, c, d] = [-1.5, -0.5, 0.5, 1.5].map(height);
+                first += (c - b).powi(2);
+                second += (a - b - c + d).powi(2);
+            }
+            (first, second)
+        };
+        let mut stream = Stream::new(2);
+        let (mut edges, mut others) = ((0.0, 0.0), (0.0, 0.0));
+        for axis in 0..12 {
+            let turned = |at: DVec3| match axis % 3 {
+                0 => at,
+                1 => DVec3::new(at.z, at.x, at.y),
+                _ => DVec3::new(at.y, at.z, at.x),
+            };
+            let (side, up) =
+                (if axis / 3 % 2 == 0 { 1.0 } else { -1.0 }, if axis / 6 == 0 { 1.0 } else { -1.0 });
+            let normal = turned(DVec3::new(side, -up, 0.0)).normalize();
+            let edge = |along: f64| turned(DVec3::new(side, up, 1.9 * along - 0.95)).normalize();
+            let found = measured(normal, &edge);
+            edges = (edges.0 + found.0, edges.1 + found.1);
+            let (from, to) = (way(&mut stream), way(&mut stream));
+            let normal = from.cross(to).normalize();
+            let other = |along: f64| from.lerp(from.reject_from(normal).cross(normal), along).normalize();
+            let found = measured(normal, &other);
+            others = (others.0 + found.0, others.1 + found.1);
+        }
+        // They are no steeper and no more bent than elsewhere, and no flatter.
+        let (steep, bent) = (edges.0 / others.0, edges.1 / others.1);
+        assert!((0.4..2.0).contains(&steep) && bent < 1.5, "{seed}: {edges:?} {others:?}");
+    }
+}
+
+#[test]
+fn an_eye_near_the_ground_sees_it_closely() {
+    let mut globe = Globe::new(world(4, true), RADIUS, Some(0.0));
+    let way = DVec3::new(0.2, -0.7, 0.5).normalize();
+    globe.focus(Some(way * RADIUS), 2.0, 18, &Tables).unwrap();
+    let height = globe.height(way).unwrap();
+    globe.focus(Some(way * (RADIUS + height.max(0.0) + 2.0)), 2.0, 18, &Tables).unwrap();
+    assert_eq!(globe.finest(), 18);
+    assert_eq!(globe.height(way).unwrap().to_bits(), height.to_bits());
+    assert!(globe.heights() < 5_000_000);
+}
+
+#[test]
+fn what_is_behind_the_horizon_can_be_left_out() {
+    let mut globe = Globe::new(world(4, true), RADIUS, None);
+    let eye = DVec3::X * (RADIUS * 1.05);
+    globe.focus(Some(eye), 2.0, 12, &Tables).unwrap();
+    let mesh = GlobeMesh::new(&globe, 0.1);
+    let seen = |face, tile| !mesh.write(face, tile, 0.0, Some(eye)).is_empty();
+    let count = globe.tiles().filter(|(face, tile)| seen(*face, tile)).count();
+    assert!(count > 10 && count < globe.tiles().count());
+    assert!(globe.tiles().all(|(face, tile)| face != 2 || !seen(face, tile)));
+}

@@ -1,0 +1,382 @@
+//! The part of a world that is expanded: tiles around a place, and the surface over them.
+//!
+//! The surface runs through the corners of cells, whose heights are the means of the cells around them, and is flat
+//! over the two halves of each cell. Measured ground is exact at its samples in cells of any size, and what these add
+//! to it lies in between. Where tiles of different detail meet, the finer one follows the coarser one, so
+//! there is no gap. Corners are numbered in the grid of the smallest cells of any tile, from the north-west.
+
+use std::sync::Arc;
+
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::block::{Area, Block};
+use super::edits::Edits;
+use super::tile::{Place, Tile};
+use super::view::{Fit, MOST_HEIGHTS, View, too_many};
+use super::world::{Divide, Tables, World};
+use burgeon_base::error::Result;
+
+/// A world and the tiles of it that are expanded.
+#[derive(Clone)]
+pub struct Ground {
+    world: Arc<World>,
+    edits: Arc<Edits>,
+    /// The level of the tiles.
+    level: u32,
+    /// The cells of that level that are tiles.
+    window: Area,
+    /// By cell of the window.
+    tiles: Vec<Arc<Tile>>,
+    /// The level of the smallest cells of any tile.
+    finest: u32,
+}
+
+/// Heights in the middle of cells of one size.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Map {
+    /// Cells from west to east.
+    pub columns: usize,
+    /// Cells from north to south.
+    pub rows: usize,
+    /// The south-west corner (m) of all cells.
+    pub corner: DVec2,
+    /// The length (m) of the sides of a cell.
+    pub step: f64,
+    /// The heights (m), row by row from the north.
+    pub heights: Vec<f64>,
+}
+
+impl Ground {
+    /// The world with nothing expanded.
+    pub fn new(world: Arc<World>) -> Self {
+        let window = Area { x: 0, y: 0, columns: 0, rows: 0 };
+        Self { world, edits: Arc::default(), level: 0, window, tiles: Vec::new(), finest: 0 }
+    }
+
+    /// The world.
+    pub fn world(&self) -> &World {
+        &self.world
+    }
+
+    /// What has been changed of it.
+    pub fn edits(&self) -> &Arc<Edits> {
+        &self.edits
+    }
+
+    /// Expands what `view` shows of the world from `eye` (m), and contracts everything else.
+    ///
+    /// The result depends on the world, its edits, the eye and the view, and not on what was expanded before. Fails
+    /// outside the world.
+    pub fn focus(&mut self, eye: DVec2, view: &View, divide: &dyn Divide) -> Result<()> {
+        let fit = view.fit(&self.world, eye)?;
+        self.expand(&fit, divide)
+    }
+
+    /// Has `edits` in place of those that it had, from the next focus on.
+    pub fn edit(&mut self, edits: &Arc<Edits>) {
+        self.edits = Arc::clone(edits);
+    }
+
+    fn expand(&mut self, fit: &Fit, divide: &dyn Divide) -> Result<()> {
+        let mut tiles = vec![None; fit.details.len()];
+        let mut missing = Vec::new();
+        for (index, &detail) in fit.details.iter().enumerate() {
+            let place = fit.place(index);
+            let mark = || self.edits.mark(&self.world, place.level + detail, Tile::wanted(place, detail));
+            match self.tile(place).filter(|tile| tile.detail == detail && tile.mark == mark()) {
+                Some(tile) => tiles[index] = Some(Arc::clone(tile)),
+                None => missing.push((index, place, detail)),
+            }
+        }
+        // All of them come from one block of cells, with what lies around them.
+        let window = Area::around(missing.iter().map(|(_, place, _)| (place.x, place.y)));
+        let wanted = window.widened(2, World::across(fit.level));
+        let made = if missing.is_empty() {
+            Vec::new()
+        } else if self.world.has_systems() {
+            let coarse = self.world.cells(fit.level, wanted, divide)?;
+            missing.iter().map(|item| self.make(&coarse, *item, divide)).collect::<Result<Vec<_>>>()?
+        } else {
+            let coarse = self.world.cells(fit.level, wanted, &Tables)?;
+            missing.par_iter().map(|item| self.make(&coarse, *item, &Tables)).collect::<Result<Vec<_>>>()?
+        };
+        for (index, tile) in made {
+            tiles[index] = Some(Arc::new(tile));
+        }
+        self.tiles = tiles.into_iter().flatten().collect();
+        (self.level, self.window) = (fit.level, fit.window);
+        self.finest = self.tiles.iter().map(|tile| tile.level()).max().unwrap_or(0);
+        Ok(())
+    }
+
+    /// The tile `place`, divided `detail` times, out of `coarse`, and its number.
+    fn make(
+        &self,
+        coarse: &Block,
+        (index, place, detail): (usize, Place, u32),
+        divide: &dyn Divide,
+    ) -> Result<(usize, Tile)> {
+        let wanted = Tile::wanted(place, detail);
+        let cells = self.world.descend(coarse, place.level + detail, wanted, true, divide)?;
+        let mut heights = Vec::with_capacity(wanted.len());
+        for (x, y) in wanted.cells() {
+            let from = cells.area.index(x, y);
+            let height = self.world.remapped(cells.surface()[from]);
+            heights.push(height + cells.forms.get(from).copied().unwrap_or(0.0));
+        }
+        let level = place.level + detail;
+        let mut tile;
+        if self.world.measured.is_some() {
+            tile = Tile::new(place, detail, &cells, wanted, heights);
+            tile.lay(&self.world, self.edits.reaching(&self.world, level, wanted));
+        } else {
+            self.edits.apply(&self.world, level, wanted, &mut heights);
+            tile = Tile::new(place, detail, &cells, wanted, heights);
+        }
+        tile.mark = self.edits.mark(&self.world, level, wanted);
+        Ok((index, tile))
+    }
+
+    /// The heights of the surface in the middle of the smallest cells of all that is expanded. Where tiles have larger
+    /// cells, heights lie between theirs. Fails if there are too many.
+    pub fn map(&self) -> Result<Map> {
+        let [[west, north], [east, south]] = self.rim();
+        let count = |low: i64, high: i64| usize::try_from(high - low).unwrap_or(0);
+        let area = Area { x: west, y: north, columns: count(west, east), rows: count(north, south) };
+        if area.len() as u64 > MOST_HEIGHTS {
+            return Err(too_many(area.len() as u64));
+        }
+        let is_measured = self.world.measured.is_some();
+        let height = |(x, y): (i64, i64)| -> f64 {
+            let tile = self.holder(x, y).map(|tile| &self.tiles[tile]);
+            match tile.filter(|tile| tile.level() == self.finest && !is_measured) {
+                Some(tile) => tile.cell(x, y),
+                None => self.height(self.world.middle(self.finest, x, y)).unwrap_or(f64::NAN),
+            }
+        };
+        let heights: Vec<f64> = (0..area.len()).into_par_iter().map(|index| height(area.at(index))).collect();
+        Ok(Map {
+            columns: area.columns,
+            rows: area.rows,
+            corner: self.place(west, south),
+            step: self.world.cell(self.finest),
+            heights,
+        })
+    }
+
+    /// The tiles, row by row from the north-west.
+    pub fn tiles(&self) -> &[Arc<Tile>] {
+        &self.tiles
+    }
+
+    /// The number of heights that are expanded.
+    pub fn heights(&self) -> usize {
+        self.tiles.iter().map(|tile| tile.heights()).sum()
+    }
+
+    /// The bytes that its tiles take.
+    pub fn bytes(&self) -> usize {
+        self.tiles.iter().map(|tile| tile.bytes()).sum()
+    }
+
+    /// The level of the smallest cells.
+    pub fn finest(&self) -> u32 {
+        self.finest
+    }
+
+    fn tile(&self, place: Place) -> Option<&Arc<Tile>> {
+        let known = place.level == self.level && self.window.contains(place.x, place.y);
+        known.then(|| self.tiles.get(self.window.index(place.x, place.y))).flatten()
+    }
+
+    /// The number of the tile that holds one of the smallest cells.
+    #[inline]
+    pub(super) fn holder(&self, x: i64, y: i64) -> Option<usize> {
+        let down = self.finest - self.level;
+        let (x, y) = (x >> down, y >> down);
+        (!self.tiles.is_empty() && self.window.contains(x, y)).then(|| self.window.index(x, y))
+    }
+
+    /// The tile with the largest cells of those that touch a corner.
+    #[inline]
+    fn coarsest(&self, x: i64, y: i64) -> Option<&Arc<Tile>> {
+        let down = self.finest - self.level;
+        let inside = (1i64 << down) - 1;
+        if x & inside != 0 && y & inside != 0 {
+            return self.holder(x, y).map(|tile| &self.tiles[tile]);
+        }
+        let around = [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)];
+        let tiles = around.into_iter().filter_map(|(x, y)| self.holder(x, y)).map(|tile| &self.tiles[tile]);
+        tiles.min_by_key(|tile| tile.detail)
+    }
+
+    /// The height (m) of the ground at a corner of the smallest cells; `None` where nothing is expanded.
+    pub(super) fn corner(&self, x: i64, y: i64) -> Option<f64> {
+        if self.world.measured.is_none() {
+            return self.laid(x, y);
+        }
+        let tile = self.coarsest(x, y)?;
+        match tile.on_grid(self.finest, x, y) {
+            Some((x, y)) => Some(tile.ground(x, y)),
+            None => self.height(self.place(x, y)),
+        }
+    }
+
+    /// The height (m) of the surface of the cells at a corner of the smallest; `None` where nothing is expanded.
+    fn laid(&self, x: i64, y: i64) -> Option<f64> {
+        let tile = self.coarsest(x, y)?;
+        if let Some((x, y)) = tile.on_grid(self.finest, x, y) {
+            return Some(tile.corner(x, y));
+        }
+        // Between the corners of larger cells.
+        let shift = self.finest - tile.level();
+        let mask = (1i64 << shift) - 1;
+        let part = |at: i64| fraction(at & mask, shift);
+        let laid = |x: i64, y: i64| self.laid(x, y);
+        self.between(tile, (x >> shift, y >> shift), DVec2::new(part(x), part(y)), laid)
+    }
+
+    /// The height (m) within a cell of `tile`, at `part` of the way to the east and to the south, of the surface that
+    /// has the heights (m) `corner` at corners of the smallest cells.
+    fn between(
+        &self,
+        tile: &Tile,
+        (x, y): (i64, i64),
+        part: DVec2,
+        corner: impl Fn(i64, i64) -> Option<f64>,
+    ) -> Option<f64> {
+        let shift = self.finest - tile.level();
+        let at = |right: i64, down: i64| corner((x + right) << shift, (y + down) << shift);
+        let (east, south) = (part.x, part.y);
+        // Along an edge of the cell, its ends alone count.
+        if east == 0.0 {
+            return Some(if south == 0.0 { at(0, 0)? } else { mix(at(0, 0)?, at(0, 1)?, south) });
+        }
+        if south == 0.0 {
+            return Some(mix(at(0, 0)?, at(1, 0)?, east));
+        }
+        Some(if (x + y) & 1 == 0 {
+            let (a, d) = (at(0, 0)?, at(1, 1)?);
+            if east >= south {
+                let b = at(1, 0)?;
+                a + (b - a) * east + (d - b) * south
+            } else {
+                let c = at(0, 1)?;
+                a + (c - a) * south + (d - c) * east
+            }
+        } else {
+            let (b, c) = (at(1, 0)?, at(0, 1)?);
+            if east + south <= 1.0 {
+                let a = at(0, 0)?;
+                a + (b - a) * east + (c - a) * south
+            } else {
+                let d = at(1, 1)?;
+                d + (c - d) * (1.0 - east) + (b - d) * (1.0 - south)
+            }
+        })
+    }
+
+    /// The height (m) of the ground at `place` (m), exactly as it was measured at each sample; `None` where nothing is
+    /// expanded.
+    pub fn height(&self, place: DVec2) -> Option<f64> {
+        let (tile, cell, part) = self.find(place)?;
+        let laid = self.between(tile, cell, part, |x, y| self.laid(x, y))?;
+        Some(if self.world.measured.is_some() { tile.changed(place, &self.world, laid) } else { laid })
+    }
+
+    /// The height (m) at `place` (m) of the surface that the cells show: of measured ground only the corners of cells are
+    /// on it. `None` where nothing is expanded.
+    pub fn shown(&self, place: DVec2) -> Option<f64> {
+        let (tile, cell, part) = self.find(place)?;
+        self.between(tile, cell, part, |x, y| self.corner(x, y))
+    }
+
+    /// The tile at `place` (m), the cell of it, and how far (0 to 1) to the east and to the south in that cell.
+    #[allow(clippy::cast_possible_truncation, clippy::cast_precision_loss, reason = "columns are below 2^31")]
+    fn find(&self, place: DVec2) -> Option<(&Arc<Tile>, (i64, i64), DVec2)> {
+        let world = &self.world;
+        let along = DVec2::new(place.x - world.corner.x, world.corner.y + world.size - place.y);
+        // A place on the rim may be outside by what its coordinates are rounded.
+        let slack = (world.corner.abs().max_element() + world.size) * 4.0 * f64::EPSILON;
+        if !along.cmpge(DVec2::splat(-slack)).all() || !along.cmple(DVec2::splat(world.size + slack)).all() {
+            return None;
+        }
+        let along = along.clamp(DVec2::ZERO, DVec2::splat(world.size));
+        let size = world.cell(self.level);
+        let window = self.window;
+        let of = |at: f64, first: i64, count: usize| {
+            let cell = (at / size).floor() as i64;
+            let behind = first + i64::try_from(count).unwrap_or(0);
+            // The far rim of the last tile belongs to it.
+            if cell == behind && at <= behind as f64 * size { cell - 1 } else { cell }
+        };
+        let x = of(along.x, window.x, window.columns);
+        let y = of(along.y, window.y, window.rows);
+        let tile = self.tile(Place { level: self.level, y, x })?;
+        let step = world.cell(tile.level());
+        let last = (1i64 << tile.detail) - 1;
+        let first = (x << tile.detail, y << tile.detail);
+        let cell = |at: f64, first: i64| ((at / step).floor() as i64).clamp(first, first + last);
+        let (column, row) = (cell(along.x, first.0), cell(along.y, first.1));
+        let part = along / step - DVec2::new(column as f64, row as f64);
+        Some((tile, (column, row), part.clamp(DVec2::ZERO, DVec2::ONE)))
+    }
+
+    /// The way up (a unit vector) at a corner of the smallest cells.
+    pub(super) fn normal(&self, x: i64, y: i64) -> DVec3 {
+        let Some(tile) = self.coarsest(x, y) else { return DVec3::Z };
+        let step = 1i64 << (self.finest - tile.level());
+        let size = self.world.cell(tile.level());
+        let here = self.corner(x, y).unwrap_or(0.0);
+        let slope = |low: Option<f64>, high: Option<f64>| match (low, high) {
+            (Some(low), Some(high)) => (high - low) / (2.0 * size),
+            (Some(low), None) => (here - low) / size,
+            (None, Some(high)) => (high - here) / size,
+            (None, None) => 0.0,
+        };
+        let east = slope(self.corner(x - step, y), self.corner(x + step, y));
+        let north = slope(self.corner(x, y + step), self.corner(x, y - step));
+        DVec3::new(-east, -north, 1.0).normalize()
+    }
+
+    /// The way up (a unit vector) at `place` (m), smoothly between the corners of cells; `None` where nothing is
+    /// expanded.
+    pub fn way_up(&self, place: DVec2) -> Option<DVec3> {
+        let (tile, (x, y), part) = self.find(place)?;
+        let shift = self.finest - tile.level();
+        let at = |right: i64, down: i64| self.normal((x + right) << shift, (y + down) << shift);
+        let north = at(0, 0).lerp(at(1, 0), part.x);
+        let south = at(0, 1).lerp(at(1, 1), part.x);
+        Some(north.lerp(south, part.y).normalize())
+    }
+
+    /// The name of the symbol of the cell at `place` (m); `None` where nothing is expanded.
+    pub fn symbol(&self, place: DVec2) -> Option<&str> {
+        let (tile, (x, y), _) = self.find(place)?;
+        Some(self.world.name(tile.level(), tile.symbol(x, y)))
+    }
+
+    /// The first and the last corner of the smallest cells of the square that is expanded.
+    pub(super) fn rim(&self) -> [[i64; 2]; 2] {
+        let down = self.finest - self.level;
+        let end = |first: i64, count: usize| (first + i64::try_from(count).unwrap_or(0)) << down;
+        let Area { x, y, columns, rows } = self.window;
+        [[x << down, y << down], [end(x, columns), end(y, rows)]]
+    }
+
+    /// Where a corner of the smallest cells is (m).
+    pub(super) fn place(&self, x: i64, y: i64) -> DVec2 {
+        self.world.corner_of(self.finest, x, y)
+    }
+}
+
+#[inline]
+fn mix(a: f64, b: f64, part: f64) -> f64 {
+    a + (b - a) * part
+}
+
+#[allow(clippy::cast_precision_loss, reason = "below 2^53")]
+fn fraction(at: i64, shift: u32) -> f64 {
+    at as f64 / (1i64 << shift) as f64
+}

@@ -1,0 +1,38 @@
+//! Terrain: quadtrees of cells by rewriting, expanded where someone looks, and the surface over them.
+//!
+//! Comes in: a [`World`] with its rules, and what a [`View`] shows of it. Goes out: [`Ground`] with heights at any
+//! place, and a [`Mesh`] of it. A cell's height depends on the world and its place alone, never on the way to it.
+//!
+//! Source: Fitzpatrick, "Procedurally Generated Surfaces Using L-Systems".
+
+mod block;
+mod cells;
+mod edits;
+pub mod fit;
+pub mod globe;
+mod ground;
+mod measured;
+mod mesh;
+mod noise;
+mod river;
+mod samples;
+mod script;
+mod table;
+#[cfg(test)]
+mod tests;
+mod tile;
+mod view;
+mod world;
+
+pub use block::{Area, Block};
+pub use cells::Cells;
+pub use edits::{Edit, Edits};
+pub use ground::{Ground, Map};
+pub use measured::Measured;
+pub use mesh::Mesh;
+pub use noise::{octaves, octaves_around};
+pub use river::{Drainage, Dry};
+pub use table::{Draw, Quadrants, RuleTable};
+pub use tile::{Place, Tile};
+pub use view::{DEEPEST, MOST_HEIGHTS, Ring, View};
+pub use world::{Begin, Divide, Layer, Rules, Tables, World};

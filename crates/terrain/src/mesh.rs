@@ -1,0 +1,339 @@
+//! Triangles over expanded ground, few where it is even, within a stated error and without gaps.
+//!
+//! Each square of cells is two right triangles, and each triangle is halved at the middle of its longest side as long
+//! as the ground is farther from it than the error allows. A side is halved for both triangles at it or for none; so
+//! halving one may halve others first, also in tiles whose own cells are larger.
+//!
+//! Method: Evans, Kirkpatrick and Townsend, "Right-triangulated irregular networks", 2001.
+
+use glam::{DVec2, DVec3, Vec2};
+use rayon::prelude::*;
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::ground::Ground;
+use super::samples::{Samples, Vertex};
+use super::tile::{Place, Tile};
+use burgeon_scene::Part;
+
+/// A corner of the smallest cells: column from the west and row from the north.
+pub(super) type Corner = [i64; 2];
+
+/// A triangle with its right angle at `apex`.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Triangle {
+    pub a: Corner,
+    pub b: Corner,
+    pub apex: Corner,
+}
+
+impl Triangle {
+    /// The middle of its longest side, where it is halved; `None` for one that cannot be halved.
+    pub(super) fn middle(&self) -> Option<Corner> {
+        let sum = [self.a[0] + self.b[0], self.a[1] + self.b[1]];
+        (sum[0] & 1 == 0 && sum[1] & 1 == 0).then(|| [sum[0] >> 1, sum[1] >> 1])
+    }
+
+    pub(super) fn halves(&self, middle: Corner) -> [Self; 2] {
+        [Self { a: self.apex, b: self.a, apex: middle }, Self { a: self.b, b: self.apex, apex: middle }]
+    }
+}
+
+/// The heights (m) at all corners of the cells of a tile.
+pub(super) struct Grid {
+    pub heights: Vec<f64>,
+    /// Corners along a side.
+    pub across: usize,
+    /// The first of its corners.
+    pub first: Corner,
+    /// How many times its cells are as large as the smallest: this power of two.
+    pub shift: u32,
+}
+
+impl Grid {
+    fn new(ground: &Ground, tile: &Tile) -> Self {
+        let shift = ground.finest() - tile.level();
+        let own = Tile::own(tile.place, tile.detail);
+        let across = own.columns + 1;
+        let mut heights = Vec::with_capacity(across * across);
+        for y in (own.y..).take(across) {
+            for x in (own.x..).take(across) {
+                let rim = x == own.x || y == own.y || !own.contains(x, y);
+                let height =
+                    if rim { ground.corner(x << shift, y << shift) } else { Some(tile.ground(x, y)) };
+                heights.push(height.unwrap_or(0.0));
+            }
+        }
+        Self { heights, across, first: [own.x << shift, own.y << shift], shift }
+    }
+
+    #[inline]
+    fn at(&self, column: usize, row: usize) -> f64 {
+        self.heights[row * self.across + column]
+    }
+
+    /// Whether the ground is anywhere farther than `error` (m) from a triangle, all of whose corners are its own.
+    #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
+    pub(super) fn is_far(&self, triangle: &Triangle, error: f64) -> bool {
+        let own = |corner: Corner| {
+            let [x, y] = [0, 1].map(|axis| usize::try_from((corner[axis] - self.first[axis]) >> self.shift));
+            (x.unwrap_or(0), y.unwrap_or(0))
+        };
+        let [a, b, c] = [triangle.a, triangle.b, triangle.apex].map(own);
+        let [p, q, r] = [a, b, c].map(|(x, y)| (DVec2::new(x as f64, y as f64), self.at(x, y)));
+        // The plane through its corners: the sides at the right angle have the same length.
+        let (u, v) = (p.0 - r.0, q.0 - r.0);
+        let length = u.length_squared();
+        let gradient = (u * (p.1 - r.1) + v * (q.1 - r.1)) / length;
+        let (top, bottom) = (a.1.min(b.1).min(c.1), a.1.max(b.1).max(c.1));
+        for row in top..=bottom {
+            // Where the row crosses the sides.
+            let (mut left, mut right) = (usize::MAX, 0);
+            for (from, to) in [(a, b), (b, c), (c, a)] {
+                let (from, to) = if from.1 <= to.1 { (from, to) } else { (to, from) };
+                if from.1 == to.1 {
+                    if from.1 == row {
+                        (left, right) = (left.min(from.0.min(to.0)), right.max(from.0.max(to.0)));
+                    }
+                    continue;
+                }
+                if row < from.1 || row > to.1 {
+                    continue;
+                }
+                // Sides run along a row, along a column, or diagonally.
+                let down = row - from.1;
+                let x = match to.0.cmp(&from.0) {
+                    std::cmp::Ordering::Equal => from.0,
+                    std::cmp::Ordering::Greater => from.0 + down,
+                    std::cmp::Ordering::Less => from.0 - down,
+                };
+                (left, right) = (left.min(x), right.max(x));
+            }
+            let begin = r.1 + gradient.dot(DVec2::new(left as f64, row as f64) - r.0);
+            let heights = &self.heights[row * self.across..];
+            for (step, height) in heights[left..=right].iter().enumerate() {
+                if (height - (begin + gradient.x * step as f64)).abs() > error {
+                    return true;
+                }
+            }
+        }
+        false
+    }
+}
+
+/// A triangulation of expanded ground.
+pub struct Mesh<'a> {
+    ground: &'a Ground,
+    /// One for each tile.
+    grids: Vec<Grid>,
+    /// What was measured on each tile.
+    samples: Vec<Samples>,
+    /// The corners where triangles are halved.
+    halved: FxHashSet<u64>,
+    error: f64,
+}
+
+fn key([x, y]: Corner) -> u64 {
+    (x.cast_unsigned() << 32) | (y.cast_unsigned() & 0xFFFF_FFFF)
+}
+
+impl<'a> Mesh<'a> {
+    /// The fewest triangles from which the ground is nowhere farther than `error` (m) at a corner of its cells, nor at a
+    /// sample of measured ground where its cells are not larger than the distance of these.
+    pub fn new(ground: &'a Ground, error: f64) -> Self {
+        let grids = ground.tiles().par_iter().map(|tile| Grid::new(ground, tile)).collect();
+        let samples = ground.tiles().par_iter().map(|tile| Samples::new(ground, tile)).collect();
+        let mut mesh = Self { ground, grids, samples, halved: FxHashSet::default(), error };
+        let mut wanted = Vec::new();
+        for tile in ground.tiles() {
+            wanted.extend(corners(tile.place, ground.finest()));
+            for triangle in roots(tile.place, ground.finest()) {
+                wanted.extend(mesh.want(&triangle));
+            }
+        }
+        while let Some(corner) = wanted.pop() {
+            mesh.halve(corner, &mut wanted);
+        }
+        mesh
+    }
+
+    /// Where a triangle has to be halved, if it has.
+    fn want(&self, triangle: &Triangle) -> Option<Corner> {
+        let middle = triangle.middle()?;
+        let inside = |at: Corner, to: Corner| [at[0] * 2 + to[0], at[1] * 2 + to[1]];
+        // A point within it, in thirds, tells whose it is.
+        let [x, y] = inside(middle, triangle.apex);
+        let holder = self.ground.holder(x.div_euclid(3), y.div_euclid(3))?;
+        let (tile, grid) = (&self.ground.tiles()[holder], &self.grids[holder]);
+        let legs = (triangle.a[0] - triangle.apex[0]).abs().max((triangle.a[1] - triangle.apex[1]).abs());
+        let whole = 1i64 << (self.ground.finest() - tile.place.level);
+        // What is larger than a tile is divided anyway; what is as small as its cells lies on its surface.
+        if legs > whole
+            || legs >> grid.shift == 0
+            || middle.iter().any(|at| at & ((1 << grid.shift) - 1) != 0)
+        {
+            return None;
+        }
+        let samples = &self.samples[holder];
+        let passes = || {
+            let triangle = turned(*triangle);
+            samples.is_far(&triangle, self.heights(&triangle), self.error)
+        };
+        (grid.is_far(triangle, self.error) || !samples.is_empty() && passes()).then_some(middle)
+    }
+
+    /// The heights (m) at the corners of a triangle.
+    fn heights(&self, triangle: &Triangle) -> [f64; 3] {
+        [triangle.a, triangle.b, triangle.apex].map(|[x, y]| self.ground.corner(x, y).unwrap_or(0.0))
+    }
+
+    /// Halves the triangles at `corner`; adds to `wanted` where others have to be halved for it, or because of it.
+    fn halve(&mut self, corner: Corner, wanted: &mut Vec<Corner>) {
+        if !self.halved.insert(key(corner)) {
+            return;
+        }
+        let Some((parents, ends)) = diamond(corner, 1 << self.ground.finest()) else { return };
+        wanted.extend(parents);
+        for apex in parents {
+            let triangle = Triangle { a: ends[0], b: ends[1], apex };
+            for half in triangle.halves(corner) {
+                wanted.extend(self.want(&half));
+            }
+        }
+    }
+
+    /// The triangles over a tile with this number, as numbers of its vertices.
+    fn triangles(&self, number: usize) -> (Vec<Vertex>, Vec<[u32; 3]>) {
+        let tile = &self.ground.tiles()[number];
+        let mut vertices = Vec::new();
+        let mut known: FxHashMap<Vertex, u32> = FxHashMap::default();
+        let mut triangles = Vec::new();
+        let mut add = |piece: [Vertex; 3]| {
+            triangles.push(piece.map(|vertex| {
+                *known.entry(vertex).or_insert_with(|| {
+                    vertices.push(vertex);
+                    u32::try_from(vertices.len() - 1).unwrap_or(u32::MAX)
+                })
+            }));
+        };
+        let samples = &self.samples[number];
+        let mut open: Vec<Triangle> = roots(tile.place, self.ground.finest()).into_iter().rev().collect();
+        while let Some(triangle) = open.pop() {
+            match triangle.middle().filter(|middle| self.halved.contains(&key(*middle))) {
+                Some(middle) => open.extend(triangle.halves(middle).into_iter().rev()),
+                None => {
+                    let pieces = match samples.is_empty() {
+                        true => Vec::new(),
+                        false => samples.divide(&triangle, self.heights(&triangle), self.error),
+                    };
+                    if pieces.is_empty() {
+                        add([triangle.a, triangle.b, triangle.apex].map(Vertex::Corner));
+                    }
+                    pieces.into_iter().for_each(&mut add);
+                }
+            }
+        }
+        (vertices, triangles)
+    }
+
+    /// Where a vertex over a tile with this number is (m).
+    fn point(&self, number: usize, vertex: Vertex) -> DVec3 {
+        match vertex {
+            Vertex::Corner([x, y]) => self.ground.place(x, y).extend(self.ground.corner(x, y).unwrap_or(0.0)),
+            Vertex::Sample(index) => {
+                let sample = self.samples[number].get(index);
+                sample.place.extend(sample.height)
+            }
+        }
+    }
+
+    /// Adds the triangles over the tile with this number to `part`, with points told from `origin` (m). The tile's
+    /// south-west corner gets the texture coordinates `begin` (m), from where they count.
+    pub fn write(&self, number: usize, origin: DVec3, begin: f64, part: &mut Part) {
+        let (vertices, triangles) = self.triangles(number);
+        let base = u32::try_from(part.positions.len()).unwrap_or(u32::MAX);
+        part.make_room(vertices.len(), triangles.len());
+        let (south_west, _) = self.ground.tiles()[number].bounds(self.ground.world());
+        for vertex in vertices {
+            let point = self.point(number, vertex);
+            let place = point.truncate();
+            part.positions.push((point - origin).as_vec3());
+            part.normals.push(match vertex {
+                Vertex::Corner([x, y]) => self.ground.normal(x, y).into(),
+                Vertex::Sample(_) => self.ground.way_up(place).unwrap_or(DVec3::Z).into(),
+            });
+            let [u, v] = (place - south_west + begin).to_array();
+            #[allow(clippy::cast_possible_truncation, reason = "texture coordinates are f32")]
+            part.uvs.push(Vec2::new(u as f32, v as f32));
+        }
+        part.triangles.extend(triangles.into_iter().map(|corners| corners.map(|corner| corner + base)));
+    }
+
+    /// The edges of triangles on the rim of what is expanded, in no order: their ends (m), with the ground on their left.
+    pub fn rim(&self) -> Vec<[DVec3; 2]> {
+        let [low, high] = self.ground.rim();
+        let mut edges = Vec::new();
+        for number in 0..self.ground.tiles().len() {
+            let samples = &self.samples[number];
+            let on = |axis: usize, rim: i64, vertex: Vertex| match vertex {
+                Vertex::Corner(corner) => corner[axis] == rim,
+                Vertex::Sample(index) => samples.is_on(index, axis, rim),
+            };
+            let (vertices, triangles) = self.triangles(number);
+            for triangle in triangles {
+                let [a, b, c] = triangle.map(|corner| vertices[corner as usize]);
+                for edge in [[a, b], [b, c], [c, a]] {
+                    let along = |axis: usize, rim: i64| edge.iter().all(|end| on(axis, rim, *end));
+                    if (0..2).any(|axis| along(axis, low[axis]) || along(axis, high[axis])) {
+                        edges.push(edge.map(|end| self.point(number, end)));
+                    }
+                }
+            }
+        }
+        edges
+    }
+}
+
+/// The two corners at the right angles of the triangles that are halved at a corner, and the ends of their longest side;
+/// `None` for the corners of a world of `across` smallest cells.
+pub(super) fn diamond([x, y]: Corner, across: i64) -> Option<([Corner; 2], [Corner; 2])> {
+    let step = (x | y) & -(x | y);
+    if step == 0 || step >= across {
+        return None;
+    }
+    let (odd_x, odd_y) = (x & step != 0, y & step != 0);
+    let beside = |right: i64, down: i64| [x + right * step, y + down * step];
+    Some(if odd_x && odd_y {
+        let (one, other) = ([beside(-1, -1), beside(1, 1)], [beside(1, -1), beside(-1, 1)]);
+        let [cx, cy] = one[0];
+        let even = ((cx / (2 * step)) + (cy / (2 * step))) & 1 == 0;
+        if even { (other, one) } else { (one, other) }
+    } else if odd_x {
+        ([beside(0, -1), beside(0, 1)], [beside(-1, 0), beside(1, 0)])
+    } else {
+        ([beside(-1, 0), beside(1, 0)], [beside(0, -1), beside(0, 1)])
+    })
+}
+
+/// The corners of a tile, in cells of the level `finest`: north-west, north-east, south-west and south-east.
+pub(super) fn corners(place: Place, finest: u32) -> [Corner; 4] {
+    let size = 1i64 << (finest - place.level);
+    let [x, y] = [place.x * size, place.y * size];
+    [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
+}
+
+/// The two triangles that a tile begins with, counter-clockwise from above.
+pub(super) fn roots(place: Place, finest: u32) -> [Triangle; 2] {
+    let [a, b, c, d] = corners(place, finest);
+    if (place.x + place.y) & 1 == 0 {
+        [Triangle { a, b: d, apex: b }, Triangle { a: d, b: a, apex: c }].map(turned)
+    } else {
+        [Triangle { a: b, b: c, apex: a }, Triangle { a: c, b, apex: d }].map(turned)
+    }
+}
+
+/// The triangle counter-clockwise as seen from above, where rows run to the south.
+fn turned(triangle: Triangle) -> Triangle {
+    let Triangle { a, b, apex } = triangle;
+    let [u, v] = [[b[0] - a[0], b[1] - a[1]], [apex[0] - a[0], apex[1] - a[1]]];
+    if u[0] * v[1] - u[1] * v[0] < 0 { triangle } else { Triangle { a: b, b: a, apex } }
+}

@@ -1,0 +1,52 @@
+//! How scripts write what is seen from a place.
+
+use std::sync::Arc;
+
+use crate::{Ring, View};
+use burgeon_kit::{Expected, Key, Parameter, Table, Value};
+
+impl Parameter for View {
+    fn luau() -> String {
+        "{ cell: number, rings: { { number } } }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || {
+            Expected::new(
+                "a view: { cell = 512, rings = { { 4, 8 }, { 8, 6 } } }, which divides the nearest 4 x 4 cells 8 times",
+            )
+        };
+        let Value::Table(table) = &value else { return Err(what()) };
+        if table
+            .entries
+            .iter()
+            .any(|(key, _)| !matches!(key, Key::Name(name) if matches!(&**name, "cell" | "rings")))
+        {
+            return Err(what());
+        }
+        let cell =
+            table.get("cell").map(|cell| f64::from_value(cell.clone())).transpose().map_err(|_| what())?;
+        let cell = cell.filter(|cell| *cell > 0.0).ok_or_else(what)?;
+        let rings = Vec::<Vec<u32>>::from_value(table.get("rings").cloned().unwrap_or(Value::Nil));
+        let rings = rings.map_err(|_| what())?.into_iter().map(|ring| match ring.as_slice() {
+            [across, levels] if (1..=1024).contains(across) => Ok(Ring { across: *across, levels: *levels }),
+            _ => Err(what()),
+        });
+        let rings = rings.collect::<Result<Vec<_>, _>>()?;
+        if rings.is_empty() {
+            return Err(what());
+        }
+        if rings.windows(2).any(|pair| pair[0].across >= pair[1].across || pair[0].levels < pair[1].levels) {
+            return Err(Expected::new("a view whose rings grow, and are divided less the farther they are"));
+        }
+        Ok(Self { cell, rings })
+    }
+
+    fn into_value(self) -> Value {
+        let ring = |ring: &Ring| vec![f64::from(ring.across), f64::from(ring.levels)];
+        let rings = self.rings.iter().map(ring).collect::<Vec<_>>().into_value();
+        let entries =
+            vec![(Key::Name("cell".into()), Value::Number(self.cell)), (Key::Name("rings".into()), rings)];
+        Value::Table(Arc::new(Table { class: None, entries }))
+    }
+}

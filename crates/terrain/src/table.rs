@@ -1,0 +1,164 @@
+//! Rule tables: what a cell of each symbol becomes, without a script.
+
+use rayon::prelude::*;
+
+use super::block::{Area, Block};
+use burgeon_kit::random::Stream;
+use burgeon_kit::rules::{Key, Symbol};
+
+/// A number, or the range that it is drawn from.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Draw {
+    /// The least.
+    pub low: f64,
+    /// The greatest; the same for a number that is not drawn.
+    pub high: f64,
+}
+
+impl Draw {
+    /// A number that is not drawn.
+    pub fn exactly(number: f64) -> Self {
+        Self { low: number, high: number }
+    }
+
+    fn is_drawn(self) -> bool {
+        self.low < self.high
+    }
+
+    #[inline]
+    fn take(self, stream: &mut Stream) -> f64 {
+        if self.is_drawn() { self.low + (self.high - self.low) * stream.uniform() } else { self.low }
+    }
+}
+
+/// The four quadrants that replace a cell: north-west, north-east, south-west, south-east.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Quadrants {
+    /// How likely it is among the rules of its symbol.
+    pub weight: f64,
+    /// The symbol of each.
+    pub symbols: [Symbol; 4],
+    /// What is added to the cell's height, as a multiple of its decay.
+    pub change: [Draw; 4],
+    /// What the cell's decay is multiplied by.
+    pub decay: [Draw; 4],
+}
+
+/// The rules of all symbols, by number.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RuleTable {
+    /// The names of the symbols.
+    pub names: Vec<String>,
+    /// The rules of each symbol, of which one is drawn.
+    pub rules: Vec<Vec<Quadrants>>,
+}
+
+impl RuleTable {
+    /// Whether it draws random numbers.
+    pub fn is_random(&self) -> bool {
+        let drawn = |rule: &Quadrants| rule.change.iter().chain(&rule.decay).any(|draw| draw.is_drawn());
+        self.rules.iter().any(|rules| rules.len() > 1 || rules.iter().any(drawn))
+    }
+
+    /// The greatest factor of a decay.
+    pub fn greatest_decay(&self) -> f64 {
+        let rules = self.rules.iter().flatten();
+        rules.flat_map(|rule| rule.decay).map(|draw| draw.low.abs().max(draw.high.abs())).fold(0.0, f64::max)
+    }
+
+    /// The quadrants of the cells of `area`; without decays and keys if they are the `last`.
+    pub fn divide(&self, cells: &Block, area: Area, last: bool) -> Block {
+        let made = area.quadrants();
+        let count = made.len();
+        let random = !cells.keys.is_empty();
+        let mut block = Block {
+            level: cells.level + 1,
+            area: made,
+            symbols: vec![0; count],
+            heights: vec![0.0; count],
+            rest: vec![0.0; if last { 0 } else { count }],
+            stride: 1,
+            keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            forms: Vec::new(),
+            smooth: Vec::new(),
+        };
+        let two = made.columns * 2;
+        if two == 0 {
+            return block;
+        }
+        // Empty columns have no rows, which must not end the others.
+        let rows = (area.y..).zip(block.symbols.chunks_mut(two).zip(block.heights.chunks_mut(two)));
+        let mut decays = block.rest.chunks_mut(two);
+        let mut keys = block.keys.chunks_mut(two);
+        let rows: Vec<_> = rows
+            .map(|(y, (symbols, heights))| {
+                let into =
+                    Into { symbols, heights, decays: decays.next(), keys: keys.next(), across: made.columns };
+                (cells.area.index(area.x, y), into)
+            })
+            .collect();
+        let work = |(first, into): (usize, Into<'_>)| self.row(cells, first, area.columns, into);
+        if count > 1 << 14 {
+            rows.into_par_iter().with_min_len(16).for_each(work);
+        } else {
+            rows.into_iter().for_each(work);
+        }
+        block
+    }
+
+    fn row(&self, cells: &Block, first: usize, columns: usize, mut into: Into<'_>) {
+        for column in 0..columns {
+            let from = first + column;
+            let (height, decay) = (cells.heights[from], cells.rest[from]);
+            let rules = &self.rules[usize::from(cells.symbols[from])];
+            let places = [0, 1, into.across, into.across + 1].map(|place| place + 2 * column);
+            let Some(key) = cells.keys.get(from) else {
+                let rule = &rules[0];
+                for (ordinal, place) in places.into_iter().enumerate() {
+                    into.symbols[place] = rule.symbols[ordinal];
+                    into.heights[place] = height + rule.change[ordinal].low * decay;
+                    if let Some(decays) = &mut into.decays {
+                        decays[place] = decay * rule.decay[ordinal].low;
+                    }
+                }
+                continue;
+            };
+            let mut stream = key.stream();
+            let rule = choose(rules, &mut stream);
+            for (ordinal, place) in places.into_iter().enumerate() {
+                into.symbols[place] = rule.symbols[ordinal];
+                into.heights[place] = height + rule.change[ordinal].take(&mut stream) * decay;
+                let factor = rule.decay[ordinal].take(&mut stream);
+                if let Some(decays) = &mut into.decays {
+                    decays[place] = decay * factor;
+                }
+                if let Some(keys) = &mut into.keys {
+                    keys[place] = key.child(ordinal);
+                }
+            }
+        }
+    }
+}
+
+/// Two rows of quadrants.
+struct Into<'a> {
+    symbols: &'a mut [Symbol],
+    heights: &'a mut [f64],
+    decays: Option<&'a mut [f64]>,
+    keys: Option<&'a mut [Key]>,
+    /// The length of one row.
+    across: usize,
+}
+
+fn choose<'a>(rules: &'a [Quadrants], stream: &mut Stream) -> &'a Quadrants {
+    if let [only] = rules {
+        return only;
+    }
+    let whole: f64 = rules.iter().map(|rule| rule.weight).sum();
+    let mut left = stream.uniform() * whole;
+    let found = rules.iter().find(|rule| {
+        left -= rule.weight;
+        left < 0.0
+    });
+    found.unwrap_or(&rules[rules.len() - 1])
+}

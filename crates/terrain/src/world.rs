@@ -1,0 +1,320 @@
+//! A world: how its cells are divided, level by level, and what that gives anywhere in it.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use rayon::prelude::*;
+
+use super::block::{Area, Block};
+use super::measured::Measured;
+use super::table::RuleTable;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::rules::{Key, Symbol};
+
+/// What divides cells.
+#[derive(Clone)]
+pub enum Rules {
+    /// Nothing does: quadrants are as their cell.
+    None,
+    /// A rule table.
+    Table(Arc<RuleTable>),
+    /// The rules of a system of the script, by its number.
+    System(usize),
+}
+
+/// The rules from one level on.
+#[derive(Clone)]
+pub struct Layer {
+    /// The level of the cells that are divided first.
+    pub from: u32,
+    /// What divides them.
+    pub rules: Rules,
+    /// The symbol that all cells of that level get.
+    pub start: Symbol,
+    /// What is added to the height (m) of each.
+    pub height: f64,
+    /// The other parameters that each gets.
+    pub rest: Vec<f64>,
+    /// The names of the symbols of its cells, by number; of a system only once it is known what that begins with.
+    pub names: Arc<Vec<String>>,
+}
+
+/// The cell that a system begins with.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Begin {
+    /// Its symbol.
+    pub symbol: Symbol,
+    /// Its height (m).
+    pub height: f64,
+    /// Its other parameters, as many as any cell of the system has.
+    pub rest: Vec<f64>,
+    /// The names of all symbols, by number.
+    pub names: Vec<String>,
+}
+
+/// Divides cells by the rules of a system.
+pub trait Divide {
+    /// The cell that system `system` begins with.
+    fn begin(&self, system: usize) -> Result<Begin>;
+
+    /// The quadrants of the cells of `area` by the rules of system `system`; other parameters and keys may be left out
+    /// if they are the `last`.
+    fn divide(&self, system: usize, cells: &Block, area: Area, last: bool) -> Result<Block>;
+}
+
+/// Where there are only rule tables.
+pub struct Tables;
+
+impl Divide for Tables {
+    fn begin(&self, _: usize) -> Result<Begin> {
+        Err(Error::internal("only a script knows what its systems begin with"))
+    }
+
+    fn divide(&self, _: usize, _: &Block, _: Area, _: bool) -> Result<Block> {
+        Err(Error::internal("only a script can divide cells by the rules of a system"))
+    }
+}
+
+/// A square of ground that is divided into four quadrants again and again.
+#[derive(Clone)]
+pub struct World {
+    /// Its south-west corner (m).
+    pub corner: DVec2,
+    /// The length (m) of its sides.
+    pub size: f64,
+    /// What divides its cells, by level; the first is from level 0.
+    pub layers: Vec<Layer>,
+    /// Whether the surface runs smoothly through the cells.
+    pub smooth: bool,
+    /// The key of the whole world's cell, if anything is drawn.
+    pub key: Option<Key>,
+    /// What the heights (m) of the surface are changed to: pairs of heights, in order, with straight lines in between.
+    /// Empty for no change.
+    pub remap: Vec<[f64; 2]>,
+    /// What the heights of the rules are added to.
+    pub measured: Option<Arc<dyn Measured>>,
+}
+
+impl World {
+    /// How many cells there are along a side at `level`.
+    pub fn across(level: u32) -> i64 {
+        1 << level
+    }
+
+    /// The length (m) of the sides of cells at `level`.
+    pub fn cell(&self, level: u32) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "a power of two")]
+        let across = Self::across(level) as f64;
+        self.size / across
+    }
+
+    /// The middle (m) of a cell.
+    #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+    pub fn middle(&self, level: u32, x: i64, y: i64) -> DVec2 {
+        let cell = self.cell(level);
+        let north = self.corner.y + self.size;
+        DVec2::new(self.corner.x + (x as f64 + 0.5) * cell, north - (y as f64 + 0.5) * cell)
+    }
+
+    /// The north-west corner (m) of a cell.
+    #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
+    pub(super) fn corner_of(&self, level: u32, x: i64, y: i64) -> DVec2 {
+        let cell = self.cell(level);
+        DVec2::new(self.corner.x + x as f64 * cell, self.corner.y + self.size - y as f64 * cell)
+    }
+
+    /// Whether the rules of a script divide any of its cells.
+    pub fn has_systems(&self) -> bool {
+        self.layers.iter().any(|layer| matches!(layer.rules, Rules::System(_)))
+    }
+
+    /// The world once it is known what the systems begin with that divide its cells; `None` where there is nothing to
+    /// learn.
+    pub fn begun(&self, divide: &dyn Divide) -> Result<Option<Self>> {
+        let unknown = |layer: &Layer| matches!(layer.rules, Rules::System(_)) && layer.names.is_empty();
+        if !self.layers.iter().any(unknown) {
+            return Ok(None);
+        }
+        let mut world = self.clone();
+        for layer in world.layers.iter_mut().filter(|layer| unknown(layer)) {
+            if let Rules::System(system) = layer.rules {
+                let begin = divide.begin(system)?;
+                layer.start = begin.symbol;
+                layer.height += begin.height;
+                layer.rest = begin.rest;
+                layer.names = Arc::new(begin.names);
+            }
+        }
+        Ok(Some(world))
+    }
+
+    /// The name of a symbol among those of the cells of `level`; empty where nothing has divided them.
+    pub fn name(&self, level: u32, symbol: Symbol) -> &str {
+        self.layer(level).names.get(usize::from(symbol)).map_or("", String::as_str)
+    }
+
+    /// The cells of `area` at `level`. They depend on the world and their places alone.
+    pub fn cells(&self, level: u32, area: Area, divide: &dyn Divide) -> Result<Block> {
+        self.descend(&self.root(), level, area, false, divide)
+    }
+
+    /// The cell that is the whole world.
+    pub fn root(&self) -> Block {
+        let mut root = Block {
+            level: 0,
+            area: Area { x: 0, y: 0, columns: 1, rows: 1 },
+            symbols: vec![0],
+            heights: vec![0.0],
+            rest: Vec::new(),
+            stride: 0,
+            keys: self.key.into_iter().collect(),
+            forms: Vec::new(),
+            smooth: Vec::new(),
+        };
+        if self.smooth {
+            root.smooth = vec![0.0];
+        }
+        self.begin_layer(&mut root);
+        root
+    }
+
+    /// The cells of `area` at `level` out of `from`, which holds all that they come from; without what dividing them
+    /// would need, if they are the `last`.
+    pub fn descend(
+        &self,
+        from: &Block,
+        level: u32,
+        area: Area,
+        last: bool,
+        divide: &dyn Divide,
+    ) -> Result<Block> {
+        let margin = i64::from(self.smooth);
+        let mut areas = vec![area];
+        for above in (from.level..level).rev() {
+            let below = areas[areas.len() - 1];
+            areas.push(below.parents(margin, Self::across(above)));
+        }
+        let mut block: Option<Block> = None;
+        let steps = areas.len() - 1;
+        for (step, below) in areas.iter().rev().skip(1).enumerate() {
+            let cells = block.as_ref().unwrap_or(from);
+            let divided = below.parents(0, Self::across(cells.level));
+            let last = last && step + 1 == steps;
+            let mut made = self.quarter(cells, divided, last, divide)?;
+            if self.smooth {
+                smooth(cells, &mut made);
+            }
+            self.begin_layer(&mut made);
+            block = Some(made);
+        }
+        Ok(block.unwrap_or_else(|| from.clone()))
+    }
+
+    /// What `height` (m) is changed to.
+    pub(super) fn remapped(&self, height: f64) -> f64 {
+        let (Some(first), Some(last)) = (self.remap.first(), self.remap.last()) else { return height };
+        let above = self.remap.partition_point(|pair| pair[0] <= height);
+        match (above.checked_sub(1).map(|below| self.remap[below]), self.remap.get(above)) {
+            (Some([from, a]), Some([to, b])) => a + (b - a) * (height - from) / (to - from),
+            (None, _) => first[1],
+            (_, None) => last[1],
+        }
+    }
+
+    /// The quadrants of the cells of `area`, by the rules alone.
+    pub(super) fn quarter(
+        &self,
+        cells: &Block,
+        area: Area,
+        last: bool,
+        divide: &dyn Divide,
+    ) -> Result<Block> {
+        match &self.layer(cells.level).rules {
+            Rules::None => Ok(undivided(cells, area)),
+            Rules::Table(table) => Ok(table.divide(cells, area, last)),
+            Rules::System(system) => divide.divide(*system, cells, area, last),
+        }
+    }
+
+    fn layer(&self, level: u32) -> &Layer {
+        let known = self.layers.iter().rev().find(|layer| layer.from <= level);
+        known.unwrap_or(&self.layers[0])
+    }
+
+    /// Gives the cells what the rules from their level on begin with.
+    pub(super) fn begin_layer(&self, block: &mut Block) {
+        let Some(layer) = self.layers.iter().find(|layer| layer.from == block.level) else { return };
+        block.symbols.fill(layer.start);
+        block.stride = layer.rest.len();
+        block.rest = layer.rest.repeat(block.symbols.len());
+        if layer.height != 0.0 {
+            let both = block.heights.iter_mut().chain(&mut block.smooth);
+            both.for_each(|height| *height += layer.height);
+        }
+    }
+}
+
+/// The quadrants of cells that nothing divides.
+fn undivided(cells: &Block, area: Area) -> Block {
+    let made = area.quadrants();
+    let mut block = Block {
+        level: cells.level + 1,
+        area: made,
+        symbols: Vec::with_capacity(made.len()),
+        heights: Vec::with_capacity(made.len()),
+        rest: Vec::new(),
+        stride: 0,
+        keys: Vec::new(),
+        forms: Vec::new(),
+        smooth: Vec::new(),
+    };
+    for y in (made.y..).take(made.rows) {
+        for x in (made.x..).take(made.columns) {
+            let from = cells.area.index(x.div_euclid(2), y.div_euclid(2));
+            block.symbols.push(cells.symbols[from]);
+            block.heights.push(cells.heights[from]);
+            if let Some(key) = cells.keys.get(from) {
+                let ordinal = usize::from(x.rem_euclid(2) == 1) + 2 * usize::from(y.rem_euclid(2) == 1);
+                block.keys.push(key.child(ordinal));
+            }
+        }
+    }
+    block
+}
+
+/// Gives `made`, the quadrants of `cells`, a smooth surface: the surface of the cells, as the biquadratic B-spline
+/// runs through it, and what their own heights add to those of the cells.
+///
+/// Method: Doo and Sabin, "Behaviour of recursive division surfaces near extraordinary points", 1978, on a grid.
+pub(super) fn smooth(cells: &Block, made: &mut Block) {
+    let area = made.area;
+    let columns = area.columns;
+    if columns == 0 {
+        return;
+    }
+    made.smooth = vec![0.0; area.len()];
+    let above = &cells.smooth;
+    let across = cells.area.columns;
+    let heights = &made.heights;
+    let work = |(row, out): (usize, &mut [f64])| {
+        let y = area.y + i64::try_from(row).unwrap_or(0);
+        let (near, far) = (y.div_euclid(2), y.div_euclid(2) + if y.rem_euclid(2) == 1 { 1 } else { -1 });
+        let near = &above[cells.area.index(cells.area.x, near)..][..across];
+        let far = &above[cells.area.index(cells.area.x, far)..][..across];
+        let mid = &cells.heights[cells.area.index(cells.area.x, y.div_euclid(2))..][..across];
+        let own = &heights[row * columns..][..columns];
+        for (column, (out, own)) in out.iter_mut().zip(own).enumerate() {
+            let x = area.x + i64::try_from(column).unwrap_or(0);
+            let at = usize::try_from(x.div_euclid(2) - cells.area.x).unwrap_or(0);
+            let beside = if x.rem_euclid(2) == 1 { (at + 1).min(across - 1) } else { at.saturating_sub(1) };
+            let base = near[at] * 9.0 + near[beside] * 3.0 + far[at] * 3.0 + far[beside];
+            *out = base / 16.0 + (own - mid[at]);
+        }
+    };
+    let rows = made.smooth.chunks_mut(columns).enumerate();
+    if area.len() > 1 << 16 {
+        rows.collect::<Vec<_>>().into_par_iter().with_min_len(16).for_each(work);
+    } else {
+        rows.for_each(work);
+    }
+}

@@ -1,0 +1,422 @@
+//! Variations of a script: many runs that differ in the seed or in one parameter, as thumbnails to choose from.
+//!
+//! Comes in: a script and what changes from run to run ([`Over`]). Goes out: a [`Cell`] for each, in order, with
+//! its picture or its error; [`sheet`] puts the pictures side by side. The same input gives the same bytes for
+//! any number of threads. An error in one run does not touch the others.
+
+mod letters;
+mod over;
+mod sheet;
+
+pub use over::{MOST, Over};
+pub use sheet::{Sheet, sheet};
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::mpsc::{Sender, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use image::{Rgba, RgbaImage};
+
+use burgeon_base::error::{Error, Result};
+use burgeon_base::stop::Stop;
+use burgeon_base::warning::Warning;
+use burgeon_engine::run::{declare, no_such, run_session};
+use burgeon_engine::script::{Control, Options, Param, Session, Setting};
+use burgeon_export::picture::{Extent, Picture, Quality, render_within};
+use burgeon_scene::Scene;
+
+/// What finished scenes may take (bytes) while they wait for a common camera; further ones are made anew.
+const HELD: usize = 1 << 30;
+
+/// How the cameras of the cells go together.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub enum Framing {
+    /// One camera for all, from which each model is seen whole: what looks larger is larger. No cell is given
+    /// away before all scripts have run.
+    #[default]
+    Together,
+    /// Each model fills its cell, seen from where it is seen best.
+    Each,
+}
+
+/// One variation.
+#[derive(Debug)]
+pub struct Cell {
+    /// Its number, from 0.
+    pub index: usize,
+    /// What it is, for people: `seed 7`, `twist 30 deg`.
+    pub label: String,
+    /// Its seed.
+    pub seed: u64,
+    /// The parameter that is varied, and the value it has here.
+    pub set: Option<(String, String)>,
+    /// What it has become.
+    pub made: Result<Made>,
+}
+
+/// What a variation has become.
+#[derive(Debug)]
+pub struct Made {
+    /// How it looks.
+    pub picture: RgbaImage,
+    /// All parameters of the script, with their values here.
+    pub params: Vec<Param>,
+    /// Modules of all chains.
+    pub modules: usize,
+    /// Triangles, instances counted each.
+    pub triangles: usize,
+    /// What people should know of it, in the order of files and lines.
+    pub warnings: Vec<Warning>,
+}
+
+/// Variations of a script that can be made.
+pub struct Variations {
+    /// Asks for an end: no further cells are given.
+    pub stop: Arc<Stop>,
+    script: PathBuf,
+    options: Options,
+    plans: Vec<Plan>,
+    ran: AtomicUsize,
+}
+
+/// A cell before it is made.
+struct Plan {
+    label: String,
+    seed: u64,
+    set: Option<(String, String)>,
+}
+
+/// A script that has run, before its picture is made.
+struct Ran {
+    scene: Option<Scene>,
+    extent: Extent,
+    params: Vec<Param>,
+    modules: usize,
+    triangles: usize,
+    warnings: Vec<Warning>,
+}
+
+impl Variations {
+    /// Variations of `script`, otherwise run with `options`, whose limits are those of each run.
+    ///
+    /// Fails if there are none or more than [`MOST`], and if the script has no such parameter or refuses one of
+    /// the values. A script that fails is told by its cells.
+    pub fn new(script: &Path, options: &Options, over: &Over) -> Result<Self> {
+        let options = Options { print: None, ..options.clone() };
+        let plans: Vec<Plan> = match over {
+            Over::Seeds(seeds) => seeds
+                .iter()
+                .map(|seed| Plan { label: format!("seed {seed}"), seed: *seed, set: None })
+                .collect(),
+            Over::Param { name, values } => {
+                let param = find(script, &options, name)?;
+                let all = if values.is_empty() { every_value(&param)? } else { values.clone() };
+                all.into_iter()
+                    .map(|value| {
+                        let label = label(&param, &param.accept(&value)?);
+                        Ok(Plan { label, seed: options.seed, set: Some((name.clone(), value)) })
+                    })
+                    .collect::<Result<_>>()?
+            }
+        };
+        over::check_count(plans.len() as f64, "take fewer of them")?;
+        let script = script.to_path_buf();
+        Ok(Self { stop: Arc::default(), script, options, plans, ran: AtomicUsize::new(0) })
+    }
+
+    /// How many there are.
+    #[allow(clippy::len_without_is_empty, reason = "there is always one")]
+    pub fn len(&self) -> usize {
+        self.plans.len()
+    }
+
+    /// How many scripts have run so far.
+    pub fn ran(&self) -> usize {
+        self.ran.load(Ordering::Relaxed).min(self.plans.len())
+    }
+
+    /// Makes all variations and gives each to `take` in order, as soon as it and those before it are finished.
+    ///
+    /// `picture` is the wish for each cell; a draft is photographed at twice the size, so that its edges are smooth.
+    /// Fails if a stop was asked for, with its reason, and if `picture`
+    /// cannot be.
+    pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Cell)) -> Result<()> {
+        picture.check()?;
+        self.ran.store(0, Ordering::Relaxed);
+        match framing {
+            Framing::Each => self.each(
+                |number| {
+                    let ran = self.run(number, None)?;
+                    let extent = ran.extent.clone();
+                    self.photograph(number, ran, &extent, picture)
+                },
+                |number, made| take(self.cell(number, made)),
+            ),
+            Framing::Together => {
+                let held = AtomicUsize::new(0);
+                let mut extent = Extent::default();
+                let mut waiting = Vec::new();
+                self.each(
+                    |number| self.run(number, Some(&held)),
+                    |_, ran| {
+                        if let Ok(ran) = &ran {
+                            extent.join(&ran.extent);
+                        }
+                        waiting.push(Mutex::new(Some(ran)));
+                    },
+                )?;
+                self.each(
+                    |number| {
+                        let ran = waiting[number].lock().unwrap_or_else(PoisonError::into_inner).take();
+                        let ran = ran.unwrap_or_else(|| Err(Error::internal("it was made twice")))?;
+                        self.photograph(number, ran, &extent, picture)
+                    },
+                    |number, made| take(self.cell(number, made)),
+                )
+            }
+        }
+    }
+
+    fn cell(&self, index: usize, made: Result<Made>) -> Cell {
+        let Plan { label, seed, set } = &self.plans[index];
+        Cell { index, label: label.clone(), seed: *seed, set: set.clone(), made }
+    }
+
+    /// Runs the script for a cell. Keeps the scene unless those that are `held` take too much memory.
+    fn run(&self, number: usize, held: Option<&AtomicUsize>) -> Result<Ran> {
+        let plan = &self.plans[number];
+        let mut options = self.options.clone();
+        options.seed = plan.seed;
+        options.stop = Some(Arc::clone(&self.stop));
+        options.set.extend(plan.set.clone());
+        options.threads = Some((self.options.worker_threads() / self.workers()).max(1));
+        let session = Session::new(&self.script, options)?;
+        let run = run_session(&session);
+        self.ran.fetch_add(1, Ordering::Relaxed);
+        let run = run?;
+        if run.systems.is_empty() {
+            let script = self.script.display();
+            return Err(Error::script(format!("{script} makes nothing to show, for it derives no system"))
+                .help("end it with system:derive()"));
+        }
+        let modules = run.systems.iter().map(|system| system.modules()).sum();
+        let (triangles, extent) = (run.scene.triangles(), Extent::of(&run.scene)?);
+        let room = held.is_none_or(|held| {
+            let size = bytes(&run.scene);
+            held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < HELD
+        });
+        let scene = room.then_some(run.scene);
+        Ok(Ran { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
+    }
+
+    fn photograph(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Made> {
+        let scene = match ran.scene {
+            Some(scene) => scene,
+            None => self.run(number, None)?.scene.unwrap_or_default(),
+        };
+        let picture = thumbnail(&scene, extent, picture, &self.stop)?;
+        let Ran { params, modules, triangles, warnings, .. } = ran;
+        Ok(Made { picture, params, modules, triangles, warnings })
+    }
+
+    fn workers(&self) -> usize {
+        self.options.worker_threads().min(self.plans.len())
+    }
+
+    /// Does `work` for every cell, in several threads, and gives the results to `take` in order.
+    fn each<T: Send>(
+        &self,
+        work: impl Fn(usize) -> Result<T> + Sync,
+        mut take: impl FnMut(usize, Result<T>),
+    ) -> Result<()> {
+        let next = AtomicUsize::new(0);
+        let worker = |outbox: Sender<(usize, Result<T>)>| {
+            while !self.stop.is_stopped() {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                if number >= self.plans.len() || outbox.send((number, work(number))).is_err() {
+                    break;
+                }
+            }
+        };
+        std::thread::scope(|scope| {
+            let (outbox, inbox) = channel();
+            for _ in 0..self.workers() {
+                let (worker, outbox) = (&worker, outbox.clone());
+                scope.spawn(move || worker(outbox));
+            }
+            drop(outbox);
+            let mut early = BTreeMap::new();
+            let mut expected = 0;
+            for (number, result) in inbox {
+                if self.stop.is_stopped() {
+                    break;
+                }
+                early.insert(number, result);
+                while let Some(result) = early.remove(&expected) {
+                    take(expected, result);
+                    expected += 1;
+                }
+            }
+        });
+        self.stop.check()
+    }
+}
+
+fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<RgbaImage> {
+    let (width, height) = (picture.width, picture.height);
+    if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
+        return render_within(scene, Some(extent), picture, stop);
+    }
+    let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
+    let large = render_within(scene, Some(extent), &large, stop)?;
+    Ok(RgbaImage::from_fn(width, height, |x, y| {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| *large.get_pixel(2 * x + i, 2 * y + j));
+        mean(four)
+    }))
+}
+
+/// The mean colour of pixels that differ in opacity.
+fn mean(pixels: [Rgba<u8>; 4]) -> Rgba<u8> {
+    let opacity: u32 = pixels.iter().map(|pixel| u32::from(pixel[3])).sum();
+    let color = |i: usize| {
+        let sum: u32 = pixels.iter().map(|pixel| u32::from(pixel[i]) * u32::from(pixel[3])).sum();
+        ((sum + opacity / 2) / opacity.max(1)) as u8
+    };
+    Rgba([color(0), color(1), color(2), ((opacity + 2) / 4) as u8])
+}
+
+/// The parameter `name` of `script`.
+fn find(script: &Path, options: &Options, name: &str) -> Result<Param> {
+    let mut options = Options { check: true, ..options.clone() };
+    options.set.retain(|(known, _)| known != name);
+    let session = Session::new(script, options)?;
+    // A script that fails may have declared the parameter all the same; each cell tells the failure.
+    let ran = declare(&session);
+    let params = session.params();
+    match params.iter().find(|param| param.name == name) {
+        Some(param) => Ok(param.clone()),
+        None => {
+            ran?;
+            Err(no_such(session.script(), name, &params))
+        }
+    }
+}
+
+/// All values of a parameter that has few.
+fn every_value(param: &Param) -> Result<Vec<String>> {
+    match &param.control {
+        Control::Choice(choices) => Ok(choices.clone()),
+        Control::Switch => Ok(vec!["false".to_owned(), "true".to_owned()]),
+        _ => Err(Error::argument(format!("param {} has no list of choices", param.name))
+            .help(format!("say which values: {}=LOW..HIGH:STEP or {}=A,B,C", param.name, param.name))),
+    }
+}
+
+fn label(param: &Param, value: &Setting) -> String {
+    let unit = if param.unit.is_empty() { String::new() } else { format!(" {}", param.unit) };
+    format!("{} {value}{unit}", param.name)
+}
+
+/// About how much memory (bytes) `scene` takes.
+fn bytes(scene: &Scene) -> usize {
+    let parts = scene.meshes.iter().flat_map(|mesh| &mesh.parts);
+    let meshes: usize = parts.map(|part| part.positions.len() * 32 + part.triangles.len() * 12).sum();
+    meshes + scene.instances.len() * 200
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const SCRIPT: &str = r#"local n = param("n", { default = 2, min = 1, max = 6, unit = "m" })
+param("kind", { default = "a", choices = { "a", "b" } })
+local A = module("A", "x")
+local s = lsystem({ object = turtle({ width = 0.2 }) })
+s:axiom(A(n))
+s:rule("A(x)", function(this, x)
+  if n == 3 then error("three") end
+  print("loud")
+  return F(x * random(0.9, 1.1))
+end)
+s:derive()
+"#;
+
+    fn made(over: &Over, threads: usize, framing: Framing) -> Vec<Cell> {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("s.lua");
+        std::fs::write(&script, SCRIPT).unwrap();
+        let options =
+            Options { threads: Some(threads), registry: burgeon_objects::registry(), ..Options::default() };
+        let picture = Picture { width: 40, height: 50, quality: Quality::Draft, ..Picture::default() };
+        let mut cells = Vec::new();
+        let variations = Variations::new(&script, &options, over).unwrap();
+        variations.make(&picture, framing, |cell| cells.push(cell)).unwrap();
+        assert_eq!((cells.len(), variations.ran()), (variations.len(), variations.len()));
+        cells
+    }
+
+    fn pixels(cell: &Cell) -> Option<&[u8]> {
+        cell.made.as_ref().ok().map(|made| made.picture.as_raw().as_slice())
+    }
+
+    #[test]
+    fn cells_come_in_order_and_are_the_same_for_any_number_of_threads() {
+        for framing in [Framing::Together, Framing::Each] {
+            let over = Over::seeds("1..5").unwrap();
+            let (one, three) = (made(&over, 1, framing), made(&over, 3, framing));
+            for (index, (a, b)) in one.iter().zip(&three).enumerate() {
+                assert_eq!(
+                    (a.index, a.seed, a.label.as_str()),
+                    (index, index as u64 + 1, &*format!("seed {}", index + 1))
+                );
+                assert!(pixels(a).is_some() && pixels(a) == pixels(b));
+            }
+            assert_ne!(pixels(&one[0]), pixels(&one[1]));
+        }
+    }
+
+    #[test]
+    fn a_run_that_fails_leaves_the_others_alone() {
+        let cells = made(&Over::sweep("n=1..5").unwrap(), 2, Framing::Together);
+        let labels: Vec<&str> = cells.iter().map(|cell| cell.label.as_str()).collect();
+        assert_eq!(labels, ["n 1 m", "n 2 m", "n 3 m", "n 4 m", "n 5 m"]);
+        for cell in &cells {
+            match &cell.made {
+                Ok(made) => assert_eq!((made.params.len(), made.modules), (2, 1)),
+                Err(error) => assert!(cell.index == 2 && error.message() == "three", "{error}"),
+            }
+        }
+    }
+
+    #[test]
+    fn a_parameter_alone_takes_every_choice() {
+        let cells = made(&Over::sweep("kind").unwrap(), 2, Framing::Each);
+        let labels: Vec<&str> = cells.iter().map(|cell| cell.label.as_str()).collect();
+        assert_eq!(labels, ["kind a", "kind b"]);
+    }
+
+    #[test]
+    fn a_stop_ends_the_work_with_its_reason() {
+        let folder = tempfile::tempdir().unwrap();
+        let script = folder.path().join("s.lua");
+        std::fs::write(&script, "while true do end\n").unwrap();
+        let over = Over::seeds("1..9").unwrap();
+        let variations = Variations::new(
+            &script,
+            &Options { registry: burgeon_objects::registry(), ..Options::default() },
+            &over,
+        )
+        .unwrap();
+        let stop = Arc::clone(&variations.stop);
+        let stopper = std::thread::spawn(move || {
+            std::thread::sleep(std::time::Duration::from_millis(100));
+            stop.stop(Error::stopped("enough"));
+        });
+        let begin = std::time::Instant::now();
+        let error = variations.make(&Picture::default(), Framing::Each, |_| panic!("a cell")).unwrap_err();
+        assert!(error.message() == "enough" && begin.elapsed().as_secs() < 5, "{error}");
+        stopper.join().unwrap();
+    }
+}

@@ -1,0 +1,222 @@
+//! What changes from one variation to the next, and how it is written: `1..16`, `twist=0..90:10`, `kind=a,b`.
+
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_kit::Value;
+
+/// The most variations that are made at once.
+pub const MOST: usize = 256;
+
+/// What changes from one variation to the next.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Over {
+    /// The seed of all random numbers.
+    Seeds(Vec<u64>),
+    /// A parameter of the script.
+    Param {
+        /// Its name.
+        name: String,
+        /// Its values as text; every choice, or both positions of a switch, if empty.
+        values: Vec<String>,
+    },
+}
+
+impl Over {
+    /// Reads seeds: numbers and ranges such as `1..16`, both ends included, with commas between.
+    pub fn seeds(text: &str) -> Result<Self> {
+        let help = "write a range such as 1..16, or numbers such as 3,7,12";
+        let number = |text: &str| {
+            let parsed = text.trim().parse::<u64>();
+            parsed.map_err(|_| Error::argument(format!("{:?} is no seed", text.trim())).help(help))
+        };
+        let mut seeds = Vec::new();
+        for item in text.split(',') {
+            let (from, to) = match item.split_once("..") {
+                Some((from, to)) => (number(from)?, number(to)?),
+                None => (number(item)?, number(item)?),
+            };
+            if from > to {
+                return Err(Error::argument(format!("the range {from}..{to} is empty"))
+                    .help(format!("write {to}..{from}")));
+            }
+            check_count((to - from).saturating_add(1) as f64 + seeds.len() as f64, "take fewer seeds")?;
+            seeds.extend(from..=to);
+        }
+        Ok(Self::Seeds(seeds))
+    }
+
+    /// Reads a parameter and its values: `NAME=LOW..HIGH:STEP`, both ends included, `NAME=A,B,C`, or `NAME` alone
+    /// for every choice. The step is 1 unless given.
+    pub fn sweep(text: &str) -> Result<Self> {
+        let (name, values) = match text.split_once('=') {
+            Some((name, values)) => (name.trim(), Some(values.trim())),
+            None => (text.trim(), None),
+        };
+        let form = "write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C";
+        if name.is_empty() {
+            return Err(Error::argument("the parameter has no name").help(form));
+        }
+        let values = match values {
+            None => Vec::new(),
+            Some("") => return Err(Error::argument(format!("{name} has no values")).help(form)),
+            Some(values) => match values.split_once("..") {
+                Some((low, high)) if !values.contains(',') && (is_number(low) || is_number(high)) => {
+                    range(low, high)?
+                }
+                _ => list(values, form)?,
+            },
+        };
+        Ok(Self::Param { name: name.to_owned(), values })
+    }
+}
+
+fn list(text: &str, form: &str) -> Result<Vec<String>> {
+    let values: Vec<String> = text.split(',').map(|value| value.trim().to_owned()).collect();
+    check_count(values.len() as f64, "take fewer values")?;
+    if values.iter().any(String::is_empty) {
+        return Err(Error::argument(format!("{text:?} leaves a value empty")).help(form));
+    }
+    Ok(values)
+}
+
+fn is_number(text: &str) -> bool {
+    let text = text.split(':').next().unwrap_or_default();
+    text.trim().parse::<f64>().is_ok_and(f64::is_finite)
+}
+
+/// The numbers from `low` to `high`, which holds the step behind a colon.
+fn range(low: &str, high: &str) -> Result<Vec<String>> {
+    let (high, step) = high.split_once(':').unwrap_or((high, "1"));
+    let number = |text: &str, what: &str| match text.trim().parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number),
+        _ => Err(Error::argument(format!("{:?} is no number for the {what} of a range", text.trim()))
+            .help("write LOW..HIGH:STEP, such as 0..90:10")),
+    };
+    let (low, high, step) = (number(low, "beginning")?, number(high, "end")?, number(step, "step")?);
+    if step <= 0.0 {
+        return Err(Error::argument(format!("the step {step} does not lead from {low} to {high}"))
+            .help("give a step above 0"));
+    }
+    if low > high {
+        return Err(
+            Error::argument(format!("the range {low}..{high} is empty")).help(format!("write {high}..{low}"))
+        );
+    }
+    // The last value counts although it may be a rounding error away.
+    let count = ((high - low) / step + 1e-9).floor() + 1.0;
+    check_count(count, "take a larger step: LOW..HIGH:STEP")?;
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "at most 256")]
+    let count = count as usize;
+    Ok((0..count).map(|i| Value::Number(rounded(low + i as f64 * step)).to_string()).collect())
+}
+
+/// `number` without what adding decimal fractions leaves behind the twelfth digit.
+fn rounded(number: f64) -> f64 {
+    format!("{number:.12e}").parse().unwrap_or(number)
+}
+
+/// Refuses no variations at all, and too many.
+pub(super) fn check_count(count: f64, help: &str) -> Result<()> {
+    if count > MOST as f64 {
+        let many = if count < 1e9 { format!("{count} variations") } else { "so many variations".to_owned() };
+        return Err(
+            Error::limit(Limit::Size, format!("{many} are more than {MOST}, the most at once")).help(help)
+        );
+    }
+    if count < 1.0 {
+        return Err(Error::argument("there is nothing to vary").help("give a seed or a value"));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn values(text: &str) -> Vec<String> {
+        match Over::sweep(text).unwrap() {
+            Over::Param { values, .. } => values,
+            Over::Seeds(_) => panic!("seeds"),
+        }
+    }
+
+    #[test]
+    fn ranges_hold_both_ends_and_lists_their_values() {
+        assert_eq!(Over::seeds("1..3").unwrap(), Over::Seeds(vec![1, 2, 3]));
+        assert_eq!(
+            Over::seeds("9, 2..3,18446744073709551615").unwrap(),
+            Over::Seeds(vec![9, 2, 3, u64::MAX])
+        );
+        assert_eq!(values("twist=0..90:30"), ["0", "30", "60", "90"]);
+        assert_eq!(values(" twist = -1..1 "), ["-1", "0", "1"]);
+        assert_eq!(values("x=0.1..0.5:0.1"), ["0.1", "0.2", "0.3", "0.4", "0.5"]);
+        assert_eq!(values("x=0..1:0.4"), ["0", "0.4", "0.8"]);
+        assert_eq!(values("kind=a, b,c=d"), ["a", "b", "c=d"]);
+        assert_eq!(values("file=../a"), ["../a"]);
+        assert!(values("kind").is_empty());
+    }
+
+    #[test]
+    fn what_is_no_range_is_refused_with_what_to_write() {
+        let said = |over: Result<Over>| over.unwrap_err().to_string();
+        insta::assert_snapshot!(said(Over::seeds("16..1")), @r"
+        the range 16..1 is empty
+          help: write 1..16
+        ");
+        insta::assert_snapshot!(said(Over::seeds("1..")), @r#"
+        "" is no seed
+          help: write a range such as 1..16, or numbers such as 3,7,12
+        "#);
+        insta::assert_snapshot!(said(Over::seeds("-3")), @r#"
+        "-3" is no seed
+          help: write a range such as 1..16, or numbers such as 3,7,12
+        "#);
+        insta::assert_snapshot!(said(Over::seeds("1..257")), @r"
+        257 variations are more than 256, the most at once
+          help: take fewer seeds
+        ");
+        insta::assert_snapshot!(said(Over::seeds("0..18446744073709551615")), @r"
+        so many variations are more than 256, the most at once
+          help: take fewer seeds
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=9..1")), @r"
+        the range 9..1 is empty
+          help: write 1..9
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=1..9:0")), @r"
+        the step 0 does not lead from 1 to 9
+          help: give a step above 0
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=1..9:-1")), @r"
+        the step -1 does not lead from 1 to 9
+          help: give a step above 0
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=1..")), @r#"
+        "" is no number for the end of a range
+          help: write LOW..HIGH:STEP, such as 0..90:10
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("x=..5")), @r#"
+        "" is no number for the beginning of a range
+          help: write LOW..HIGH:STEP, such as 0..90:10
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("x=0..1e9")), @r"
+        so many variations are more than 256, the most at once
+          help: take a larger step: LOW..HIGH:STEP
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=0..nan")), @r#"
+        "nan" is no number for the end of a range
+          help: write LOW..HIGH:STEP, such as 0..90:10
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("x=")), @r"
+        x has no values
+          help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
+        ");
+        insta::assert_snapshot!(said(Over::sweep("x=a,,b")), @r#"
+        "a,,b" leaves a value empty
+          help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
+        "#);
+        insta::assert_snapshot!(said(Over::sweep("=1,2")), @r"
+        the parameter has no name
+          help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
+        ");
+    }
+}
