@@ -19,7 +19,7 @@ local land = lsystem({
     size = size,
     position = middle,
     levels = levels,
-    elevation = elevation(heights),
+    elevation = elevation(heights, { fill = true }),
     rules = {
       Rock = {
         "Rock",

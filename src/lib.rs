@@ -10,31 +10,30 @@
 //!                                                    └────── geometry
 //! ```
 //!
-//! Each stage is a folder, and uses only those before it:
+//! This crate is the program and the way into the house: its parts are members of the workspace, under `crates/`, and
+//! each uses only those that stand before it here.
 //!
-//! - [`error`] and [`warning`](mod@warning): what a person is told when something is wrong, and when something hardly
-//!   can be meant; [`Stop`] ends work that nobody waits for.
-//! - [`Budget`]: what reading foreign bytes may take, and [`text`]: how foreign words are shown.
-//! - [`geometry`]: frames, cross-sections and sweeps, without rules or scripts.
+//! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
+//!   something hardly can be meant. [`Stop`] ends work that nobody waits for; a [`Budget`] is what reading foreign bytes
+//!   may take.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
+//! - [`geometry`]: frames, cross-sections, sweeps, straight skeletons and roofs, without rules or scripts.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
+//! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
+//!   [`Object`](kit::Object) can do; a [`Grammar`](kit::rules::Grammar) of [`Pattern`](kit::rules::Pattern)s matches
+//!   along a [`Chain`](kit::rules::Chain), without Lua.
 //! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is expanded
 //!   of it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height map.
-//! - [`objects`]: what rules ask and interpretations change: each an [`Object`](objects::Object), listed in
-//!   [`KINDS`](objects::KINDS).
-//! - [`rules`]: a [`Grammar`](rules::Grammar) of [`Pattern`](rules::Pattern)s that match along a
-//!   [`Chain`](rules::Chain), without Lua.
-//! - [`script`]: a [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for
-//!   each thread.
-//! - [`derive`](mod@derive): rewrites chains step by step into a [`Derived`](derive::Derived) system, and has
-//!   them interpreted in between.
-//! - [`trace`](mod@trace): which module made what, and which rules led to it.
+//! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
+//! - [`script`], [`derive`](mod@derive) and [`trace`](mod@trace), the engine, which knows no type of object by name: a
+//!   [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for each thread; chains are
+//!   rewritten step by step into a [`Derived`](derive::Derived) system, and interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`watch`]: tells when the files of a script have changed.
 //! - [`presets`]: values of parameters under names, in a file beside the script.
 //! - [`variations`]: many runs of a script, as thumbnails to choose from.
-//! - [`watch`]: tells when the files of a script have changed.
 //! - [`live`]: a [`Live`](live::Live) server shows the scene on a page in the browser, and shows it anew on every
 //!   save. It is behind the feature `live`, which is on unless turned off.
 //!

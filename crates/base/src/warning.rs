@@ -1,20 +1,20 @@
 //! What a run tells people besides its result: what draws nothing, cannot happen or is left out.
 //!
-//! A [`Warning`] is a value of the run: it goes into [`Session::warn`](burgeon_engine::script::Session::warn), which keeps each
-//! text of a place once, with a count, and comes out of [`Run::warnings`](burgeon_engine::run::Run::warnings) in the order of files
+//! A [`Warning`] is a value of the run: it goes into `Session::warn`, which keeps each
+//! text of a place once, with a count, and comes out of `Run::warnings` in the order of files
 //! and lines, for any number of threads. Terminal, JSON and the live page show it from there; a strict run ends with it
 //! as an error. Whoever finds something says it in the way of its place:
 //!
 //! - *A function that scripts call, or a declaration*: `machine.warn(Warning::new(kind, "...").help("..."))`. The line of
 //!   the script is filled in, and machines that only help say nothing.
 //! - *An object* keeps a list, adds to it while it is made, in a method that changes it or while it grows, and gives it
-//!   away in [`Object::take_warnings`](burgeon_kit::Object::take_warnings). The line is that of the constructor's or
+//!   away in `Object::take_warnings`. The line is that of the constructor's or
 //!   the method's call, or of the system. Where passes begin empty, only what the last pass said counts.
 //!   [`Warning::of_all`] keeps it back as long as some module of the kind does better.
 //! - *A file*: what it was loaded into keeps the warnings, and the function that a script asked for it hands them on to
 //!   its machine, so that they are told by every run, also by one that need not read the file again.
 //!
-//! What only one feature of many is about is a [`Note`](burgeon_kit::Note) of the report.
+//! What only one feature of many is about is a `Note` of the report.
 
 use std::collections::BTreeMap;
 use std::fmt;

@@ -56,7 +56,7 @@ impl dyn Object {
         show.map_or(Ok(()), |it| it.show(scene, name, feature))
     }
 
-    /// As [`show`](Self::show), but may give away what it has drawn, for nobody will look at the object again.
+    /// As `show`, but may give away what it has drawn, for nobody will look at the object again.
     pub fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
         let kind = Arc::clone(self.kind());
         let show = kind.show.as_ref().and_then(|show| show.of_mut(self));

@@ -27,6 +27,8 @@ fields! {
         pub bounds: Option<Vec<f64>> = None,
         /// How colours of a PNG are heights: `"terrain-rgb"`.
         pub encoding: Option<String> = None,
+        /// Whether heights that are missing are filled in from around them without a word.
+        pub fill: bool = false,
     }
 }
 
@@ -133,7 +135,9 @@ impl Elevation {
 
 /// Reads the heights of a file, as the options of the script want them.
 fn load(file: &mut Loading<'_>, options: &Table) -> Result<Loaded> {
-    let wanted = ElevationOptions::from_table(options)?.wanted()?;
+    let options = ElevationOptions::from_table(options)?;
+    let fill = options.fill;
+    let wanted = options.wanted()?;
     let raster = match file.resources.cache() {
         Some(cache) => cache.raster(file.path, file.name, &wanted, file.budget),
         None => Raster::open(file.path, file.name, &wanted, file.budget).map(Arc::new),
@@ -141,7 +145,10 @@ fn load(file: &mut Loading<'_>, options: &Table) -> Result<Loaded> {
     let raster = raster?;
     // A raster that is kept from an earlier run was not read for this one, and takes its room all the same.
     let memory = raster.heights.len() * size_of::<f32>();
-    let warnings = raster.warnings().into_iter().collect();
+    let mut warnings = raster.warnings();
+    if !fill {
+        warnings.extend(raster.filled_warning());
+    }
     let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, file.frame)?)));
     Ok(Loaded { object, memory, warnings })
 }

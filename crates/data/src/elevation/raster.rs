@@ -178,24 +178,22 @@ impl Raster {
 
     /// What people should know of how it was read.
     pub fn warnings(&self) -> Vec<Warning> {
-        let Self { name, columns, rows, surplus, filled, .. } = self;
-        let mut warnings = Vec::new();
-        if *filled > 0 {
-            let all = columns * rows;
-            let text =
-                format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
-            warnings.push(
-                Warning::new(WarningKind::Data, text).help("fill them in the file, if that is too rough"),
-            );
-        }
-        if *surplus > 0 {
-            let what = if *surplus == 1 { "number" } else { "numbers" };
-            let text =
-                format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
-            let warning = Warning::new(WarningKind::Data, text);
-            warnings.push(warning.help("they are left out; correct ncols and nrows"));
-        }
-        warnings
+        let Self { name, columns, rows, surplus, .. } = self;
+        let what = if *surplus == 1 { "number" } else { "numbers" };
+        let text =
+            format!("{name} has {surplus} {what} more than the {columns} x {rows} heights of its header");
+        let warning =
+            Warning::new(WarningKind::Data, text).help("they are left out; correct ncols and nrows");
+        if *surplus > 0 { vec![warning] } else { Vec::new() }
+    }
+
+    /// That heights were missing, if any were.
+    pub fn filled_warning(&self) -> Option<Warning> {
+        let Self { name, columns, rows, filled, .. } = self;
+        let all = columns * rows;
+        let text = format!("{name}: filled {filled} of {all} heights, which are missing, from around them");
+        let remedy = "say that this is right, { fill = true }, or fill them in the file";
+        (*filled > 0).then(|| Warning::new(WarningKind::Data, text).help(remedy))
     }
 
     /// Its lowest and its highest height (m).
