@@ -4,9 +4,8 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::capability::{self, Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
-use super::{Loader, Object, Prefetch, Table, Value};
+use super::{BeginPrefetch, Loader, Object, Table, Value};
 use burgeon_base::error::{Error, Result};
-use burgeon_data::Layer;
 
 /// Text that a built-in type has in the program, and another brings.
 type Text = Cow<'static, str>;
@@ -44,7 +43,7 @@ pub struct Kind {
     /// What lets all objects of a system know of one another.
     pub gather: Option<Gather>,
     /// What a thread may prepare of a layer's features before they are asked for.
-    pub prefetch: Option<fn(&Arc<Layer>) -> Arc<dyn Prefetch>>,
+    pub prefetch: Option<BeginPrefetch>,
 }
 
 /// Makes an object of the constructor's table.
@@ -219,7 +218,7 @@ impl Kind {
 
     /// What `prefetch` begins may be made of a layer's features before they are asked for.
     #[must_use]
-    pub fn prefetches(self, prefetch: fn(&Arc<Layer>) -> Arc<dyn Prefetch>) -> Self {
+    pub fn prefetches(self, prefetch: BeginPrefetch) -> Self {
         Self { prefetch: Some(prefetch), ..self }
     }
 

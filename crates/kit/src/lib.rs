@@ -39,7 +39,7 @@ pub use model::Model;
 pub use note::Note;
 pub use object::Object;
 pub use parameter::{Answer, Color, Expected, ObjectParameter, Parameter, Vector, object};
-pub use prefetch::Prefetch;
+pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
 pub use seed::Seed;
