@@ -23,7 +23,7 @@ mod system;
 pub(crate) use handles::Objects;
 pub(crate) use machine::{Flusher, read_column, write_column};
 pub use machine::{Machine, Watchdog, make_ready};
-pub use options::{Limits, Options, Print};
+pub use options::{Limits, Print, RunOptions};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{Progress, Session};
