@@ -6,12 +6,14 @@
 pub(crate) mod analysis;
 mod data;
 mod drawn;
+pub(crate) mod names;
 mod options;
 mod param;
 pub(crate) mod paths;
 mod preset;
 mod session;
 
+pub use names::{Name, Part, Sort, names};
 pub use options::{Limits, Print, RunOptions, Traced};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
