@@ -6,7 +6,7 @@
 mod check;
 mod completions;
 mod fit;
-#[cfg(feature = "live")]
+#[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
 mod new;
 mod progress;
@@ -37,7 +37,6 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(Box<run::Run>),
-    #[cfg(feature = "live")]
     Live(live::Serve),
     Check(check::Check),
     Variations(Box<variations::Variations>),
@@ -55,7 +54,6 @@ pub(crate) fn main() -> ExitCode {
     };
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
-        #[cfg(feature = "live")]
         Command::Live(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
