@@ -13,7 +13,7 @@ use super::message::{Cause, Event, json};
 use super::request::seed;
 use super::state::State;
 use burgeon_base::error::{Error, Result};
-use burgeon_engine::script::{Options, Param, Preset};
+use burgeon_engine::script::{Param, Preset, RunOptions};
 use burgeon_export::encode_png;
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
@@ -125,7 +125,7 @@ pub(super) fn variations(
             let inner = state.lock();
             (inner.request.inputs(inner.generation), inner.params.clone())
         };
-        let options = Options {
+        let options = RunOptions {
             set: inputs.set,
             seed: inputs.seed,
             steps: inputs.steps,
