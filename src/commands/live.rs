@@ -3,8 +3,8 @@
 use std::sync::mpsc::channel;
 
 use burgeon::Result;
-use burgeon::derive::grouped;
 use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
+use burgeon::text::grouped;
 use clap::Args;
 use serde_json::json;
 

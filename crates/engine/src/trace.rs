@@ -1,11 +1,10 @@
 //! Where a triangle comes from, and what a line of a script has made: a chain is derived again to find out.
 
 use std::path::Path;
-use std::sync::{Arc, PoisonError};
 
-use crate::derive::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
-use crate::run::run_session;
-use crate::script::{Options, Session};
+use crate::declare::{Options, Session, Traced};
+use crate::results::{Ancestor, MadeBy, Module, RuleName, Trace};
+use crate::run::run_traced;
 use burgeon_base::error::{Error, Place, Result};
 use burgeon_kit::Makers;
 use burgeon_scene::{Origin, Part, Scene};
@@ -148,10 +147,10 @@ pub fn highlight(
 
 /// The chain number `chain` of a derived system around place `index`: what is before it, itself, what is after it, and
 /// the number of symbols in the chain.
-pub fn around(system: &crate::derive::Derived, chain: usize, index: usize) -> ([String; 3], usize) {
+pub fn around(system: &crate::results::Derived, chain: usize, index: usize) -> ([String; 3], usize) {
     let only = system.chain.only(chain, &system.symbols.arities());
     let count = only.symbols.len().saturating_sub(1);
-    let texts = crate::derive::around(&only, &system.symbols, &system.values, index.min(count), AROUND);
+    let texts = crate::results::around(&only, &system.symbols, &system.values, index.min(count), AROUND);
     (texts, count)
 }
 
@@ -187,20 +186,10 @@ fn trace_chain(script: &Path, options: &Options, origin: Origin) -> Result<Trace
 /// Runs `script` until the wanted system is derived, with the lineage of the wanted chains.
 pub fn trace(script: &Path, options: &Options, wanted: Traced) -> Result<Trace> {
     let session = Session::new(script, Options { trace: Some(wanted), ..options.clone() })?;
-    trace_session(&session)
-}
-
-/// As [`trace()`], for a session that may be stopped from outside.
-fn trace_session(session: &Arc<Session>) -> Result<Trace> {
-    // The run ends with an error as soon as the trace is known.
-    let ended = run_session(session);
-    let trace = session.traced.lock().unwrap_or_else(PoisonError::into_inner).take();
-    match (trace, ended) {
-        (Some(trace), _) => Ok(trace),
-        (None, Err(error)) => Err(error),
-        (None, Ok(_)) => Err(Error::unavailable("the script no longer derives this system")
-            .help("wait until the model has been made anew")),
-    }
+    run_traced(&session)?.ok_or_else(|| {
+        Error::script("the script no longer derives this system")
+            .help("wait until the model has been made anew")
+    })
 }
 
 /// The place among all triangles of `part` of number `triangle` among those that exporters write.

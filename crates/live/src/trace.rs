@@ -12,7 +12,7 @@ use super::message::{
 use super::state::{Shown, State};
 use super::work;
 use burgeon_base::error::{Error, Place, Result};
-use burgeon_engine::derive::{Derived, RuleName};
+use burgeon_engine::results::{Derived, RuleName};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::Options;
 use burgeon_engine::trace as engine;

@@ -2,7 +2,8 @@
 
 use super::batch::{Batch, NONE, Piece, Scratch, narrow, narrow_rule};
 use super::group::Made;
-use super::output::{Output, Use};
+use super::output::Output;
+use crate::results::Use;
 use burgeon_kit::rules::{Chain, END, Key, Symbol};
 
 impl Batch<'_> {

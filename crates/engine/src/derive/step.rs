@@ -5,9 +5,10 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use super::Plan;
 use super::batch::{Batch, Piece, Scratch};
-use super::crew::Job;
-use super::output::{Output, Use};
-use crate::script::{Declared, Machine};
+use super::output::Output;
+use super::threads::{Job, ThreadPool};
+use crate::machine::{Declared, Machine};
+use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::rules::{Chain, Links, Mark};
 
@@ -119,7 +120,7 @@ impl Stepper {
     /// Makes step number `step` on `chain`.
     pub(crate) fn step(
         &mut self,
-        machine: &Machine,
+        (machine, threads): (&Machine, &ThreadPool),
         declared: &Declared,
         chain: Chain,
         step: usize,
@@ -142,12 +143,12 @@ impl Stepper {
             results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
             ready: Condvar::new(),
         });
-        machine.crew.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
+        threads.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
         let result = self.merge(machine, declared, &rewriting);
         if result.is_err() {
             rewriting.abandon();
         }
-        let rewriting = machine.crew.reclaim(rewriting);
+        let rewriting = threads.reclaim(rewriting);
         let Merged { ran, changed, applied } = result?;
         self.links = rewriting.links;
         self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
