@@ -106,6 +106,6 @@ pub use burgeon_variations as variations;
 pub use burgeon_watch as watch;
 
 /// How a script is run unless something else is said, with all the types of objects that come with Burgeon.
-pub fn options() -> script::Options {
-    script::Options { registry: objects::registry(), ..script::Options::default() }
+pub fn options() -> script::RunOptions {
+    script::RunOptions { registry: objects::registry(), ..script::RunOptions::default() }
 }

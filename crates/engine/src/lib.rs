@@ -13,7 +13,7 @@ pub mod trace;
 /// What a run is told, what its script declares, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
-        Control, Limits, Options, Param, Preset, Print, Progress, Session, Setting, Traced,
+        Control, Limits, Param, Preset, Print, Progress, RunOptions, Session, Setting, Traced,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
 }

@@ -5,7 +5,7 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::declare::{Options, Param, Session};
+use crate::declare::{Param, RunOptions, Session};
 use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
 use crate::results::{Derived, Report, Times, Trace};
@@ -63,7 +63,7 @@ pub struct RunTimes {
 }
 
 /// Runs the script at `path`.
-pub fn run(path: &Path, options: Options) -> Result<Run> {
+pub fn run(path: &Path, options: RunOptions) -> Result<Run> {
     let session = Session::new(path, options)?;
     run_session(&session)
 }
@@ -115,7 +115,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
-    let whole = session.options.steps.is_none() && session.options.lod == Options::default().lod;
+    let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
     if scene.triangles() > 0 || !whole {
         return None;
     }
@@ -142,8 +142,8 @@ fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Opti
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
 /// run would end with are among them if it is to be strict.
-pub fn check(path: &Path, options: Options) -> Result<Check> {
-    let session = Session::new(path, Options { check: true, ..options })?;
+pub fn check(path: &Path, options: RunOptions) -> Result<Check> {
+    let session = Session::new(path, RunOptions { check: true, ..options })?;
     let mut found = Vec::new();
     let ran = declare_with(&session, &mut found);
     let mut problems = session.problems();

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use crate::declare::{Options, Session, Traced};
+use crate::declare::{RunOptions, Session, Traced};
 use crate::results::{Ancestor, MadeBy, Module, RuleName, Trace};
 use crate::run::run_traced;
 use burgeon_base::error::{Error, Place, Result};
@@ -82,7 +82,7 @@ pub struct Highlighted {
 /// Finds the modules that made a triangle of `scene`, which a run of `script` with these `options` has made.
 ///
 /// Derives the chain again, with its lineage. Fails if the script has changed so that it cannot.
-pub fn pick(script: &Path, options: &Options, scene: &Scene, pick: Pick) -> Result<Picked> {
+pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> Result<Picked> {
     let instance =
         scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("there is no such instance"))?;
     let mesh = &scene.meshes[instance.mesh];
@@ -105,7 +105,7 @@ pub fn pick(script: &Path, options: &Options, scene: &Scene, pick: Pick) -> Resu
 /// Derives all chains again, with their lineages.
 pub fn highlight(
     script: &Path,
-    options: &Options,
+    options: &RunOptions,
     scene: &Scene,
     systems: usize,
     file: &str,
@@ -179,13 +179,13 @@ fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Opt
     })
 }
 
-fn trace_chain(script: &Path, options: &Options, origin: Origin) -> Result<Trace> {
+fn trace_chain(script: &Path, options: &RunOptions, origin: Origin) -> Result<Trace> {
     trace(script, options, Traced { system: origin.system, chain: Some(origin.chain) })
 }
 
 /// Runs `script` until the wanted system is derived, with the lineage of the wanted chains.
-pub fn trace(script: &Path, options: &Options, wanted: Traced) -> Result<Trace> {
-    let session = Session::new(script, Options { trace: Some(wanted), ..options.clone() })?;
+pub fn trace(script: &Path, options: &RunOptions, wanted: Traced) -> Result<Trace> {
+    let session = Session::new(script, RunOptions { trace: Some(wanted), ..options.clone() })?;
     run_traced(&session)?.ok_or_else(|| {
         Error::script("the script no longer derives this system")
             .help("wait until the model has been made anew")

@@ -45,7 +45,7 @@ use tokio::sync::Semaphore;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_engine::script::Options;
+use burgeon_engine::script::RunOptions;
 use burgeon_watch::Watch;
 use message::Cause;
 use server::Site;
@@ -63,7 +63,7 @@ pub struct Settings {
     /// The script; it need not exist yet.
     pub script: PathBuf,
     /// How it is run at first. Pages change the parameters, the seed and the limit of steps.
-    pub options: Options,
+    pub options: RunOptions,
     /// The port; [`PORT`] or one of the next if `None`.
     pub port: Option<u16>,
     /// The secret part of the address. The one that is kept for the port if `None`, so that a page that is open finds the

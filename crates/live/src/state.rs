@@ -18,7 +18,7 @@ use burgeon_base::error::{Error, Place};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
-use burgeon_engine::script::{Options, Param, Session};
+use burgeon_engine::script::{Param, RunOptions, Session};
 use burgeon_export::Format;
 use burgeon_export::gltf::Layout;
 use burgeon_presets::Presets;
@@ -44,7 +44,7 @@ const SHORT: Duration = Duration::from_millis(400);
 /// What all pages share.
 pub(super) struct State {
     pub script: PathBuf,
-    pub options: Options,
+    pub options: RunOptions,
     pub editor: Option<Editor>,
     tell: Box<dyn Fn(&Told) + Send + Sync>,
     inner: Mutex<Inner>,

@@ -13,7 +13,7 @@ use super::message::{Cause, Say, json};
 use super::state::State;
 use super::wish::seed;
 use burgeon_base::error::{Error, Result};
-use burgeon_engine::script::{Options, Param, Preset};
+use burgeon_engine::script::{Param, Preset, RunOptions};
 use burgeon_export::encode_png;
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
@@ -125,7 +125,7 @@ pub(super) fn variations(
             let inner = state.lock();
             (inner.wish.inputs(inner.generation), inner.params.clone())
         };
-        let options = Options {
+        let options = RunOptions {
             set: inputs.set,
             seed: inputs.seed,
             steps: inputs.steps,

@@ -14,7 +14,7 @@ use super::work;
 use burgeon_base::error::{Error, Place, Result};
 use burgeon_engine::results::{Derived, RuleName};
 use burgeon_engine::run::Run;
-use burgeon_engine::script::Options;
+use burgeon_engine::script::RunOptions;
 use burgeon_engine::trace as engine;
 use burgeon_kit::rules::END;
 
@@ -116,7 +116,7 @@ pub(super) fn chain(state: &State, id: u64, system: usize, chain: usize, module:
 }
 
 /// The present model, and how to run the script as it was run for it. Fails if the script has changed since.
-fn present(state: &State) -> Result<(Arc<Shown>, Options)> {
+fn present(state: &State) -> Result<(Arc<Shown>, RunOptions)> {
     let inner = state.lock();
     let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("there is no model yet")) };
     if inner.generation != shown.inputs.generation {

@@ -9,7 +9,7 @@ use serde_json::{Map, Value};
 
 use super::message::Knob;
 use burgeon_base::error::{Error, Result};
-use burgeon_engine::script::{Options, Param, Preset, Setting};
+use burgeon_engine::script::{Param, Preset, RunOptions, Setting};
 use burgeon_presets::Presets;
 
 /// What pages have wished.
@@ -42,7 +42,7 @@ pub(super) struct Inputs {
 
 impl Wish {
     /// What the command line wishes.
-    pub(super) fn new(options: &Options) -> Self {
+    pub(super) fn new(options: &RunOptions) -> Self {
         let given = |text: &String| Given { text: text.clone(), default: None };
         let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
         let values =
@@ -229,7 +229,7 @@ mod tests {
         set(&mut wish, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
         assert_eq!(old(&mut wish, 5.0, 10.0), None);
         let mut early =
-            Wish::new(&Options { set: vec![("floors".into(), "7".into())], ..Options::default() });
+            Wish::new(&RunOptions { set: vec![("floors".into(), "7".into())], ..RunOptions::default() });
         assert_eq!(old(&mut early, 4.0, 10.0), None);
         assert_eq!(old(&mut early, 5.0, 10.0), Some(json!(4.0)));
     }

@@ -15,7 +15,7 @@ use super::{Told, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
-use burgeon_engine::script::{Limits, Options, Session, make_ready};
+use burgeon_engine::script::{Limits, RunOptions, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
 use burgeon_presets::Presets;
 use burgeon_watch::{Watch, unsettled};
@@ -197,8 +197,8 @@ fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<Ato
 }
 
 /// How the script is run with these inputs.
-pub(super) fn options(state: &State, inputs: &Inputs) -> Options {
-    Options {
+pub(super) fn options(state: &State, inputs: &Inputs) -> RunOptions {
+    RunOptions {
         set: inputs.set.clone(),
         seed: inputs.seed,
         steps: inputs.steps,

@@ -12,36 +12,45 @@ use super::Surface;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Frame, Section, Segment, Station, SweepOptions, sweep};
-use burgeon_kit::{Color, Kind, Object, Vector};
+use burgeon_kit::{Color, Kind, Object, Vector, fields, methods};
 use burgeon_kit::{Draw, Drawing};
 use burgeon_scene::Material;
 
-fields! {
-    /// What `extruder { ... }` takes.
-    pub struct Options for "extruder" {
-        /// Number of sides of the cross-section, a regular polygon with radius 1.
-        pub sides: u32 = 16,
-        /// Points of the cross-section, as { { x, y }, ... }, in place of `sides`.
-        pub shape: Vec<Vector> = Vec::new(),
-        /// Whether surfaces are shaded as round; corners of the cross-section above 40 degrees stay edges.
-        pub smooth: bool = true,
-        /// Number of pieces of a segment; with 0, a piece for every 10 degrees that it bends or twists.
-        pub along: u32 = 0,
-        /// Number of points around the cross-section; with 0, those that its shape has.
-        pub around: u32 = 0,
-        /// Whether ends are closed.
-        pub caps: bool = true,
-        /// Colour of what is drawn.
-        pub color: Color = Color([0.62, 0.58, 0.52, 1.0]),
-        /// 0 like a mirror, 1 like chalk.
-        pub roughness: f64 = 0.7,
-        /// 0 for wood, stone and plaster, 1 for bare metal.
-        pub metallic: f64 = 0.0,
-        /// Where it begins (m).
-        pub position: Vector = Vector(DVec3::ZERO),
-        /// The direction of extruding at first.
-        pub heading: Vector = Vector(DVec3::Z),
-    }
+/// What `extruder { ... }` takes.
+#[fields("extruder")]
+pub struct ExtruderOptions {
+    /// Number of sides of the cross-section, a regular polygon with radius 1.
+    #[default(16)]
+    pub sides: u32,
+    /// Points of the cross-section, as { { x, y }, ... }, in place of `sides`.
+    pub shape: Vec<Vector>,
+    /// Whether surfaces are shaded as round; corners of the cross-section above 40 degrees stay edges.
+    #[default(true)]
+    pub smooth: bool,
+    /// Number of pieces of a segment; with 0, a piece for every 10 degrees that it bends or twists.
+    #[default(0)]
+    pub along: u32,
+    /// Number of points around the cross-section; with 0, those that its shape has.
+    #[default(0)]
+    pub around: u32,
+    /// Whether ends are closed.
+    #[default(true)]
+    pub caps: bool,
+    /// Colour of what is drawn.
+    #[default(Color([0.62, 0.58, 0.52, 1.0]))]
+    pub color: Color,
+    /// 0 like a mirror, 1 like chalk.
+    #[default(0.7)]
+    pub roughness: f64,
+    /// 0 for wood, stone and plaster, 1 for bare metal.
+    #[default(0.0)]
+    pub metallic: f64,
+    /// Where it begins (m).
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// The direction of extruding at first.
+    #[default(Vector(DVec3::Z))]
+    pub heading: Vector,
 }
 
 /// Corners of a cross-section that turn by more than this (degrees) are edges also on smooth surfaces.
@@ -54,7 +63,7 @@ const CREASE: f64 = 40.0;
 /// closes it and begins another.
 #[derive(Clone)]
 pub struct Extruder {
-    options: Options,
+    options: ExtruderOptions,
     first_section: Arc<Section>,
     state: State,
     stack: Vec<State>,
@@ -107,146 +116,146 @@ struct Run {
     material: Arc<Material>,
 }
 
-methods! {
-    Extruder = "extruder" {
-        /// Sets the cross-section to a regular polygon with `sides` and radius 1.
-        pub fn regular(&mut self, sides: u32) -> Result<()> {
-            self.set(Shape::Regular(sides))
-        }
+#[methods("extruder")]
+impl Extruder {
+    /// Sets the cross-section to a regular polygon with `sides` and radius 1.
+    pub fn regular(&mut self, sides: u32) -> Result<()> {
+        self.set(Shape::Regular(sides))
+    }
 
-        /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
-        pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
-            self.set(Shape::Star(points, inner))
-        }
+    /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
+    pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
+        self.set(Shape::Star(points, inner))
+    }
 
-        /// Sets the cross-section to a rectangle around the middle (m).
-        pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
-            self.set(Shape::Rectangle(width, height))
-        }
+    /// Sets the cross-section to a rectangle around the middle (m).
+    pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
+        self.set(Shape::Rectangle(width, height))
+    }
 
-        /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
-        pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
-            let flat = |ring: &[Vector]| ring.iter().map(|point| point.0.truncate()).collect::<Vec<DVec2>>();
-            let holes: Vec<Vec<DVec2>> = holes.unwrap_or_default().iter().map(|ring| flat(ring)).collect();
-            self.state.section = Arc::new(shaded(Section::polygon(&flat(&outer), &holes)?, self.state.smooth));
-            Ok(())
-        }
+    /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
+    pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
+        let flat = |ring: &[Vector]| ring.iter().map(|point| point.0.truncate()).collect::<Vec<DVec2>>();
+        let holes: Vec<Vec<DVec2>> = holes.unwrap_or_default().iter().map(|ring| flat(ring)).collect();
+        self.state.section = Arc::new(shaded(Section::polygon(&flat(&outer), &holes)?, self.state.smooth));
+        Ok(())
+    }
 
-        /// Turns the extruding direction to `direction`.
-        pub fn direction(&mut self, direction: Vector) -> Result<()> {
-            if direction.0.length_squared() < 1e-24 {
-                return Err(Error::argument("extruder:direction: direction has no length").help("give a vector that is not zero"));
-            }
-            self.state.frame.face(direction.0);
-            Ok(())
+    /// Turns the extruding direction to `direction`.
+    pub fn direction(&mut self, direction: Vector) -> Result<()> {
+        if direction.0.length_squared() < 1e-24 {
+            return Err(Error::argument("extruder:direction: direction has no length")
+                .help("give a vector that is not zero"));
         }
+        self.state.frame.face(direction.0);
+        Ok(())
+    }
 
-        /// Sets the number of pieces along each segment and of points around the cross-section; 0 leaves the choice.
-        pub fn resolution(&mut self, along: u32, around: u32) -> Result<()> {
-            check_resolution(along, around)?;
-            self.state.along = along;
-            self.state.around = around;
-            Ok(())
-        }
+    /// Sets the number of pieces along each segment and of points around the cross-section; 0 leaves the choice.
+    pub fn resolution(&mut self, along: u32, around: u32) -> Result<()> {
+        check_resolution(along, around)?;
+        self.state.along = along;
+        self.state.around = around;
+        Ok(())
+    }
 
-        /// Sets the scale of the cross-section at once, in both directions or in each.
-        pub fn scale(&mut self, scale: f64, y: Option<f64>) {
-            self.state.scale = DVec2::new(scale, y.unwrap_or(scale));
-            self.state.taper = self.state.scale;
-        }
+    /// Sets the scale of the cross-section at once, in both directions or in each.
+    pub fn scale(&mut self, scale: f64, y: Option<f64>) {
+        self.state.scale = DVec2::new(scale, y.unwrap_or(scale));
+        self.state.taper = self.state.scale;
+    }
 
-        /// Sets the scale that the next segment ends with; it changes evenly along the segment.
-        pub fn taper(&mut self, scale: f64, y: Option<f64>) {
-            self.state.taper = DVec2::new(scale, y.unwrap_or(scale));
-        }
+    /// Sets the scale that the next segment ends with; it changes evenly along the segment.
+    pub fn taper(&mut self, scale: f64, y: Option<f64>) {
+        self.state.taper = DVec2::new(scale, y.unwrap_or(scale));
+    }
 
-        /// Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees): 0 is left.
-        pub fn bend(&mut self, angle: f64, toward: Option<f64>) {
-            self.state.bend = angle.to_radians();
-            self.state.toward = toward.unwrap_or(0.0).to_radians();
-        }
+    /// Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees): 0 is left.
+    pub fn bend(&mut self, angle: f64, toward: Option<f64>) {
+        self.state.bend = angle.to_radians();
+        self.state.toward = toward.unwrap_or(0.0).to_radians();
+    }
 
-        /// Twists the following segments by `angle` (degrees) each.
-        pub fn twist(&mut self, angle: f64) {
-            self.state.twist = angle.to_radians();
-        }
+    /// Twists the following segments by `angle` (degrees) each.
+    pub fn twist(&mut self, angle: f64) {
+        self.state.twist = angle.to_radians();
+    }
 
-        /// Sets whether the start and the end are closed.
-        pub fn caps(&mut self, start: bool, end: Option<bool>) {
-            self.state.caps = [start, end.unwrap_or(start)];
-        }
+    /// Sets whether the start and the end are closed.
+    pub fn caps(&mut self, start: bool, end: Option<bool>) {
+        self.state.caps = [start, end.unwrap_or(start)];
+    }
 
-        /// Sets whether surfaces are shaded as round.
-        pub fn smooth(&mut self, smooth: bool) {
-            self.state.smooth = smooth;
-        }
+    /// Sets whether surfaces are shaded as round.
+    pub fn smooth(&mut self, smooth: bool) {
+        self.state.smooth = smooth;
+    }
 
-        /// Extrudes the cross-section by `length` (m).
-        pub fn extrude(&mut self, length: f64) -> Result<()> {
-            self.segment(length)
-        }
+    /// Extrudes the cross-section by `length` (m).
+    pub fn extrude(&mut self, length: f64) -> Result<()> {
+        self.segment(length)
+    }
 
-        /// Goes on by `length` (m) without drawing.
-        pub fn advance(&mut self, length: f64) {
-            self.state.frame.forward(length);
-        }
+    /// Goes on by `length` (m) without drawing.
+    pub fn advance(&mut self, length: f64) {
+        self.state.frame.forward(length);
+    }
 
-        /// Goes sideways (m): to the right and up across the extruding direction.
-        pub fn shift(&mut self, right: f64, up: f64) {
-            let frame = &mut self.state.frame;
-            frame.position += frame.left * -right - frame.up * up;
-        }
+    /// Goes sideways (m): to the right and up across the extruding direction.
+    pub fn shift(&mut self, right: f64, up: f64) {
+        let frame = &mut self.state.frame;
+        frame.position += frame.left * -right - frame.up * up;
+    }
 
-        /// Goes to a place (m) without drawing.
-        pub fn jump(&mut self, position: Vector) {
-            self.state.frame.position = position.0 - self.options.position.0;
-        }
+    /// Goes to a place (m) without drawing.
+    pub fn jump(&mut self, position: Vector) {
+        self.state.frame.position = position.0 - self.options.position.0;
+    }
 
-        /// Turns the direction to the left by `angle` (degrees).
-        pub fn turn(&mut self, angle: f64) {
-            self.state.frame.turn(angle.to_radians());
-        }
+    /// Turns the direction to the left by `angle` (degrees).
+    pub fn turn(&mut self, angle: f64) {
+        self.state.frame.turn(angle.to_radians());
+    }
 
-        /// Pitches the direction down by `angle` (degrees).
-        pub fn pitch(&mut self, angle: f64) {
-            self.state.frame.pitch(angle.to_radians());
-        }
+    /// Pitches the direction down by `angle` (degrees).
+    pub fn pitch(&mut self, angle: f64) {
+        self.state.frame.pitch(angle.to_radians());
+    }
 
-        /// Rolls about the direction by `angle` (degrees).
-        pub fn roll(&mut self, angle: f64) {
-            self.state.frame.roll(angle.to_radians());
-        }
+    /// Rolls about the direction by `angle` (degrees).
+    pub fn roll(&mut self, angle: f64) {
+        self.state.frame.roll(angle.to_radians());
+    }
 
-        /// Sets the colour of what is drawn.
-        pub fn color(&mut self, color: Color) {
-            Arc::make_mut(&mut self.state.material).base_color = color.0;
-        }
+    /// Sets the colour of what is drawn.
+    pub fn color(&mut self, color: Color) {
+        Arc::make_mut(&mut self.state.material).base_color = color.0;
+    }
 
-        /// Sets the whole material of what is drawn.
-        pub fn material(&mut self, material: Surface) -> Result<()> {
-            self.state.material = Arc::new(material.material()?);
-            Ok(())
-        }
+    /// Sets the whole material of what is drawn.
+    pub fn material(&mut self, material: Surface) -> Result<()> {
+        self.state.material = Arc::new(material.material()?);
+        Ok(())
+    }
 
-        /// Its place (m).
-        pub fn position(&self) -> DVec3 {
-            self.options.position.0 + self.state.frame.position
-        }
+    /// Its place (m).
+    pub fn position(&self) -> DVec3 {
+        self.options.position.0 + self.state.frame.position
+    }
 
-        /// The direction of extruding.
-        pub fn heading(&self) -> DVec3 {
-            self.state.frame.heading
-        }
+    /// The direction of extruding.
+    pub fn heading(&self) -> DVec3 {
+        self.state.frame.heading
+    }
 
-        /// Distance (m) from a place to the nearest point of what it has drawn.
-        pub fn distance(&self, place: Vector) -> f64 {
-            self.drawing.distance(place.0 - self.options.position.0)
-        }
+    /// Distance (m) from a place to the nearest point of what it has drawn.
+    pub fn distance(&self, place: Vector) -> f64 {
+        self.drawing.distance(place.0 - self.options.position.0)
+    }
 
-        /// The number of edges left open by missing caps and open sections.
-        pub fn open_edges(&self) -> u32 {
-            u32::try_from(self.open_edges).unwrap_or(u32::MAX)
-        }
+    /// The number of edges left open by missing caps and open sections.
+    pub fn open_edges(&self) -> u32 {
+        u32::try_from(self.open_edges).unwrap_or(u32::MAX)
     }
 }
 
@@ -271,19 +280,22 @@ impl Extruder {
             let kind = Kind::new(
                 "extruder",
                 "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
-            );
+            )
+            .example(include_str!("../scripts/extruder.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Extruder::new(Options::from_table(table)?))
-                    .methods(Extruder::methods())
-                    .begins_empty()
-                    .draws::<Extruder>(),
+                kind.made_of(ExtruderOptions::fields(), |table| {
+                    Extruder::new(ExtruderOptions::from_table(table)?)
+                })
+                .methods(Extruder::methods())
+                .begins_empty()
+                .draws::<Extruder>(),
             )
         });
         &KIND
     }
 
     /// An extruder at its beginning.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: ExtruderOptions) -> Result<Self> {
         check_resolution(options.along, options.around)?;
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::argument("extruder: heading has no length"));
@@ -417,7 +429,7 @@ impl Extruder {
 }
 
 impl State {
-    fn begin(options: &Options, section: &Arc<Section>) -> Self {
+    fn begin(options: &ExtruderOptions, section: &Arc<Section>) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
         #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]

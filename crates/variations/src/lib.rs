@@ -23,7 +23,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{declare, no_such, run_session};
-use burgeon_engine::script::{Control, Options, Param, Session, Setting};
+use burgeon_engine::script::{Control, Param, RunOptions, Session, Setting};
 use burgeon_export::picture::{Extent, Picture, Quality, render_within};
 use burgeon_scene::Scene;
 
@@ -76,7 +76,7 @@ pub struct Variations {
     /// Asks for an end: no further cells are given.
     pub stop: Arc<Stop>,
     script: PathBuf,
-    options: Options,
+    options: RunOptions,
     plans: Vec<Plan>,
     ran: AtomicUsize,
 }
@@ -103,8 +103,8 @@ impl Variations {
     ///
     /// Fails if there are none or more than [`MOST`], and if the script has no such parameter or refuses one of
     /// the values. A script that fails is told by its cells.
-    pub fn new(script: &Path, options: &Options, over: &Over) -> Result<Self> {
-        let options = Options { print: None, ..options.clone() };
+    pub fn new(script: &Path, options: &RunOptions, over: &Over) -> Result<Self> {
+        let options = RunOptions { print: None, ..options.clone() };
         let plans: Vec<Plan> = match over {
             Over::Seeds(seeds) => seeds
                 .iter()
@@ -288,8 +288,8 @@ fn mean(pixels: [Rgba<u8>; 4]) -> Rgba<u8> {
 }
 
 /// The parameter `name` of `script`.
-fn find(script: &Path, options: &Options, name: &str) -> Result<Param> {
-    let mut options = Options { check: true, ..options.clone() };
+fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
+    let mut options = RunOptions { check: true, ..options.clone() };
     options.set.retain(|(known, _)| known != name);
     let session = Session::new(script, options)?;
     // A script that fails may have declared the parameter all the same; each cell tells the failure.
@@ -347,8 +347,11 @@ s:derive()
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
         std::fs::write(&script, SCRIPT).unwrap();
-        let options =
-            Options { threads: Some(threads), registry: burgeon_objects::registry(), ..Options::default() };
+        let options = RunOptions {
+            threads: Some(threads),
+            registry: burgeon_objects::registry(),
+            ..RunOptions::default()
+        };
         let picture = Picture { width: 40, height: 50, quality: Quality::Draft, ..Picture::default() };
         let mut cells = Vec::new();
         let variations = Variations::new(&script, &options, over).unwrap();
@@ -405,7 +408,7 @@ s:derive()
         let over = Over::seeds("1..9").unwrap();
         let variations = Variations::new(
             &script,
-            &Options { registry: burgeon_objects::registry(), ..Options::default() },
+            &RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },
             &over,
         )
         .unwrap();

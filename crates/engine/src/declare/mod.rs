@@ -12,7 +12,7 @@ pub(crate) mod paths;
 mod preset;
 mod session;
 
-pub use options::{Limits, Options, Print, Traced};
+pub use options::{Limits, Print, RunOptions, Traced};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{Progress, Session};

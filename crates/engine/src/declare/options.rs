@@ -61,7 +61,7 @@ pub struct Traced {
 
 /// How a script is to be run.
 #[derive(Debug, Clone)]
-pub struct Options {
+pub struct RunOptions {
     /// Values for `param` declarations, by name, as text.
     pub set: Vec<(String, String)>,
     /// Values for `param` declarations that are not in `set`. Its seed does not count: `seed` does.
@@ -112,14 +112,14 @@ pub struct Options {
 static CORES: LazyLock<usize> =
     LazyLock::new(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
 
-impl Options {
+impl RunOptions {
     /// The number of worker threads.
     pub fn worker_threads(&self) -> usize {
         self.threads.unwrap_or_else(|| *CORES).max(1)
     }
 }
 
-impl Default for Options {
+impl Default for RunOptions {
     fn default() -> Self {
         Self {
             set: Vec::new(),

@@ -11,7 +11,7 @@ use rustc_hash::FxHashMap;
 use super::analysis::{Analysis, Globals, Reading, has_metatables};
 use super::data::Data;
 use super::drawn::Drawn;
-use super::options::Options;
+use super::options::RunOptions;
 use super::param::Param;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
@@ -79,7 +79,7 @@ pub(crate) struct Source {
 /// One run of a script.
 pub struct Session {
     /// How to run it.
-    pub options: Options,
+    pub options: RunOptions,
     /// Asks the run to stop.
     pub stop: Arc<Stop>,
     /// How far the run has come.
@@ -111,7 +111,7 @@ pub struct Session {
 
 impl Session {
     /// A run of the file `script`.
-    pub fn new(script: &Path, options: Options) -> Result<Arc<Self>> {
+    pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;

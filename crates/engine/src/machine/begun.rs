@@ -62,7 +62,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::declare::Options;
+    use crate::declare::RunOptions;
 
     #[test]
     fn a_machine_that_was_made_ready_makes_what_others_do_once() {
@@ -70,7 +70,7 @@ mod tests {
         let made = || -> Vec<String> {
             let run = crate::run::run(
                 &script,
-                Options { registry: burgeon_objects::registry(), ..Options::default() },
+                RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },
             )
             .unwrap();
             run.systems.iter().map(|system| system.chain_text()).collect()

@@ -32,7 +32,7 @@ pub struct RuleReport {
     /// Whether it is an interpretation rule.
     pub interprets: bool,
     /// How much it has done. The time of interpretation rules is measured if
-    /// [`Options::profile`](crate::script::Options::profile) says so.
+    /// [`RunOptions::profile`](crate::script::RunOptions::profile) says so.
     pub done: Use,
 }
 
