@@ -2,7 +2,7 @@
 //!
 //! Comes in: a script and what changes from run to run ([`Over`]). Goes out: a [`Cell`] for each, in order, with
 //! its picture or its error; [`sheet`] puts the pictures side by side. The same input gives the same bytes for
-//! any number of threads. An error in one run does not touch the others.
+//! any number of threads. An error in one run never touches the others.
 
 mod letters;
 mod over;
