@@ -2,7 +2,8 @@
 //! [`elevation`].
 //!
 //! Comes in: a file. Goes out: a [`Listing`] of what it holds, or a [`Layer`] in metres around an origin, ready to
-//! be modelled. Coordinates are projected here, once: everything behind works in metres.
+//! be modelled. Coordinates are projected here, once: everything behind works in metres. It never panics on
+//! what a file holds, and never changes a file.
 
 mod cache;
 pub mod elevation;

@@ -10,7 +10,7 @@ use rstar::{PointDistance, RTree};
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::Geometry;
-use burgeon_kit::{Expected, object};
+use burgeon_kit::{Expected, fields, methods, object};
 use burgeon_kit::{Features, Kind, Object, Parameter, Shape, Value, Vector};
 
 /// The farthest (m) that a street lies from what faces it.
@@ -121,12 +121,11 @@ fn closed(mut ring: Vec<DVec3>) -> Vec<DVec3> {
     ring
 }
 
-fields! {
-    /// What `streets(source)` takes.
-    pub struct Options for "streets" {
-        /// The streets' lines (m): a source, or lists of points.
-        pub lines: Lines = Lines::default(),
-    }
+/// What `streets(source)` takes.
+#[fields("streets")]
+pub struct StreetsOptions {
+    /// The streets' lines (m): a source, or lists of points.
+    pub lines: Lines,
 }
 
 /// Streets as lines on the ground, to be found by place.
@@ -142,14 +141,13 @@ impl fmt::Debug for Streets {
     }
 }
 
-methods! {
-    Streets = "streets" {
-        /// Distance (m) from a place on the ground to the nearest street; infinite if there is none.
-        pub fn distance(&self, place: Vector) -> f64 {
-            let place = place.0.truncate().to_array();
-            let nearest = self.pieces.nearest_neighbor(&place);
-            nearest.map_or(f64::INFINITY, |piece| piece.distance_2(&place).sqrt())
-        }
+#[methods("streets")]
+impl Streets {
+    /// Distance (m) from a place on the ground to the nearest street; infinite if there is none.
+    pub fn distance(&self, place: Vector) -> f64 {
+        let place = place.0.truncate().to_array();
+        let nearest = self.pieces.nearest_neighbor(&place);
+        nearest.map_or(f64::INFINITY, |piece| piece.distance_2(&place).sqrt())
     }
 }
 
@@ -158,18 +156,21 @@ impl Streets {
     pub fn kind() -> &'static Arc<Kind> {
         static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
             let kind =
-                Kind::new("streets", "Streets, for footprints to know which of their edges is on one.");
+                Kind::new("streets", "Streets, for footprints to know which of their edges is on one.")
+                    .example(include_str!("../scripts/streets.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Streets::new(Options::from_table(table)?))
-                    .first("lines")
-                    .methods(Streets::methods()),
+                kind.made_of(StreetsOptions::fields(), |table| {
+                    Streets::new(StreetsOptions::from_table(table)?)
+                })
+                .first("lines")
+                .methods(Streets::methods()),
             )
         });
         &KIND
     }
 
     /// The streets that a script names.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: StreetsOptions) -> Result<Self> {
         let Lines { lines, refused } = options.lines;
         let mut streets = Self::over(&lines);
         if let Some((count, first)) = refused {

@@ -3,10 +3,10 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use burgeon::derive::{Derived, Report};
 use burgeon::export::{self, Files, Format, heights::HeightMap};
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
+use burgeon::results::{Derived, Report};
 use burgeon::script::Session;
 use burgeon::terrain::{Map, Place};
 use burgeon::{Error, Result};

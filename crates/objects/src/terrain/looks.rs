@@ -6,22 +6,23 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Expected, Parameter, Table, Value};
+use burgeon_kit::{Color, Expected, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 use burgeon_terrain::{Ground, Tile};
 
 use super::mask::{Mask, Spot};
 
-fields! {
-    /// A layer of what lies on the ground.
-    pub struct Cover for "cover" {
-        /// Its colour.
-        pub color: Color = Color([0.2, 0.25, 0.1, 1.0]),
-        /// Where it lies; everywhere, if that is left out.
-        pub on: Mask = Mask::default(),
-        /// How much (0 to 1) of what lies below is hidden at most.
-        pub amount: f64 = 1.0,
-    }
+/// A layer of what lies on the ground.
+#[fields("cover")]
+pub struct Cover {
+    /// Its colour.
+    #[default(Color([0.2, 0.25, 0.1, 1.0]))]
+    pub color: Color,
+    /// Where it lies; everywhere, if that is left out.
+    pub on: Mask,
+    /// How much (0 to 1) of what lies below is hidden at most.
+    #[default(1.0)]
+    pub amount: f64,
 }
 
 impl Parameter for Cover {
