@@ -53,12 +53,12 @@ pub struct Cell {
     /// The parameter that is varied, and the value it has here.
     pub set: Option<(String, String)>,
     /// What it has become.
-    pub made: Result<Made>,
+    pub made: Result<Thumbnail>,
 }
 
 /// What a variation has become.
 #[derive(Debug)]
-pub struct Made {
+pub struct Thumbnail {
     /// How it looks.
     pub picture: RgbaImage,
     /// All parameters of the script, with their values here.
@@ -139,7 +139,7 @@ impl Variations {
 
     /// Makes all variations and gives each to `take` in order, as soon as it and those before it are finished.
     ///
-    /// `picture` is the wish for each cell; a draft is photographed at twice the size, so that its edges are smooth.
+    /// `picture` is what is asked of each cell; a draft is rendered at twice the size, so that its edges are smooth.
     /// Fails if a stop was asked for, with its reason, and if `picture`
     /// cannot be.
     pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Cell)) -> Result<()> {
@@ -150,7 +150,7 @@ impl Variations {
                 |number| {
                     let ran = self.run(number, None)?;
                     let extent = ran.extent.clone();
-                    self.photograph(number, ran, &extent, picture)
+                    self.render(number, ran, &extent, picture)
                 },
                 |number, made| take(self.cell(number, made)),
             ),
@@ -171,7 +171,7 @@ impl Variations {
                     |number| {
                         let ran = waiting[number].lock().unwrap_or_else(PoisonError::into_inner).take();
                         let ran = ran.unwrap_or_else(|| Err(Error::internal("it was made twice")))?;
-                        self.photograph(number, ran, &extent, picture)
+                        self.render(number, ran, &extent, picture)
                     },
                     |number, made| take(self.cell(number, made)),
                 )
@@ -179,7 +179,7 @@ impl Variations {
         }
     }
 
-    fn cell(&self, index: usize, made: Result<Made>) -> Cell {
+    fn cell(&self, index: usize, made: Result<Thumbnail>) -> Cell {
         let Plan { label, seed, set } = &self.plans[index];
         Cell { index, label: label.clone(), seed: *seed, set: set.clone(), made }
     }
@@ -211,14 +211,14 @@ impl Variations {
         Ok(Ran { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
     }
 
-    fn photograph(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Made> {
+    fn render(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Thumbnail> {
         let scene = match ran.scene {
             Some(scene) => scene,
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
         let picture = thumbnail(&scene, extent, picture, &self.stop)?;
         let Ran { params, modules, triangles, warnings, .. } = ran;
-        Ok(Made { picture, params, modules, triangles, warnings })
+        Ok(Thumbnail { picture, params, modules, triangles, warnings })
     }
 
     fn workers(&self) -> usize {

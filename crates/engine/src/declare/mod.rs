@@ -5,10 +5,10 @@
 
 pub(crate) mod analysis;
 mod data;
-mod drawn;
 mod options;
 mod param;
 pub(crate) mod paths;
+mod positions;
 mod preset;
 mod session;
 

@@ -3,7 +3,7 @@
 use burgeon_base::error::{Error, Result};
 use serde::Deserialize;
 
-/// How a scene is photographed.
+/// How a scene is rendered.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Picture {

@@ -1,4 +1,4 @@
-//! The scene made ready to be photographed: checked, moved to the origin and shrunk to unit size.
+//! The scene made ready to be rendered: checked, moved to the origin and shrunk to unit size.
 //!
 //! Instances are not unfolded: a triangle is known by its number in the order of instances, parts and
 //! triangles, and found again by searching the draws.

@@ -3,13 +3,13 @@
 use serde::Deserialize;
 use serde_json::Value;
 
-use super::Say;
+use super::Event;
 use burgeon_base::error::Error;
 
 /// What a page says.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
-pub enum Ask {
+pub enum Command {
     /// Sets parameters, by name; nothing puts the default back.
     Set {
         /// Values as text; numbers and switches may come as they are.
@@ -37,7 +37,7 @@ pub enum Ask {
         line: Option<usize>,
     },
     /// Which module made a triangle, by glTF's indices.
-    Pick(Pick),
+    Pick(PickCommand),
     /// What a line of a script made.
     Highlight {
         /// Comes back with the answer.
@@ -84,7 +84,7 @@ pub enum Ask {
 /// A triangle of the model, by glTF's indices.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Pick {
+pub struct PickCommand {
     /// Comes back with the answer.
     pub id: u64,
     /// The mesh.
@@ -100,8 +100,8 @@ pub struct Pick {
 }
 
 /// Reads a page's message. Fails with what is to be told to the page.
-pub fn read(text: &str) -> Result<Ask, Box<Say>> {
-    let refuse = |id: Option<u64>, error: Error| Err(Box::new(Say::refused(id, &error)));
+pub fn read(text: &str) -> Result<Command, Box<Event>> {
+    let refuse = |id: Option<u64>, error: Error| Err(Box::new(Event::refused(id, &error)));
     let value: Value = match serde_json::from_str(text) {
         Ok(value @ Value::Object(_)) => value,
         Ok(_) => return refuse(None, Error::argument("a message is a JSON object with a type")),
@@ -120,11 +120,11 @@ mod tests {
 
     #[test]
     fn messages_of_pages_are_read_or_refused_with_their_id() {
-        assert!(matches!(read(r#"{"type":"set","params":{"a":"1","b":null}}"#), Ok(Ask::Set { .. })));
-        assert!(matches!(read(r#"{"type":"steps","steps":null}"#), Ok(Ask::Steps { steps: None })));
+        assert!(matches!(read(r#"{"type":"set","params":{"a":"1","b":null}}"#), Ok(Command::Set { .. })));
+        assert!(matches!(read(r#"{"type":"steps","steps":null}"#), Ok(Command::Steps { steps: None })));
         assert!(matches!(
             read(r#"{"type":"pick","id":1,"mesh":0,"primitive":0,"triangle":3,"instance":null,"node":0}"#),
-            Ok(Ask::Pick(_))
+            Ok(Command::Pick(_))
         ));
         let wrong = [
             "",
@@ -142,9 +142,9 @@ mod tests {
         ];
         for text in wrong {
             let refused = read(text).unwrap_err();
-            assert!(matches!(*refused, Say::Refused { id: None, .. }), "{text}");
+            assert!(matches!(*refused, Event::Refused { id: None, .. }), "{text}");
         }
-        let Say::Refused { id, text, code } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else {
+        let Event::Refused { id, text, code } = *read(r#"{"type":"pick","id":9}"#).unwrap_err() else {
             panic!()
         };
         assert_eq!((id, code), (Some(9), Some("argument")));

@@ -4,23 +4,23 @@ use serde::Serialize;
 
 /// The module that made a triangle.
 #[derive(Debug, Clone, Serialize)]
-pub struct Picked {
+pub struct PickMessage {
     /// The question's id.
     pub id: u64,
     /// Whether it is known.
     pub found: bool,
     /// The module that drew the triangle, or placed it if nobody knows who drew it.
     #[serde(flatten)]
-    pub made: Option<Made>,
+    pub made: Option<OriginMessage>,
     /// The module that placed the model to which the triangle belongs.
-    pub placed: Option<Made>,
+    pub placed: Option<OriginMessage>,
     /// The instance as it was asked about.
     pub instance: Option<usize>,
 }
 
 /// A module that made something.
 #[derive(Debug, Clone, Serialize)]
-pub struct Made {
+pub struct OriginMessage {
     /// The system's place in the script, from 0.
     pub system: usize,
     /// The chain.
@@ -28,20 +28,20 @@ pub struct Made {
     /// The id of the chain's feature.
     pub feature: Option<String>,
     /// The module.
-    pub module: Module,
+    pub module: ModuleMessage,
     /// The rule that interprets it, unless the standard library does.
     pub interpretation: Option<RuleAt>,
     /// The modules that led to it, from the axiom on.
-    pub path: Vec<Step>,
+    pub path: Vec<StepMessage>,
     /// The chain around it.
-    pub chain_text: Around,
+    pub chain_text: AroundMessage,
     /// What it has drawn.
     pub ranges: Vec<Range>,
 }
 
 /// A module.
 #[derive(Debug, Clone, Serialize)]
-pub struct Module {
+pub struct ModuleMessage {
     /// The whole.
     pub text: String,
     /// Its symbol.
@@ -74,7 +74,7 @@ pub struct RuleAt {
 
 /// A module on the way from the axiom to another.
 #[derive(Debug, Clone, Serialize)]
-pub struct Step {
+pub struct StepMessage {
     /// The derivation step that made it; 0 for the axiom.
     pub step: usize,
     /// The module.
@@ -91,7 +91,7 @@ pub struct Step {
 
 /// A piece of a chain as text.
 #[derive(Debug, Clone, Serialize)]
-pub struct Around {
+pub struct AroundMessage {
     /// What is before.
     pub before: String,
     /// The module in the middle.
@@ -102,7 +102,7 @@ pub struct Around {
 
 /// What a line of a script has made.
 #[derive(Debug, Clone, Serialize)]
-pub struct Highlighted {
+pub struct HighlightMessage {
     /// The question's id.
     pub id: u64,
     /// The file as it was asked about.

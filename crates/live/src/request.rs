@@ -1,4 +1,4 @@
-//! What pages have wished: values of parameters, the seed, the limit of steps.
+//! What pages have requested: values of parameters, the seed, the limit of steps.
 //!
 //! Values are kept by name across saves of the script, and beside each the default that the script had when it
 //! was set, so that a page can show both when the script changes its mind.
@@ -7,14 +7,14 @@ use std::collections::BTreeMap;
 
 use serde_json::{Map, Value};
 
-use super::message::Knob;
+use super::message::ParamMessage;
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::{Param, Preset, RunOptions, Setting};
 use burgeon_presets::Presets;
 
-/// What pages have wished.
+/// What pages have requested.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Wish {
+pub(super) struct Request {
     values: BTreeMap<String, Given>,
     seed: u64,
     pub steps: Option<usize>,
@@ -40,8 +40,8 @@ pub(super) struct Inputs {
     pub generation: u64,
 }
 
-impl Wish {
-    /// What the command line wishes.
+impl Request {
+    /// What the command line requests.
     pub(super) fn new(options: &RunOptions) -> Self {
         let given = |text: &String| Given { text: text.clone(), default: None };
         let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
@@ -154,16 +154,16 @@ impl Wish {
     }
 
     /// The parameters of a run as pages show them. Notes the defaults of values whose default was not known.
-    pub(super) fn knobs(&mut self, params: &[Param]) -> Vec<Knob> {
-        let mut knobs = Vec::with_capacity(params.len());
+    pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
+        let mut messages = Vec::with_capacity(params.len());
         for param in params {
             let given = self.values.get_mut(&param.name);
             // A value that the script does not take any more is not the one that is shown.
             let used = given.filter(|given| param.accept(&given.text).is_ok());
             let old = used.map(|given| given.default.get_or_insert_with(|| param.default.clone()));
-            knobs.push(Knob::new(param, old.as_deref()));
+            messages.push(ParamMessage::new(param, old.as_deref()));
         }
-        knobs
+        messages
     }
 }
 
@@ -194,42 +194,44 @@ mod tests {
         }
     }
 
-    fn set(wish: &mut Wish, value: Value, params: &[Param]) -> Result<()> {
+    fn set(request: &mut Request, value: Value, params: &[Param]) -> Result<()> {
         let Value::Object(map) = value else { panic!() };
-        wish.set(&map, Some(params))
+        request.set(&map, Some(params))
     }
 
     #[test]
     fn values_that_the_script_does_not_take_are_refused_with_the_others_of_their_message() {
-        let (mut wish, params) = (Wish::default(), [param(4.0, 10.0)]);
-        set(&mut wish, json!({ "floors": "7" }), &params).unwrap();
+        let (mut request, params) = (Request::default(), [param(4.0, 10.0)]);
+        set(&mut request, json!({ "floors": "7" }), &params).unwrap();
         for wrong in [
             json!({ "floors": "3", "flors": "1" }),
             json!({ "floors": 30 }),
             json!({ "floors": "x" }),
             json!({ "floors": [1] }),
         ] {
-            assert!(set(&mut wish, wrong, &params).is_err());
+            assert!(set(&mut request, wrong, &params).is_err());
         }
-        assert_eq!(wish.inputs(0).set, [("floors".to_owned(), "7".to_owned())]);
-        set(&mut wish, json!({ "floors": null }), &params).unwrap();
-        assert!(wish.inputs(0).set.is_empty());
+        assert_eq!(request.inputs(0).set, [("floors".to_owned(), "7".to_owned())]);
+        set(&mut request, json!({ "floors": null }), &params).unwrap();
+        assert!(request.inputs(0).set.is_empty());
     }
 
     #[test]
     fn a_default_that_changed_since_the_value_was_set_is_shown_beside_it() {
-        let mut wish = Wish::default();
-        set(&mut wish, json!({ "floors": 7 }), &[param(4.0, 10.0)]).unwrap();
-        let old = |wish: &mut Wish, default: f64, max: f64| {
-            wish.knobs(&[Param { value: Setting::Number(7.0), ..param(default, max) }])[0].old_default.clone()
+        let mut request = Request::default();
+        set(&mut request, json!({ "floors": 7 }), &[param(4.0, 10.0)]).unwrap();
+        let old = |request: &mut Request, default: f64, max: f64| {
+            request.params(&[Param { value: Setting::Number(7.0), ..param(default, max) }])[0]
+                .old_default
+                .clone()
         };
-        assert_eq!(old(&mut wish, 4.0, 10.0), None);
-        assert_eq!(old(&mut wish, 5.0, 10.0), Some(json!(4.0)));
-        assert_eq!(old(&mut wish, 5.0, 6.0), None);
-        set(&mut wish, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
-        assert_eq!(old(&mut wish, 5.0, 10.0), None);
+        assert_eq!(old(&mut request, 4.0, 10.0), None);
+        assert_eq!(old(&mut request, 5.0, 10.0), Some(json!(4.0)));
+        assert_eq!(old(&mut request, 5.0, 6.0), None);
+        set(&mut request, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
+        assert_eq!(old(&mut request, 5.0, 10.0), None);
         let mut early =
-            Wish::new(&RunOptions { set: vec![("floors".into(), "7".into())], ..RunOptions::default() });
+            Request::new(&RunOptions { set: vec![("floors".into(), "7".into())], ..RunOptions::default() });
         assert_eq!(old(&mut early, 4.0, 10.0), None);
         assert_eq!(old(&mut early, 5.0, 10.0), Some(json!(4.0)));
     }

@@ -8,9 +8,9 @@ use burgeon_kit::random::Stream;
 /// The stream of the top level after the axiom of each derivation, in their order: a machine that does not run an
 /// axiom's function itself goes on from there.
 #[derive(Debug, Default)]
-pub(crate) struct Drawn(Mutex<BTreeMap<usize, Stream>>);
+pub(crate) struct RandomPositions(Mutex<BTreeMap<usize, Stream>>);
 
-impl Drawn {
+impl RandomPositions {
     /// Notes the stream after the axiom of derivation `number`.
     pub(crate) fn note(&self, number: usize, stream: &Stream) {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).insert(number, stream.clone());

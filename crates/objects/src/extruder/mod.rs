@@ -281,7 +281,7 @@ impl Extruder {
                 "extruder",
                 "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
             )
-            .example(include_str!("../scripts/extruder.lua"));
+            .example(include_str!("../../scripts/extruder.lua"));
             Arc::new(
                 kind.made_of(ExtruderOptions::fields(), |table| {
                     Extruder::new(ExtruderOptions::from_table(table)?)

@@ -1,9 +1,9 @@
 //! Which functions of a script leave nothing behind, so that running them once in one machine is as good as running
 //! them in each.
 //!
-//! A function is quiet if it assigns only its own variables and tables that it made itself, and calls only modules,
-//! constructors, what the library is known to do, and quiet functions of the same file. What cannot be told is not
-//! quiet. It may draw random numbers: how far it got with them is easily told to other machines.
+//! A function is pure if it assigns only its own variables and tables that it made itself, and calls only modules,
+//! constructors, what the library is known to do, and pure functions of the same file. What cannot be told is not
+//! pure. It may draw random numbers: how far it got with them is easily told to other machines.
 
 use full_moon::ast::punctuated::Punctuated;
 use full_moon::ast::{Call, Expression, FunctionArgs, FunctionCall, Index, Prefix, Suffix, Var};
@@ -34,8 +34,8 @@ pub(crate) fn has_metatables(text: &str) -> bool {
 
 impl Walk<'_> {
     /// The functions from this depth on leave something behind.
-    pub(super) fn loud_from(&mut self, depth: usize) {
-        self.functions.iter_mut().skip(depth).for_each(|function| function.quiet = false);
+    pub(super) fn impure_from(&mut self, depth: usize) {
+        self.functions.iter_mut().skip(depth).for_each(|function| function.pure = false);
     }
 
     /// A field of what `prefix` names is assigned.
@@ -44,7 +44,7 @@ impl Walk<'_> {
             Prefix::Name(name) => self.own_table(name),
             _ => None,
         };
-        self.loud_from(owner.map_or(1, |owner| owner + 1));
+        self.impure_from(owner.map_or(1, |owner| owner + 1));
     }
 
     /// The function that made the table that a variable always holds.
@@ -56,9 +56,9 @@ impl Walk<'_> {
     /// Something is called.
     pub(super) fn called(&mut self, call: &FunctionCall) {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
-        let Prefix::Name(name) = call.prefix() else { return self.loud_from(1) };
+        let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
         match suffixes.as_slice() {
-            [Suffix::Call(Call::AnonymousCall(_))] if self.is_quiet(name) => {}
+            [Suffix::Call(Call::AnonymousCall(_))] if self.is_pure(name) => {}
             [Suffix::Index(Index::Dot { name: field, .. }), Suffix::Call(Call::AnonymousCall(arguments))]
                 if self.find(&text_of(name)).is_none() =>
             {
@@ -68,16 +68,16 @@ impl Walk<'_> {
                 if OF_STRINGS.contains(&text_of(method.name()).as_str())
                     && fields.iter().all(|field| matches!(field, Suffix::Index(_)))
                     && self.find(&text_of(name)).is_some_and(|variable| variable.feature) => {}
-            _ => self.loud_from(1),
+            _ => self.impure_from(1),
         }
     }
 
-    fn is_quiet(&self, name: &TokenReference) -> bool {
+    fn is_pure(&self, name: &TokenReference) -> bool {
         let text = text_of(name);
         match self.find(&text) {
             Some(variable) => {
-                let quiet = self.facts.variables.get(variable.id).is_some_and(|fact| fact.quiet);
-                (quiet || variable.module.is_some()) && !self.fact(variable.id).assigned
+                let pure = self.facts.variables.get(variable.id).is_some_and(|fact| fact.pure);
+                (pure || variable.module.is_some()) && !self.fact(variable.id).assigned
             }
             None => {
                 FUNCTIONS.contains(&text.as_str())
@@ -93,13 +93,13 @@ impl Walk<'_> {
         {
             return;
         }
-        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.loud_from(1) };
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.impure_from(1) };
         match arguments.iter().next() {
             Some(Expression::Var(Var::Name(name))) if library == "table" && CHANGES.contains(&function) => {
                 let owner = self.own_table(name);
-                self.loud_from(owner.map_or(1, |owner| owner + 1));
+                self.impure_from(owner.map_or(1, |owner| owner + 1));
             }
-            _ => self.loud_from(1),
+            _ => self.impure_from(1),
         }
     }
 
@@ -118,7 +118,7 @@ impl Walk<'_> {
             _ => false,
         };
         if !expressions.iter().all(known) {
-            self.loud_from(1);
+            self.impure_from(1);
         }
     }
 }
@@ -127,17 +127,17 @@ impl Walk<'_> {
 mod tests {
     use super::super::{Globals, analyse};
 
-    /// Whether the function in the last line but one is quiet.
-    fn quiet(script: &str) -> bool {
+    /// Whether the function in the last line but one is pure.
+    fn pure(script: &str) -> bool {
         let names = ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall"];
         let names = names.map(str::to_owned).to_vec();
         let globals = Globals { names, kinds: vec!["footprint".to_owned()], ..Globals::default() };
         let analysis = analyse("s.lua", script, &globals);
-        analysis.quiet.contains(&script.lines().count())
+        analysis.pure.contains(&script.lines().count())
     }
 
     #[test]
-    fn a_function_that_only_makes_something_is_quiet() {
+    fn a_function_that_only_makes_something_is_pure() {
         for body in [
             "return footprint(f.geometry, { height = f.height or 3 })",
             "local t = {} for k, v in pairs(f) do t[k] = v end return t",
@@ -150,12 +150,12 @@ mod tests {
             let script = format!(
                 "local s = source({{}})\nlocal function half(x) return x / 2 end\ns:axiom(s, function(f) {body} end)"
             );
-            assert!(quiet(&script), "{body}");
+            assert!(pure(&script), "{body}");
         }
     }
 
     #[test]
-    fn a_function_that_leaves_something_behind_or_may_is_not_quiet() {
+    fn a_function_that_leaves_something_behind_or_may_is_not_pure() {
         for body in [
             "count = count + 1 return f",
             "count += 1",
@@ -178,7 +178,7 @@ mod tests {
             let script = format!(
                 "local s, count, list = source({{}}), 0, {{}}\nlocal function helper(x) count = x end\ns:axiom(s, function(f) {body} end)"
             );
-            assert!(!quiet(&script), "{body}");
+            assert!(!pure(&script), "{body}");
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What pages ask for: each message changes the wish and has a run made, or is answered.
+//! What pages ask for: each message changes the request and has a run made, or is answered.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -7,32 +7,32 @@ use std::time::Instant;
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::mpsc::Sender;
 
-use super::message::{self, Ask, Cause, Say};
+use super::message::{self, Cause, Command, Event};
+use super::request::seed;
 use super::state::{Due, Inner, State};
-use super::wish::seed;
 use super::{tools, trace};
 use burgeon_base::error::{Error, Result};
 
 impl State {
     /// Does what `text`, a page's message, asks for. Returns what that page alone is answered; what takes longer
     /// comes through `page`.
-    pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Say> {
-        let refused = |id: Option<u64>, error: &Error| Some(Say::refused(id, error));
+    pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Event> {
+        let refused = |id: Option<u64>, error: &Error| Some(Event::refused(id, error));
         match message::read(text) {
             Err(refused) => Some(*refused),
-            Ok(Ask::Pick(pick)) => Some(trace::pick(self, &pick)),
-            Ok(Ask::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
-            Ok(Ask::Chain { id, system, chain, module }) => {
+            Ok(Command::Pick(pick)) => Some(trace::pick(self, &pick)),
+            Ok(Command::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
+            Ok(Command::Chain { id, system, chain, module }) => {
                 Some(trace::chain(self, id, system, chain, module))
             }
-            Ok(Ask::Variations { id, seeds, param, values }) => {
+            Ok(Command::Variations { id, seeds, param, values }) => {
                 tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
             }
-            Ok(Ask::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
-            Ok(Ask::Open { file, line }) => {
+            Ok(Command::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
+            Ok(Command::Open { file, line }) => {
                 self.open(&file, line.unwrap_or(1)).err().and_then(|error| refused(None, &error))
             }
-            Ok(Ask::Cancel {}) => {
+            Ok(Command::Cancel {}) => {
                 let mut inner = self.lock();
                 let waiting = inner.due.take().is_some();
                 let running = inner.stop("it was cancelled");
@@ -41,42 +41,46 @@ impl State {
                     inner.cancelled(self, run);
                 }
                 let idle = !waiting && !running;
-                idle.then(|| Say::refused(None, &Error::unavailable("nothing is running")))
+                idle.then(|| Event::refused(None, &Error::unavailable("nothing is running")))
             }
-            Ok(Ask::Set { params }) => {
-                self.change(Cause::Parameters, |inner| inner.wish.set(&params, inner.params.as_deref()))
+            Ok(Command::Set { params }) => {
+                self.change(Cause::Parameters, |inner| inner.request.set(&params, inner.params.as_deref()))
             }
-            Ok(Ask::Reset {}) => self.change(Cause::Parameters, |inner| {
-                inner.wish.reset();
+            Ok(Command::Reset {}) => self.change(Cause::Parameters, |inner| {
+                inner.request.reset();
                 Ok(())
             }),
-            Ok(Ask::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
-                inner.wish.set_seed(seed(&wished)?);
+            Ok(Command::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
+                inner.request.set_seed(seed(&wished)?);
                 Ok(())
             }),
-            Ok(Ask::Steps { steps }) => self.change(Cause::Steps, |inner| {
-                inner.wish.steps = steps;
+            Ok(Command::Steps { steps }) => self.change(Cause::Steps, |inner| {
+                inner.request.steps = steps;
                 Ok(())
             }),
         }
     }
 
-    /// Changes the wish and has a run made of it, or answers with what there is already.
-    pub(super) fn change(&self, cause: Cause, change: impl FnOnce(&mut Inner) -> Result<()>) -> Option<Say> {
+    /// Changes the request and has a run made of it, or answers with what there is already.
+    pub(super) fn change(
+        &self,
+        cause: Cause,
+        change: impl FnOnce(&mut Inner) -> Result<()>,
+    ) -> Option<Event> {
         let mut inner = self.lock();
         if let Err(error) = change(&mut inner) {
-            return Some(Say::refused(None, &error));
+            return Some(Event::refused(None, &error));
         }
-        let same = inner.finished.as_ref() == Some(&inner.wish.inputs(inner.generation));
-        let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.quiet);
+        let same = inner.finished.as_ref() == Some(&inner.request.inputs(inner.generation));
+        let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.background);
         if same && idle {
             let present =
-                inner.trouble.clone().or_else(|| inner.present().map(|it| Say::Model(Box::new(it))));
+                inner.trouble.clone().or_else(|| inner.present().map(|it| Event::Model(Box::new(it))));
             if inner.cancelled.take().is_none() {
                 return present;
             }
             // What is shown is the present model again, for all pages.
-            present.iter().for_each(|say| self.say(say));
+            present.iter().for_each(|event| self.send(event));
             return None;
         }
         inner.post(Due { cause, files: Vec::new(), at: Instant::now() });

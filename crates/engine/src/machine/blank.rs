@@ -8,17 +8,17 @@ use super::host::native;
 use super::prelude::Prelude;
 
 thread_local! {
-    static READY: RefCell<Option<Begun>> = const { RefCell::new(None) };
+    static READY: RefCell<Option<BlankMachine>> = const { RefCell::new(None) };
 }
 
 /// A state without anything of a script.
-pub(super) struct Begun {
+pub(super) struct BlankMachine {
     pub(super) lua: Lua,
     /// `prelude.luau`, which has not been called.
     pub(super) prelude: Function,
 }
 
-impl Begun {
+impl BlankMachine {
     /// The one that this thread has made ready, or a new one.
     pub(super) fn take() -> mlua::Result<Self> {
         READY.take().map_or_else(Self::new, Ok)
@@ -49,7 +49,7 @@ pub fn make_ready() {
     if READY.with_borrow(Option::is_some) {
         return;
     }
-    let begun = Begun::new().and_then(|begun| {
+    let begun = BlankMachine::new().and_then(|begun| {
         native(&begun.lua, &begun.prelude)?;
         Ok(begun)
     });
