@@ -166,7 +166,8 @@ fn a_member_names_the_crates_that_it_uses_and_no_others() {
                 paths
             })
             .collect();
-        let mut tests: String = sources.iter().map(|source| source.tests.as_str()).collect();
+        let mut tests: String =
+            sources.iter().flat_map(|source| [source.tests.as_str(), &source.comments]).collect();
         if folder == Path::new("") {
             let mut files = Vec::new();
             ["tests", "benches", "examples"]
@@ -248,6 +249,24 @@ fn each_member_has_a_front_page_that_says_what_comes_in_what_goes_out_and_what_i
         let page: String = front.lines().map_while(|line| line.strip_prefix("//!")).collect();
         for words in ["Comes in: ", "Goes out: ", " never "] {
             assert!(page.contains(words), "crates/{member}/src/lib.rs does not say what {words:?}");
+        }
+    }
+}
+
+#[test]
+fn the_oldest_rust_is_the_same_wherever_it_is_stated() {
+    let manifest = text("Cargo.toml");
+    let oldest =
+        manifest.lines().find_map(|line| line.strip_prefix("rust-version = ")).unwrap().trim_matches('"');
+    for file in ["README.md", ".ci/run"] {
+        assert!(text(file).contains(&format!("Rust {oldest}")), "{file} does not name Rust {oldest}");
+    }
+    for member in members().into_iter().map(|member| format!("crates/{member}")).chain(["fuzz".to_owned()]) {
+        let manifest = text(format!("{member}/Cargo.toml"));
+        for inherited in
+            ["rust-version.workspace = true", "license.workspace = true", "[lints]\nworkspace = true"]
+        {
+            assert!(manifest.contains(inherited), "{member}/Cargo.toml has not {inherited:?}");
         }
     }
 }
