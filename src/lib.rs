@@ -10,8 +10,26 @@
 //!                                                    └────── geometry
 //! ```
 //!
-//! This crate is the program and the way into the house: its parts are members of the workspace, under `crates/`, and
-//! each uses only those that stand before it here.
+//! This crate is the program and the way into the house: its parts are members of the workspace, under `crates/`. Each
+//! uses only those that stand before it on this map, which a test holds against the `use` lines:
+//!
+//! ```text
+//! base       uses ──► nothing
+//! macros     uses ──► nothing
+//! scene      uses ──► base
+//! geometry   uses ──► base, scene
+//! data       uses ──► base
+//! kit        uses ──► base, data, macros, scene
+//! terrain    uses ──► base, kit, scene
+//! objects    uses ──► base, data, geometry, kit, scene, terrain
+//! engine     uses ──► base, data, kit, scene
+//! export     uses ──► base, data, scene
+//! watch      uses ──► base
+//! presets    uses ──► base, engine, export, watch
+//! variations uses ──► base, engine, export, kit, scene
+//! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, live, objects, presets, scene, terrain, variations, watch
+//! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
 //!   something hardly can be meant. [`Stop`] ends work that nobody waits for; a [`Budget`] is what reading foreign bytes

@@ -1,7 +1,7 @@
 //! Runs scripts: virtual machines, parallel rewriting, and interpretation in between.
 //!
 //! Comes in: a script and the [`Registry`](burgeon_kit::Registry) of types that it may use. Goes out: a [`Run`] with
-//! its scene. It knows no type of object by name, and writes no file.
+//! its scene. It never knows a type of object by name, and never writes a file.
 
 mod declare;
 mod derive;

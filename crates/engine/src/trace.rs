@@ -25,7 +25,7 @@ pub struct Pick {
 
 /// Triangles of one part of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
+pub struct TriangleRun {
     /// Index into [`Scene::meshes`].
     pub mesh: usize,
     /// The part of the mesh.
@@ -38,7 +38,7 @@ pub struct Run {
 
 /// A module that made something, and how it came about.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Made {
+pub struct ModuleOrigin {
     /// Its chain.
     pub origin: Origin,
     /// Its place in the chain, brackets counted.
@@ -54,27 +54,27 @@ pub struct Made {
     /// The chain before it, itself, and the chain after it.
     pub around: [String; 3],
     /// What it has drawn.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TriangleRun>,
 }
 
 /// What made a triangle.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picked {
+pub struct PickOrigin {
     /// The module that drew it.
-    pub drawn: Option<Made>,
+    pub drawn: Option<ModuleOrigin>,
     /// The module that placed the model to which it belongs.
-    pub placed: Option<Made>,
+    pub placed: Option<ModuleOrigin>,
 }
 
 /// What a line of a script has made.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Highlighted {
+pub struct LineProducts {
     /// The rules at the line, each once.
     pub what: Vec<String>,
     /// The number of modules that came of them.
     pub modules: usize,
     /// What these have drawn.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TriangleRun>,
     /// The instances of models that these have placed, as indices into [`Scene::instances`].
     pub instances: Vec<usize>,
 }
@@ -82,11 +82,11 @@ pub struct Highlighted {
 /// Finds the modules that made a triangle of `scene`, which a run of `script` with these `options` has made.
 ///
 /// Derives the chain again, with its lineage. Fails if the script has changed so that it cannot.
-pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> Result<Picked> {
+pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> Result<PickOrigin> {
     let instance =
         scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("there is no such instance"))?;
     let mesh = &scene.meshes[instance.mesh];
-    let mut picked = Picked { drawn: None, placed: None };
+    let mut picked = PickOrigin { drawn: None, placed: None };
     if let Some(origin) = mesh.origin {
         let trace = trace_chain(script, options, origin)?;
         let maker = first_makers(&trace).and_then(|makers| makers.of_triangle(pick.part, pick.triangle));
@@ -110,8 +110,8 @@ pub fn highlight(
     systems: usize,
     file: &str,
     line: usize,
-) -> Result<Highlighted> {
-    let (mut found, mut nearest) = (Highlighted::default(), 0);
+) -> Result<LineProducts> {
+    let (mut found, mut nearest) = (LineProducts::default(), 0);
     for system in 0..systems {
         let trace = trace(script, options, Traced { system, chain: None })?;
         let Some(MadeBy { name, line, made }) = trace.made_by(file, line) else { continue };
@@ -119,7 +119,7 @@ pub fn highlight(
             continue;
         }
         if line > nearest {
-            (found, nearest) = (Highlighted::default(), line);
+            (found, nearest) = (LineProducts::default(), line);
         }
         if !found.what.contains(&name) {
             found.what.push(name);
@@ -132,7 +132,7 @@ pub fn highlight(
             let origin = Some(Origin { system, chain });
             for (mesh, _) in scene.meshes.iter().enumerate().filter(|(_, mesh)| mesh.origin == origin) {
                 let runs = makers.runs(wanted).into_iter();
-                found.runs.extend(runs.map(|(part, from, count)| Run { mesh, part, from, count }));
+                found.runs.extend(runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }));
             }
             let placements = makers.placements(wanted);
             let instances = scene.instances.iter().enumerate().filter(|(_, instance)| {
@@ -158,16 +158,16 @@ fn first_makers(trace: &Trace) -> Option<&Makers> {
     trace.makers().first()?.as_ref()
 }
 
-fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Option<Made> {
+fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Option<ModuleOrigin> {
     let module = trace.module(index)?;
     let runs = match (mesh, first_makers(trace)) {
         (Some(mesh), Some(makers)) => {
             let runs = makers.runs(|maker| maker == index).into_iter();
-            runs.map(|(part, from, count)| Run { mesh, part, from, count }).collect()
+            runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }).collect()
         }
         _ => Vec::new(),
     };
-    Some(Made {
+    Some(ModuleOrigin {
         origin,
         index,
         module,

@@ -10,24 +10,24 @@
 //!                       └───────────── ask ◄──────────────┘
 //! ```
 //!
-//! One thread runs the script (`work`) as it was last wished (`wish`); all pages share that wish and the model
+//! One thread runs the script (`work`) as it was last requested (`wish`); all pages share that wish and the model
 //! (`state`). A newer wish stops the run of an older one, unless that is almost done.
 
 mod address;
-mod ask;
+mod commands;
 mod connections;
 mod describe;
 mod export;
 mod layout;
 pub mod message;
 mod open;
+mod request;
 mod server;
 mod socket;
 mod state;
 mod token;
 mod tools;
 mod trace;
-mod wish;
 mod work;
 
 pub use open::{Editor, browse, has_display};
@@ -72,12 +72,12 @@ pub struct Settings {
     /// What opens lines of the script.
     pub editor: Option<Editor>,
     /// Is told what happens, from several threads.
-    pub tell: Box<dyn Fn(&Told) + Send + Sync>,
+    pub tell: Box<dyn Fn(&Notice) + Send + Sync>,
 }
 
 /// What the place is told where the server was started.
 #[derive(Debug, Clone)]
-pub enum Told {
+pub enum Notice {
     /// There is a new model.
     Model {
         /// Triangles that are seen.
@@ -126,7 +126,7 @@ impl Live {
         let watch = Watch::new(
             work::always(&state),
             move |change| seen.changed(&change),
-            move |why| complained.tell(&Told::Note(why.to_owned())),
+            move |why| complained.tell(&Notice::Note(why.to_owned())),
         )?;
         state.lock().post(Due { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&State) + Send>| {

@@ -5,11 +5,11 @@
 
 pub(crate) mod analysis;
 mod data;
-mod drawn;
 pub(crate) mod names;
 mod options;
 mod param;
 pub(crate) mod paths;
+mod positions;
 mod preset;
 mod session;
 

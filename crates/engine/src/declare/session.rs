@@ -10,9 +10,9 @@ use rustc_hash::FxHashMap;
 
 use super::analysis::{Analysis, Globals, Reading, has_metatables};
 use super::data::Data;
-use super::drawn::Drawn;
 use super::options::RunOptions;
 use super::param::Param;
+use super::positions::RandomPositions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
@@ -92,7 +92,7 @@ pub struct Session {
     /// The data files that were read.
     pub(crate) data: Data,
     /// How far its random numbers have got.
-    pub(crate) drawn: Drawn,
+    pub(crate) drawn: RandomPositions,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
     /// The main file while it is read ahead, and its path.
@@ -125,7 +125,7 @@ impl Session {
             root,
             data_roots,
             data: Data::default(),
-            drawn: Drawn::default(),
+            drawn: RandomPositions::default(),
             stdlib,
             sources: Mutex::default(),
             ahead: Mutex::default(),
@@ -233,9 +233,9 @@ impl Session {
     }
 
     /// Whether the functions that begin in a line of a file leave nothing behind.
-    pub(crate) fn is_quiet(&self, file: &str, line: usize) -> bool {
+    pub(crate) fn is_pure(&self, file: &str, line: usize) -> bool {
         !self.metatables.load(Ordering::Acquire)
-            && self.source_called(file).is_some_and(|source| source.analysis.quiet.contains(&line))
+            && self.source_called(file).is_some_and(|source| source.analysis.pure.contains(&line))
     }
 
     /// Whether the functions that begin in a line of a file do not look at their first parameter.

@@ -4,7 +4,7 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::interpret::Interpreting;
+use super::interpret::InterpretationPass;
 use super::plan::{Derivation, Plan};
 use super::rewriter::SystemRewriter;
 use super::step::Stepper;
@@ -18,7 +18,7 @@ use burgeon_kit::Object;
 use burgeon_kit::rules::Chain;
 
 /// How a derivation has ended.
-pub(super) enum Ended {
+pub(super) enum Ending {
     /// With a system as the script asked for it.
     Derived(Derived),
     /// With the lineage that the options of the run ask for.
@@ -31,7 +31,7 @@ pub(super) fn lead(
     threads: &ThreadPool,
     index: usize,
     steps: Option<usize>,
-) -> Result<Ended> {
+) -> Result<Ending> {
     let mut derivation = Derivation::plan(machine, index, steps)?;
     let chain = std::mem::take(&mut derivation.axiom.chain);
     let grown = Growth::new(machine, threads, &derivation).grow(chain)?;
@@ -54,7 +54,7 @@ struct Growth<'a> {
 }
 
 /// What the steps of a derivation gave.
-struct Grown {
+struct Steps {
     chain: Chain,
     done: usize,
     times: Times,
@@ -80,7 +80,7 @@ impl<'a> Growth<'a> {
     }
 
     /// Makes steps from the first `chain` on, until nothing can change or there have been enough.
-    fn grow(mut self, mut chain: Chain) -> Result<Grown> {
+    fn grow(mut self, mut chain: Chain) -> Result<Steps> {
         let (derivation, session) = (self.derivation, &self.machine.session);
         let plan = &derivation.plan;
         chain.mark(plan.batch, plan.grammar.arities());
@@ -115,7 +115,7 @@ impl<'a> Growth<'a> {
         }
         let said = self.said;
         self.first.retain(|warning| said.iter().all(|later| later.message() != warning.message()));
-        Ok(Grown {
+        Ok(Steps {
             chain,
             done,
             times: self.times,
@@ -152,7 +152,7 @@ impl<'a> Growth<'a> {
         }
         let threads = (self.machine, self.threads);
         let chain =
-            Interpreting::pass(threads, plan, chain, step, &mut self.interpretations, &mut self.said)?;
+            InterpretationPass::pass(threads, plan, chain, step, &mut self.interpretations, &mut self.said)?;
         plan.expand(&self.rewriter, &mut self.said)?;
         self.times.interpretation += begin.elapsed();
         Ok(chain)
@@ -168,7 +168,7 @@ struct Change {
 }
 
 /// Takes leave of the machine: tells what is to be told, and gives the objects to who looks at them.
-fn settle(machine: &Machine, derivation: Derivation, grown: Grown) -> Result<Ended> {
+fn settle(machine: &Machine, derivation: Derivation, grown: Steps) -> Result<Ending> {
     let session = &machine.session;
     let Derivation { mut axiom, plan, declared, traced, place, axiom_place, draws, .. } = derivation;
     for warning in grown.warnings {
@@ -195,7 +195,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: Grown) -> Result<End
         let drawn = objects.into_owned().into_iter();
         trace.makers = drawn.map(|(mut object, _)| object.drawing_mut()?.take_makers()).collect();
         (trace.steps, trace.chain) = (grown.steps, grown.chain);
-        return Ok(Ended::Traced(trace));
+        return Ok(Ending::Traced(trace));
     }
     let objects = match objects {
         Some(objects) => {
@@ -221,7 +221,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: Grown) -> Result<End
     );
     (derived.given, derived.remarks, derived.undrawn) = (axiom.given, axiom.remarks, undrawn);
     derived.draws = draws;
-    Ok(Ended::Derived(derived))
+    Ok(Ending::Derived(derived))
 }
 
 /// The objects as they are after the last pass, and what is to be remarked on them. Fails if all of them have failed.

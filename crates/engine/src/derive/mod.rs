@@ -19,6 +19,6 @@ mod splice;
 mod step;
 mod threads;
 
-use lead::{Ended, lead};
+use lead::{Ending, lead};
 use plan::Plan;
 pub(crate) use threads::ThreadPool;

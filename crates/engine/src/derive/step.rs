@@ -16,7 +16,7 @@ use burgeon_kit::rules::{Chain, Links, Mark};
 const MANY: usize = 16;
 
 /// The work of one step, shared by the threads.
-pub(crate) struct Rewriting {
+pub(crate) struct RewritingStep {
     pub plan: Arc<Plan>,
     pub chain: Chain,
     pub links: Links,
@@ -31,7 +31,7 @@ pub(crate) struct Rewriting {
     ready: Condvar,
 }
 
-impl Rewriting {
+impl RewritingStep {
     /// Takes a piece and rewrites it; `false` when none is left.
     pub(crate) fn work(&self, machine: &Machine, declared: &Declared, scratch: &mut Scratch) -> bool {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
@@ -131,7 +131,7 @@ impl Stepper {
         machine.enter(self.plan.system)?;
         machine.refresh();
         machine.current.objects.replace(self.plan.objects.clone());
-        let rewriting = Arc::new(Rewriting {
+        let rewriting = Arc::new(RewritingStep {
             plan: Arc::clone(&self.plan),
             chain,
             links: std::mem::take(&mut self.links),
@@ -164,7 +164,7 @@ impl Stepper {
     }
 
     /// Works on pieces and puts the results together as they come, in order.
-    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &Rewriting) -> Result<Merged> {
+    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &RewritingStep) -> Result<Merged> {
         let limit = machine.session.options.limits.modules;
         let made = &mut self.spare;
         made.clear();

@@ -11,9 +11,9 @@ use std::time::{Duration, Instant};
 use rustc_hash::FxHashMap;
 
 use super::batch::Scratch;
-use super::interpret::Interpreting;
-use super::step::Rewriting;
-use super::{Ended, lead};
+use super::interpret::InterpretationPass;
+use super::step::RewritingStep;
+use super::{Ending, lead};
 use crate::declare::Session;
 use crate::machine::{Declared, Driver, Machine, Watchdog};
 use crate::results::{Derived, Trace};
@@ -23,8 +23,8 @@ use burgeon_kit::Prefetch;
 /// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
 #[derive(Clone)]
 pub(crate) enum Job {
-    Rewrite(Weak<Rewriting>),
-    Interpret(Weak<Interpreting>),
+    Rewrite(Weak<RewritingStep>),
+    Interpret(Weak<InterpretationPass>),
     Prefetch(Weak<dyn Prefetch>),
 }
 
@@ -161,8 +161,8 @@ impl Driver for ThreadPool {
             return Ok(derived);
         }
         let derived = lead(machine, self, index, steps).and_then(|ended| match ended {
-            Ended::Derived(derived) => Ok(Arc::new(derived)),
-            Ended::Traced(trace) => {
+            Ending::Derived(derived) => Ok(Arc::new(derived)),
+            Ending::Traced(trace) => {
                 self.trace.replace(Some(trace));
                 // Nobody wants to know what else the script does.
                 Err(Error::stopped("the traced system is derived"))

@@ -353,7 +353,7 @@ fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symb
 }
 
 fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
-    if lua.app_data_ref::<Quiet>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
+    if lua.app_data_ref::<Silence>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
@@ -364,4 +364,4 @@ fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
 
 /// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
 /// function that tells whether the top level is running.
-pub(crate) struct Quiet(pub Function);
+pub(crate) struct Silence(pub Function);

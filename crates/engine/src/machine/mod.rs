@@ -1,6 +1,6 @@
 //! A virtual machine: a sandboxed Luau with the hot path's Lua side, one in each thread.
 
-mod begun;
+mod blank;
 mod convert;
 mod current;
 mod driver;
@@ -15,7 +15,7 @@ mod require;
 mod system;
 mod watchdog;
 
-pub use begun::make_ready;
+pub use blank::make_ready;
 pub(crate) use current::{Current, Flusher};
 pub(crate) use driver::Driver;
 pub(crate) use handles::Objects;
@@ -32,11 +32,11 @@ use mlua::chunk::{ChunkMode, Compiler};
 use mlua::{Buffer, Function, Lua, Value};
 
 use crate::declare::Session;
-use begun::Begun;
+use blank::BlankMachine;
 use burgeon_base::error::{Error, ErrorKind, Limit, Place, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Symbol, Symbols};
-use library::{Library, Quiet};
+use library::{Library, Silence};
 use prelude::Prelude;
 use system::tell_unseen;
 
@@ -72,7 +72,7 @@ impl Machine {
         driver: Rc<dyn Driver>,
     ) -> Result<Rc<Self>> {
         let build = || -> mlua::Result<Rc<Self>> {
-            let Begun { lua, prelude } = Begun::take()?;
+            let BlankMachine { lua, prelude } = BlankMachine::take()?;
             let guard = watchdog.register(&lua);
             let current = Rc::new(Current::new(Arc::clone(session)));
             let library = Rc::new(Library::default());
@@ -136,7 +136,7 @@ impl Machine {
 
     /// Keeps the script from printing, since another machine runs it too.
     pub(crate) fn silence(&self) {
-        self.lua.set_app_data(Quiet(self.prelude.phase.clone()));
+        self.lua.set_app_data(Silence(self.prelude.phase.clone()));
     }
 
     /// Empties the caches of parameters if some of them have been dropped.

@@ -8,7 +8,7 @@
 mod expressions;
 mod peeks;
 mod prepare;
-mod quiet;
+mod pure;
 mod syntax;
 mod walk;
 
@@ -24,7 +24,7 @@ use rustc_hash::FxHashMap;
 use burgeon_base::error::{Error, Limit, Place};
 use burgeon_kit::rules::Signature;
 pub(crate) use peeks::peeks;
-pub(crate) use quiet::has_metatables;
+pub(crate) use pure::has_metatables;
 use walk::{Facts, Walk};
 
 /// What a script may use without declaring it.
@@ -50,7 +50,7 @@ pub(crate) struct Analysis {
     /// Whether the script names `random`.
     pub random: bool,
     /// The lines on which functions begin that leave nothing behind.
-    pub quiet: Vec<usize>,
+    pub pure: Vec<usize>,
     /// The lines on which functions begin that do not look at their first parameter, a rule's `this`.
     pub blind: Vec<usize>,
     /// By the line on which an interpretation begins: where it returns modules.
@@ -146,14 +146,14 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, quiet, mut blind, lost, begins, .. } = second;
+    let Walk { mut edits, mut problems, random, pure, mut blind, lost, begins, .. } = second;
     // Luau knows functions by the line of their first word, which is then another.
     let is_apart =
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
     if begins.iter().any(is_apart) {
         blind.clear();
     }
-    let quiet = quiet.into_iter().filter_map(|(line, quiet)| quiet.then_some(line)).collect();
+    let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     // What is put before a token comes before what replaces it.
@@ -169,7 +169,7 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
         at = edit.end;
     }
     out.push_str(&text[at..]);
-    Analysis { text: out, problems, random, quiet, blind, lost }
+    Analysis { text: out, problems, random, pure, blind, lost }
 }
 
 #[cfg(test)]

@@ -139,10 +139,10 @@ impl Walk<'_> {
         }
         self.block(body.block());
         self.variables.truncate(outside);
-        let nothing = Function { quiet: false, asks: true, ..Function::new(role, None) };
+        let nothing = Function { pure: false, asks: true, ..Function::new(role, None) };
         let function = self.functions.pop().unwrap_or(nothing);
         if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
-            *self.quiet.entry(begin.line()).or_insert(true) &= function.quiet;
+            *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
             *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
             if let Some(line) = function.loses {
                 self.lost.insert(begin.line(), line);

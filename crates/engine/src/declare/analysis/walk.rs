@@ -23,7 +23,7 @@ pub(super) struct Fact {
     pub(super) assigned: bool,
     pub(super) assigned_inside: bool,
     /// Whether it is a function that leaves nothing behind.
-    pub(super) quiet: bool,
+    pub(super) pure: bool,
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -42,7 +42,7 @@ pub(super) struct Function {
     /// What its prepared returns make, as Lua tables.
     pub(super) shapes: Vec<String>,
     /// Whether it has left nothing behind so far.
-    pub(super) quiet: bool,
+    pub(super) pure: bool,
     /// Whether it has looked at its first parameter so far.
     pub(super) asks: bool,
     /// The first of its returns that gives modules, where nobody takes them.
@@ -51,7 +51,7 @@ pub(super) struct Function {
 
 impl Function {
     pub(super) fn new(role: Role, rule: Option<String>) -> Self {
-        Self { role, rule, shapes: Vec::new(), quiet: true, asks: false, loses: None }
+        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None }
     }
 }
 
@@ -90,7 +90,7 @@ pub(super) struct Walk<'a> {
     /// Whether the next function is that of an axiom.
     pub(super) axiom: bool,
     /// By line: whether all functions that begin there leave nothing behind.
-    pub(super) quiet: BTreeMap<usize, bool>,
+    pub(super) pure: BTreeMap<usize, bool>,
     /// By line: whether no function that begins there looks at its first parameter.
     pub(super) blind: BTreeMap<usize, bool>,
     /// By line: where an interpretation that begins there returns modules.
@@ -106,14 +106,14 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { quiet: false, ..Function::new(Role::Script, None) }],
+            functions: vec![Function { pure: false, ..Function::new(Role::Script, None) }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
             random: false,
             rule: None,
             axiom: false,
-            quiet: BTreeMap::new(),
+            pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             lost: BTreeMap::new(),
             begins: Vec::new(),
@@ -165,7 +165,7 @@ impl<'a> Walk<'a> {
                     if names.len() == 1 && declaration.name().method_name().is_none() {
                         self.assign_name(first.value(), statement);
                     } else {
-                        self.loud_from(1);
+                        self.impure_from(1);
                         self.read(first.value());
                     }
                 }
@@ -224,7 +224,7 @@ impl<'a> Walk<'a> {
 
     pub(super) fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
         let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
-        self.facts.variables[id].quiet = self.walk_function(body, Role::Other, false).quiet;
+        self.facts.variables[id].pure = self.walk_function(body, Role::Other, false).pure;
     }
 
     pub(super) fn local(
@@ -316,7 +316,7 @@ impl<'a> Walk<'a> {
             });
             return;
         };
-        self.loud_from(owner + 1);
+        self.impure_from(owner + 1);
         let fact = &mut self.facts.variables[id];
         fact.assigned = true;
         fact.assigned_inside |= owner < here;

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use mlua::Buffer;
 
-use super::Interpreting;
+use super::InterpretationPass;
 use super::notices::Notice;
 use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules};
 use burgeon_base::error::{Error, Result};
@@ -15,7 +15,7 @@ use burgeon_kit::{Call, Kind, Object, Value};
 
 /// Where a piece of the chain has been applied up to.
 pub(crate) struct Applier {
-    pass: Arc<Interpreting>,
+    pass: Arc<InterpretationPass>,
     objects: Arc<Objects>,
     kind: Arc<Kind>,
     values: Arc<Values>,
@@ -60,7 +60,7 @@ enum Reached {
 }
 
 impl Applier {
-    pub(crate) fn new(pass: Arc<Interpreting>, machine: &Machine, begin: Mark) -> Result<Self> {
+    pub(crate) fn new(pass: Arc<InterpretationPass>, machine: &Machine, begin: Mark) -> Result<Self> {
         let missing = || Error::script("the system has no object");
         let objects = pass.plan.objects.clone().ok_or_else(missing)?;
         let kind = objects.read(begin.chain, |object| Ok(Arc::clone(object.kind())))?;
@@ -220,7 +220,7 @@ impl Applier {
     #[inline]
     fn symbols(
         &mut self,
-        pass: &Interpreting,
+        pass: &InterpretationPass,
         object: &mut dyn Object,
         failed: bool,
         until: usize,
@@ -263,7 +263,7 @@ impl Applier {
 
     /// Applies the calls of the entry `next` that have been read.
     #[inline]
-    fn calls(&mut self, pass: &Interpreting, object: &mut dyn Object, failed: bool) -> Result<()> {
+    fn calls(&mut self, pass: &InterpretationPass, object: &mut dyn Object, failed: bool) -> Result<()> {
         let end = self.ends.get(self.next).map_or(self.calls.len(), |end| *end as usize);
         if failed {
             self.number_at += self.arguments_of(self.call_at..end);

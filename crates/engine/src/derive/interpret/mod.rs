@@ -32,7 +32,7 @@ const ENTRIES: usize = 4096;
 const DEALT: usize = 64;
 
 /// One pass over all chains, shared by the threads.
-pub(crate) struct Interpreting {
+pub(crate) struct InterpretationPass {
     pub plan: Arc<Plan>,
     pub chain: Chain,
     pub step: usize,
@@ -45,7 +45,7 @@ pub(crate) struct Interpreting {
     notices: Notices,
 }
 
-impl Interpreting {
+impl InterpretationPass {
     /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
     /// `said` what the objects warned of.
     pub(crate) fn pass(

@@ -48,13 +48,13 @@ impl System {
     /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes, unless it
     /// can be seen to change nothing but the random numbers that follow, which [`System::catch_up`] sets right.
     pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
-        let is_quiet = |function: &Function| {
+        let is_pure = |function: &Function| {
             let info = function.info();
             let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
-            file.zip(info.line_defined).is_some_and(|(file, line)| machine.session.is_quiet(file, line))
+            file.zip(info.line_defined).is_some_and(|(file, line)| machine.session.is_pure(file, line))
         };
         match &self.axiom {
-            Some(DeclaredAxiom::Source(_, function)) if is_quiet(function) => Ok(()),
+            Some(DeclaredAxiom::Source(_, function)) if is_pure(function) => Ok(()),
             Some(DeclaredAxiom::Source(..)) => self.axiom(machine, Key::default(), false).map(|_| ()),
             _ => Ok(()),
         }
@@ -191,12 +191,12 @@ impl System {
 
 impl System {
     /// Has what the system's objects need of many features made by a thread that helps, if there is one.
-    fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<Prefetching>> {
+    fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<PrefetchGuard>> {
         let begin = self.object.as_ref().and_then(|object| object.kind().prefetch);
         let begin = begin.filter(|_| !machine.session.options.check);
         let layer = layer_of(source).filter(|layer| layer.features.len() >= MANY);
         let (Some(begin), Some(layer)) = (begin, layer) else { return Ok(None) };
-        let prefetching = Prefetching(begin(&layer));
+        let prefetching = PrefetchGuard(begin(&layer));
         machine.driver.prefetch(machine, &prefetching.0)?;
         Ok(Some(prefetching))
     }
@@ -206,9 +206,9 @@ impl System {
 const MANY: usize = 256;
 
 /// A prefetch that lasts for as long as features are gone through.
-struct Prefetching(Arc<dyn Prefetch>);
+struct PrefetchGuard(Arc<dyn Prefetch>);
 
-impl Drop for Prefetching {
+impl Drop for PrefetchGuard {
     fn drop(&mut self) {
         self.0.end();
     }

@@ -48,7 +48,7 @@ pub(crate) struct System {
     pub(super) ignored: Vec<Symbol>,
     pub(super) considered: Option<Vec<Symbol>>,
     /// Each time that it was derived.
-    pub(super) derivations: RefCell<Vec<Derivation>>,
+    pub(super) derivations: RefCell<Vec<DerivationRecord>>,
     /// What was declared since it was derived last, and where.
     pub(super) late: RefCell<Vec<(&'static str, Option<Place>)>>,
     /// Whether its axiom was set since it was derived last.
@@ -58,7 +58,7 @@ pub(crate) struct System {
 }
 
 /// A time that a system was derived.
-pub(super) struct Derivation {
+pub(super) struct DerivationRecord {
     pub(super) place: Option<Place>,
     /// Its number among those of the script.
     pub(super) number: usize,

@@ -12,12 +12,12 @@ use burgeon_base::error::Place;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
 
-use super::{Derivation, System};
+use super::{DerivationRecord, System};
 
 impl System {
     /// Notes that the system is derived from now on, with all that has been declared.
     pub(crate) fn note_derivation(&self, machine: &Machine) {
-        self.derivations.borrow_mut().push(Derivation {
+        self.derivations.borrow_mut().push(DerivationRecord {
             place: Machine::place(machine.lua()),
             number: machine.driver.count(),
             axiom_is_new: self.axiom_is_new.take(),
@@ -246,11 +246,11 @@ fn tell_derived_twice<'a>(
     system: &System,
     derived: impl Fn(usize) -> Option<&'a std::sync::Arc<Derived>>,
 ) {
-    let is_seen = |derivation: &Derivation| {
+    let is_seen = |derivation: &DerivationRecord| {
         derived(derivation.number).is_some_and(|derived| !derived.is_placed() && !derived.objects.is_empty())
     };
     let derivations = system.derivations.borrow();
-    let mut seen: Option<&Derivation> = None;
+    let mut seen: Option<&DerivationRecord> = None;
     for derivation in derivations.iter() {
         if derivation.axiom_is_new {
             seen = None;
