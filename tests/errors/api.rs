@@ -97,6 +97,24 @@ fn a_field_or_a_method_is_told_by_itself() {
     extruder.heading: Vector = vec(0, 0, 1)
       The direction of extruding at first.
     ");
+    assert_snapshot!(api(&["terrain.water"]), @r#"
+    terrain.water: number | { level: number?, color: Color?, shallow: Color?, clarity: number? }?
+      Standing water: its level (m), or more of it.
+
+    Fields of its table
+      level: number = 0
+          The height (m) of its surface.
+      color: Color = "#163c4d"
+          Its colour where it is deep.
+      shallow: Color = "#4b7373"
+          Its colour at the shore.
+      clarity: number = 8
+          How deep (m) one sees into it.
+    "#);
+    assert_snapshot!(api(&["footprint:roof.details.every"]), @r"
+    footprint:roof.details.every: number?
+      Distance between two along the line (m); one in the middle if left out.
+    ");
     assert_snapshot!(api(&["lerp"]), @r"
     lerp(a: number, b: number, t: number) -> number
       From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
@@ -122,6 +140,10 @@ fn a_name_that_there_is_not_is_likely_another() {
     assert_snapshot!(failed("extruder:window"), @r"
     error: extruder has no field or method called window
       help: it has advance, along, around, bend, caps, color, direction, distance, extrude, heading, jump, material, metallic, open_edges, pitch, polygon, position, rectangle, regular, resolution, roll, roughness, scale, shape, shift, sides, smooth, star, taper, turn, twist
+    ");
+    assert_snapshot!(failed("footprint:roof.detail"), @r"
+    error: footprint:roof has no field or method called detail
+      help: did you mean details?
     ");
     assert_snapshot!(failed("roof"), @r"
     error: scripts have nothing called roof

@@ -73,6 +73,8 @@ pub struct Field {
     pub luau: String,
     /// Its unit, if it has one, such as "m".
     pub unit: Option<Text>,
+    /// What it may have itself, where it is a table of named fields.
+    pub fields: Vec<Field>,
     /// The value where it is left out, as one would write it.
     pub default: String,
 }
@@ -101,6 +103,8 @@ pub struct Argument {
     pub luau: String,
     /// Its unit, if it has one, such as "m".
     pub unit: Option<Text>,
+    /// What it may have itself, where it is a table of named fields.
+    pub fields: Vec<Field>,
 }
 
 /// Calls a method by itself.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Boxed, Key, Object, Table, Value, colors};
+use super::{Boxed, Field, Key, Object, Table, Value, colors};
 use burgeon_base::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
@@ -79,6 +79,11 @@ pub trait Parameter: Sized {
 
     /// Its name in Luau's type language.
     fn luau() -> String;
+
+    /// What it may have, where it is a table of named fields or a list of such.
+    fn fields() -> Vec<Field> {
+        Vec::new()
+    }
 
     /// Reads a script's value.
     fn from_value(value: Value) -> Result<Self, Expected>;
@@ -255,6 +260,10 @@ impl<T: Parameter> Parameter for Option<T> {
         format!("{}?", T::luau())
     }
 
+    fn fields() -> Vec<Field> {
+        T::fields()
+    }
+
     fn from_value(value: Value) -> Result<Self, Expected> {
         match value {
             Value::Nil => Ok(None),
@@ -326,6 +335,10 @@ impl Parameter for Arc<Table> {
 impl<T: Parameter> Parameter for Vec<T> {
     fn luau() -> String {
         format!("{{ {} }}", T::luau())
+    }
+
+    fn fields() -> Vec<Field> {
+        T::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {

@@ -102,6 +102,16 @@ fn reading(declared: &Declared, table: &ItemStruct) -> Result<TokenStream> {
                 ::std::result::Result::Ok(options)
             }
         }
+
+        impl #kit::Fields for #options {
+            fn list() -> ::std::vec::Vec<#kit::Field> {
+                Self::fields()
+            }
+
+            fn read(table: &#kit::Table) -> #kit::Result<Self> {
+                Self::from_table(table)
+            }
+        }
     })
 }
 
@@ -159,6 +169,7 @@ impl<'a> Declaration<'a> {
                 doc: #doc.into(),
                 luau: #luau,
                 unit: #unit,
+                fields: <#of as #kit::Parameter>::fields(),
                 default: {
                     let value: #of = #default;
                     #kit::Parameter::written(value)

@@ -110,7 +110,12 @@ impl<'a> Method<'a> {
             let name = argument.to_string();
             let unit = option(doc::unit_of(doc, &name));
             let luau = quote_spanned! { at(of) => <#of as #kit::Parameter>::luau() };
-            quote! { #kit::Argument { name: #name.into(), luau: #luau, unit: #unit } }
+            quote! { #kit::Argument {
+                name: #name.into(),
+                luau: #luau,
+                unit: #unit,
+                fields: <#of as #kit::Parameter>::fields(),
+            } }
         });
         let returns = match self.returns {
             Some(returns) => quote_spanned! { at(returns) => <#returns as #kit::Answer>::luau() },

@@ -1,7 +1,7 @@
 //! `material { ... }`: how scripts say what a surface looks like.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Color, Parameter, Table, Value, fields};
+use burgeon_kit::{Color, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 
 /// What a texture is multiplied with.
@@ -38,6 +38,10 @@ pub struct Surface {
 impl Parameter for Surface {
     fn luau() -> String {
         "Material".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, burgeon_kit::Expected> {

@@ -43,6 +43,8 @@ pub(super) struct Member {
     pub default: String,
     pub unit: Option<String>,
     pub doc: String,
+    /// What the table may have that it is or takes.
+    pub fields: Vec<Member>,
 }
 
 /// What a member is.
@@ -110,9 +112,9 @@ impl Entry {
     }
 
     pub(super) fn to_json(&self) -> Value {
-        let fields: Vec<_> = self.members(What::Field).map(|field| field.to_json(self)).collect();
+        let fields: Vec<_> = self.members(What::Field).map(|field| field.to_json(&self.name)).collect();
         let methods: Vec<_> = self.members.iter().filter(|member| member.what != What::Field).collect();
-        let methods: Vec<_> = methods.into_iter().map(|method| method.to_json(self)).collect();
+        let methods: Vec<_> = methods.into_iter().map(|method| method.to_json(&self.name)).collect();
         let what = match self.group {
             Group::Type => "type",
             Group::Global if self.usage.contains('(') => "function",
@@ -138,6 +140,7 @@ impl Member {
             default: field.default.clone(),
             unit: field.unit.as_ref().map(ToString::to_string),
             doc: field.doc.to_string(),
+            fields: field.fields.iter().map(Self::of_field).collect(),
         }
     }
 
@@ -150,6 +153,7 @@ impl Member {
             default: part.default.to_owned(),
             unit: part.unit.map(str::to_owned),
             doc: part.doc.to_owned(),
+            fields: Vec::new(),
         }
     }
 
@@ -167,13 +171,14 @@ impl Member {
             default: String::new(),
             unit: None,
             doc: method.doc.to_string(),
+            fields: method.arguments.iter().flat_map(|it| &it.fields).map(Self::of_field).collect(),
         }
     }
 
-    /// Its name with that of its owner, as `burgeon api` takes it.
-    pub(super) fn full_name(&self, owner: &Entry) -> String {
+    /// Its name after that of its `owner`, as `burgeon api` takes it.
+    pub(super) fn full_name(&self, owner: &str) -> String {
         let separator = if self.what == What::Field { '.' } else { ':' };
-        format!("{}{separator}{}", owner.name, self.name)
+        format!("{owner}{separator}{}", self.name)
     }
 
     /// How it is written, without the owner.
@@ -192,16 +197,18 @@ impl Member {
         }
     }
 
-    pub(super) fn to_json(&self, owner: &Entry) -> Value {
+    /// What machines are told; `owner` is what has it.
+    pub(super) fn to_json(&self, owner: &str) -> Value {
+        let fields: Vec<_> = self.fields.iter().map(|field| field.to_json(&self.full_name(owner))).collect();
         if self.what == What::Field {
             return json!({
-                "name": self.name, "what": "field", "of": owner.name, "type": self.luau, "unit": self.unit,
-                "default": self.default, "doc": self.doc,
+                "name": self.name, "what": "field", "of": owner, "type": self.luau, "unit": self.unit,
+                "default": self.default, "doc": self.doc, "fields": fields,
             });
         }
         if self.what == What::Declares {
             return json!({
-                "name": self.name, "what": "method", "of": owner.name, "type": self.luau, "doc": self.doc,
+                "name": self.name, "what": "method", "of": owner, "type": self.luau, "doc": self.doc,
             });
         }
         let arguments: Vec<_> = self
@@ -210,8 +217,8 @@ impl Member {
             .map(|argument| json!({ "name": argument.name, "type": argument.luau, "unit": argument.unit }))
             .collect();
         json!({
-            "name": self.name, "what": "method", "of": owner.name, "changes": self.what == What::Changes,
-            "arguments": arguments, "returns": self.luau, "doc": self.doc,
+            "name": self.name, "what": "method", "of": owner, "changes": self.what == What::Changes,
+            "arguments": arguments, "returns": self.luau, "doc": self.doc, "fields": fields,
         })
     }
 }

@@ -8,7 +8,7 @@ use super::entry::{Entry, Group, Member, What};
 const WIDTH: usize = 100;
 
 /// All names, each with the first sentence of its doc.
-pub(super) fn list(entries: &[&Entry]) -> String {
+pub(super) fn list(entries: &[Entry]) -> String {
     let mut text = String::new();
     for (group, title) in [
         (Group::Type, "Types of objects"),
@@ -45,8 +45,7 @@ pub(super) fn entry(entry: &Entry) -> String {
             if index == 0 {
                 let _ = writeln!(text, "\n{title}");
             }
-            let _ = writeln!(text, "  {}", member.usage());
-            wrap(&mut text, &member.doc, 6);
+            brief(&mut text, &entry.name, member);
         }
     }
     if !entry.example.is_empty() {
@@ -58,18 +57,32 @@ pub(super) fn entry(entry: &Entry) -> String {
     text
 }
 
-/// A field or a method by itself.
-pub(super) fn member(owner: &Entry, member: &Member) -> String {
+/// A field or a method by itself; `owner` is what has it.
+pub(super) fn member(owner: &str, member: &Member) -> String {
     let separator = if member.what == What::Field { '.' } else { ':' };
-    let mut text = format!("{}{separator}{}\n", owner.name, member.usage());
+    let mut text = format!("{owner}{separator}{}\n", member.usage());
     wrap(&mut text, &member.doc, 2);
-    let may = match member.what {
-        What::Field | What::Declares => return text,
-        What::Reads => "It only reads: rules and interpretations may call it.",
-        What::Changes => "It changes the object: only interpretations may call it.",
-    };
-    wrap(&mut text, may, 2);
+    match member.what {
+        What::Field | What::Declares => {}
+        What::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
+        What::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
+    }
+    for (index, field) in member.fields.iter().enumerate() {
+        if index == 0 {
+            text.push_str("\nFields of its table\n");
+        }
+        brief(&mut text, &member.full_name(owner), field);
+    }
     text
+}
+
+/// A member among others, and how to be told what its table may have.
+fn brief(text: &mut String, owner: &str, member: &Member) {
+    let _ = writeln!(text, "  {}", member.usage());
+    wrap(text, &member.doc, 6);
+    if !member.fields.is_empty() {
+        let _ = writeln!(text, "      Its fields: burgeon api {}", member.full_name(owner));
+    }
 }
 
 /// The first sentence of a doc.

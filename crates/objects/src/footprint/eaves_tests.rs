@@ -51,9 +51,9 @@ fn house(walls: &[Table], roof: &[(&str, Value)]) -> Footprint {
     let mut house = on(rectangle(DVec2::ZERO, DVec2::new(10.0, 6.0), DVec2::X), 0.0);
     house.begin();
     for walls in walls {
-        house.walls(Some(Arc::new(walls.clone()))).expect("walls");
+        house.walls(Some(Arc::new(walls.clone()).into())).expect("walls");
     }
-    house.roof(Some(Arc::new(table(roof)))).expect("a roof");
+    house.roof(Some(Arc::new(table(roof)).into())).expect("a roof");
     house
 }
 
@@ -155,7 +155,7 @@ fn eaves_do_not_cut_into_neighbours_that_are_as_high_or_higher() {
             let (kind, eaves) =
                 (["hip", "gable", "shed", "mansard"][round % 4], ["open", "closed"][round / 4 % 2]);
             let roof = [("kind", text(kind)), ("eaves", text(eaves)), ("overhang", number(overhang))];
-            house.roof(Some(Arc::new(table(&roof)))).expect("a roof");
+            house.roof(Some(Arc::new(table(&roof)).into())).expect("a roof");
             let mut furthest = 0.0f64;
             for part in house.drawing.parts() {
                 for corners in &part.triangles {
@@ -205,7 +205,7 @@ fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
         house.begin();
         house.walls(None).expect("walls");
         let roof = [("kind", text("hip")), ("overhang", number(0.6))];
-        house.roof(Some(Arc::new(table(&roof)))).expect("a roof");
+        house.roof(Some(Arc::new(table(&roof)).into())).expect("a roof");
         house.notes.iter().map(|note| format!("{}: {}", note.what, note.why)).collect::<Vec<_>>()
     };
     assert_eq!(notes(&[&angle]), [""; 0]);

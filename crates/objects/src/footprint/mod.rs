@@ -22,7 +22,7 @@ use burgeon_data::Geometry;
 use burgeon_geometry::Plan;
 use burgeon_kit::{
     Color, Draw, Drawing, Expected, Kind, LevelOfDetail, Note, Object, Parameter, Report, Shape, Table,
-    Value, Vector, fields, methods,
+    TableOf, Value, Vector, fields, methods,
 };
 use burgeon_scene::Material;
 pub use edges::EdgeKeywords;
@@ -175,14 +175,14 @@ impl Footprint {
     }
 
     /// Raises walls: { height, templates, photo, color, material, expand }.
-    pub fn walls(&mut self, options: Option<Arc<Table>>) -> Result<()> {
-        let options = Walls::from_table(&options.unwrap_or_default())?;
+    pub fn walls(&mut self, options: Option<TableOf<Walls>>) -> Result<()> {
+        let options = options.unwrap_or_default().read()?;
         self.raise(&options)
     }
 
     /// Puts on the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
-    pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
-        let options = Roof::from_table(&options.unwrap_or_default())?;
+    pub fn roof(&mut self, options: Option<TableOf<Roof>>) -> Result<()> {
+        let options = options.unwrap_or_default().read()?;
         self.cover(&options)
     }
 

@@ -9,9 +9,9 @@ fn plan(rings: &[&[(f64, f64)]]) -> Rings {
     Rings(rings.iter().map(|ring| ring.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()).collect())
 }
 
-fn table(entries: &[(&str, Value)]) -> Option<Arc<Table>> {
+fn table<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
     let entries = entries.iter().map(|(name, value)| (burgeon_kit::Key::Name((*name).into()), value.clone()));
-    Some(Arc::new(Table { class: None, entries: entries.collect() }))
+    Some(Arc::new(Table { class: None, entries: entries.collect() }).into())
 }
 
 /// The volume (m³) of a building with walls of 3 m and this roof, after having checked that it is a solid.

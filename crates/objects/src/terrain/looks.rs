@@ -6,7 +6,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Expected, Parameter, Table, Value, fields};
+use burgeon_kit::{Color, Expected, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 use burgeon_terrain::{Ground, Tile};
 
@@ -28,6 +28,10 @@ pub struct Cover {
 impl Parameter for Cover {
     fn luau() -> String {
         "{ color: Color?, on: Mask?, amount: number? }".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {

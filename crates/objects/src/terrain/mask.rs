@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expected, Parameter, Table, Value, fields};
+use burgeon_kit::{Expected, Field, Parameter, Table, Value, fields};
 use burgeon_terrain::{Ground, World, octaves, octaves_around};
 
 /// Where a cover lies or plants grow.
@@ -36,6 +36,10 @@ impl Parameter for Mask {
     fn luau() -> String {
         "{ height: { number }?, slope: { number }?, curvature: { number }?, latitude: { number }?, symbols: { string }?, noise: number?, patches: number?, scale: number? }"
             .into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {

@@ -9,7 +9,7 @@ use super::mask::{Mask, Spot};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::Key;
-use burgeon_kit::{Drawing, Expected, Model, Parameter, Table, Value, fields};
+use burgeon_kit::{Drawing, Expected, Field, Model, Parameter, Table, Value, fields};
 use burgeon_terrain::Ground;
 
 /// A kind of model that is scattered over the ground.
@@ -36,6 +36,10 @@ const MOST: f64 = 5_000_000.0;
 impl Parameter for Plants {
     fn luau() -> String {
         "{ models: { Model }, density: number?, on: Mask?, size: { number }?, sink: number? }".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {

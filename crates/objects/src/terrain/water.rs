@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2};
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Expected, Parameter, Table, Value, fields};
+use burgeon_kit::{Color, Expected, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Normal, Part};
 use burgeon_terrain::{Ground, Tile};
 
@@ -29,6 +29,10 @@ pub struct Water {
 impl Parameter for Water {
     fn luau() -> String {
         "number | { level: number?, color: Color?, shallow: Color?, clarity: number? }".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {

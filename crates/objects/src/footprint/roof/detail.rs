@@ -7,7 +7,7 @@ use glam::{DAffine3, DMat3, DVec3};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::roof::{LineKind, Patch, PatchKind, lines, normal};
 use burgeon_kit::random::Stream;
-use burgeon_kit::{Expected, fields};
+use burgeon_kit::{Expected, Field, fields};
 use burgeon_kit::{Model, Parameter, Table, Value};
 
 /// One of the `details` of `footprint:roof { ... }`.
@@ -58,6 +58,10 @@ pub struct Detail {
 impl Parameter for Detail {
     fn luau() -> String {
         "{ [string]: any }".into()
+    }
+
+    fn fields() -> Vec<Field> {
+        Self::fields()
     }
 
     fn from_value(value: Value) -> Result<Self, Expected> {
