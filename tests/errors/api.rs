@@ -97,7 +97,7 @@ fn a_field_or_a_method_is_told_by_itself() {
     extruder.heading: Vector = vec(0, 0, 1)
       The direction of extruding at first.
     ");
-    assert_snapshot!(api(&["terrain.water"]), @r#"
+    assert_snapshot!(api(&["terrain.water"]), @r##"
     terrain.water: number | { level: number?, color: Color?, shallow: Color?, clarity: number? }?
       Standing water: its level (m), or more of it.
 
@@ -110,7 +110,7 @@ fn a_field_or_a_method_is_told_by_itself() {
           Its colour at the shore.
       clarity: number = 8
           How deep (m) one sees into it.
-    "#);
+    "##);
     assert_snapshot!(api(&["footprint:roof.details.every"]), @r"
     footprint:roof.details.every: number?
       Distance between two along the line (m); one in the middle if left out.
