@@ -40,7 +40,7 @@ fn without_pictures_whatever_makes_one_says_so_before_it_runs() {
     write("fails.lua", "error('it has run')");
     write(
         "ground.lua",
-        "lsystem({ object = terrain({ size = 100, levels = 3, covers = { { color = '#445522' }, { color = '#aaaaaa' } } }) }):derive()",
+        "lsystem({ object = terrain({ size = 100, levels = 3, start = 'A', rules = { A = { 'A', 'A', 'A', 'A', change = { 1, -1, 0.5, -0.5 }, decay = 0.5 } }, covers = { { color = '#445522' }, { color = '#aaaaaa' } } }) }):derive()",
     );
     let pictures = ("pictures", "pictures");
     assert_left_out(folder.path(), &["run", "fails.lua", "-o", "a.png"], pictures);
