@@ -14,7 +14,7 @@ use burgeon::geometry::{Plan, Polygon, Rings, solid};
 use burgeon::kit::{Call, Key, Parameter, Table, Value, rings};
 use burgeon::objects::Footprint;
 use burgeon::sources::{Layer, Source, Wanted};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, Vec3};
 
 #[allow(dead_code, reason = "the tests use the rest")]
 #[path = "../crates/geometry/src/skeleton/samples.rs"]

@@ -44,7 +44,7 @@ proptest! {
             prop_assert!(is_ring(&ring) && is_line(&ring.around()));
             prop_assert_eq!(ring.around().len(), ring.len() + 1);
             let sum = ring.area() + ring.clone().reversed().area();
-            prop_assert!(sum.abs() <= 1e-9 * ring.area().abs());
+            prop_assert!(sum.abs() <= 1e-12 * ring.length().powi(2));
             prop_assert_eq!(ring.clone().turned().reversed()[ring.len() - 1], ring[0]);
             prop_assert_eq!(ring.edges().count(), ring.len());
         }
