@@ -11,7 +11,7 @@ use burgeon::Budget;
 use burgeon::geometry::{Plan, Rings};
 use burgeon::kit::random::Stream;
 use burgeon::picture::Picture;
-use burgeon::script::{Limits, Options};
+use burgeon::script::{Limits, RunOptions};
 use burgeon::sources::{Layer, Source, Wanted};
 use glam::DVec3;
 
@@ -87,7 +87,7 @@ fn main() {
     damaged("models", &std::fs::read(path("made.glb")).unwrap(), 2000, |bytes| {
         std::fs::write(path("a.glb"), bytes).unwrap();
         let limits = Limits { time: Duration::from_secs(20), triangles: 100_000, ..Limits::default() };
-        burgeon::run(&path("read.lua"), Options { limits, ..burgeon::options() }).is_ok()
+        burgeon::run(&path("read.lua"), RunOptions { limits, ..burgeon::options() }).is_ok()
     });
 
     for count in [10_000, 40_000, 160_000] {

@@ -6,7 +6,7 @@
 
 use std::time::Duration;
 
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 use cpu_time::ThreadTime;
 
 const SCRIPT: &str = r#"
@@ -42,7 +42,7 @@ fn main() {
     let time = |script: &str| {
         std::fs::write(&path, script).expect("the temporary folder can be written to");
         let begin = ThreadTime::now();
-        let run = burgeon::run(&path, Options { threads: Some(1), ..burgeon::options() });
+        let run = burgeon::run(&path, RunOptions { threads: Some(1), ..burgeon::options() });
         (begin.elapsed().as_secs_f64(), run.expect("the tower grows").scene.triangles())
     };
     let unseen = time(TOWER);
@@ -67,7 +67,7 @@ fn tree() {
             };
             std::fs::write(&path, script).expect("the temporary folder can be written to");
             let begin = ThreadTime::now();
-            let run = burgeon::run(&path, Options { threads: Some(1), ..burgeon::options() });
+            let run = burgeon::run(&path, RunOptions { threads: Some(1), ..burgeon::options() });
             let run = run.expect("the tree grows");
             (begin.elapsed(), run.scene.triangles())
         };

@@ -7,7 +7,7 @@ use std::io::Write;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 use cpu_time::ThreadTime;
 
 struct Workload {
@@ -193,7 +193,7 @@ struct Measure {
 fn ours(workload: &Workload, threads: usize, steps: usize, times: usize) -> Measure {
     let path = write_script(workload, steps, times);
     let cpu = ThreadTime::now();
-    let run = burgeon::run(&path, Options { threads: Some(threads), seed: 7, ..burgeon::options() });
+    let run = burgeon::run(&path, RunOptions { threads: Some(threads), seed: 7, ..burgeon::options() });
     let run = run.expect("the workload runs");
     let cpu = cpu.elapsed();
     std::fs::remove_file(path).ok();

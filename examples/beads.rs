@@ -6,47 +6,47 @@ use std::path::PathBuf;
 use std::sync::{Arc, LazyLock};
 
 use burgeon::geometry::sphere;
-use burgeon::kit::{Color, Draw, Drawing, Kind, Object, Registry, Table};
+use burgeon::kit::{Color, Draw, Drawing, Kind, Object, Registry, Table, fields, methods};
 use burgeon::picture::Picture;
 use burgeon::scene::Material;
-use burgeon::script::Options as RunOptions;
+use burgeon::script::RunOptions;
 use burgeon::{Result, export};
 use glam::DVec3;
 
-burgeon::kit::fields! {
-    /// What `beads { ... }` takes.
-    pub struct Options for "beads" {
-        /// Radius of a bead (m).
-        pub radius: f64 = 0.5,
-        /// Colour of the beads.
-        pub color: Color = Color([0.6, 0.1, 0.1, 1.0]),
-    }
+/// What `beads { ... }` takes.
+#[fields("beads", crate = burgeon::kit)]
+pub struct BeadsOptions {
+    /// Radius of a bead (m).
+    #[default(0.5)]
+    pub radius: f64,
+    /// Colour of the beads.
+    #[default(Color([0.6, 0.1, 0.1, 1.0]))]
+    pub color: Color,
 }
 
 /// Balls on top of one another.
 #[derive(Clone)]
 pub struct Beads {
-    options: Options,
+    options: BeadsOptions,
     height: f64,
     drawing: Drawing,
 }
 
-burgeon::kit::methods! {
-    Beads = "beads" {
-        /// Adds a bead on top.
-        pub fn add(&mut self) -> Result<()> {
-            let radius = self.options.radius;
-            let material = Material { base_color: self.options.color.0, ..Material::default() };
-            let part = self.drawing.material(&material);
-            sphere(self.drawing.part(part), DVec3::Z * (self.height + radius), radius, 16)?;
-            self.height += 2.0 * radius;
-            Ok(())
-        }
+#[methods("beads", crate = burgeon::kit)]
+impl Beads {
+    /// Adds a bead on top.
+    pub fn add(&mut self) -> Result<()> {
+        let radius = self.options.radius;
+        let material = Material { base_color: self.options.color.0, ..Material::default() };
+        let part = self.drawing.material(&material);
+        sphere(self.drawing.part(part), DVec3::Z * (self.height + radius), radius, 16)?;
+        self.height += 2.0 * radius;
+        Ok(())
+    }
 
-        /// Height of the beads (m).
-        pub fn height(&self) -> f64 {
-            self.height
-        }
+    /// Height of the beads (m).
+    pub fn height(&self) -> f64 {
+        self.height
     }
 }
 
@@ -56,10 +56,10 @@ impl Beads {
         static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
             let kind = Kind::new("beads", "Balls on top of one another.");
             let make = |table: &Table| {
-                let options = Options::from_table(table)?;
+                let options = BeadsOptions::from_table(table)?;
                 Ok(Beads { options, height: 0.0, drawing: Drawing::default() })
             };
-            let kind = kind.made_of(Options::fields(), make).methods(Beads::methods());
+            let kind = kind.made_of(BeadsOptions::fields(), make).methods(Beads::methods());
             Arc::new(kind.begins_empty().draws::<Beads>())
         });
         &KIND

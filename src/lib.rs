@@ -10,14 +10,33 @@
 //!                                                    └────── geometry
 //! ```
 //!
-//! This crate is the program and the way into the house: its parts are members of the workspace, under `crates/`, and
-//! each uses only those that stand before it here.
+//! This crate is the program and the way into the house: its parts are members of the workspace, under `crates/`. Each
+//! uses only those that stand before it on this map, which a test holds against the `use` lines:
+//!
+//! ```text
+//! base       uses ──► nothing
+//! macros     uses ──► nothing
+//! scene      uses ──► base
+//! geometry   uses ──► base, scene
+//! data       uses ──► base
+//! kit        uses ──► base, data, geometry, macros, scene
+//! terrain    uses ──► base, kit, scene
+//! objects    uses ──► base, data, geometry, kit, scene, terrain
+//! engine     uses ──► base, data, kit, scene
+//! export     uses ──► base, data, scene
+//! watch      uses ──► base
+//! presets    uses ──► base, engine, export, watch
+//! variations uses ──► base, engine, export, kit, scene
+//! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, live, objects, presets, scene, terrain, variations, watch
+//! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
 //!   something hardly can be meant. [`Stop`] ends work that nobody waits for; a [`Budget`] is what reading foreign bytes
 //!   may take.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
-//! - [`geometry`]: frames, cross-sections, sweeps, straight skeletons and roofs, without rules or scripts.
+//! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, without rules
+//!   or scripts.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
@@ -26,9 +45,9 @@
 //! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is expanded
 //!   of it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height map.
 //! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
-//! - [`script`], [`derive`](mod@derive) and [`trace`](mod@trace), the engine, which knows no type of object by name: a
+//! - [`script`], [`results`] and [`trace`](mod@trace), the engine, which knows no type of object by name: a
 //!   [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for each thread; chains are
-//!   rewritten step by step into a [`Derived`](derive::Derived) system, and interpreted in between.
+//!   rewritten step by step into a [`Derived`](results::Derived) system, and interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
 //! - [`watch`]: tells when the files of a script have changed.
@@ -74,7 +93,7 @@
 pub use burgeon_base::{Budget, Error, Held, Result, Stop, Warning, WarningKind, error, text, warning};
 pub use burgeon_data as sources;
 pub use burgeon_engine::run::{Check, Run, RunTimes, check, run, run_session};
-pub use burgeon_engine::{derive, script, trace};
+pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
 pub use burgeon_export::picture;
 pub use burgeon_geometry as geometry;
@@ -89,6 +108,6 @@ pub use burgeon_variations as variations;
 pub use burgeon_watch as watch;
 
 /// How a script is run unless something else is said, with all the types of objects that come with Burgeon.
-pub fn options() -> script::Options {
-    script::Options { registry: objects::registry(), ..script::Options::default() }
+pub fn options() -> script::RunOptions {
+    script::RunOptions { registry: objects::registry(), ..script::RunOptions::default() }
 }

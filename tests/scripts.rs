@@ -7,7 +7,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use burgeon::picture::Picture;
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 use burgeon::{Run, export};
 
 const README: &str = include_str!("../README.md");
@@ -38,7 +38,7 @@ fn scripts() -> Vec<PathBuf> {
 fn run(script: &Path, threads: usize) -> Run {
     let data = vec![root().join("examples/data"), root().join("../shared/data")];
     let data = data.into_iter().filter(|folder| folder.is_dir()).collect();
-    let options = Options { threads: Some(threads), data, ..burgeon::options() };
+    let options = RunOptions { threads: Some(threads), data, ..burgeon::options() };
     burgeon::run(script, options).unwrap_or_else(|error| panic!("{}: {error}", script.display()))
 }
 

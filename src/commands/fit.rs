@@ -8,10 +8,10 @@ use std::sync::mpsc::channel;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use burgeon::derive::grouped;
 use burgeon::export;
 use burgeon::sources::elevation::{Raster, Wanted};
 use burgeon::terrain::fit::{Fitted, Search, Target};
+use burgeon::text::grouped;
 use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;

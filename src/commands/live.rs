@@ -3,8 +3,8 @@
 use std::sync::mpsc::channel;
 
 use burgeon::Result;
-use burgeon::derive::grouped;
-use burgeon::live::{Editor, Live, PORT, Settings, Token, Told, browse, has_display};
+use burgeon::live::{Editor, Live, Notice, PORT, Settings, Token, browse, has_display};
+use burgeon::text::grouped;
 use clap::Args;
 use serde_json::json;
 
@@ -82,17 +82,17 @@ impl Serve {
 }
 
 /// Says on standard error what happens.
-fn tell(told: &Told) {
+fn tell(told: &Notice) {
     match told {
-        Told::Model { triangles, modules, total } => report::eprint(&format!(
+        Notice::Model { triangles, modules, total } => report::eprint(&format!(
             "{} triangles, {} modules in {}\n",
             grouped(*triangles),
             grouped(*modules),
             report::time(*total)
         )),
-        Told::Failed(error) => report::error(error, false),
-        Told::Warning(warning) => report::eprint(&report::warnings([warning])),
-        Told::Waiting(text) | Told::Note(text) => report::eprint(&format!("{text}\n")),
+        Notice::Failed(error) => report::error(error, false),
+        Notice::Warning(warning) => report::eprint(&report::warnings([warning])),
+        Notice::Waiting(text) | Notice::Note(text) => report::eprint(&format!("{text}\n")),
     }
 }
 

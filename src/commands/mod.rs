@@ -3,10 +3,11 @@
 //! Comes in: the command line. Goes out: files, standard output, and an exit status: 0 done, 1 the script or its
 //! data failed or something could not be written, 2 the command line is wrong.
 
+mod api;
 mod check;
 mod completions;
 mod fit;
-#[cfg(feature = "live")]
+#[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
 mod new;
 mod progress;
@@ -37,9 +38,9 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(Box<run::Run>),
-    #[cfg(feature = "live")]
     Live(live::Serve),
     Check(check::Check),
+    Api(api::Api),
     Variations(Box<variations::Variations>),
     Fit(fit::Fit),
     New(new::New),
@@ -55,8 +56,8 @@ pub(crate) fn main() -> ExitCode {
     };
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
-        #[cfg(feature = "live")]
         Command::Live(command) => (command.json(), command.run()),
+        Command::Api(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
         Command::Fit(command) => (command.json(), command.run()),

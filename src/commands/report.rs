@@ -6,9 +6,9 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
-use burgeon::derive::grouped;
 use burgeon::script::{Param, Setting};
 use burgeon::text::escaped_lines;
+use burgeon::text::grouped;
 use burgeon::{Error, Result, Run, Warning};
 use serde_json::json;
 

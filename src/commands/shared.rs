@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use burgeon::picture::{Background, Look, Picture};
 use burgeon::presets::Presets;
-use burgeon::script::{Limits, Options, Print};
+use burgeon::script::{Limits, Print, RunOptions};
 use burgeon::{Error, Result};
 use clap::{Args, ValueEnum};
 
@@ -91,14 +91,14 @@ impl ScriptFlags {
     }
 
     /// How to run the script. Fails if there is no such preset.
-    pub(crate) fn options(&self) -> Result<Options> {
+    pub(crate) fn options(&self) -> Result<RunOptions> {
         let preset = match &self.preset {
             // A script that is not there is told of by the run.
             Some(name) if self.script.is_file() => Some(Presets::read(&self.script)?.get(name)?.clone()),
             _ => None,
         };
         let seed = self.seed.or(preset.as_ref().and_then(|preset| preset.seed));
-        Ok(Options {
+        Ok(RunOptions {
             set: self.set.clone(),
             preset,
             seed: seed.unwrap_or(0),

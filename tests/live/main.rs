@@ -3,9 +3,9 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod connections;
+mod params;
 mod requests;
 mod saves;
 mod support;
 mod tracing;
 mod watching;
-mod wishes;

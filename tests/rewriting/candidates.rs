@@ -1,7 +1,7 @@
 //! Random systems of guarded, weighted and contextual rules: the engine applies one of the rules that the design's
 //! law of choice allows.
 
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 
 use super::generate::{Dice, Kind, NAMES};
 use super::naive::{self, Pattern};
@@ -129,7 +129,7 @@ impl System {
 }
 
 /// Derives `count` random systems by a step, and looks at what became of each module.
-pub(crate) fn compare(seed: u64, count: usize, options: Options) -> Compared {
+pub(crate) fn compare(seed: u64, count: usize, options: RunOptions) -> Compared {
     let mut dice = Dice::new(seed);
     let systems: Vec<System> = (0..count).map(|_| System::new(&mut dice)).collect();
     let results: Vec<String> = (0..8).map(|index| format!("R{index}")).collect();

@@ -1,6 +1,6 @@
 //! Contexts along the tree: the design's law 4, a line for each of its cases.
 
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 
 use super::naive::{self, Pattern};
 use super::scripts::{Case, Passing, Plain, chain, divided, error, lines, matched, run, run_with, words};
@@ -113,7 +113,7 @@ fn starred(chain: &str) -> (String, Vec<usize>) {
     (chain.replace('*', ""), stars.collect())
 }
 
-fn check_table(options: Options) {
+fn check_table(options: RunOptions) {
     let cases: Vec<(Case, Vec<usize>)> = TABLE
         .iter()
         .map(|(ignored, chain, pattern)| {
@@ -128,7 +128,7 @@ fn check_table(options: Options) {
     check(&cases, options);
 }
 
-fn check(cases: &[(Case, Vec<usize>)], options: Options) {
+fn check(cases: &[(Case, Vec<usize>)], options: RunOptions) {
     let all: Vec<Case> = cases.iter().map(|(case, _)| case.clone()).collect();
     let found = matched(&all, options);
     assert_eq!(found.len(), cases.len());

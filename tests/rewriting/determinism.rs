@@ -1,7 +1,7 @@
 //! The same bytes for any number of threads and any division into batches: the design's laws 8 and 9.
 
 use burgeon::Run;
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 
 use super::scripts::{all_chains, divided, lines, run_with, words};
 
@@ -68,7 +68,7 @@ fn threads_and_batches_change_no_byte() {
 
 #[test]
 fn seeds_give_different_trees() {
-    let of = |seed| bytes(&run_with(TREE, Options { seed, ..burgeon::options() }));
+    let of = |seed| bytes(&run_with(TREE, RunOptions { seed, ..burgeon::options() }));
     assert!(of(1) == of(1));
     assert_ne!(of(1).0, of(2).0);
     assert!(of(1).1 != of(2).1);
@@ -123,7 +123,7 @@ fn a_random_number_of_the_top_level_is_the_same_every_time() {
     let words = words(&first[0]);
     assert_ne!(words[0], words[1]);
     assert!(words[1].starts_with("A(5."), "{first:?}");
-    assert_ne!(first, lines(&run_with(script, Options { seed: 1, ..burgeon::options() })));
+    assert_ne!(first, lines(&run_with(script, RunOptions { seed: 1, ..burgeon::options() })));
 }
 
 #[test]

@@ -127,7 +127,7 @@ fn a_line_of_the_script_knows_all_that_it_made() {
         highlight(&file, &burgeon::options(), &run.scene, systems, &name, line).expect("it is known")
     };
     let whole: usize = run.scene.meshes[run.scene.instances[0].mesh].triangles();
-    let of = |mesh: usize, runs: &[burgeon::trace::Run]| -> usize {
+    let of = |mesh: usize, runs: &[burgeon::trace::TriangleRun]| -> usize {
         runs.iter().filter(|run| run.mesh == mesh).map(|run| run.count).sum()
     };
     let rule = at(11);
@@ -140,6 +140,6 @@ fn a_line_of_the_script_knows_all_that_it_made() {
         (["Leaf(model)".to_owned()].as_slice(), 32, 0)
     );
     assert_eq!(leaves.instances.len(), 32);
-    assert_eq!(at(1), burgeon::trace::Highlighted::default());
+    assert_eq!(at(1), burgeon::trace::LineProducts::default());
     assert_eq!(at(5).what, ["axiom"]);
 }

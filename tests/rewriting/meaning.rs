@@ -171,7 +171,7 @@ fn helpers_shared_by_rules_see_the_locals_of_their_own_place() {
 #[test]
 fn the_steps_option_limits_every_system() {
     let script = format!("{HEAD} system(function(this, x) return A(x + 1) end):derive(5)");
-    let options = burgeon::script::Options { steps: Some(2), ..divided(2, 1) };
+    let options = burgeon::script::RunOptions { steps: Some(2), ..divided(2, 1) };
     assert_eq!(lines(&run_with(&script, options)), [all(|x| format!("A({})", x + 2))]);
 }
 

@@ -1,6 +1,6 @@
 //! Random chains and patterns: the engine finds what the naive matcher finds.
 
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
@@ -45,7 +45,7 @@ fn pattern() -> impl Strategy<Value = Pattern> {
     })
 }
 
-fn division() -> impl Strategy<Value = Options> {
+fn division() -> impl Strategy<Value = RunOptions> {
     (1usize..3, prop_oneof![Just(1usize), Just(2), Just(3), Just(4096)])
         .prop_map(|(threads, batch)| divided(threads, batch))
 }

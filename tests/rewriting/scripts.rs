@@ -1,20 +1,20 @@
 //! Runs scripts from text.
 
 use burgeon::Run;
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 
 use super::naive::Pattern;
 pub(crate) use super::naive::words;
 
 /// Runs a script as `main.lua` in a folder of its own.
-pub(crate) fn try_run(script: &str, options: Options) -> burgeon::Result<Run> {
+pub(crate) fn try_run(script: &str, options: RunOptions) -> burgeon::Result<Run> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("main.lua");
     std::fs::write(&path, script).expect("a file");
     burgeon::run(&path, options)
 }
 
-pub(crate) fn run_with(script: &str, options: Options) -> Run {
+pub(crate) fn run_with(script: &str, options: RunOptions) -> Run {
     try_run(script, options).unwrap_or_else(|error| {
         let shown: Vec<&str> = script.lines().take(30).collect();
         panic!("{error}\nin the script\n{}", shown.join("\n"))
@@ -26,8 +26,8 @@ pub(crate) fn run(script: &str) -> Run {
 }
 
 /// Options with a number of threads and modules in a batch.
-pub(crate) fn divided(threads: usize, batch: usize) -> Options {
-    Options { threads: Some(threads), batch, ..burgeon::options() }
+pub(crate) fn divided(threads: usize, batch: usize) -> RunOptions {
+    RunOptions { threads: Some(threads), batch, ..burgeon::options() }
 }
 
 /// The chains of every system, joined, with a line for each chain.
@@ -163,7 +163,7 @@ pub(crate) struct Case<'a> {
 }
 
 /// For each case the modules that the engine matches, numbered from 0 through all its chains.
-pub(crate) fn matched(cases: &[Case], options: Options) -> Vec<Vec<usize>> {
+pub(crate) fn matched(cases: &[Case], options: RunOptions) -> Vec<Vec<usize>> {
     let mut names: Vec<String> = Vec::new();
     for case in cases {
         names.extend(words(&case.chains.join(" ")));

@@ -1,6 +1,6 @@
 //! Stochastic rules: frequencies, and where a module's random numbers come from (law 9).
 
-use burgeon::script::Options;
+use burgeon::script::RunOptions;
 
 use super::scripts::{chain_of_each, error, lines, run_with, words};
 
@@ -27,7 +27,7 @@ fn chi_square(rules: &str, shares: &[(&str, f64)]) -> (f64, usize) {
     let total: f64 = shares.iter().map(|(_, share)| share).sum();
     let mut sum = 0.0;
     for seed in 1..=5 {
-        let run = run_with(&script, Options { seed, ..burgeon::options() });
+        let run = run_with(&script, RunOptions { seed, ..burgeon::options() });
         let text = lines(&run).concat();
         let words = words(&text);
         assert_eq!(words.len(), BUDS);
@@ -187,7 +187,7 @@ fn draws(rules: &str, axiom: &str, steps: usize, seed: u64) -> Vec<String> {
         s:derive({steps})
         "#
     );
-    words(&lines(&run_with(&script, Options { seed, ..burgeon::options() })).concat())
+    words(&lines(&run_with(&script, RunOptions { seed, ..burgeon::options() })).concat())
 }
 
 const WAITING: &str =
@@ -270,7 +270,7 @@ fn seeds_differ_and_a_system_may_have_its_own() {
             "local U = module(\"U\", \"u\") local s = lsystem {{ {own} }} s:axiom(U(0))
              s:rule(\"U\", function() return U(random()) end) s:derive(1)"
         );
-        lines(&run_with(&script, Options { seed, ..burgeon::options() }))
+        lines(&run_with(&script, RunOptions { seed, ..burgeon::options() }))
     };
     assert_eq!(own(1, "seed = 5"), own(2, "seed = 5"));
     assert_ne!(own(1, "seed = 5"), own(1, "seed = 6"));

@@ -24,9 +24,9 @@ pub(crate) struct Worst {
 }
 
 /// Numbers of a case.
-struct Luck(Stream);
+struct RandomSource(Stream);
 
-impl Luck {
+impl RandomSource {
     fn between(&mut self, low: f64, high: f64) -> f64 {
         low + (high - low) * self.0.uniform()
     }
@@ -42,7 +42,7 @@ impl Luck {
 
 /// Case number `seed`. What is wrong is said.
 pub(crate) fn check(seed: u64) -> Result<Worst, String> {
-    let mut luck = Luck(Stream::new(seed));
+    let mut luck = RandomSource(Stream::new(seed));
     let relief = relief(&mut luck);
     let elevation = Elevation::new(Arc::new(relief));
     let (low, high) = (elevation.low().truncate(), elevation.high().truncate());
@@ -92,7 +92,7 @@ pub(crate) fn check(seed: u64) -> Result<Worst, String> {
 }
 
 /// Random heights, in metres or in other coordinates.
-fn relief(luck: &mut Luck) -> Relief {
+fn relief(luck: &mut RandomSource) -> Relief {
     let (columns, rows) = (4 + luck.below(40), 4 + luck.below(40));
     let step = 10f64.powf(luck.between(-0.5, 1.8));
     let ratio = if luck.odds(0.6) { 1.0 } else { luck.between(0.5, 2.0) };
@@ -131,7 +131,7 @@ fn relief(luck: &mut Luck) -> Relief {
     Relief::new(Arc::new(raster), &mut frame).unwrap()
 }
 
-fn world(luck: &mut Luck, elevation: Elevation, corner: DVec2, size: f64) -> World {
+fn world(luck: &mut RandomSource, elevation: Elevation, corner: DVec2, size: f64) -> World {
     let undivided =
         Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new(), names: Arc::default() };
     let mut layers = vec![undivided.clone()];

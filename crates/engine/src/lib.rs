@@ -1,12 +1,21 @@
 //! Runs scripts: virtual machines, parallel rewriting, and interpretation in between.
 //!
 //! Comes in: a script and the [`Registry`](burgeon_kit::Registry) of types that it may use. Goes out: a [`Run`] with
-//! its scene. It knows no type of object by name, and writes no file.
+//! its scene. It never knows a type of object by name, and never writes a file.
 
-pub mod derive;
-mod interpret;
+mod declare;
+mod derive;
+mod machine;
+pub mod results;
 pub mod run;
-pub mod script;
 pub mod trace;
+
+/// What a run is told, what its script declares, and the virtual machines that run it.
+pub mod script {
+    pub use crate::declare::{
+        Control, Limits, Param, Preset, Print, Progress, RunOptions, Session, Setting, Traced,
+    };
+    pub use crate::machine::{Machine, Watchdog, make_ready};
+}
 
 pub use run::{Check, Run, RunTimes, check, run_session};

@@ -5,8 +5,10 @@ use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use crate::derive::{Crew, Derived, Report, Times};
-use crate::script::{Machine, Options, Param, Session, Watchdog};
+use crate::declare::{Param, RunOptions, Session};
+use crate::derive::ThreadPool;
+use crate::machine::{Machine, Watchdog};
+use crate::results::{Derived, Report, Times, Trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -61,7 +63,7 @@ pub struct RunTimes {
 }
 
 /// Runs the script at `path`.
-pub fn run(path: &Path, options: Options) -> Result<Run> {
+pub fn run(path: &Path, options: RunOptions) -> Result<Run> {
     let session = Session::new(path, options)?;
     run_session(&session)
 }
@@ -69,7 +71,7 @@ pub fn run(path: &Path, options: Options) -> Result<Run> {
 /// Runs a session, which may be stopped from outside.
 pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     let begin = Instant::now();
-    let machine = leading_machine(session)?;
+    let (machine, threads) = leading_machine(session)?;
     machine.run()?;
     let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
     if !problems.is_empty() {
@@ -77,8 +79,8 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     }
     let params = session.params();
     refuse_unknown(session, &params)?;
-    let mut systems: Vec<Arc<Derived>> = machine.crew.done.borrow().iter().flatten().cloned().collect();
-    drop(machine);
+    let mut systems: Vec<Arc<Derived>> = machine.driver.derived().into_iter().flatten().collect();
+    drop((machine, threads));
     let mut times = RunTimes::default();
     for system in &systems {
         times.derivation.rewriting += system.times.rewriting;
@@ -113,7 +115,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
-    let whole = session.options.steps.is_none() && session.options.lod == Options::default().lod;
+    let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
     if scene.triangles() > 0 || !whole {
         return None;
     }
@@ -140,8 +142,8 @@ fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Opti
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
 /// run would end with are among them if it is to be strict.
-pub fn check(path: &Path, options: Options) -> Result<Check> {
-    let session = Session::new(path, Options { check: true, ..options })?;
+pub fn check(path: &Path, options: RunOptions) -> Result<Check> {
+    let session = Session::new(path, RunOptions { check: true, ..options })?;
     let mut found = Vec::new();
     let ran = declare_with(&session, &mut found);
     let mut problems = session.problems();
@@ -170,10 +172,21 @@ pub fn check(path: &Path, options: Options) -> Result<Check> {
 }
 
 /// A machine for a session's script, which is read in the meantime.
-fn leading_machine(session: &Arc<Session>) -> Result<Rc<Machine>> {
+fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
     session.read_ahead();
     let watchdog = Arc::new(Watchdog::new(session));
-    Machine::new(session, &watchdog, Crew::leading(&watchdog))
+    let threads = Rc::new(ThreadPool::leading(&watchdog));
+    Ok((Machine::new(session, &watchdog, Rc::clone(&threads) as _)?, threads))
+}
+
+/// Runs a session whose options ask for a lineage, until that is known. None if the script does not come to it.
+pub(crate) fn run_traced(session: &Arc<Session>) -> Result<Option<Trace>> {
+    let (machine, threads) = leading_machine(session)?;
+    let ran = machine.run();
+    match threads.take_trace() {
+        Some(trace) => Ok(Some(trace)),
+        None => ran.map(|()| None),
+    }
 }
 
 /// Runs the script of a session whose options say to check only, for the sake of its parameters.
@@ -183,7 +196,7 @@ pub fn declare(session: &Arc<Session>) -> Result<()> {
 
 /// The same, with the `problems` of its rules.
 fn declare_with(session: &Arc<Session>, problems: &mut Vec<Error>) -> Result<()> {
-    let machine = leading_machine(session)?;
+    let (machine, _threads) = leading_machine(session)?;
     let ran = machine.run();
     problems.extend(machine.library.problems.borrow_mut().drain(..));
     ran

@@ -1,11 +1,10 @@
 //! Where a triangle comes from, and what a line of a script has made: a chain is derived again to find out.
 
 use std::path::Path;
-use std::sync::{Arc, PoisonError};
 
-use crate::derive::{Ancestor, MadeBy, Module, RuleName, Trace, Traced};
-use crate::run::run_session;
-use crate::script::{Options, Session};
+use crate::declare::{RunOptions, Session, Traced};
+use crate::results::{Ancestor, MadeBy, Module, RuleName, Trace};
+use crate::run::run_traced;
 use burgeon_base::error::{Error, Place, Result};
 use burgeon_kit::Makers;
 use burgeon_scene::{Origin, Part, Scene};
@@ -26,7 +25,7 @@ pub struct Pick {
 
 /// Triangles of one part of a mesh.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Run {
+pub struct TriangleRun {
     /// Index into [`Scene::meshes`].
     pub mesh: usize,
     /// The part of the mesh.
@@ -39,7 +38,7 @@ pub struct Run {
 
 /// A module that made something, and how it came about.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Made {
+pub struct ModuleOrigin {
     /// Its chain.
     pub origin: Origin,
     /// Its place in the chain, brackets counted.
@@ -55,27 +54,27 @@ pub struct Made {
     /// The chain before it, itself, and the chain after it.
     pub around: [String; 3],
     /// What it has drawn.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TriangleRun>,
 }
 
 /// What made a triangle.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct Picked {
+pub struct PickOrigin {
     /// The module that drew it.
-    pub drawn: Option<Made>,
+    pub drawn: Option<ModuleOrigin>,
     /// The module that placed the model to which it belongs.
-    pub placed: Option<Made>,
+    pub placed: Option<ModuleOrigin>,
 }
 
 /// What a line of a script has made.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
-pub struct Highlighted {
+pub struct LineProducts {
     /// The rules at the line, each once.
     pub what: Vec<String>,
     /// The number of modules that came of them.
     pub modules: usize,
     /// What these have drawn.
-    pub runs: Vec<Run>,
+    pub runs: Vec<TriangleRun>,
     /// The instances of models that these have placed, as indices into [`Scene::instances`].
     pub instances: Vec<usize>,
 }
@@ -83,11 +82,11 @@ pub struct Highlighted {
 /// Finds the modules that made a triangle of `scene`, which a run of `script` with these `options` has made.
 ///
 /// Derives the chain again, with its lineage. Fails if the script has changed so that it cannot.
-pub fn pick(script: &Path, options: &Options, scene: &Scene, pick: Pick) -> Result<Picked> {
+pub fn pick(script: &Path, options: &RunOptions, scene: &Scene, pick: Pick) -> Result<PickOrigin> {
     let instance =
         scene.instances.get(pick.instance).ok_or_else(|| Error::unavailable("there is no such instance"))?;
     let mesh = &scene.meshes[instance.mesh];
-    let mut picked = Picked { drawn: None, placed: None };
+    let mut picked = PickOrigin { drawn: None, placed: None };
     if let Some(origin) = mesh.origin {
         let trace = trace_chain(script, options, origin)?;
         let maker = first_makers(&trace).and_then(|makers| makers.of_triangle(pick.part, pick.triangle));
@@ -106,13 +105,13 @@ pub fn pick(script: &Path, options: &Options, scene: &Scene, pick: Pick) -> Resu
 /// Derives all chains again, with their lineages.
 pub fn highlight(
     script: &Path,
-    options: &Options,
+    options: &RunOptions,
     scene: &Scene,
     systems: usize,
     file: &str,
     line: usize,
-) -> Result<Highlighted> {
-    let (mut found, mut nearest) = (Highlighted::default(), 0);
+) -> Result<LineProducts> {
+    let (mut found, mut nearest) = (LineProducts::default(), 0);
     for system in 0..systems {
         let trace = trace(script, options, Traced { system, chain: None })?;
         let Some(MadeBy { name, line, made }) = trace.made_by(file, line) else { continue };
@@ -120,7 +119,7 @@ pub fn highlight(
             continue;
         }
         if line > nearest {
-            (found, nearest) = (Highlighted::default(), line);
+            (found, nearest) = (LineProducts::default(), line);
         }
         if !found.what.contains(&name) {
             found.what.push(name);
@@ -133,7 +132,7 @@ pub fn highlight(
             let origin = Some(Origin { system, chain });
             for (mesh, _) in scene.meshes.iter().enumerate().filter(|(_, mesh)| mesh.origin == origin) {
                 let runs = makers.runs(wanted).into_iter();
-                found.runs.extend(runs.map(|(part, from, count)| Run { mesh, part, from, count }));
+                found.runs.extend(runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }));
             }
             let placements = makers.placements(wanted);
             let instances = scene.instances.iter().enumerate().filter(|(_, instance)| {
@@ -148,10 +147,10 @@ pub fn highlight(
 
 /// The chain number `chain` of a derived system around place `index`: what is before it, itself, what is after it, and
 /// the number of symbols in the chain.
-pub fn around(system: &crate::derive::Derived, chain: usize, index: usize) -> ([String; 3], usize) {
+pub fn around(system: &crate::results::Derived, chain: usize, index: usize) -> ([String; 3], usize) {
     let only = system.chain.only(chain, &system.symbols.arities());
     let count = only.symbols.len().saturating_sub(1);
-    let texts = crate::derive::around(&only, &system.symbols, &system.values, index.min(count), AROUND);
+    let texts = crate::results::around(&only, &system.symbols, &system.values, index.min(count), AROUND);
     (texts, count)
 }
 
@@ -159,16 +158,16 @@ fn first_makers(trace: &Trace) -> Option<&Makers> {
     trace.makers().first()?.as_ref()
 }
 
-fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Option<Made> {
+fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Option<ModuleOrigin> {
     let module = trace.module(index)?;
     let runs = match (mesh, first_makers(trace)) {
         (Some(mesh), Some(makers)) => {
             let runs = makers.runs(|maker| maker == index).into_iter();
-            runs.map(|(part, from, count)| Run { mesh, part, from, count }).collect()
+            runs.map(|(part, from, count)| TriangleRun { mesh, part, from, count }).collect()
         }
         _ => Vec::new(),
     };
-    Some(Made {
+    Some(ModuleOrigin {
         origin,
         index,
         module,
@@ -180,27 +179,17 @@ fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Opt
     })
 }
 
-fn trace_chain(script: &Path, options: &Options, origin: Origin) -> Result<Trace> {
+fn trace_chain(script: &Path, options: &RunOptions, origin: Origin) -> Result<Trace> {
     trace(script, options, Traced { system: origin.system, chain: Some(origin.chain) })
 }
 
 /// Runs `script` until the wanted system is derived, with the lineage of the wanted chains.
-pub fn trace(script: &Path, options: &Options, wanted: Traced) -> Result<Trace> {
-    let session = Session::new(script, Options { trace: Some(wanted), ..options.clone() })?;
-    trace_session(&session)
-}
-
-/// As [`trace()`], for a session that may be stopped from outside.
-fn trace_session(session: &Arc<Session>) -> Result<Trace> {
-    // The run ends with an error as soon as the trace is known.
-    let ended = run_session(session);
-    let trace = session.traced.lock().unwrap_or_else(PoisonError::into_inner).take();
-    match (trace, ended) {
-        (Some(trace), _) => Ok(trace),
-        (None, Err(error)) => Err(error),
-        (None, Ok(_)) => Err(Error::unavailable("the script no longer derives this system")
-            .help("wait until the model has been made anew")),
-    }
+pub fn trace(script: &Path, options: &RunOptions, wanted: Traced) -> Result<Trace> {
+    let session = Session::new(script, RunOptions { trace: Some(wanted), ..options.clone() })?;
+    run_traced(&session)?.ok_or_else(|| {
+        Error::script("the script no longer derives this system")
+            .help("wait until the model has been made anew")
+    })
 }
 
 /// The place among all triangles of `part` of number `triangle` among those that exporters write.

@@ -1,4 +1,7 @@
-//! Geometry without rules or scripts: frames, cross-sections and sweeps.
+//! Geometry without rules or scripts: frames, cross-sections, sweeps, straight skeletons and roofs.
+//!
+//! Comes in: points, outlines and cross-sections, in metres. Goes out: faces, lines and meshes, closed or with their
+//! open edges named. It never reads a file, draws a random number or looks at a module.
 
 mod cap;
 mod face;

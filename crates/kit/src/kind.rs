@@ -20,6 +20,8 @@ pub struct Kind {
     pub name: Text,
     /// What it is; the first line is a summary.
     pub doc: Text,
+    /// How a script uses it; empty where nothing is to be said.
+    pub example: Text,
     /// What its constructor takes.
     pub fields: Vec<Field>,
     /// The field that may be given before the table, as `geometry` in `footprint(geometry, { ... })`.
@@ -69,6 +71,8 @@ pub struct Field {
     pub doc: Text,
     /// Its type in Luau.
     pub luau: String,
+    /// Its unit, if it has one, such as "m".
+    pub unit: Option<Text>,
     /// The value where it is left out, as one would write it.
     pub default: String,
 }
@@ -95,6 +99,8 @@ pub struct Argument {
     pub name: Text,
     /// Its type in Luau.
     pub luau: String,
+    /// Its unit, if it has one, such as "m".
+    pub unit: Option<Text>,
 }
 
 /// Calls a method by itself.
@@ -130,6 +136,7 @@ impl Kind {
         Self {
             name: name.into(),
             doc: doc.into(),
+            example: Text::default(),
             fields: Vec::new(),
             first: None,
             methods: Vec::new(),
@@ -143,6 +150,12 @@ impl Kind {
             gather: None,
             prefetch: None,
         }
+    }
+
+    /// Is used as this script shows.
+    #[must_use]
+    pub fn example(self, example: impl Into<Text>) -> Self {
+        Self { example: example.into(), ..self }
     }
 
     /// Has a constructor that takes `fields`, of which `make` makes one.
@@ -165,7 +178,12 @@ impl Kind {
     /// Is made of a file, by `loader`, which takes these `fields` besides.
     #[must_use]
     pub fn loaded(self, fields: Vec<Field>, loader: Loader) -> Self {
-        Self { fields, construct: Construct::File(loader), ..self }
+        Self {
+            fields,
+            example: loader.example_with_fields.into(),
+            construct: Construct::File(loader),
+            ..self
+        }
     }
 
     /// Has these methods.

@@ -1,10 +1,11 @@
 //! The contract of objects: values, types of objects and what rules need of them.
 //!
 //! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and a
-//! [`Grammar`](rules::Grammar) with the chains that it matches. It knows no virtual machine and no type of object but
-//! the [`Model`], which is what a system has drawn.
+//! [`Grammar`](rules::Grammar) with the chains that it matches. It never knows a virtual machine, nor a type of
+//! object but the [`Model`], which is what a system has drawn.
 
-#[macro_use]
+extern crate self as burgeon_kit;
+
 pub mod declare;
 
 mod boxed;
@@ -49,3 +50,4 @@ pub use value::{Key, Table, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
+pub use burgeon_macros::{fields, methods};

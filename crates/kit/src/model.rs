@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec3};
 
 use super::{Kind, Object, ObjectParameter, Show};
 use burgeon_base::error::Result;
+use burgeon_macros::methods;
 use burgeon_scene::{Instance, Material, Part, Scene};
 
 /// The drawing of a derived system, or the content of a file. It never changes.
@@ -16,17 +17,16 @@ pub struct Model {
     bounds: (DVec3, DVec3),
 }
 
-methods! {
-    Model = "model" {
-        /// The lowest corner of the box around it (m).
-        pub fn low(&self) -> DVec3 {
-            self.bounds.0
-        }
+#[methods("model")]
+impl Model {
+    /// The lowest corner of the box around it (m).
+    pub fn low(&self) -> DVec3 {
+        self.bounds.0
+    }
 
-        /// The highest corner of the box around it (m).
-        pub fn high(&self) -> DVec3 {
-            self.bounds.1
-        }
+    /// The highest corner of the box around it (m).
+    pub fn high(&self) -> DVec3 {
+        self.bounds.1
     }
 }
 

@@ -17,7 +17,7 @@ use hyper_util::rt::{TokioIo, TokioTimer};
 use tokio::net::{TcpListener, TcpStream};
 use tokio::sync::Notify;
 
-use super::Told;
+use super::Notice;
 use super::server::{Site, answer};
 
 /// How long the head of a request may take, and a connection be silent after one.
@@ -59,7 +59,7 @@ impl Unproven {
 pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
     let unproven = Arc::new(Unproven::default());
     let most = UNPROVEN.min(files_allowed().unwrap_or(usize::MAX) / 8).max(2);
-    let mut told = false;
+    let mut notices = false;
     loop {
         match listener.accept().await {
             Ok((stream, _)) => {
@@ -74,8 +74,8 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
                 ) => {}
             // Most likely there are too many open files.
             Err(error) => {
-                if !std::mem::replace(&mut told, true) {
-                    site.state.tell(&Told::Note(format!("a connection has to wait: {error}")));
+                if !std::mem::replace(&mut notices, true) {
+                    site.state.tell(&Notice::Note(format!("a connection has to wait: {error}")));
                 }
                 unproven.close_all();
                 tokio::time::sleep(PAUSE).await;

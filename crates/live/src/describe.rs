@@ -2,15 +2,15 @@
 
 use std::time::Duration;
 
-use super::message::{Bounds, Model, System, Times};
+use super::message::{Bounds, ModelMessage, SystemMessage, TimesMessage};
 use super::state::State;
 use super::trace;
 use super::work::{Job, PROBLEMS};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::Session;
 
-/// What pages are told of a run, but for what depends on the wish and on the model's bytes.
-pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> Model {
+/// What pages are told of a run, but for what depends on the request and on the model's bytes.
+pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> ModelMessage {
     let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
     let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
     let textures = textures.filter(|texture| texture.content.is_none());
@@ -20,7 +20,7 @@ pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -
     files.dedup();
     let systems = run.systems.iter().map(|system| {
         let place = system.place.as_ref();
-        System {
+        SystemMessage {
             system: system.system,
             place: place.map(|it| format!("{}:{}", state.short(&it.file), it.line)).unwrap_or_default(),
             chains: system.features.len(),
@@ -30,7 +30,7 @@ pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -
         }
     });
     let bounds = run.scene.bounds();
-    Model {
+    ModelMessage {
         run: job.run,
         cause: job.due.cause,
         url: None,
@@ -48,7 +48,7 @@ pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -
         params: Vec::new(),
         systems: systems.collect(),
         rules: trace::rules(state, run),
-        times: Times {
+        times: TimesMessage {
             script: ms(run.times.script),
             rewriting: ms(run.times.derivation.rewriting),
             interpretation: ms(run.times.derivation.interpretation),

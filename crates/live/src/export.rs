@@ -75,7 +75,7 @@ pub(super) fn download(scene: &Scene, name: &str, picture: &Picture, stop: &Arc<
     Ok(Download { name: format!("{stem}.{}.zip", format.extension()), media_type: "application/zip", bytes })
 }
 
-/// The picture that the query of an address wishes: `azimuth`, `elevation` (degrees), `width`, `height` (pixels).
+/// The picture that the query of an address requests: `azimuth`, `elevation` (degrees), `width`, `height` (pixels).
 ///
 /// Larger pictures than can be made soon become smaller. Fails on other names and on what is no number.
 pub(super) fn picture(query: &str) -> Result<Picture> {

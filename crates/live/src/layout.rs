@@ -4,9 +4,9 @@
 
 use std::collections::BTreeMap;
 
-use super::message::{Pick, Range};
+use super::message::{PickCommand, Range};
 use burgeon_base::error::{Error, Result};
-use burgeon_engine::trace::{self, Run, exported_triangle};
+use burgeon_engine::trace::{self, TriangleRun, exported_triangle};
 use burgeon_export::gltf::Layout;
 use burgeon_scene::{Mesh, Part, Scene};
 
@@ -18,7 +18,7 @@ pub(super) struct Indices<'a> {
 
 impl Indices<'_> {
     /// The triangle of the scene that a page has picked. Fails if the document has no such triangle.
-    pub(super) fn triangle(&self, pick: &Pick) -> Result<trace::Pick> {
+    pub(super) fn triangle(&self, pick: &PickCommand) -> Result<trace::Pick> {
         let gone = || Error::unavailable("there is no such triangle; this page may show an older model");
         let shows = |instance: &usize| -> bool {
             let known = self.layout.places.get(*instance).copied().flatten();
@@ -37,8 +37,8 @@ impl Indices<'_> {
     }
 
     /// `runs` as ranges of the document, those that touch as one.
-    pub(super) fn ranges(&self, runs: &[Run]) -> Vec<Range> {
-        let mut sorted: Vec<&Run> = runs.iter().collect();
+    pub(super) fn ranges(&self, runs: &[TriangleRun]) -> Vec<Range> {
+        let mut sorted: Vec<&TriangleRun> = runs.iter().collect();
         sorted.sort_by_key(|run| (run.mesh, run.part, run.from));
         let mut ranges: Vec<Range> = Vec::new();
         let mut parts: BTreeMap<(usize, usize), Option<Written>> = BTreeMap::new();
@@ -91,7 +91,7 @@ impl Indices<'_> {
         ranges
     }
 
-    fn written(&self, run: &Run) -> Option<Written> {
+    fn written(&self, run: &TriangleRun) -> Option<Written> {
         let mesh = self.layout.meshes.get(run.mesh).copied().flatten()?;
         let primitive =
             shown_parts(self.scene.meshes.get(run.mesh)?).position(|(part, _)| part == run.part)?;
@@ -164,7 +164,7 @@ mod tests {
         let indices = Indices { scene: &scene, layout: &layout };
         let pick = |instance, triangle| {
             let (node, instance) = (Some(5), Some(instance));
-            indices.triangle(&Pick { id: 0, mesh: 0, primitive: 0, triangle, instance, node })
+            indices.triangle(&PickCommand { id: 0, mesh: 0, primitive: 0, triangle, instance, node })
         };
         assert_eq!(pick(1, 1).unwrap(), trace::Pick { instance: 1, part: 1, triangle: 2 });
         assert!(pick(2, 0).is_err() && pick(0, 3).is_err());
@@ -174,13 +174,16 @@ mod tests {
     fn ranges_count_only_what_is_written_and_grow_together() {
         let (scene, layout) = scene();
         let mut indices = Indices { scene: &scene, layout: &layout };
-        let run = |part, from, count| Run { mesh: 1, part, from, count };
-        let told = |ranges: Vec<Range>| -> Vec<(usize, usize)> {
+        let run = |part, from, count| TriangleRun { mesh: 1, part, from, count };
+        let pairs = |ranges: Vec<Range>| -> Vec<(usize, usize)> {
             ranges.iter().map(|range| (range.from, range.count)).collect()
         };
-        assert_eq!(told(indices.ranges(&[run(1, 2, 1), run(1, 0, 2), run(0, 0, 1)])), [(0, 2)]);
-        assert_eq!(told(indices.ranges(&[run(1, 3, 9), run(1, 0, 1)])), [(0, 1), (2, 1)]);
-        assert_eq!(told(indices.ranges(&[run(1, 1, 1), Run { mesh: 0, part: 0, from: 0, count: 1 }])), []);
+        assert_eq!(pairs(indices.ranges(&[run(1, 2, 1), run(1, 0, 2), run(0, 0, 1)])), [(0, 2)]);
+        assert_eq!(pairs(indices.ranges(&[run(1, 3, 9), run(1, 0, 1)])), [(0, 1), (2, 1)]);
+        assert_eq!(
+            pairs(indices.ranges(&[run(1, 1, 1), TriangleRun { mesh: 0, part: 0, from: 0, count: 1 }])),
+            []
+        );
         let placed = indices.placed(&[0, 1]);
         assert_eq!((placed[0].count, placed[0].instances.clone()), (3, Some(vec![0, 1])));
     }

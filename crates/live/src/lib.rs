@@ -10,24 +10,24 @@
 //!                       └───────────── ask ◄──────────────┘
 //! ```
 //!
-//! One thread runs the script (`work`) as it was last wished (`wish`); all pages share that wish and the model
+//! One thread runs the script (`work`) as it was last requested (`wish`); all pages share that wish and the model
 //! (`state`). A newer wish stops the run of an older one, unless that is almost done.
 
 mod address;
-mod ask;
+mod commands;
 mod connections;
 mod describe;
 mod export;
 mod layout;
 pub mod message;
 mod open;
+mod request;
 mod server;
 mod socket;
 mod state;
 mod token;
 mod tools;
 mod trace;
-mod wish;
 mod work;
 
 pub use open::{Editor, browse, has_display};
@@ -45,7 +45,7 @@ use tokio::sync::Semaphore;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_engine::script::Options;
+use burgeon_engine::script::RunOptions;
 use burgeon_watch::Watch;
 use message::Cause;
 use server::Site;
@@ -63,7 +63,7 @@ pub struct Settings {
     /// The script; it need not exist yet.
     pub script: PathBuf,
     /// How it is run at first. Pages change the parameters, the seed and the limit of steps.
-    pub options: Options,
+    pub options: RunOptions,
     /// The port; [`PORT`] or one of the next if `None`.
     pub port: Option<u16>,
     /// The secret part of the address. The one that is kept for the port if `None`, so that a page that is open finds the
@@ -72,12 +72,12 @@ pub struct Settings {
     /// What opens lines of the script.
     pub editor: Option<Editor>,
     /// Is told what happens, from several threads.
-    pub tell: Box<dyn Fn(&Told) + Send + Sync>,
+    pub tell: Box<dyn Fn(&Notice) + Send + Sync>,
 }
 
 /// What the place is told where the server was started.
 #[derive(Debug, Clone)]
-pub enum Told {
+pub enum Notice {
     /// There is a new model.
     Model {
         /// Triangles that are seen.
@@ -126,7 +126,7 @@ impl Live {
         let watch = Watch::new(
             work::always(&state),
             move |change| seen.changed(&change),
-            move |why| complained.tell(&Told::Note(why.to_owned())),
+            move |why| complained.tell(&Notice::Note(why.to_owned())),
         )?;
         state.lock().post(Due { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
         let thread = |name: &str, work: Box<dyn FnOnce(&State) + Send>| {

@@ -9,7 +9,7 @@ use tokio::sync::broadcast::error::RecvError;
 use tokio::sync::mpsc::{Sender, channel};
 use tokio::time::timeout;
 
-use super::message::Say;
+use super::message::Event;
 use super::state::State;
 use burgeon_base::error::Error;
 
@@ -54,7 +54,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
             message = socket.recv() => { heard = Instant::now(); match message {
                 Some(Ok(Message::Text(text))) => answer(&mut socket, &state, &later, text).await,
                 Some(Ok(Message::Binary(_))) => {
-                    let refused = Say::refused(None, &Error::argument("a message is text"));
+                    let refused = Event::refused(None, &Error::argument("a message is text"));
                     send(&mut socket, refused.to_text().into()).await
                 }
                 Some(Ok(Message::Ping(_) | Message::Pong(_))) => true,
@@ -92,11 +92,11 @@ async fn answer(
     // Some answers take a while, and other pages are not to wait for them.
     let answer = tokio::task::spawn_blocking(move || state.ask(&text, &later)).await;
     match answer {
-        Ok(Some(say)) => send(socket, say.to_text().into()).await,
+        Ok(Some(event)) => send(socket, event.to_text().into()).await,
         Ok(None) => true,
         Err(_) => {
             let error = Error::internal("internal error; this is a mistake in Burgeon");
-            send(socket, Say::refused(None, &error).to_text().into()).await
+            send(socket, Event::refused(None, &error).to_text().into()).await
         }
     }
 }

@@ -1,4 +1,4 @@
-//! What all pages share: the wish, the run that is under way, the present model, and what is wrong.
+//! What all pages share: the request, the run that is under way, the present model, and what is wrong.
 
 use std::collections::{BTreeSet, VecDeque};
 use std::path::{Path, PathBuf};
@@ -10,15 +10,15 @@ use axum::body::Bytes;
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::broadcast;
 
-use super::message::{Cause, Hello, Model, Say};
+use super::message::{Cause, Event, Hello, ModelMessage};
 use super::open::Editor;
-use super::wish::{Inputs, Wish};
-use super::{Settings, Told};
+use super::request::{Inputs, Request};
+use super::{Notice, Settings};
 use burgeon_base::error::{Error, Place};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
-use burgeon_engine::script::{Options, Param, Session};
+use burgeon_engine::script::{Param, RunOptions, Session};
 use burgeon_export::Format;
 use burgeon_export::gltf::Layout;
 use burgeon_presets::Presets;
@@ -44,9 +44,9 @@ const SHORT: Duration = Duration::from_millis(400);
 /// What all pages share.
 pub(super) struct State {
     pub script: PathBuf,
-    pub options: Options,
+    pub options: RunOptions,
     pub editor: Option<Editor>,
-    tell: Box<dyn Fn(&Told) + Send + Sync>,
+    tell: Box<dyn Fn(&Notice) + Send + Sync>,
     inner: Mutex<Inner>,
     /// Wakes the worker and whoever tells of progress.
     pub wake: Condvar,
@@ -60,14 +60,14 @@ pub(super) struct State {
 }
 
 pub(super) struct Inner {
-    pub wish: Wish,
+    pub request: Request,
     pub due: Option<Due>,
     pub running: Option<Running>,
     pub shown: Option<Arc<Shown>>,
     /// Why there is no newer model: the script is missing or has an error.
-    pub trouble: Option<Say>,
-    /// That the last run was stopped by a page, so that what is shown is older than what is wished.
-    pub cancelled: Option<Say>,
+    pub trouble: Option<Event>,
+    /// That the last run was stopped by a page, so that what is shown is older than what is requested.
+    pub cancelled: Option<Event>,
     /// Since when failures are kept back because files change.
     pub doubts: Option<Instant>,
     /// What the last run that came to an end was made from.
@@ -112,7 +112,7 @@ pub(super) struct Running {
     pub begin: Instant,
     pub cancelled: Arc<AtomicBool>,
     /// Whether pages do not know of it.
-    pub quiet: bool,
+    pub background: bool,
 }
 
 /// The present model.
@@ -122,18 +122,18 @@ pub(super) struct Shown {
     pub inputs: Inputs,
     /// Where the scene's things are in the model's bytes.
     pub layout: Arc<Layout>,
-    pub message: Model,
+    pub message: ModelMessage,
 }
 
 impl State {
     pub(super) fn new(mut settings: Settings) -> Self {
-        let wish = Wish::new(&settings.options);
-        // Its values are a part of the wish from now on.
+        let request = Request::new(&settings.options);
+        // Its values are a part of the request from now on.
         settings.options.preset = None;
         settings.options.cache = Some(std::sync::Arc::default());
         let presets = super::tools::presets(&settings.script);
         let inner = Inner {
-            wish,
+            request,
             due: None,
             running: None,
             shown: None,
@@ -173,29 +173,29 @@ impl State {
     }
 
     /// Says something to all pages. Called with the lock held, it comes in order.
-    pub(super) fn say(&self, say: &Say) {
+    pub(super) fn send(&self, event: &Event) {
         // There may be no page.
-        let _ = self.pages.send(say.to_text().into());
+        let _ = self.pages.send(event.to_text().into());
     }
 
     /// Says something where the server was started.
-    pub(super) fn tell(&self, told: &Told) {
-        (self.tell)(told);
+    pub(super) fn tell(&self, notice: &Notice) {
+        (self.tell)(notice);
     }
 
     /// What a new page is told first, and where it hears the rest.
     pub(super) fn greet(&self) -> (Vec<Utf8Bytes>, broadcast::Receiver<Utf8Bytes>) {
         let presets = self.presets.lock().unwrap_or_else(PoisonError::into_inner);
         let inner = self.lock();
-        let mut texts: Vec<Utf8Bytes> = vec![Say::Hello(self.hello(presets.clone())).to_text().into()];
+        let mut texts: Vec<Utf8Bytes> = vec![Event::Hello(self.hello(presets.clone())).to_text().into()];
         if let Some(model) = inner.present() {
-            texts.push(Say::Model(Box::new(model)).to_text().into());
+            texts.push(Event::Model(Box::new(model)).to_text().into());
         }
-        texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|say| say.to_text().into()));
-        if let Some(running) = inner.running.as_ref().filter(|running| !running.quiet) {
+        texts.extend(inner.trouble.iter().chain(&inner.cancelled).map(|event| event.to_text().into()));
+        if let Some(running) = inner.running.as_ref().filter(|running| !running.background) {
             let (run, cause, files) = (running.run, running.cause, running.files.clone());
-            let say = Say::Working { run, cause, files };
-            texts.push(say.to_text().into());
+            let event = Event::Working { run, cause, files };
+            texts.push(event.to_text().into());
         }
         (texts, self.pages.subscribe())
     }
@@ -323,7 +323,10 @@ impl Inner {
     /// Has a run made as soon as may be.
     pub(super) fn post(&mut self, mut due: Due) {
         let soon_over = self.took < SHORT
-            && self.running.as_ref().is_some_and(|running| !running.quiet && running.begin.elapsed() < SHORT);
+            && self
+                .running
+                .as_ref()
+                .is_some_and(|running| !running.background && running.begin.elapsed() < SHORT);
         if due.cause == Cause::Save || !soon_over {
             self.stop("there is something newer");
         }
@@ -338,18 +341,18 @@ impl Inner {
     }
 
     /// The model that is shown, as pages are told it now.
-    pub(super) fn present(&self) -> Option<Model> {
+    pub(super) fn present(&self) -> Option<ModelMessage> {
         let shown = self.shown.as_ref()?;
-        Some(Model { preset: self.wish.preset(), ..shown.message.clone() })
+        Some(ModelMessage { preset: self.request.preset(), ..shown.message.clone() })
     }
 
-    /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is wished.
+    /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is requested.
     pub(super) fn cancelled(&mut self, state: &State, run: u64) {
         let stale = self.due.is_none();
-        let say = Say::Cancelled { run, stale };
-        state.say(&say);
+        let event = Event::Cancelled { run, stale };
+        state.send(&event);
         if stale {
-            self.cancelled = Some(say);
+            self.cancelled = Some(event);
         }
     }
 
@@ -358,7 +361,7 @@ impl Inner {
         let Some(running) = &self.running else { return false };
         running.cancelled.store(true, Ordering::Release);
         running.session.stop.stop(Error::stopped(why));
-        !running.quiet
+        !running.background
     }
 
     /// Keeps a model; those that came before it go when they are too many or too large.

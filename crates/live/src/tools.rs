@@ -1,4 +1,4 @@
-//! Presets and variations: the wish under a name, and small pictures of other wishes.
+//! Presets and variations: the request under a name, and small pictures of other values.
 
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -9,14 +9,14 @@ use std::time::Duration;
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::mpsc::Sender;
 
-use super::message::{Cause, Say, json};
+use super::message::{Cause, Event, json};
+use super::request::seed;
 use super::state::State;
-use super::wish::seed;
 use burgeon_base::error::{Error, Result};
-use burgeon_engine::script::{Options, Param, Preset};
-use burgeon_export::encode_png;
+use burgeon_engine::script::{Param, Preset, RunOptions};
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
+use burgeon_scene::image;
 use burgeon_variations::{Cell, Framing, Over, Variations};
 
 /// How often a page is told how many scripts of variations have run.
@@ -36,7 +36,7 @@ fn names(presets: &Presets) -> Vec<String> {
 
 /// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
 /// that asked is answered.
-pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> Option<Say> {
+pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> Option<Event> {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let done = match action {
         "save" => save(state, name, replace).map(Some),
@@ -44,7 +44,7 @@ pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> 
         "load" => match Presets::read(&state.script).and_then(|presets| presets.get(name).cloned()) {
             Ok(preset) => {
                 return state.change(Cause::Preset, |inner| {
-                    inner.wish.load(&preset);
+                    inner.request.load(&preset);
                     Ok(())
                 });
             }
@@ -58,12 +58,12 @@ pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> 
             let mut inner = state.lock();
             if let Some(presets) = &presets {
                 *known = names(presets);
-                inner.wish.look_for_preset(presets);
+                inner.request.look_for_preset(presets);
             }
-            state.say(&Say::Presets { names: known.clone(), chosen: inner.wish.preset() });
+            state.send(&Event::Presets { names: known.clone(), chosen: inner.request.preset() });
             None
         }
-        Err(error) => Some(Say::refused(None, &error)),
+        Err(error) => Some(Event::refused(None, &error)),
     }
 }
 
@@ -72,20 +72,20 @@ pub(super) fn presets_changed(state: &State) {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let read = Presets::read(&state.script);
     let mut inner = state.lock();
-    let say = match read {
+    let event = match read {
         Ok(presets) => {
-            let before = inner.wish.preset();
-            inner.wish.look_for_preset(&presets);
-            let (names, chosen) = (names(&presets), inner.wish.preset());
+            let before = inner.request.preset();
+            inner.request.look_for_preset(&presets);
+            let (names, chosen) = (names(&presets), inner.request.preset());
             if *known == names && chosen == before {
                 return;
             }
             known.clone_from(&names);
-            Say::Presets { names, chosen }
+            Event::Presets { names, chosen }
         }
-        Err(error) => Say::refused(None, &error),
+        Err(error) => Event::refused(None, &error),
     };
-    state.say(&say);
+    state.send(&event);
 }
 
 /// Saves the values that are set and used, and the seed.
@@ -99,15 +99,15 @@ fn save(state: &State, name: &str, replace: bool) -> Result<Presets> {
         let Some(params) = &inner.params else {
             return Err(Error::unavailable("a preset is saved when the script runs without an error"));
         };
-        let params = inner.wish.used(params);
-        Preset { name: name.to_owned(), seed: Some(inner.wish.seed()), params, ..Preset::default() }
+        let params = inner.request.used(params);
+        Preset { name: name.to_owned(), seed: Some(inner.request.seed()), params, ..Preset::default() }
     };
     let presets = Presets::save(&state.script, preset.clone())?;
     let inner = &mut *state.lock();
     // Another page may have changed them since.
-    let same = |params: &[Param]| inner.wish.used(params) == preset.params;
-    if inner.params.as_deref().is_some_and(same) && preset.seed == Some(inner.wish.seed()) {
-        inner.wish.is_preset(preset);
+    let same = |params: &[Param]| inner.request.used(params) == preset.params;
+    if inner.params.as_deref().is_some_and(same) && preset.seed == Some(inner.request.seed()) {
+        inner.request.is_preset(preset);
     }
     Ok(presets)
 }
@@ -119,13 +119,13 @@ pub(super) fn variations(
     id: u64,
     over: Result<Over>,
     page: Sender<Utf8Bytes>,
-) -> Option<Say> {
+) -> Option<Event> {
     let begin = || -> Result<Variations> {
         let (inputs, params) = {
             let inner = state.lock();
-            (inner.wish.inputs(inner.generation), inner.params.clone())
+            (inner.request.inputs(inner.generation), inner.params.clone())
         };
-        let options = Options {
+        let options = RunOptions {
             set: inputs.set,
             seed: inputs.seed,
             steps: inputs.steps,
@@ -145,7 +145,7 @@ pub(super) fn variations(
     };
     let variations = match begin() {
         Ok(variations) => variations,
-        Err(error) => return Some(Say::refused(Some(id), &error)),
+        Err(error) => return Some(Event::refused(Some(id), &error)),
     };
     let stop = Arc::clone(&variations.stop);
     let before = state.variations.lock().unwrap_or_else(PoisonError::into_inner).replace(Arc::clone(&stop));
@@ -167,8 +167,8 @@ pub(super) fn variations(
         let tell = move || {
             // It ends with the other end of the channel.
             while ended.recv_timeout(TICK) == Err(RecvTimeoutError::Timeout) {
-                let say = Say::Variations { id, ran: running.ran(), of };
-                if page.blocking_send(say.to_text().into()).is_err() {
+                let event = Event::Variations { id, ran: running.ran(), of };
+                if page.blocking_send(event.to_text().into()).is_err() {
                     return gone();
                 }
             }
@@ -177,8 +177,8 @@ pub(super) fn variations(
             scope.spawn(tell);
             // What looks larger is larger, so that seeds and values can be compared.
             let made = variations.make(&picture, Framing::Together, |cell| {
-                let say = variation(&state, id, of, cell);
-                if page.blocking_send(say.to_text().into()).is_err() {
+                let event = variation(&state, id, of, cell);
+                if page.blocking_send(event.to_text().into()).is_err() {
                     gone();
                 }
             });
@@ -189,20 +189,22 @@ pub(super) fn variations(
             && !stop.is_stopped()
         {
             // The page may have gone.
-            let _ = page.blocking_send(Say::refused(Some(id), &error).to_text().into());
+            let _ = page.blocking_send(Event::refused(Some(id), &error).to_text().into());
         }
     };
     match std::thread::Builder::new().name("burgeon variations".to_owned()).spawn(make) {
         Ok(_) => None,
-        Err(error) => Some(Say::refused(Some(id), &Error::system(format!("cannot start a thread: {error}")))),
+        Err(error) => {
+            Some(Event::refused(Some(id), &Error::system(format!("cannot start a thread: {error}"))))
+        }
     }
 }
 
-fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Say {
+fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Event {
     let mut params: BTreeMap<String, serde_json::Value> = BTreeMap::new();
     let picture = cell.made.and_then(|made| {
         params.extend(made.params.iter().map(|param| (param.name.clone(), json(&param.value))));
-        encode_png(&made.picture)
+        image::encode(&made.picture)
     });
     if let Some((name, value)) = cell.set {
         params.entry(name).or_insert_with(|| value.into());
@@ -211,7 +213,7 @@ fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Say {
         Ok(png) => (Some(state.keep_picture(png)), None),
         Err(error) => (None, Some(error.to_string())),
     };
-    Say::Variation {
+    Event::Variation {
         id,
         index: cell.index,
         of,

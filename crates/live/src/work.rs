@@ -1,4 +1,4 @@
-//! The worker: one thread that runs the script as it was last wished and makes the model's bytes.
+//! The worker: one thread that runs the script as it was last requested and makes the model's bytes.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::PathBuf;
@@ -8,14 +8,14 @@ use std::time::{Duration, Instant, SystemTime};
 
 use axum::body::Bytes;
 
-use super::message::{Cause, Model, Say};
+use super::message::{Cause, Event, ModelMessage};
+use super::request::Inputs;
 use super::state::{Due, Inner, Running, Shown, State};
-use super::wish::Inputs;
-use super::{Told, describe};
+use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
-use burgeon_engine::script::{Limits, Options, Session, make_ready};
+use burgeon_engine::script::{Limits, RunOptions, Session, make_ready};
 use burgeon_export::gltf::{self, Layout};
 use burgeon_presets::Presets;
 use burgeon_watch::{Watch, unsettled};
@@ -48,17 +48,17 @@ pub(super) struct Job {
 
 /// What came of a run.
 enum Outcome {
-    Made(Box<Made>),
+    NewModel(Box<NewModel>),
     Missing,
     Failed(Error),
     Cancelled,
 }
 
-struct Made {
+struct NewModel {
     run: Run,
     file: File,
-    /// What pages are told of it, but for what depends on the wish.
-    message: Model,
+    /// What pages are told of it, but for what depends on the request.
+    message: ModelMessage,
 }
 
 /// The model as pages get it.
@@ -138,17 +138,19 @@ fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)], watch: &Watch
 pub(super) fn report(state: &State) {
     let mut inner = state.lock();
     while !inner.over {
-        if inner.running.as_ref().is_none_or(|running| running.quiet) {
+        if inner.running.as_ref().is_none_or(|running| running.background) {
             inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
             continue;
         }
         drop(inner);
         std::thread::sleep(TICK);
         inner = state.lock();
-        if let Some(running) = inner.running.as_ref().filter(|it| !it.quiet && it.begin.elapsed() >= TICK) {
+        if let Some(running) =
+            inner.running.as_ref().filter(|it| !it.background && it.begin.elapsed() >= TICK)
+        {
             let (step, steps, modules) = running.session.progress.counts();
             let message = running.session.progress.message(running.begin.elapsed());
-            state.say(&Say::Progress { run: running.run, message, step, steps, modules });
+            state.send(&Event::Progress { run: running.run, message, step, steps, modules });
         }
     }
 }
@@ -168,8 +170,8 @@ fn next(state: &State) -> Option<Job> {
         if let Some(due) = inner.due.take() {
             inner.runs += 1;
             let run = inner.runs;
-            state.say(&Say::Working { run, cause: due.cause, files: due.files.clone() });
-            let inputs = inner.wish.inputs(inner.generation);
+            state.send(&Event::Working { run, cause: due.cause, files: due.files.clone() });
+            let inputs = inner.request.inputs(inner.generation);
             return Some(Job { run, due, inputs });
         }
         inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
@@ -190,15 +192,15 @@ fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<Ato
         session: Arc::clone(session),
         begin: Instant::now(),
         cancelled: Arc::clone(&cancelled),
-        quiet: job.is_none(),
+        background: job.is_none(),
     });
     state.wake.notify_all();
     cancelled
 }
 
 /// How the script is run with these inputs.
-pub(super) fn options(state: &State, inputs: &Inputs) -> Options {
-    Options {
+pub(super) fn options(state: &State, inputs: &Inputs) -> RunOptions {
+    RunOptions {
         set: inputs.set.clone(),
         seed: inputs.seed,
         steps: inputs.steps,
@@ -232,11 +234,11 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
         }
         message.times.encode = describe::ms(time);
         message.times.total = describe::ms(job.due.at.elapsed());
-        Ok(Made { run, file, message })
+        Ok(NewModel { run, file, message })
     });
     match made {
         _ if cancelled.load(Ordering::Acquire) => Outcome::Cancelled,
-        Ok(made) => Outcome::Made(Box::new(made)),
+        Ok(made) => Outcome::NewModel(Box::new(made)),
         Err(error) => Outcome::Failed(error),
     }
 }
@@ -279,30 +281,30 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
     if let Some(session) = session.filter(|_| !matches!(outcome, Outcome::Cancelled)) {
         inner.files = session.files();
     }
-    let mut told = Vec::new();
+    let mut notices = Vec::new();
     let mut gone = None;
     match outcome {
         Outcome::Cancelled => inner.cancelled(state, job.run),
         Outcome::Missing => {
             let text = format!("there is no script {} yet", state.script.display());
-            inner.end_badly(state, job, Say::Waiting { text: text.clone() });
-            told.push(Told::Waiting(text));
+            inner.end_badly(state, job, Event::Waiting { text: text.clone() });
+            notices.push(Notice::Waiting(text));
         }
         Outcome::Failed(error) => {
             let number = error.problems().count();
             let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
-            inner.end_badly(state, job, Say::Error { run, cause, text: error.to_string(), errors, number });
-            told.push(Told::Failed(error));
+            inner.end_badly(state, job, Event::Error { run, cause, text: error.to_string(), errors, number });
+            notices.push(Notice::Failed(error));
         }
-        Outcome::Made(made) => {
-            let Made { run, file, mut message } = *made;
-            message.params = inner.wish.knobs(&run.params);
+        Outcome::NewModel(made) => {
+            let NewModel { run, file, mut message } = *made;
+            message.params = inner.request.params(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
-            message.preset = inner.wish.preset();
+            message.preset = inner.request.preset();
             let File { content, layout, note } = file;
             let old = content.map(|(hash, bytes)| inner.keep(hash, bytes));
-            told.push(Told::Model {
+            notices.push(Notice::Model {
                 triangles: message.triangles,
                 modules: message.modules,
                 total: Duration::from_secs_f64(message.times.total / 1e3),
@@ -312,16 +314,16 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
             inner.cancelled = None;
             inner.took = quick.unwrap_or_default();
             inner.finished = Some(job.inputs.clone());
-            state.say(&Say::Model(Box::new(message.clone())));
+            state.send(&Event::Model(Box::new(message.clone())));
             let left_out = session.map(Session::left_out).unwrap_or_default();
-            told.extend(inner.tell_left_out(state, &left_out));
-            told.extend(inner.new_warnings(&run.warnings));
+            notices.extend(inner.tell_left_out(state, &left_out));
+            notices.extend(inner.new_warnings(&run.warnings));
             let report = run.report();
             let remarks = (!report.is_clean())
                 .then(|| format!("{report}: burgeon run SCRIPT --report FILE lists them"));
             for text in remarks.into_iter().chain(note) {
-                state.say(&Say::note(text.clone()));
-                told.push(Told::Note(text));
+                state.send(&Event::note(text.clone()));
+                notices.push(Notice::Note(text));
             }
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
             gone = Some((inner.shown.replace(Arc::new(Shown { run, inputs, layout, message })), old));
@@ -330,42 +332,42 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
     drop(inner);
     // Large models take a while to go.
     drop(gone);
-    for told in told {
-        state.tell(&told);
+    for notice in notices {
+        state.tell(&notice);
     }
 }
 
 impl Inner {
-    fn end_badly(&mut self, state: &State, job: &Job, say: Say) {
+    fn end_badly(&mut self, state: &State, job: &Job, event: Event) {
         self.params = None;
         self.cancelled = None;
         self.finished = Some(job.inputs.clone());
-        state.say(&say);
-        self.trouble = Some(say);
+        state.send(&event);
+        self.trouble = Some(event);
     }
 
     /// The warnings of a run that the one before did not have.
-    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Told> {
+    fn new_warnings(&mut self, warnings: &[Warning]) -> Vec<Notice> {
         let text = |it: &Warning| format!("{:?} {}", it.place(), it.message());
         let new = warnings.iter().filter(|warning| !self.warnings.contains(&text(warning)));
-        let told = new.cloned().map(Told::Warning).collect();
+        let notices = new.cloned().map(Notice::Warning).collect();
         self.warnings = warnings.iter().map(text).collect();
-        told
+        notices
     }
 
     /// Tells of values that the script does not take any more, once each.
-    fn tell_left_out(&mut self, state: &State, left_out: &[(String, Error)]) -> Vec<Told> {
+    fn tell_left_out(&mut self, state: &State, left_out: &[(String, Error)]) -> Vec<Notice> {
         let texts: Vec<String> = left_out
             .iter()
             .map(|(name, error)| format!("the value of {name} is not used: {error}"))
             .collect();
-        let mut told = Vec::new();
+        let mut notices = Vec::new();
         for text in texts.iter().filter(|text| !self.left_out.contains(*text)) {
-            state.say(&Say::note(text.clone()));
-            told.push(Told::Note(text.clone()));
+            state.send(&Event::note(text.clone()));
+            notices.push(Notice::Note(text.clone()));
         }
         self.left_out = texts.into_iter().collect();
-        told
+        notices
     }
 
     /// The number of steps to the end, of a run with these inputs that took `steps`; the best guess if it was
@@ -425,8 +427,8 @@ fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
     let last_step = found.max(steps);
     inner.last_step = Some((inputs, last_step));
     let Some(shown) = inner.shown.as_mut() else { return };
-    let message = Model { last_step, ..shown.message.clone() };
+    let message = ModelMessage { last_step, ..shown.message.clone() };
     let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
     *shown = Arc::new(Shown { run, inputs: shown.inputs.clone(), layout, message });
-    inner.present().into_iter().for_each(|model| state.say(&Say::Model(Box::new(model))));
+    inner.present().into_iter().for_each(|model| state.send(&Event::Model(Box::new(model))));
 }

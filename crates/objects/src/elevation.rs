@@ -7,29 +7,28 @@ use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_data::elevation::{Raster, Relief, Wanted};
-use burgeon_kit::{Expected, Loaded, Loader, Loading, object};
+use burgeon_kit::{Expected, Loaded, Loader, Loading, fields, methods, object};
 use burgeon_kit::{Kind, Object, Parameter, Table, Value, Vector};
 use burgeon_terrain::Measured;
 
 /// The one encoding of heights as colours that is known.
 const TERRAIN_RGB: &str = "terrain-rgb";
 
-fields! {
-    /// What `elevation(file, options)` takes besides the file.
-    pub struct ElevationOptions for "elevation" {
-        /// The EPSG code of the coordinates, in place of the file's.
-        pub crs: Option<u32> = None,
-        /// The height (m) of black in a 16-bit PNG.
-        pub low: Option<f64> = None,
-        /// The height (m) of white in a 16-bit PNG.
-        pub high: Option<f64> = None,
-        /// The outer edges of the samples, `{ west, south, east, north }`, in `crs`, or in metres without one.
-        pub bounds: Option<Vec<f64>> = None,
-        /// How colours of a PNG are heights: `"terrain-rgb"`.
-        pub encoding: Option<String> = None,
-        /// Whether heights that are missing are filled in from around them without a word.
-        pub fill: bool = false,
-    }
+/// What `elevation(file, options)` takes besides the file.
+#[fields("elevation")]
+pub struct ElevationOptions {
+    /// The EPSG code of the coordinates, in place of the file's.
+    pub crs: Option<u32>,
+    /// The height (m) of black in a 16-bit PNG.
+    pub low: Option<f64>,
+    /// The height (m) of white in a 16-bit PNG.
+    pub high: Option<f64>,
+    /// The outer edges of the samples, `{ west, south, east, north }`, in `crs`, or in metres without one.
+    pub bounds: Option<Vec<f64>>,
+    /// How colours of a PNG are heights: `"terrain-rgb"`.
+    pub encoding: Option<String>,
+    /// Whether heights that are missing are filled in from around them without a word.
+    pub fill: bool,
 }
 
 impl ElevationOptions {
@@ -61,27 +60,26 @@ pub struct Elevation {
     relief: Arc<Relief>,
 }
 
-methods! {
-    Elevation = "elevation" {
-        /// The height of the ground (m) at a place; fails outside of the file's bounds.
-        pub fn height(&self, place: Vector) -> Result<f64> {
-            self.height_at(place.0.truncate()).ok_or_else(|| self.outside(place.0))
-        }
+#[methods("elevation")]
+impl Elevation {
+    /// The height of the ground (m) at a place; fails outside of the file's bounds.
+    pub fn height(&self, place: Vector) -> Result<f64> {
+        self.height_at(place.0.truncate()).ok_or_else(|| self.outside(place.0))
+    }
 
-        /// The lowest corner of the box around it (m).
-        pub fn low(&self) -> DVec3 {
-            self.relief.low()
-        }
+    /// The lowest corner of the box around it (m).
+    pub fn low(&self) -> DVec3 {
+        self.relief.low()
+    }
 
-        /// The highest corner of the box around it (m).
-        pub fn high(&self) -> DVec3 {
-            self.relief.high()
-        }
+    /// The highest corner of the box around it (m).
+    pub fn high(&self) -> DVec3 {
+        self.relief.high()
+    }
 
-        /// The distance of neighbouring samples (m).
-        pub fn step(&self) -> f64 {
-            self.relief.step()
-        }
+    /// The distance of neighbouring samples (m).
+    pub fn step(&self) -> f64 {
+        self.relief.step()
     }
 }
 

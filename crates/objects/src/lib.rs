@@ -1,12 +1,9 @@
 //! The types of objects that come with Burgeon, one type to a file.
 //!
-//! Comes in: values from scripts. Goes out: geometry for the scene. Objects know nothing of Lua or of chains.
+//! Comes in: values from scripts. Goes out: geometry for the scene. Objects never know of Lua or of chains.
 //!
-//! A new type is a new file and one line in [`registry`]: a struct, `fields!` for what its constructor takes,
-//! `methods!` for what scripts may call, and an implementation of [`Object`](burgeon_kit::Object).
-
-#[macro_use]
-extern crate burgeon_kit;
+//! A new type is a new file and one line in [`registry`]: a struct, `#[fields]` for what its constructor takes,
+//! `#[methods]` for what scripts may call, and an implementation of [`Object`](burgeon_kit::Object).
 
 mod elevation;
 mod extruder;

@@ -10,7 +10,7 @@ use rstar::{PointDistance, RTree};
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::Line;
-use burgeon_kit::{Expected, object};
+use burgeon_kit::{Expected, fields, methods, object};
 use burgeon_kit::{Kind, Lines, Object, Parameter, Value, Vector};
 
 /// The farthest (m) that a street lies from what faces it.
@@ -20,12 +20,11 @@ const FACING: f64 = 0.5;
 /// How many pieces of streets are looked at for one that an edge faces.
 const TRIES: usize = 64;
 
-fields! {
-    /// What `streets(source)` takes.
-    pub struct Options for "streets" {
-        /// The streets' lines (m): a source, or lists of points.
-        pub lines: Lines = Lines::default(),
-    }
+/// What `streets(source)` takes.
+#[fields("streets")]
+pub struct LineIndexOptions {
+    /// The streets' lines (m): a source, or lists of points.
+    pub lines: Lines,
 }
 
 /// Lines on the ground, such as those of streets, to be found by place.
@@ -41,14 +40,13 @@ impl fmt::Debug for LineIndex {
     }
 }
 
-methods! {
-    LineIndex = "streets" {
-        /// Distance (m) from a place on the ground to the nearest street; infinite if there is none.
-        pub fn distance(&self, place: Vector) -> f64 {
-            let place = place.0.truncate().to_array();
-            let nearest = self.pieces.nearest_neighbor(&place);
-            nearest.map_or(f64::INFINITY, |piece| piece.distance_2(&place).sqrt())
-        }
+#[methods("streets")]
+impl LineIndex {
+    /// Distance (m) from a place on the ground to the nearest street; infinite if there is none.
+    pub fn distance(&self, place: Vector) -> f64 {
+        let place = place.0.truncate().to_array();
+        let nearest = self.pieces.nearest_neighbor(&place);
+        nearest.map_or(f64::INFINITY, |piece| piece.distance_2(&place).sqrt())
     }
 }
 
@@ -57,18 +55,21 @@ impl LineIndex {
     pub fn kind() -> &'static Arc<Kind> {
         static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
             let kind =
-                Kind::new("streets", "Streets, for footprints to know which of their edges is on one.");
+                Kind::new("streets", "Streets, for footprints to know which of their edges is on one.")
+                    .example(include_str!("../scripts/streets.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| LineIndex::new(Options::from_table(table)?))
-                    .first("lines")
-                    .methods(LineIndex::methods()),
+                kind.made_of(LineIndexOptions::fields(), |table| {
+                    LineIndex::new(LineIndexOptions::from_table(table)?)
+                })
+                .first("lines")
+                .methods(LineIndex::methods()),
             )
         });
         &KIND
     }
 
     /// The index of the lines that a script names.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: LineIndexOptions) -> Result<Self> {
         let Lines { lines, refused } = options.lines;
         let mut index = Self::over(&lines);
         if let Some((count, first)) = refused {

@@ -1,7 +1,7 @@
 //! `material { ... }`: how scripts say what a surface looks like.
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Color, Parameter, Table, Value};
+use burgeon_kit::{Color, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 
 /// What a texture is multiplied with.
@@ -10,26 +10,29 @@ const WHITE: Color = Color([1.0; 4]);
 /// What has neither a colour nor a texture.
 const GREY: Color = Color([0.6, 0.6, 0.6, 1.0]);
 
-fields! {
-    /// What `material { ... }` takes.
-    pub struct Surface for "material" {
-        /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1; if left out, white under a texture, and grey.
-        pub color: Option<Color> = None,
-        /// 0 for wood, stone and plaster, 1 for bare metal.
-        pub metallic: f64 = 0.0,
-        /// 0 like a mirror, 1 like chalk.
-        pub roughness: f64 = 0.8,
-        /// Light that the surface gives off itself, as a colour.
-        pub emissive: Color = Color([0.0, 0.0, 0.0, 1.0]),
-        /// An image file beside the script, PNG or JPEG.
-        pub texture: Option<String> = None,
-        /// Width and height (m) of one repetition of the image.
-        pub texture_size: Vec<f64> = vec![1.0, 1.0],
-        /// Whether both sides are seen, as with leaves.
-        pub double_sided: bool = false,
-        /// A name for people.
-        pub name: String = String::new(),
-    }
+/// What `material { ... }` takes.
+#[fields("material")]
+pub struct Surface {
+    /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1; if left out, white under a texture, and grey.
+    pub color: Option<Color>,
+    /// 0 for wood, stone and plaster, 1 for bare metal.
+    #[default(0.0)]
+    pub metallic: f64,
+    /// 0 like a mirror, 1 like chalk.
+    #[default(0.8)]
+    pub roughness: f64,
+    /// Light that the surface gives off itself, as a colour.
+    #[default(Color([0.0, 0.0, 0.0, 1.0]))]
+    pub emissive: Color,
+    /// An image file beside the script, PNG or JPEG.
+    pub texture: Option<String>,
+    /// Width and height (m) of one repetition of the image.
+    #[default(vec![1.0, 1.0])]
+    pub texture_size: Vec<f64>,
+    /// Whether both sides are seen, as with leaves.
+    pub double_sided: bool,
+    /// A name for people.
+    pub name: String,
 }
 
 impl Parameter for Surface {

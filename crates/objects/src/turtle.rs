@@ -7,43 +7,53 @@ use glam::{DAffine3, DQuat, DVec3};
 use super::Surface;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector};
+use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector, fields, methods};
 use burgeon_scene::Material;
 
-fields! {
-    /// What `turtle { ... }` takes.
-    pub struct Options for "turtle" {
-        /// Length of a step where none is given (m).
-        pub step: f64 = 1.0,
-        /// Angle of a turn where none is given (degrees).
-        pub angle: f64 = 90.0,
-        /// Diameter of what is drawn (m).
-        pub width: f64 = 0.1,
-        /// Number of faces around what is drawn.
-        pub sides: u32 = 8,
-        /// Colour of what is drawn.
-        pub color: Color = Color([0.22, 0.13, 0.07, 1.0]),
-        /// 0 like a mirror, 1 like chalk.
-        pub roughness: f64 = 0.85,
-        /// 0 for wood, stone and plaster, 1 for bare metal.
-        pub metallic: f64 = 0.0,
-        /// Colours that `paint` chooses from, the first being number 1.
-        pub palette: Vec<Color> = Vec::new(),
-        /// Where it begins (m).
-        pub position: Vector = Vector(DVec3::ZERO),
-        /// Where it looks at first.
-        pub heading: Vector = Vector(DVec3::Z),
-        /// Direction that its heading bends to with each step drawn.
-        pub tropism: Vector = Vector(DVec3::NEG_Z),
-        /// How strongly it bends there, from 0; 0.2 is much.
-        pub elasticity: f64 = 0.0,
-    }
+/// What `turtle { ... }` takes.
+#[fields("turtle")]
+pub struct TurtleOptions {
+    /// Length of a step where none is given (m).
+    #[default(1.0)]
+    pub step: f64,
+    /// Angle of a turn where none is given (degrees).
+    #[default(90.0)]
+    pub angle: f64,
+    /// Diameter of what is drawn (m).
+    #[default(0.1)]
+    pub width: f64,
+    /// Number of faces around what is drawn.
+    #[default(8)]
+    pub sides: u32,
+    /// Colour of what is drawn.
+    #[default(Color([0.22, 0.13, 0.07, 1.0]))]
+    pub color: Color,
+    /// 0 like a mirror, 1 like chalk.
+    #[default(0.85)]
+    pub roughness: f64,
+    /// 0 for wood, stone and plaster, 1 for bare metal.
+    #[default(0.0)]
+    pub metallic: f64,
+    /// Colours that `paint` chooses from, the first being number 1.
+    pub palette: Vec<Color>,
+    /// Where it begins (m).
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// Where it looks at first.
+    #[default(Vector(DVec3::Z))]
+    pub heading: Vector,
+    /// Direction that its heading bends to with each step drawn.
+    #[default(Vector(DVec3::NEG_Z))]
+    pub tropism: Vector,
+    /// How strongly it bends there, from 0; 0.2 is much.
+    #[default(0.0)]
+    pub elasticity: f64,
 }
 
 /// A turtle as in *The Algorithmic Beauty of Plants*, which draws round branches in three dimensions.
 #[derive(Clone)]
 pub struct Turtle {
-    options: Options,
+    options: TurtleOptions,
     state: State,
     stack: Vec<State>,
     drawing: Drawing,
@@ -93,182 +103,185 @@ struct Branch {
     maker: u32,
 }
 
-methods! {
-    Turtle = "turtle" {
-        /// Goes forward by `length` (m) and draws a branch; within a polygon it only moves.
-        pub fn forward(&mut self, length: Option<f64>) -> Result<()> {
-            self.draw(length.unwrap_or(self.options.step))
-        }
+#[methods("turtle")]
+impl Turtle {
+    /// Goes forward by `length` (m) and draws a branch; within a polygon it only moves.
+    pub fn forward(&mut self, length: Option<f64>) -> Result<()> {
+        self.draw(length.unwrap_or(self.options.step))
+    }
 
-        /// Goes forward by `length` (m) without drawing.
-        pub fn advance(&mut self, length: Option<f64>) {
-            self.lift();
-            self.state.frame.forward(length.unwrap_or(self.options.step));
-        }
+    /// Goes forward by `length` (m) without drawing.
+    pub fn advance(&mut self, length: Option<f64>) {
+        self.lift();
+        self.state.frame.forward(length.unwrap_or(self.options.step));
+    }
 
-        /// Turns to the left by `angle` (degrees); a negative one turns right.
-        pub fn turn(&mut self, angle: Option<f64>) {
-            let angle = self.angle(angle);
-            self.state.frame.turn_by(angle);
-        }
+    /// Turns to the left by `angle` (degrees); a negative one turns right.
+    pub fn turn(&mut self, angle: Option<f64>) {
+        let angle = self.angle(angle);
+        self.state.frame.turn_by(angle);
+    }
 
-        /// Pitches down by `angle` (degrees); a negative one pitches up.
-        pub fn pitch(&mut self, angle: Option<f64>) {
-            let angle = self.angle(angle);
-            self.state.frame.pitch_by(angle);
-        }
+    /// Pitches down by `angle` (degrees); a negative one pitches up.
+    pub fn pitch(&mut self, angle: Option<f64>) {
+        let angle = self.angle(angle);
+        self.state.frame.pitch_by(angle);
+    }
 
-        /// Rolls about the heading by `angle` (degrees), the left side up; a negative one rolls back.
-        pub fn roll(&mut self, angle: Option<f64>) {
-            let angle = self.angle(angle);
-            self.state.frame.roll_by(angle);
-        }
+    /// Rolls about the heading by `angle` (degrees), the left side up; a negative one rolls back.
+    pub fn roll(&mut self, angle: Option<f64>) {
+        let angle = self.angle(angle);
+        self.state.frame.roll_by(angle);
+    }
 
-        /// Turns to the right by `angle` (degrees).
-        pub fn turn_right(&mut self, angle: Option<f64>) {
-            let angle = self.angle(angle);
-            self.state.frame.turn_by((-angle.0, angle.1));
-        }
+    /// Turns to the right by `angle` (degrees).
+    pub fn turn_right(&mut self, angle: Option<f64>) {
+        let angle = self.angle(angle);
+        self.state.frame.turn_by((-angle.0, angle.1));
+    }
 
-        /// Pitches up by `angle` (degrees).
-        pub fn pitch_up(&mut self, angle: Option<f64>) {
-            let angle = self.angle(angle);
-            self.state.frame.pitch_by((-angle.0, angle.1));
-        }
+    /// Pitches up by `angle` (degrees).
+    pub fn pitch_up(&mut self, angle: Option<f64>) {
+        let angle = self.angle(angle);
+        self.state.frame.pitch_by((-angle.0, angle.1));
+    }
 
-        /// Rolls about the heading by `angle` (degrees), the right side up.
-        pub fn roll_back(&mut self, angle: Option<f64>) {
-            let angle = self.angle(angle);
-            self.state.frame.roll_by((-angle.0, angle.1));
-        }
+    /// Rolls about the heading by `angle` (degrees), the right side up.
+    pub fn roll_back(&mut self, angle: Option<f64>) {
+        let angle = self.angle(angle);
+        self.state.frame.roll_by((-angle.0, angle.1));
+    }
 
-        /// Turns around.
-        pub fn turn_around(&mut self) {
-            self.state.frame.turn(std::f64::consts::PI);
-        }
+    /// Turns around.
+    pub fn turn_around(&mut self) {
+        self.state.frame.turn(std::f64::consts::PI);
+    }
 
-        /// Rolls so that the left side is horizontal.
-        pub fn level(&mut self) {
-            self.state.frame.level();
-        }
+    /// Rolls so that the left side is horizontal.
+    pub fn level(&mut self) {
+        self.state.frame.level();
+    }
 
-        /// Turns the heading to `direction`.
-        pub fn face(&mut self, direction: Vector) -> Result<()> {
-            if direction.0.length_squared() < 1e-24 {
-                return Err(Error::argument("turtle:face: direction has no length").help("give a vector that is not zero"));
-            }
-            self.state.frame.face(direction.0);
-            Ok(())
+    /// Turns the heading to `direction`.
+    pub fn face(&mut self, direction: Vector) -> Result<()> {
+        if direction.0.length_squared() < 1e-24 {
+            return Err(Error::argument("turtle:face: direction has no length")
+                .help("give a vector that is not zero"));
         }
+        self.state.frame.face(direction.0);
+        Ok(())
+    }
 
-        /// Goes to a place (m) without drawing.
-        pub fn jump(&mut self, position: Vector) {
-            self.lift();
-            self.state.frame.position = position.0 - self.options.position.0;
-        }
+    /// Goes to a place (m) without drawing.
+    pub fn jump(&mut self, position: Vector) {
+        self.lift();
+        self.state.frame.position = position.0 - self.options.position.0;
+    }
 
-        /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
-        pub fn width(&mut self, width: f64) -> Result<()> {
-            if width < 0.0 {
-                return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
-            }
-            self.state.width = width;
-            Ok(())
+    /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
+    pub fn width(&mut self, width: f64) -> Result<()> {
+        if width < 0.0 {
+            return Err(Error::argument(format!("turtle:width: width must not be negative, and is {width}")));
         }
+        self.state.width = width;
+        Ok(())
+    }
 
-        /// Sets the colour of what is drawn.
-        pub fn color(&mut self, color: Color) {
-            self.paint_with(color);
-        }
+    /// Sets the colour of what is drawn.
+    pub fn color(&mut self, color: Color) {
+        self.paint_with(color);
+    }
 
-        /// Chooses a colour of the palette, the first being number 1.
-        pub fn paint(&mut self, number: u32) -> Result<()> {
-            let color = (number as usize).checked_sub(1).and_then(|index| self.options.palette.get(index));
-            let Some(color) = color else {
-                return Err(Error::argument(format!("turtle:paint: the palette has no colour number {number}"))
-                    .help(format!("it has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}", self.options.palette.len())));
-            };
-            self.paint_with(*color);
-            Ok(())
-        }
+    /// Chooses a colour of the palette, the first being number 1.
+    pub fn paint(&mut self, number: u32) -> Result<()> {
+        let color = (number as usize).checked_sub(1).and_then(|index| self.options.palette.get(index));
+        let Some(color) = color else {
+            return Err(Error::argument(format!("turtle:paint: the palette has no colour number {number}"))
+                .help(format!(
+                    "it has {}; set it with turtle {{ palette = {{ \"#2f6b3a\", ... }} }}",
+                    self.options.palette.len()
+                )));
+        };
+        self.paint_with(*color);
+        Ok(())
+    }
 
-        /// Sets the whole material of what is drawn.
-        pub fn material(&mut self, material: Surface) -> Result<()> {
-            self.state.part = self.drawing.material(&material.material()?);
-            Ok(())
-        }
+    /// Sets the whole material of what is drawn.
+    pub fn material(&mut self, material: Surface) -> Result<()> {
+        self.state.part = self.drawing.material(&material.material()?);
+        Ok(())
+    }
 
-        /// Bends the heading towards `direction` with each step drawn, by `elasticity`.
-        pub fn tropism(&mut self, direction: Vector, elasticity: f64) {
-            self.state.tropism = direction.0.normalize_or_zero();
-            self.state.elasticity = elasticity;
-        }
+    /// Bends the heading towards `direction` with each step drawn, by `elasticity`.
+    pub fn tropism(&mut self, direction: Vector, elasticity: f64) {
+        self.state.tropism = direction.0.normalize_or_zero();
+        self.state.elasticity = elasticity;
+    }
 
-        /// Sets how strongly the heading bends with each step drawn.
-        pub fn elasticity(&mut self, elasticity: f64) {
-            self.state.elasticity = elasticity;
-        }
+    /// Sets how strongly the heading bends with each step drawn.
+    pub fn elasticity(&mut self, elasticity: f64) {
+        self.state.elasticity = elasticity;
+    }
 
-        /// Begins a polygon: `point` adds its corners, `end_polygon` fills it.
-        pub fn begin_polygon(&mut self) {
-            self.lift();
-            self.polygons.push(Vec::new());
-        }
+    /// Begins a polygon: `point` adds its corners, `end_polygon` fills it.
+    pub fn begin_polygon(&mut self) {
+        self.lift();
+        self.polygons.push(Vec::new());
+    }
 
-        /// Adds the turtle's place to the polygon that was begun last.
-        pub fn point(&mut self) -> Result<()> {
-            let position = self.state.frame.position;
-            match self.polygons.last_mut() {
-                Some(polygon) => polygon.push(position),
-                None => return Err(no_polygon("point")),
-            }
-            Ok(())
+    /// Adds the turtle's place to the polygon that was begun last.
+    pub fn point(&mut self) -> Result<()> {
+        let position = self.state.frame.position;
+        match self.polygons.last_mut() {
+            Some(polygon) => polygon.push(position),
+            None => return Err(no_polygon("point")),
         }
+        Ok(())
+    }
 
-        /// Fills the polygon that was begun last; it is seen from both sides.
-        pub fn end_polygon(&mut self) -> Result<()> {
-            let Some(corners) = self.polygons.pop() else { return Err(no_polygon("end_polygon")) };
-            let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
-            let part = self.drawing.material(&material);
-            face(self.drawing.part(part), &corners)
-        }
+    /// Fills the polygon that was begun last; it is seen from both sides.
+    pub fn end_polygon(&mut self) -> Result<()> {
+        let Some(corners) = self.polygons.pop() else { return Err(no_polygon("end_polygon")) };
+        let material = Material { double_sided: true, ..self.drawing.material_of(self.state.part) };
+        let part = self.drawing.material(&material);
+        face(self.drawing.part(part), &corners)
+    }
 
-        /// Draws a ball with `radius` (m) around the turtle's place.
-        pub fn sphere(&mut self, radius: f64) -> Result<()> {
-            let sides = self.options.sides.max(6);
-            sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
-        }
+    /// Draws a ball with `radius` (m) around the turtle's place.
+    pub fn sphere(&mut self, radius: f64) -> Result<()> {
+        let sides = self.options.sides.max(6);
+        sphere(self.drawing.part(self.state.part), self.state.frame.position, radius, sides)
+    }
 
-        /// Places what another system has drawn at the turtle's frame, scaled.
-        pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
-            let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
-            self.drawing.place(&model, self.state.frame.transform() * scale);
-        }
+    /// Places what another system has drawn at the turtle's frame, scaled.
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
+        let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
+        self.drawing.place(&model, self.state.frame.transform() * scale);
+    }
 
-        /// Its place (m).
-        pub fn position(&self) -> DVec3 {
-            self.options.position.0 + self.state.frame.position
-        }
+    /// Its place (m).
+    pub fn position(&self) -> DVec3 {
+        self.options.position.0 + self.state.frame.position
+    }
 
-        /// The direction in which it looks.
-        pub fn heading(&self) -> DVec3 {
-            self.state.frame.heading
-        }
+    /// The direction in which it looks.
+    pub fn heading(&self) -> DVec3 {
+        self.state.frame.heading
+    }
 
-        /// The direction to its left.
-        pub fn left(&self) -> DVec3 {
-            self.state.frame.left
-        }
+    /// The direction to its left.
+    pub fn left(&self) -> DVec3 {
+        self.state.frame.left
+    }
 
-        /// The direction above it.
-        pub fn up(&self) -> DVec3 {
-            self.state.frame.up
-        }
+    /// The direction above it.
+    pub fn up(&self) -> DVec3 {
+        self.state.frame.up
+    }
 
-        /// Distance (m) from a place to the nearest point of what it has drawn.
-        pub fn distance(&self, place: Vector) -> f64 {
-            self.drawing.distance(place.0 - self.options.position.0)
-        }
+    /// Distance (m) from a place to the nearest point of what it has drawn.
+    pub fn distance(&self, place: Vector) -> f64 {
+        self.drawing.distance(place.0 - self.options.position.0)
     }
 }
 
@@ -284,9 +297,10 @@ impl Turtle {
             let kind = Kind::new(
                 "turtle",
                 "A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.",
-            );
+            )
+.example(include_str!("../scripts/turtle.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Turtle::new(Options::from_table(table)?))
+                kind.made_of(TurtleOptions::fields(), |table| Turtle::new(TurtleOptions::from_table(table)?))
                     .methods(Turtle::methods())
                     .begins_empty()
                     .draws::<Turtle>(),
@@ -296,7 +310,7 @@ impl Turtle {
     }
 
     /// A turtle at its beginning.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: TurtleOptions) -> Result<Self> {
         if !(3..=64).contains(&options.sides) {
             return Err(Error::argument(format!(
                 "turtle: sides must be from 3 to 64, not {}",
@@ -382,7 +396,7 @@ impl Turtle {
 }
 
 impl State {
-    fn begin(options: &Options, drawing: &mut Drawing) -> Self {
+    fn begin(options: &TurtleOptions, drawing: &mut Drawing) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
         #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]

@@ -8,14 +8,14 @@ use glam::DVec3;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::Key as Numbers;
-use burgeon_kit::{Expected, Key, Kind, Object, Parameter, Seed, Table, Value};
+use burgeon_kit::{Expected, Key, Kind, Object, Parameter, Seed, Table, Value, fields, methods};
 
-fields! {
-    /// What `universe { ... }` takes.
-    pub struct Options for "universe" {
-        /// What all of it comes from: a number or a string.
-        pub seed: Seed = Seed(0),
-    }
+/// What `universe { ... }` takes.
+#[fields("universe")]
+pub struct UniverseOptions {
+    /// What all of it comes from: a number or a string.
+    #[default(Seed(0))]
+    pub seed: Seed,
 }
 
 /// Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.
@@ -24,54 +24,53 @@ pub struct Universe {
     key: Numbers,
 }
 
-methods! {
-    Universe = "universe" {
-        /// The galaxy in a cube of space, by its column, row and layer: a table with `position` and `radius` (light years),
-        /// `kind`, `color`, `seed`, and `stars`, how many it has.
-        pub fn galaxy(&self, x: f64, y: f64, z: f64) -> Result<Value> {
-            let cell = DVec3::new(x, y, z);
-            let mut key = self.key;
-            for at in cell.to_array() {
-                key = key.child(whole(at)?);
-            }
-            let mut stream = key.stream();
-            let sort = Sort::draw(GALAXIES, |_| true, &mut stream);
-            let radius = sort.size(&mut stream);
-            let place = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform());
-            // The Milky Way has some 2e11 stars within 5e4 light years.
-            let stars = (2e11 * (radius / 5e4).powi(3)).floor();
-            Ok(sort.table(key, (cell + place) * CUBE, radius, ("stars", stars)))
+#[methods("universe")]
+impl Universe {
+    /// The galaxy in a cube of space, by its column, row and layer: a table with `position` and `radius` (light years),
+    /// `kind`, `color`, `seed`, and `stars`, how many it has.
+    pub fn galaxy(&self, x: f64, y: f64, z: f64) -> Result<Value> {
+        let cell = DVec3::new(x, y, z);
+        let mut key = self.key;
+        for at in cell.to_array() {
+            key = key.child(whole(at)?);
         }
+        let mut stream = key.stream();
+        let sort = Sort::draw(GALAXIES, |_| true, &mut stream);
+        let radius = sort.size(&mut stream);
+        let place = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform());
+        // The Milky Way has some 2e11 stars within 5e4 light years.
+        let stars = (2e11 * (radius / 5e4).powi(3)).floor();
+        Ok(sort.table(key, (cell + place) * CUBE, radius, ("stars", stars)))
+    }
 
-        /// Star number `index` of a galaxy, from 1: a table with `position` (light years from the galaxy's middle),
-        /// `radius` (m), `kind`, `color`, `seed`, and `planets`, how many it has.
-        pub fn star(&self, galaxy: Galaxy, index: f64) -> Result<Value> {
-            let key = galaxy.0.key.child(galaxy.0.number("star", index)?);
-            let mut stream = key.stream();
-            let sort = Sort::draw(STARS, |_| true, &mut stream);
-            let radius = sort.size(&mut stream);
-            let position = galaxy.0.sort.place(&mut stream) * galaxy.0.radius;
-            #[allow(clippy::cast_precision_loss, reason = "a small number")]
-            let planets = stream.below(13) as f64;
-            Ok(sort.table(key, position, radius, ("planets", planets)))
-        }
+    /// Star number `index` of a galaxy, from 1: a table with `position` (light years from the galaxy's middle),
+    /// `radius` (m), `kind`, `color`, `seed`, and `planets`, how many it has.
+    pub fn star(&self, galaxy: Galaxy, index: f64) -> Result<Value> {
+        let key = galaxy.0.key.child(galaxy.0.number("star", index)?);
+        let mut stream = key.stream();
+        let sort = Sort::draw(STARS, |_| true, &mut stream);
+        let radius = sort.size(&mut stream);
+        let position = galaxy.0.sort.place(&mut stream) * galaxy.0.radius;
+        #[allow(clippy::cast_precision_loss, reason = "a small number")]
+        let planets = stream.below(13) as f64;
+        Ok(sort.table(key, position, radius, ("planets", planets)))
+    }
 
-        /// Planet number `index` of a star, from 1, the nearest first: a table with `position` (m from the star), `radius`
-        /// (m), `kind`, `color`, `seed`, and `light`, of which the Earth gets 1. A planet takes its radius and seed.
-        pub fn planet(&self, star: Star, index: f64) -> Result<Value> {
-            let number = star.0.number("planet", index)?;
-            let key = star.0.key.child(number);
-            let mut stream = key.stream();
-            // Each orbit is wider than the one before by about the same factor, and all are wider around bright stars.
-            let first = 0.25 * star.0.sort.light.powf(0.3);
-            let orbit = first * 1.7f64.powf(index + 0.6 * stream.uniform());
-            let (turn, tilt) = (stream.uniform() * TAU, (stream.uniform() - 0.5) * 0.08);
-            let position = DVec3::new(turn.cos(), turn.sin(), tilt) * orbit * EARTH_ORBIT;
-            let light = star.0.sort.light / (orbit * orbit);
-            let sort = Sort::draw(PLANETS, |sort| sort.lit.0 <= light && light < sort.lit.1, &mut stream);
-            let radius = sort.size(&mut stream);
-            Ok(sort.table(key, position, radius, ("light", light)))
-        }
+    /// Planet number `index` of a star, from 1, the nearest first: a table with `position` (m from the star), `radius`
+    /// (m), `kind`, `color`, `seed`, and `light`, of which the Earth gets 1. A planet takes its radius and seed.
+    pub fn planet(&self, star: Star, index: f64) -> Result<Value> {
+        let number = star.0.number("planet", index)?;
+        let key = star.0.key.child(number);
+        let mut stream = key.stream();
+        // Each orbit is wider than the one before by about the same factor, and all are wider around bright stars.
+        let first = 0.25 * star.0.sort.light.powf(0.3);
+        let orbit = first * 1.7f64.powf(index + 0.6 * stream.uniform());
+        let (turn, tilt) = (stream.uniform() * TAU, (stream.uniform() - 0.5) * 0.08);
+        let position = DVec3::new(turn.cos(), turn.sin(), tilt) * orbit * EARTH_ORBIT;
+        let light = star.0.sort.light / (orbit * orbit);
+        let sort = Sort::draw(PLANETS, |sort| sort.lit.0 <= light && light < sort.lit.1, &mut stream);
+        let radius = sort.size(&mut stream);
+        Ok(sort.table(key, position, radius, ("light", light)))
     }
 }
 
@@ -82,17 +81,20 @@ impl Universe {
             let kind = Kind::new(
                 "universe",
                 "Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.",
-            );
+            )
+.example(include_str!("../scripts/universe.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Ok(Universe::new(&Options::from_table(table)?)))
-                    .methods(Universe::methods()),
+                kind.made_of(UniverseOptions::fields(), |table| {
+                    Ok(Universe::new(&UniverseOptions::from_table(table)?))
+                })
+                .methods(Universe::methods()),
             )
         });
         &KIND
     }
 
     /// The universe of a seed.
-    pub fn new(options: &Options) -> Self {
+    pub fn new(options: &UniverseOptions) -> Self {
         Self { key: Numbers::seed(options.seed.0) }
     }
 }
@@ -355,7 +357,7 @@ mod tests {
 
     #[test]
     fn who_comes_back_finds_all_of_it_the_same() {
-        let universe = |seed| Universe::new(&Options { seed: Seed(seed) });
+        let universe = |seed| Universe::new(&UniverseOptions { seed: Seed(seed) });
         let tour = |universe: &Universe, x: f64| {
             let galaxy = universe.galaxy(x, -3.0, 12.0).unwrap();
             let star = universe.star(read(&galaxy), 4_000_123.0).unwrap();
@@ -368,7 +370,7 @@ mod tests {
 
     #[test]
     fn things_are_where_they_belong() {
-        let universe = Universe::new(&Options { seed: Seed(5) });
+        let universe = Universe::new(&UniverseOptions { seed: Seed(5) });
         let mut kinds = std::collections::BTreeSet::new();
         let mut warm = 0;
         for x in 0..20 {

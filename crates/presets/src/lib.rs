@@ -12,7 +12,8 @@
 //! }
 //! ```
 //!
-//! A file that is not of this form is refused, and never written over.
+//! Comes in: the path of a script, or a [`Preset`] to keep. Goes out: its [`Presets`], and their file. A file that is not
+//! of this form is refused, and never written over.
 
 use std::fmt;
 use std::io::Write as _;

@@ -2,7 +2,7 @@
 //!
 //! Comes in: a script and what changes from run to run ([`Over`]). Goes out: a [`Cell`] for each, in order, with
 //! its picture or its error; [`sheet`] puts the pictures side by side. The same input gives the same bytes for
-//! any number of threads. An error in one run does not touch the others.
+//! any number of threads. An error in one run never touches the others.
 
 mod letters;
 mod over;
@@ -17,15 +17,14 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use image::{Rgba, RgbaImage};
-
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{declare, no_such, run_session};
-use burgeon_engine::script::{Control, Options, Param, Session, Setting};
+use burgeon_engine::script::{Control, Param, RunOptions, Session, Setting};
 use burgeon_export::picture::{Extent, Picture, Quality, render_within};
 use burgeon_scene::Scene;
+use burgeon_scene::image::{self, Image};
 
 /// What finished scenes may take (bytes) while they wait for a common camera; further ones are made anew.
 const HELD: usize = 1 << 30;
@@ -53,14 +52,14 @@ pub struct Cell {
     /// The parameter that is varied, and the value it has here.
     pub set: Option<(String, String)>,
     /// What it has become.
-    pub made: Result<Made>,
+    pub made: Result<Thumbnail>,
 }
 
 /// What a variation has become.
 #[derive(Debug)]
-pub struct Made {
+pub struct Thumbnail {
     /// How it looks.
-    pub picture: RgbaImage,
+    pub picture: Image,
     /// All parameters of the script, with their values here.
     pub params: Vec<Param>,
     /// Modules of all chains.
@@ -76,7 +75,7 @@ pub struct Variations {
     /// Asks for an end: no further cells are given.
     pub stop: Arc<Stop>,
     script: PathBuf,
-    options: Options,
+    options: RunOptions,
     plans: Vec<Plan>,
     ran: AtomicUsize,
 }
@@ -101,10 +100,11 @@ struct Ran {
 impl Variations {
     /// Variations of `script`, otherwise run with `options`, whose limits are those of each run.
     ///
-    /// Fails if there are none or more than [`MOST`], and if the script has no such parameter or refuses one of
-    /// the values. A script that fails is told by its cells.
-    pub fn new(script: &Path, options: &Options, over: &Over) -> Result<Self> {
-        let options = Options { print: None, ..options.clone() };
+    /// Fails if there are none or more than [`MOST`], without the feature `pictures`, and if the script has no such
+    /// parameter or refuses one of the values. A script that fails is told by its cells.
+    pub fn new(script: &Path, options: &RunOptions, over: &Over) -> Result<Self> {
+        image::check()?;
+        let options = RunOptions { print: None, ..options.clone() };
         let plans: Vec<Plan> = match over {
             Over::Seeds(seeds) => seeds
                 .iter()
@@ -139,7 +139,7 @@ impl Variations {
 
     /// Makes all variations and gives each to `take` in order, as soon as it and those before it are finished.
     ///
-    /// `picture` is the wish for each cell; a draft is photographed at twice the size, so that its edges are smooth.
+    /// `picture` is what is asked of each cell; a draft is rendered at twice the size, so that its edges are smooth.
     /// Fails if a stop was asked for, with its reason, and if `picture`
     /// cannot be.
     pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Cell)) -> Result<()> {
@@ -150,7 +150,7 @@ impl Variations {
                 |number| {
                     let ran = self.run(number, None)?;
                     let extent = ran.extent.clone();
-                    self.photograph(number, ran, &extent, picture)
+                    self.render(number, ran, &extent, picture)
                 },
                 |number, made| take(self.cell(number, made)),
             ),
@@ -171,7 +171,7 @@ impl Variations {
                     |number| {
                         let ran = waiting[number].lock().unwrap_or_else(PoisonError::into_inner).take();
                         let ran = ran.unwrap_or_else(|| Err(Error::internal("it was made twice")))?;
-                        self.photograph(number, ran, &extent, picture)
+                        self.render(number, ran, &extent, picture)
                     },
                     |number, made| take(self.cell(number, made)),
                 )
@@ -179,7 +179,7 @@ impl Variations {
         }
     }
 
-    fn cell(&self, index: usize, made: Result<Made>) -> Cell {
+    fn cell(&self, index: usize, made: Result<Thumbnail>) -> Cell {
         let Plan { label, seed, set } = &self.plans[index];
         Cell { index, label: label.clone(), seed: *seed, set: set.clone(), made }
     }
@@ -211,14 +211,14 @@ impl Variations {
         Ok(Ran { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
     }
 
-    fn photograph(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Made> {
+    fn render(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Thumbnail> {
         let scene = match ran.scene {
             Some(scene) => scene,
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
         let picture = thumbnail(&scene, extent, picture, &self.stop)?;
         let Ran { params, modules, triangles, warnings, .. } = ran;
-        Ok(Made { picture, params, modules, triangles, warnings })
+        Ok(Thumbnail { picture, params, modules, triangles, warnings })
     }
 
     fn workers(&self) -> usize {
@@ -264,32 +264,32 @@ impl Variations {
     }
 }
 
-fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<RgbaImage> {
+fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<Image> {
     let (width, height) = (picture.width, picture.height);
     if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
         return render_within(scene, Some(extent), picture, stop);
     }
     let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
     let large = render_within(scene, Some(extent), &large, stop)?;
-    Ok(RgbaImage::from_fn(width, height, |x, y| {
-        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| *large.get_pixel(2 * x + i, 2 * y + j));
+    Ok(Image::from_fn(width, height, |x, y| {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| large.pixel(2 * x + i, 2 * y + j));
         mean(four)
     }))
 }
 
 /// The mean colour of pixels that differ in opacity.
-fn mean(pixels: [Rgba<u8>; 4]) -> Rgba<u8> {
+fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
     let opacity: u32 = pixels.iter().map(|pixel| u32::from(pixel[3])).sum();
     let color = |i: usize| {
         let sum: u32 = pixels.iter().map(|pixel| u32::from(pixel[i]) * u32::from(pixel[3])).sum();
         ((sum + opacity / 2) / opacity.max(1)) as u8
     };
-    Rgba([color(0), color(1), color(2), ((opacity + 2) / 4) as u8])
+    [color(0), color(1), color(2), ((opacity + 2) / 4) as u8]
 }
 
 /// The parameter `name` of `script`.
-fn find(script: &Path, options: &Options, name: &str) -> Result<Param> {
-    let mut options = Options { check: true, ..options.clone() };
+fn find(script: &Path, options: &RunOptions, name: &str) -> Result<Param> {
+    let mut options = RunOptions { check: true, ..options.clone() };
     options.set.retain(|(known, _)| known != name);
     let session = Session::new(script, options)?;
     // A script that fails may have declared the parameter all the same; each cell tells the failure.
@@ -347,8 +347,11 @@ s:derive()
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
         std::fs::write(&script, SCRIPT).unwrap();
-        let options =
-            Options { threads: Some(threads), registry: burgeon_objects::registry(), ..Options::default() };
+        let options = RunOptions {
+            threads: Some(threads),
+            registry: burgeon_objects::registry(),
+            ..RunOptions::default()
+        };
         let picture = Picture { width: 40, height: 50, quality: Quality::Draft, ..Picture::default() };
         let mut cells = Vec::new();
         let variations = Variations::new(&script, &options, over).unwrap();
@@ -358,7 +361,7 @@ s:derive()
     }
 
     fn pixels(cell: &Cell) -> Option<&[u8]> {
-        cell.made.as_ref().ok().map(|made| made.picture.as_raw().as_slice())
+        cell.made.as_ref().ok().map(|made| made.picture.bytes())
     }
 
     #[test]
@@ -405,7 +408,7 @@ s:derive()
         let over = Over::seeds("1..9").unwrap();
         let variations = Variations::new(
             &script,
-            &Options { registry: burgeon_objects::registry(), ..Options::default() },
+            &RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },
             &over,
         )
         .unwrap();

@@ -6,12 +6,12 @@ use std::time::Instant;
 use super::Plan;
 use super::group::{Arranged, Group};
 use super::output::Output;
-use crate::script::{Declared, Machine, read_column, write_column};
+use crate::machine::{Declared, Machine, read_column, write_column};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Around, Bindings, Chain, Links, Mark, module_brief};
 
 /// No rule.
-pub(super) const NONE: u16 = u16::MAX;
+pub(super) const NONE: u16 = burgeon_kit::RewriteOutcome::NONE;
 /// A piece of the chain: from a mark up to another symbol.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Piece {

@@ -1,7 +1,7 @@
 //! Chooses the rule of each module: by its contexts, its guard and its weight.
 
 use super::batch::{Active, Batch, NONE, Piece, Scratch, narrow};
-use crate::script::read_column;
+use crate::machine::read_column;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Candidates, Choice, END, Symbol};
 

@@ -9,7 +9,7 @@ const OPENS: u32 = 0xFFFF_FFFE;
 const CLOSES: u32 = 0xFFFF_FFFF;
 
 /// What became of one module.
-pub(super) enum Made {
+pub(super) enum Product {
     /// It stays.
     Nothing,
     /// The modules and brackets of the shape with this number.
@@ -20,7 +20,7 @@ pub(super) enum Made {
     UpTo(usize),
 }
 
-impl Made {
+impl Product {
     /// Reads what Lua wrote: a number of modules or of a shape, and a mark that tells which.
     #[inline]
     pub(super) fn read(word: u32) -> Self {
@@ -45,7 +45,7 @@ pub(super) struct Group {
     pub members: Vec<u32>,
     pub symbols: Vec<Symbol>,
     pub params: Vec<f64>,
-    /// For each application, what [`Made::read`] reads.
+    /// For each application, what [`Product::read`] reads.
     pub ends: Vec<u32>,
     /// For each application whose modules are in another order: the number of its items, and the items.
     pub order: Vec<u32>,

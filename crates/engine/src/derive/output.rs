@@ -1,8 +1,6 @@
 //! What comes of a piece of a chain: its successors, and what each rule has done.
 
-use std::ops::AddAssign;
-use std::time::Duration;
-
+use crate::results::Use;
 use burgeon_kit::rules::Chain;
 
 /// What a piece becomes.
@@ -17,25 +15,6 @@ pub(crate) struct Output {
     pub uses: Vec<(u16, Use)>,
     /// For each symbol of the piece, the rule that ran and how many symbols came of it; only where it is traced.
     pub applied: Vec<(u16, u32)>,
-}
-
-/// How much a rule has done.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
-pub struct Use {
-    /// How many times it was applied.
-    pub applied: usize,
-    /// How many modules and brackets it made.
-    pub made: usize,
-    /// The time that it took, of all threads together.
-    pub time: Duration,
-}
-
-impl AddAssign for Use {
-    fn add_assign(&mut self, other: Self) {
-        self.applied += other.applied;
-        self.made += other.made;
-        self.time += other.time;
-    }
 }
 
 impl Output {

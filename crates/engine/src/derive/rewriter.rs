@@ -7,7 +7,8 @@ use rustc_hash::FxHashMap;
 
 use super::Plan;
 use super::step::{Outcome, Stepper};
-use crate::script::{Declared, Interpretations, Machine};
+use super::threads::ThreadPool;
+use crate::machine::{Declared, Interpretations, Machine};
 use burgeon_base::error::Result;
 use burgeon_kit::rules::{Chain, Key};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
@@ -15,6 +16,7 @@ use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 /// The systems of a machine's script whose rules objects apply.
 pub(super) struct SystemRewriter<'a> {
     machine: &'a Machine,
+    threads: &'a ThreadPool,
     known: RefCell<FxHashMap<usize, Arc<RuleSet>>>,
     ready: RefCell<FxHashMap<usize, Ready>>,
     axioms: RefCell<FxHashMap<usize, Chain>>,
@@ -27,8 +29,14 @@ struct Ready {
 }
 
 impl<'a> SystemRewriter<'a> {
-    pub(super) fn new(machine: &'a Machine) -> Self {
-        Self { machine, known: RefCell::default(), ready: RefCell::default(), axioms: RefCell::default() }
+    pub(super) fn new(machine: &'a Machine, threads: &'a ThreadPool) -> Self {
+        Self {
+            machine,
+            threads,
+            known: RefCell::default(),
+            ready: RefCell::default(),
+            axioms: RefCell::default(),
+        }
     }
 
     /// Makes system `index` ready to be derived.
@@ -87,7 +95,7 @@ impl Rewriter for SystemRewriter<'_> {
             std::collections::hash_map::Entry::Vacant(entry) => entry.insert(self.prepare(index)?),
         };
         let Outcome { chain, applied, .. } =
-            ready.stepper.step(self.machine, &ready.declared, chain, step)?;
+            ready.stepper.step((self.machine, self.threads), &ready.declared, chain, step)?;
         Ok(RewriteOutcome { chain, applied })
     }
 

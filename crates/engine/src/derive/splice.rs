@@ -1,8 +1,9 @@
 //! Splices what the rules made of a piece into the next chain.
 
 use super::batch::{Batch, NONE, Piece, Scratch, narrow, narrow_rule};
-use super::group::Made;
-use super::output::{Output, Use};
+use super::group::Product;
+use super::output::Output;
+use crate::results::Use;
 use burgeon_kit::rules::{Chain, END, Key, Symbol};
 
 impl Batch<'_> {
@@ -27,9 +28,9 @@ impl Batch<'_> {
                 continue;
             }
             let group = &mut scratch.groups[usize::from(active.rule)];
-            let made = Made::read(group.ends[group.next]);
+            let made = Product::read(group.ends[group.next]);
             group.next += 1;
-            if matches!(made, Made::Nothing) {
+            if matches!(made, Product::Nothing) {
                 if random {
                     let here = active.module as usize;
                     let params = active.param as usize;
@@ -47,13 +48,13 @@ impl Batch<'_> {
             let here = active.module as usize;
             keep(out, module..here, param..active.param as usize);
             let (symbols, params) = match made {
-                Made::Nothing => continue,
-                Made::Shape(number) => (shapes[number].symbols.as_slice(), shapes[number].params),
-                Made::Ordered(end) => {
+                Product::Nothing => continue,
+                Product::Shape(number) => (shapes[number].symbols.as_slice(), shapes[number].params),
+                Product::Ordered(end) => {
                     group.arrange(end, grammar.arities(), &mut scratch.arranged, &mut out.params);
                     (scratch.arranged.symbols.as_slice(), 0)
                 }
-                Made::UpTo(end) => {
+                Product::UpTo(end) => {
                     let symbols = &group.symbols[group.symbol_at..end];
                     group.symbol_at = end;
                     let arity = |symbol: &Symbol| usize::from(grammar.arities()[usize::from(*symbol)]);
@@ -102,18 +103,18 @@ impl Batch<'_> {
         for active in scratch.active.iter().filter(|active| active.rule != NONE) {
             let (next, from, item) = &mut read[usize::from(active.rule)];
             let group = &scratch.groups[usize::from(active.rule)];
-            let made = Made::read(group.ends[*next]);
+            let made = Product::read(group.ends[*next]);
             *next += 1;
             let count = match made {
-                Made::Nothing => 1,
-                Made::Shape(number) => shapes[number].symbols.len(),
-                Made::Ordered(end) => {
+                Product::Nothing => 1,
+                Product::Shape(number) => shapes[number].symbols.len(),
+                Product::Ordered(end) => {
                     *from = end;
                     let count = group.order[*item] as usize;
                     *item += 1 + count;
                     count
                 }
-                Made::UpTo(end) => end - std::mem::replace(from, end),
+                Product::UpTo(end) => end - std::mem::replace(from, end),
             };
             applied[active.module as usize - piece.begin.module] = (active.rule, narrow(count));
         }

@@ -5,9 +5,10 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use super::Plan;
 use super::batch::{Batch, Piece, Scratch};
-use super::crew::Job;
-use super::output::{Output, Use};
-use crate::script::{Declared, Machine};
+use super::output::Output;
+use super::threads::{Job, ThreadPool};
+use crate::machine::{Declared, Machine};
+use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::rules::{Chain, Links, Mark};
 
@@ -15,7 +16,7 @@ use burgeon_kit::rules::{Chain, Links, Mark};
 const MANY: usize = 16;
 
 /// The work of one step, shared by the threads.
-pub(crate) struct Rewriting {
+pub(crate) struct RewritingStep {
     pub plan: Arc<Plan>,
     pub chain: Chain,
     pub links: Links,
@@ -30,7 +31,7 @@ pub(crate) struct Rewriting {
     ready: Condvar,
 }
 
-impl Rewriting {
+impl RewritingStep {
     /// Takes a piece and rewrites it; `false` when none is left.
     pub(crate) fn work(&self, machine: &Machine, declared: &Declared, scratch: &mut Scratch) -> bool {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
@@ -119,7 +120,7 @@ impl Stepper {
     /// Makes step number `step` on `chain`.
     pub(crate) fn step(
         &mut self,
-        machine: &Machine,
+        (machine, threads): (&Machine, &ThreadPool),
         declared: &Declared,
         chain: Chain,
         step: usize,
@@ -130,7 +131,7 @@ impl Stepper {
         machine.enter(self.plan.system)?;
         machine.refresh();
         machine.current.objects.replace(self.plan.objects.clone());
-        let rewriting = Arc::new(Rewriting {
+        let rewriting = Arc::new(RewritingStep {
             plan: Arc::clone(&self.plan),
             chain,
             links: std::mem::take(&mut self.links),
@@ -142,12 +143,12 @@ impl Stepper {
             results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
             ready: Condvar::new(),
         });
-        machine.crew.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
+        threads.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
         let result = self.merge(machine, declared, &rewriting);
         if result.is_err() {
             rewriting.abandon();
         }
-        let rewriting = machine.crew.reclaim(rewriting);
+        let rewriting = threads.reclaim(rewriting);
         let Merged { ran, changed, applied } = result?;
         self.links = rewriting.links;
         self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -163,7 +164,7 @@ impl Stepper {
     }
 
     /// Works on pieces and puts the results together as they come, in order.
-    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &Rewriting) -> Result<Merged> {
+    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &RewritingStep) -> Result<Merged> {
         let limit = machine.session.options.limits.modules;
         let made = &mut self.spare;
         made.clear();

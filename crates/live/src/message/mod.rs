@@ -1,17 +1,23 @@
 //! What server and page say to each other: JSON objects whose `type` is the name of the case.
 //!
 //! Everything that the server says goes to all pages, except answers with an `id`, which go to the page that
-//! asked. Whole numbers of 64 bits travel as text. Times are in milliseconds, lengths in metres with z up; the
+//! asked. Whole numbers of 64 bits travel as text. TimesMessage are in milliseconds, lengths in metres with z up; the
 //! model itself is glTF, y up.
 
-mod asked;
 mod bounded;
-mod made;
+mod command;
 mod model;
+mod origin;
 
-pub use asked::{Ask, Pick, read};
-pub use made::{Around, Highlighted, Made, Module, Named, Picked, Range, RuleAt, Step};
-pub use model::{Bounds, Count, Knob, KnobControl, Model, Rule, System, Times, json};
+pub use command::{Command, PickCommand, read};
+pub use model::{
+    Bounds, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
+    TimesMessage, json,
+};
+pub use origin::{
+    AroundMessage, HighlightMessage, ModuleMessage, Named, OriginMessage, PickMessage, Range, RuleAt,
+    StepMessage,
+};
 
 use std::collections::BTreeMap;
 
@@ -23,7 +29,7 @@ use burgeon_base::error::Error;
 /// What the server says.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
-pub enum Say {
+pub enum Event {
     /// First on every connection; the present state follows.
     Hello(Hello),
     /// The script does not exist (yet).
@@ -54,7 +60,7 @@ pub enum Say {
         modules: usize,
     },
     /// A run has ended well; the page shows its model.
-    Model(Box<Model>),
+    Model(Box<ModelMessage>),
     /// A run has failed; the last model stays, stale.
     Error {
         /// The run's number.
@@ -77,9 +83,9 @@ pub enum Say {
         stale: bool,
     },
     /// The module that made a triangle.
-    Picked(Box<Picked>),
+    Picked(Box<PickMessage>),
     /// What a line of a script has made.
-    Highlighted(Box<Highlighted>),
+    Highlighted(Box<HighlightMessage>),
     /// A part of a chain.
     Chain {
         /// The question's id.
@@ -94,7 +100,7 @@ pub enum Say {
         of: usize,
         /// The text.
         #[serde(flatten)]
-        text: Around,
+        text: AroundMessage,
     },
     /// The names of the presets have changed.
     Presets {
@@ -177,7 +183,7 @@ pub enum Cause {
     Preset,
 }
 
-impl Say {
+impl Event {
     /// What is said of a message that led to `error`.
     pub fn refused(id: Option<u64>, error: &Error) -> Self {
         Self::Refused { id, code: Some(error.kind().code()), text: error.to_string() }

@@ -8,7 +8,7 @@ use burgeon_engine::script::{Control, Param, Setting};
 
 /// The result of a run.
 #[derive(Debug, Clone, Serialize)]
-pub struct Model {
+pub struct ModelMessage {
     /// The run's number.
     pub run: u64,
     /// Why it ran.
@@ -38,13 +38,13 @@ pub struct Model {
     /// Why there is nothing to see, if so.
     pub nothing: Option<String>,
     /// The parameters in the script's order.
-    pub params: Vec<Knob>,
+    pub params: Vec<ParamMessage>,
     /// The systems in the order in which they were derived.
-    pub systems: Vec<System>,
+    pub systems: Vec<SystemMessage>,
     /// The rules, with what they cost.
-    pub rules: Vec<Rule>,
+    pub rules: Vec<RuleMessage>,
     /// Where the time went.
-    pub times: Times,
+    pub times: TimesMessage,
     /// The files that decide what the model is.
     pub files: Vec<String>,
     /// What people should know of it: as errors are told, each with its `kind` and how often it was found, its `count`.
@@ -62,7 +62,7 @@ pub struct Bounds {
 
 /// A parameter with its control.
 #[derive(Debug, Clone, Serialize)]
-pub struct Knob {
+pub struct ParamMessage {
     /// Its name.
     pub name: String,
     /// Its value in this run: a number, a switch or text.
@@ -74,7 +74,7 @@ pub struct Knob {
     /// Whether the value is not the script's.
     pub changed: bool,
     /// What values it may have.
-    pub control: KnobControl,
+    pub control: ControlMessage,
     /// The unit; may be empty.
     pub unit: String,
     /// What it does; may be empty.
@@ -84,7 +84,7 @@ pub struct Knob {
 /// What values a parameter may have.
 #[derive(Debug, Clone, Serialize)]
 #[serde(tag = "type", rename_all = "lowercase")]
-pub enum KnobControl {
+pub enum ControlMessage {
     /// A number within bounds, on a grid of steps from the lower bound.
     Number {
         /// The least value.
@@ -109,7 +109,7 @@ pub enum KnobControl {
 
 /// A derived system.
 #[derive(Debug, Clone, Serialize)]
-pub struct System {
+pub struct SystemMessage {
     /// Its place in the script, from 0.
     pub system: usize,
     /// The file and line that made it.
@@ -121,12 +121,12 @@ pub struct System {
     /// Derivation steps.
     pub steps: usize,
     /// The number of modules of each symbol.
-    pub symbols: Vec<Count>,
+    pub symbols: Vec<CountMessage>,
 }
 
 /// How many modules have a symbol.
 #[derive(Debug, Clone, Serialize)]
-pub struct Count {
+pub struct CountMessage {
     /// The symbol.
     pub name: String,
     /// The number of modules.
@@ -135,7 +135,7 @@ pub struct Count {
 
 /// A rule and what it cost.
 #[derive(Debug, Clone, Serialize)]
-pub struct Rule {
+pub struct RuleMessage {
     /// Its pattern.
     pub text: String,
     /// `rule` or `interpretation`.
@@ -154,7 +154,7 @@ pub struct Rule {
 
 /// Where the time of a run went (ms).
 #[derive(Debug, Clone, Copy, Serialize)]
-pub struct Times {
+pub struct TimesMessage {
     /// Starting the machine and running the script.
     pub script: f64,
     /// Finding and applying rules.
@@ -169,7 +169,7 @@ pub struct Times {
     pub total: f64,
 }
 
-impl Knob {
+impl ParamMessage {
     /// `param` as the page shows it; `old_default` is the script's value when this one was set.
     pub fn new(param: &Param, old_default: Option<&Setting>) -> Self {
         Self {
@@ -180,12 +180,12 @@ impl Knob {
             changed: param.value != param.default,
             control: match &param.control {
                 Control::Number { min, max, step } => {
-                    KnobControl::Number { min: *min, max: *max, step: *step }
+                    ControlMessage::Number { min: *min, max: *max, step: *step }
                 }
-                Control::Switch => KnobControl::Switch,
-                Control::Choice(choices) => KnobControl::Choice { choices: choices.clone() },
-                Control::Color => KnobControl::Color,
-                Control::Text => KnobControl::Text,
+                Control::Switch => ControlMessage::Switch,
+                Control::Choice(choices) => ControlMessage::Choice { choices: choices.clone() },
+                Control::Color => ControlMessage::Color,
+                Control::Text => ControlMessage::Text,
             },
             unit: param.unit.clone(),
             text: param.text.clone(),

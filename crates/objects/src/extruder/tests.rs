@@ -4,7 +4,7 @@ use super::*;
 use burgeon_geometry::solid;
 
 /// Draws with an extruder; gives its volume (m³) after having checked that it is a closed solid.
-fn volume(options: Options, draw: impl FnOnce(&mut Extruder) -> Result<()>) -> f64 {
+fn volume(options: ExtruderOptions, draw: impl FnOnce(&mut Extruder) -> Result<()>) -> f64 {
     let mut extruder = Extruder::new(options).expect("the options are valid");
     extruder.begin();
     draw(&mut extruder).expect("it can be drawn");
@@ -25,7 +25,7 @@ fn near(volume: f64, expected: f64) {
 
 #[test]
 fn a_prism_a_frustum_and_a_pyramid_have_their_volumes() {
-    let six = || Options { sides: 6, ..Options::default() };
+    let six = || ExtruderOptions { sides: 6, ..ExtruderOptions::default() };
     near(
         volume(six(), |it| {
             it.scale(2.0, None);
@@ -57,7 +57,7 @@ fn a_hole_is_taken_from_the_volume() {
         points.map(|(x, y)| Vector(DVec3::new(x, y, 0.0))).to_vec()
     };
     near(
-        volume(Options::default(), |it| {
+        volume(ExtruderOptions::default(), |it| {
             it.polygon(ring(1.0), Some(vec![ring(0.5)]))?;
             it.extrude(2.0)
         }),
@@ -68,7 +68,7 @@ fn a_hole_is_taken_from_the_volume() {
 #[test]
 fn a_bent_segment_follows_pappus() {
     // A quarter of a torus: the area times the length of the centre line, less what the chords cut off.
-    let bent = volume(Options { sides: 24, along: 200, ..Options::default() }, |it| {
+    let bent = volume(ExtruderOptions { sides: 24, along: 200, ..ExtruderOptions::default() }, |it| {
         it.bend(90.0, None);
         it.extrude(6.0)
     });
@@ -79,7 +79,7 @@ fn a_bent_segment_follows_pappus() {
 #[test]
 fn segments_that_continue_one_another_are_one_solid() {
     near(
-        volume(Options { sides: 4, smooth: false, ..Options::default() }, |it| {
+        volume(ExtruderOptions { sides: 4, smooth: false, ..ExtruderOptions::default() }, |it| {
             it.extrude(1.0)?;
             it.extrude(2.0)?;
             it.roll(10.0);
@@ -91,7 +91,8 @@ fn segments_that_continue_one_another_are_one_solid() {
 
 #[test]
 fn a_missing_cap_is_counted_as_open_edges() {
-    let mut extruder = Extruder::new(Options { sides: 5, ..Options::default() }).expect("valid options");
+    let mut extruder =
+        Extruder::new(ExtruderOptions { sides: 5, ..ExtruderOptions::default() }).expect("valid options");
     extruder.begin();
     extruder.caps(true, Some(false));
     extruder.extrude(1.0).expect("it can be drawn");

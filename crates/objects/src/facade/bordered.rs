@@ -7,36 +7,36 @@ use super::wall::{Rule, Wall};
 use crate::Surface;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Share, Split};
-use burgeon_kit::Kind;
+use burgeon_kit::{Kind, fields};
 
-fields! {
-    /// What `bordered { ... }` takes.
-    pub struct Options for "bordered" {
-        /// The wall in the middle.
-        pub wall: Option<Wall> = None,
-        /// The left margin: a size (m), or { size, "min" | "max" | "fixed" }; a size alone is the least.
-        pub left: Margin = Margin::default(),
-        /// The right margin.
-        pub right: Margin = Margin::default(),
-        /// The margin below.
-        pub bottom: Margin = Margin::default(),
-        /// The margin above.
-        pub top: Margin = Margin::default(),
-        /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
-        pub width: Option<Size> = None,
-        /// Height (m), in the same way.
-        pub height: Option<Size> = None,
-        /// Material of the margins; the template's if left out.
-        pub material: Option<Surface> = None,
-    }
+/// What `bordered { ... }` takes.
+#[fields("bordered")]
+pub struct BorderedOptions {
+    /// The wall in the middle.
+    pub wall: Option<Wall>,
+    /// The left margin: a size (m), or { size, "min" | "max" | "fixed" }; a size alone is the least.
+    pub left: Margin,
+    /// The right margin.
+    pub right: Margin,
+    /// The margin below.
+    pub bottom: Margin,
+    /// The margin above.
+    pub top: Margin,
+    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    pub width: Option<Size>,
+    /// Height (m), in the same way.
+    pub height: Option<Size>,
+    /// Material of the margins; the template's if left out.
+    pub material: Option<Surface>,
 }
 
 /// The type, as scripts see it.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-        let kind = Kind::new("bordered", "A wall between four margins.");
+        let kind = Kind::new("bordered", "A wall between four margins.")
+            .example(include_str!("../../scripts/bordered.lua"));
         Arc::new(
-            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+            kind.made_of(BorderedOptions::fields(), |table| make(&BorderedOptions::from_table(table)?))
                 .first("wall")
                 .methods(Wall::methods()),
         )
@@ -44,7 +44,7 @@ pub fn kind() -> &'static Arc<Kind> {
     &KIND
 }
 
-fn make(options: &Options) -> Result<Wall> {
+fn make(options: &BorderedOptions) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
         return Err(Error::argument("bordered: there is no wall between the margins")
             .help("write bordered { wall = panel { }, left = 0.5 }"));

@@ -6,22 +6,21 @@ use super::size::{Count, Size};
 use super::wall::{Rule, Wall};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{SAME, Sizes};
-use burgeon_kit::Kind;
+use burgeon_kit::{Kind, fields};
 
-fields! {
-    /// What `grid { ... }` takes.
-    pub struct Options for "grid" {
-        /// The wall that is repeated; all cells are equal.
-        pub wall: Option<Wall> = None,
-        /// How many stand side by side: a number or { least, greatest }.
-        pub columns: Count = Count::default(),
-        /// How many stand above each other.
-        pub rows: Count = Count::default(),
-        /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
-        pub width: Option<Size> = None,
-        /// Height (m), in the same way.
-        pub height: Option<Size> = None,
-    }
+/// What `grid { ... }` takes.
+#[fields("grid")]
+pub struct GridOptions {
+    /// The wall that is repeated; all cells are equal.
+    pub wall: Option<Wall>,
+    /// How many stand side by side: a number or { least, greatest }.
+    pub columns: Count,
+    /// How many stand above each other.
+    pub rows: Count,
+    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    pub width: Option<Size>,
+    /// Height (m), in the same way.
+    pub height: Option<Size>,
 }
 
 /// The type, as scripts see it.
@@ -30,9 +29,10 @@ pub fn kind() -> &'static Arc<Kind> {
         let kind = Kind::new(
             "grid",
             "One wall, repeated in rows and columns as often as fits its preferred size best.",
-        );
+        )
+        .example(include_str!("../../scripts/grid.lua"));
         Arc::new(
-            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+            kind.made_of(GridOptions::fields(), |table| make(&GridOptions::from_table(table)?))
                 .first("wall")
                 .methods(Wall::methods()),
         )
@@ -40,7 +40,7 @@ pub fn kind() -> &'static Arc<Kind> {
     &KIND
 }
 
-fn make(options: &Options) -> Result<Wall> {
+fn make(options: &GridOptions) -> Result<Wall> {
     let Some(wall) = options.wall.clone() else {
         return Err(
             Error::argument("grid: there is no wall to repeat").help("write grid { wall = panel { } }")

@@ -7,28 +7,29 @@ use super::wall::{Rule, Wall, range};
 use crate::Surface;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Share, Split};
-use burgeon_kit::Kind;
+use burgeon_kit::{Kind, fields};
 
-fields! {
-    /// What `list { ... }` takes.
-    pub struct Options for "list" {
-        /// The walls, from left to right or from the bottom up.
-        pub walls: Vec<Wall> = Vec::new(),
-        /// "horizontal" or "vertical".
-        pub direction: String = "horizontal".into(),
-        /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
-        pub width: Option<Size> = None,
-        /// Height (m), in the same way.
-        pub height: Option<Size> = None,
-    }
+/// What `list { ... }` takes.
+#[fields("list")]
+pub struct ListOptions {
+    /// The walls, from left to right or from the bottom up.
+    pub walls: Vec<Wall>,
+    /// "horizontal" or "vertical".
+    #[default("horizontal".into())]
+    pub direction: String,
+    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    pub width: Option<Size>,
+    /// Height (m), in the same way.
+    pub height: Option<Size>,
 }
 
 /// The type, as scripts see it.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-        let kind = Kind::new("list", "Walls from left to right, or from the bottom up.");
+        let kind = Kind::new("list", "Walls from left to right, or from the bottom up.")
+            .example(include_str!("../../scripts/list.lua"));
         Arc::new(
-            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+            kind.made_of(ListOptions::fields(), |table| make(&ListOptions::from_table(table)?))
                 .first("walls")
                 .methods(Wall::methods()),
         )
@@ -39,7 +40,7 @@ pub fn kind() -> &'static Arc<Kind> {
 /// The most walls in a list.
 const MOST: usize = 500;
 
-fn make(options: &Options) -> Result<Wall> {
+fn make(options: &ListOptions) -> Result<Wall> {
     let upwards = match options.direction.as_str() {
         "horizontal" => false,
         "vertical" => true,

@@ -8,43 +8,44 @@ use super::wall::{Rule, Wall};
 use crate::Surface;
 use burgeon_base::error::Result;
 use burgeon_geometry::Sizes;
-use burgeon_kit::{Kind, Model};
+use burgeon_kit::{Kind, Model, fields};
 
-fields! {
-    /// What `panel { ... }` takes.
-    pub struct Options for "panel" {
-        /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
-        pub width: Option<Size> = None,
-        /// Height (m), in the same way.
-        pub height: Option<Size> = None,
-        /// Material of its face; the template's if left out.
-        pub material: Option<Surface> = None,
-        /// A material whose image covers the panel once, whatever its size, in place of its own.
-        pub decoration: Option<Surface> = None,
-        /// A model in its middle: x to the right, z up, y into the wall.
-        pub model: Option<Arc<Model>> = None,
-        /// Whether the model is stretched to the panel's width and height.
-        pub stretch: bool = false,
-        /// Where the model sits: "bottom", "center" or "top".
-        pub at: Anchor = Anchor::default(),
-        /// Whether it has a face of its own; false where a model leads into the building.
-        pub background: bool = true,
-    }
+/// What `panel { ... }` takes.
+#[fields("panel")]
+pub struct PanelOptions {
+    /// Width (m): preferred, { least, greatest } or { least, preferred, greatest }.
+    pub width: Option<Size>,
+    /// Height (m), in the same way.
+    pub height: Option<Size>,
+    /// Material of its face; the template's if left out.
+    pub material: Option<Surface>,
+    /// A material whose image covers the panel once, whatever its size, in place of its own.
+    pub decoration: Option<Surface>,
+    /// A model in its middle: x to the right, z up, y into the wall.
+    pub model: Option<Arc<Model>>,
+    /// Whether the model is stretched to the panel's width and height.
+    pub stretch: bool,
+    /// Where the model sits: "bottom", "center" or "top".
+    pub at: Anchor,
+    /// Whether it has a face of its own; false where a model leads into the building.
+    #[default(true)]
+    pub background: bool,
 }
 
 /// The type, as scripts see it.
 pub fn kind() -> &'static Arc<Kind> {
     static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-        let kind = Kind::new("panel", "A plain piece of wall, with a model or an image on it if wanted.");
+        let kind = Kind::new("panel", "A plain piece of wall, with a model or an image on it if wanted.")
+            .example(include_str!("../../scripts/panel.lua"));
         Arc::new(
-            kind.made_of(Options::fields(), |table| make(&Options::from_table(table)?))
+            kind.made_of(PanelOptions::fields(), |table| make(&PanelOptions::from_table(table)?))
                 .methods(Wall::methods()),
         )
     });
     &KIND
 }
 
-fn make(options: &Options) -> Result<Wall> {
+fn make(options: &PanelOptions) -> Result<Wall> {
     let decoration = options.decoration.as_ref().map(Surface::material).transpose()?;
     let model = options.model.clone();
     let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));

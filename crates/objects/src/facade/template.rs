@@ -6,29 +6,28 @@ use std::sync::{Arc, LazyLock};
 use super::wall::Wall;
 use crate::Surface;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expected, Kind, Object, Parameter, Value};
+use burgeon_kit::{Expected, Kind, Object, Parameter, Value, fields, methods};
 use burgeon_scene::Material;
 
-fields! {
-    /// What `template { ... }` takes.
-    pub struct Options for "template" {
-        /// The primary wall, which covers the whole frontage.
-        pub wall: Option<Wall> = None,
-        /// Words that say which frontages it is for, such as "entry door" or "blind".
-        pub keywords: Vec<String> = Vec::new(),
-        /// Material of every wall that does not say its own.
-        pub material: Surface = Surface::default(),
-        /// How often it is taken where others suit as well.
-        pub weight: f64 = 1.0,
-    }
+/// What `template { ... }` takes.
+#[fields("template")]
+pub struct TemplateOptions {
+    /// The primary wall, which covers the whole frontage.
+    pub wall: Option<Wall>,
+    /// Words that say which frontages it is for, such as "entry door" or "blind".
+    pub keywords: Vec<String>,
+    /// Material of every wall that does not say its own.
+    pub material: Surface,
+    /// How often it is taken where others suit as well.
+    #[default(1.0)]
+    pub weight: f64,
 }
 
-fields! {
-    /// What `facade { ... }` takes.
-    pub struct FacadeOptions for "facade" {
-        /// The templates to choose from.
-        pub templates: Vec<Template> = Vec::new(),
-    }
+/// What `facade { ... }` takes.
+#[fields("facade")]
+pub struct FacadeOptions {
+    /// The templates to choose from.
+    pub templates: Vec<Template>,
 }
 
 /// A wall and the frontages that it is for. It never changes.
@@ -42,12 +41,11 @@ struct Inner {
     weight: f64,
 }
 
-methods! {
-    Template = "template" {
-        /// Whether a frontage may be exactly this wide and this high (m).
-        pub fn fits(&self, width: f64, height: f64) -> bool {
-            self.0.wall.fits(width, height)
-        }
+#[methods("template")]
+impl Template {
+    /// Whether a frontage may be exactly this wide and this high (m).
+    pub fn fits(&self, width: f64, height: f64) -> bool {
+        self.0.wall.fits(width, height)
     }
 }
 
@@ -56,17 +54,20 @@ impl Template {
     pub fn kind() -> &'static Arc<Kind> {
         static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
             let kind =
-                Kind::new("template", "A wall for a whole frontage, with keywords that say for which.");
+                Kind::new("template", "A wall for a whole frontage, with keywords that say for which.")
+                    .example(include_str!("../../scripts/template.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Template::new(&Options::from_table(table)?))
-                    .first("wall")
-                    .methods(Template::methods()),
+                kind.made_of(TemplateOptions::fields(), |table| {
+                    Template::new(&TemplateOptions::from_table(table)?)
+                })
+                .first("wall")
+                .methods(Template::methods()),
             )
         });
         &KIND
     }
 
-    fn new(options: &Options) -> Result<Self> {
+    fn new(options: &TemplateOptions) -> Result<Self> {
         let Some(wall) = options.wall.clone() else {
             return Err(
                 Error::argument("template: there is no wall").help("write template { wall = panel { } }")
@@ -96,12 +97,11 @@ impl Template {
 #[derive(Clone)]
 pub struct Facade(Templates);
 
-methods! {
-    Facade = "facade" {
-        /// Whether some template fits a frontage that is exactly this wide and this high (m).
-        pub fn fits(&self, width: f64, height: f64) -> bool {
-            self.0.0.iter().any(|template| template.fits(width, height))
-        }
+#[methods("facade")]
+impl Facade {
+    /// Whether some template fits a frontage that is exactly this wide and this high (m).
+    pub fn fits(&self, width: f64, height: f64) -> bool {
+        self.0.0.iter().any(|template| template.fits(width, height))
     }
 }
 
@@ -109,7 +109,8 @@ impl Facade {
     /// The type, as scripts see it.
     pub fn kind() -> &'static Arc<Kind> {
         static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new("facade", "Templates for the frontages of a building.");
+            let kind = Kind::new("facade", "Templates for the frontages of a building.")
+                .example(include_str!("../../scripts/facade.lua"));
             Arc::new(
                 kind.made_of(FacadeOptions::fields(), |table| Facade::new(FacadeOptions::from_table(table)?))
                     .first("templates")

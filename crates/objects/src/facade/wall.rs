@@ -9,7 +9,7 @@ use super::{bordered, extruded, grid, list, panel};
 use crate::Surface;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Sizes, Split};
-use burgeon_kit::{Expected, Kind, Object, Parameter, Value};
+use burgeon_kit::{Expected, Kind, Object, Parameter, Value, methods};
 use burgeon_scene::Material;
 
 /// A wall of a facade, made by one of five rules. It never changes.
@@ -40,32 +40,31 @@ pub(super) enum Rule {
     Grid { counts: [RangeInclusive<u32>; 2], wall: Wall },
 }
 
-methods! {
-    Wall = "wall" {
-        /// The least width (m) that it can have.
-        pub fn min_width(&self) -> f64 {
-            self.0.sizes[0].low()
-        }
+#[methods("wall")]
+impl Wall {
+    /// The least width (m) that it can have.
+    pub fn min_width(&self) -> f64 {
+        self.0.sizes[0].low()
+    }
 
-        /// The greatest width (m) that it can have; math.huge if there is none.
-        pub fn max_width(&self) -> f64 {
-            self.0.sizes[0].high()
-        }
+    /// The greatest width (m) that it can have; math.huge if there is none.
+    pub fn max_width(&self) -> f64 {
+        self.0.sizes[0].high()
+    }
 
-        /// The least height (m) that it can have.
-        pub fn min_height(&self) -> f64 {
-            self.0.sizes[1].low()
-        }
+    /// The least height (m) that it can have.
+    pub fn min_height(&self) -> f64 {
+        self.0.sizes[1].low()
+    }
 
-        /// The greatest height (m) that it can have; math.huge if there is none.
-        pub fn max_height(&self) -> f64 {
-            self.0.sizes[1].high()
-        }
+    /// The greatest height (m) that it can have; math.huge if there is none.
+    pub fn max_height(&self) -> f64 {
+        self.0.sizes[1].high()
+    }
 
-        /// Whether it can be exactly this wide and this high (m).
-        pub fn fits(&self, width: f64, height: f64) -> bool {
-            self.0.sizes[0].contains(width) && self.0.sizes[1].contains(height)
-        }
+    /// Whether it can be exactly this wide and this high (m).
+    pub fn fits(&self, width: f64, height: f64) -> bool {
+        self.0.sizes[0].contains(width) && self.0.sizes[1].contains(height)
     }
 }
 

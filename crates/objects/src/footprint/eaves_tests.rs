@@ -37,7 +37,7 @@ fn template(depth: f64, color: &str) -> Value {
 
 fn on(geometry: Rings, height: f64) -> Footprint {
     let height = (height > 0.0).then_some(Height(height));
-    Footprint::new(Options { geometry, height, ..Options::default() }).expect("a footprint")
+    Footprint::new(FootprintOptions { geometry, height, ..FootprintOptions::default() }).expect("a footprint")
 }
 
 fn rectangle(low: DVec2, size: DVec2, turn: DVec2) -> Rings {
@@ -84,7 +84,7 @@ fn a_roof_juts_out_beyond_the_outermost_storey_and_nothing_passes_through_it() {
 
 #[test]
 fn a_gable_goes_on_as_the_wall_below_it_unless_it_is_given_a_material() {
-    let grey = Options::default().color;
+    let grey = FootprintOptions::default().color;
     let red = [("height", number(3.0)), ("templates", template(0.0, "#a03020"))];
     let plain = [("height", number(3.0)), ("color", text("#a03020"))];
     let photo = [table(&[("texture", text("front.png"))])].map(|photo| Value::Table(Arc::new(photo)));

@@ -232,7 +232,7 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Options;
+    use super::super::FootprintOptions;
     use super::*;
     use crate::LineIndex;
     use burgeon_geometry::{Line, Rings};
@@ -251,10 +251,10 @@ mod tests {
     fn words_keep_the_numbers_of_the_edges_that_were_given() {
         // Point 2 lies on a straight line, and the ring turns right.
         let given = [[0.0, 0.0], [0.0, 3.0], [0.0, 6.0], [10.0, 6.0], [10.0, 0.0]];
-        let footprint = Footprint::new(Options {
+        let footprint = Footprint::new(FootprintOptions {
             geometry: Rings(vec![ring(&given)]),
             edge_keywords: words(&[(1, "a"), (2, "b"), (4, "c")]),
-            ..Options::default()
+            ..FootprintOptions::default()
         })
         .unwrap();
         assert_eq!((footprint.edges(), footprint.plan.polygon().size()), (5, 4));
@@ -268,10 +268,10 @@ mod tests {
     #[test]
     fn edges_of_holes_count_on_and_words_for_no_edge_are_refused() {
         let hole = ring(&[[2.0, 2.0], [4.0, 2.0], [4.0, 4.0]]);
-        let options = |edge| Options {
+        let options = |edge| FootprintOptions {
             geometry: Rings(vec![ring(&RECTANGLE), hole.clone()]),
             edge_keywords: words(&[(edge, "gate")]),
-            ..Options::default()
+            ..FootprintOptions::default()
         };
         let footprint = Footprint::new(options(5)).unwrap();
         assert!(
@@ -285,11 +285,11 @@ mod tests {
     #[test]
     fn the_street_edge_is_the_longest_or_the_one_that_faces_the_nearest_street() {
         let make = |streets: Option<LineIndex>, keywords| {
-            Footprint::new(Options {
+            Footprint::new(FootprintOptions {
                 geometry: Rings(vec![ring(&RECTANGLE)]),
                 edge_keywords: keywords,
                 streets,
-                ..Options::default()
+                ..FootprintOptions::default()
             })
             .unwrap()
         };

@@ -21,7 +21,7 @@ use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{
     Color, Draw, Drawing, Expected, Kind, LevelOfDetail, Note, Object, Parameter, Report, Shape, Table,
-    Value, Vector,
+    Value, Vector, fields, methods,
 };
 use burgeon_scene::Material;
 pub use edges::EdgeKeywords;
@@ -52,27 +52,27 @@ impl Parameter for Height {
     }
 }
 
-fields! {
-    /// What `footprint(geometry, { ... })` takes.
-    pub struct Options for "footprint" {
-        /// The polygon on the ground (m): a feature's geometry, or rings of points, the holes after the outer one.
-        pub geometry: Rings = Rings::default(),
-        /// Words that say what kind of building it is, such as "shop".
-        pub keywords: Vec<String> = Vec::new(),
-        /// Words about single edges, by their numbers: { [2] = { "entry door" } }. Edge 1 goes from the first point
-        /// that was given to the second; those of holes count on after the outer ring's.
-        pub edge_keywords: EdgeKeywords = EdgeKeywords::default(),
-        /// What else is known of it, for `attribute` to tell: any table, such as the feature.
-        pub attributes: Arc<Table> = Arc::default(),
-        /// The streets by which it lies, as `streets(source)` made them.
-        pub streets: Option<LineIndex> = None,
-        /// The terrain on which it stands, which gives its points their heights.
-        pub ground: Option<Arc<Terrain>> = None,
-        /// Height of the walls (m), where they are not given one.
-        pub height: Option<Height> = None,
-        /// Colour of what is drawn, where it is given none.
-        pub color: Color = Color([0.62, 0.58, 0.52, 1.0]),
-    }
+/// What `footprint(geometry, { ... })` takes.
+#[fields("footprint")]
+pub struct FootprintOptions {
+    /// The polygon on the ground (m): a feature's geometry, or rings of points, the holes after the outer one.
+    pub geometry: Rings,
+    /// Words that say what kind of building it is, such as "shop".
+    pub keywords: Vec<String>,
+    /// Words about single edges, by their numbers: { [2] = { "entry door" } }. Edge 1 goes from the first point
+    /// that was given to the second; those of holes count on after the outer ring's.
+    pub edge_keywords: EdgeKeywords,
+    /// What else is known of it, for `attribute` to tell: any table, such as the feature.
+    pub attributes: Arc<Table>,
+    /// The streets by which it lies, as `streets(source)` made them.
+    pub streets: Option<LineIndex>,
+    /// The terrain on which it stands, which gives its points their heights.
+    pub ground: Option<Arc<Terrain>>,
+    /// Height of the walls (m), where they are not given one.
+    pub height: Option<Height>,
+    /// Colour of what is drawn, where it is given none.
+    #[default(Color([0.62, 0.58, 0.52, 1.0]))]
+    pub color: Color,
 }
 
 /// The highest walls and roofs (m).
@@ -83,7 +83,7 @@ const HIGHEST: f64 = 2000.0;
 /// Walls stand on the groundwork or on earlier walls, the roof stands on the walls and ends the building.
 #[derive(Clone)]
 pub struct Footprint {
-    options: Arc<Options>,
+    options: Arc<FootprintOptions>,
     plan: Arc<Plan>,
     /// Where the mesh has its origin (m): a whole number of metres near the plan.
     origin: DVec3,
@@ -106,106 +106,105 @@ pub struct Footprint {
     notes: Vec<Note>,
 }
 
-methods! {
-    Footprint = "footprint" {
-        /// Lays the ground: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down from it.
-        pub fn groundwork(&mut self, kind: String, material: Option<Surface>) -> Result<()> {
-            self.lay(&kind, material)
-        }
+#[methods("footprint")]
+impl Footprint {
+    /// Lays the ground: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down from it.
+    pub fn groundwork(&mut self, kind: String, material: Option<Surface>) -> Result<()> {
+        self.lay(&kind, material)
+    }
 
-        /// Raises walls: { height, templates, photo, color, material, expand }.
-        pub fn walls(&mut self, options: Option<Arc<Table>>) -> Result<()> {
-            let options = Walls::from_table(&options.unwrap_or_default())?;
-            self.raise(&options)
-        }
+    /// Raises walls: { height, templates, photo, color, material, expand }.
+    pub fn walls(&mut self, options: Option<Arc<Table>>) -> Result<()> {
+        let options = Walls::from_table(&options.unwrap_or_default())?;
+        self.raise(&options)
+    }
 
-        /// Puts on the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
-        pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
-            let options = Roof::from_table(&options.unwrap_or_default())?;
-            self.cover(&options)
-        }
+    /// Puts on the roof: { kind, height, slope, overhang, eaves, slab, material, gable, details, ... }.
+    pub fn roof(&mut self, options: Option<Arc<Table>>) -> Result<()> {
+        let options = Roof::from_table(&options.unwrap_or_default())?;
+        self.cover(&options)
+    }
 
-        /// Its area (m²) without the holes.
-        pub fn area(&self) -> f64 {
-            self.plan.polygon().area()
-        }
+    /// Its area (m²) without the holes.
+    pub fn area(&self) -> f64 {
+        self.plan.polygon().area()
+    }
 
-        /// The length (m) of its edges.
-        pub fn perimeter(&self) -> f64 {
-            self.plan.polygon().length()
-        }
+    /// The length (m) of its edges.
+    pub fn perimeter(&self) -> f64 {
+        self.plan.polygon().length()
+    }
 
-        /// The number of its edges, as they were given: first those of the outer ring, then those of the holes.
-        pub fn edges(&self) -> u32 {
-            u32::try_from(self.plan.given()).unwrap_or(u32::MAX)
-        }
+    /// The number of its edges, as they were given: first those of the outer ring, then those of the holes.
+    pub fn edges(&self) -> u32 {
+        u32::try_from(self.plan.given()).unwrap_or(u32::MAX)
+    }
 
-        /// The length (m) of an edge, by its number from 1.
-        pub fn edge_length(&self, edge: u32) -> Result<f64> {
-            self.ends("edge_length", edge).map(|[a, b]| a.distance(b))
-        }
+    /// The length (m) of an edge, by its number from 1.
+    pub fn edge_length(&self, edge: u32) -> Result<f64> {
+        self.ends("edge_length", edge).map(|[a, b]| a.distance(b))
+    }
 
-        /// The way an edge faces (degrees): 0 is east, 90 is north.
-        pub fn edge_facing(&self, edge: u32) -> Result<f64> {
-            self.facing(edge)
-        }
+    /// The way an edge faces (degrees): 0 is east, 90 is north.
+    pub fn edge_facing(&self, edge: u32) -> Result<f64> {
+        self.facing(edge)
+    }
 
-        /// Whether an edge has this keyword: one it was given, or "blind" (a neighbour covers it by half or more),
-        /// "street" or "entry door".
-        pub fn edge_has(&self, edge: u32, keyword: String) -> Result<bool> {
-            self.words_of(edge).map(|words| words.iter().any(|word| *word == keyword))
-        }
+    /// Whether an edge has this keyword: one it was given, or "blind" (a neighbour covers it by half or more),
+    /// "street" or "entry door".
+    pub fn edge_has(&self, edge: u32, keyword: String) -> Result<bool> {
+        self.words_of(edge).map(|words| words.iter().any(|word| *word == keyword))
+    }
 
-        /// The part of an edge, 0 to 1, that neighbours touch.
-        pub fn shared(&self, edge: u32) -> Result<f64> {
-            self.part_shared(edge)
-        }
+    /// The part of an edge, 0 to 1, that neighbours touch.
+    pub fn shared(&self, edge: u32) -> Result<f64> {
+        self.part_shared(edge)
+    }
 
-        /// How many of its system's footprints touch it.
-        pub fn neighbors(&self) -> u32 {
-            self.touching()
-        }
+    /// How many of its system's footprints touch it.
+    pub fn neighbors(&self) -> u32 {
+        self.touching()
+    }
 
-        /// The number of the edge on the street side: the nearest to a street that it faces, without streets the
-        /// longest; no party wall if there is another.
-        pub fn street_edge(&self) -> u32 {
-            self.on_street()
-        }
+    /// The number of the edge on the street side: the nearest to a street that it faces, without streets the
+    /// longest; no party wall if there is another.
+    pub fn street_edge(&self) -> u32 {
+        self.on_street()
+    }
 
-        /// What its attributes have under this name.
-        pub fn attribute(&self, name: String) -> Value {
-            self.options.attributes.get(&name).cloned().unwrap_or(Value::Nil)
-        }
+    /// What its attributes have under this name.
+    pub fn attribute(&self, name: String) -> Value {
+        self.options.attributes.get(&name).cloned().unwrap_or(Value::Nil)
+    }
 
-        /// Its area as a part of its convex hull's: 1 if it is convex.
-        pub fn convexity(&self) -> f64 {
-            self.plan.convexity()
-        }
+    /// Its area as a part of its convex hull's: 1 if it is convex.
+    pub fn convexity(&self) -> f64 {
+        self.plan.convexity()
+    }
 
-        /// The lowest ground at its points (m).
-        pub fn lowest(&self) -> f64 {
-            self.origin.z + self.plan.ground().0
-        }
+    /// The lowest ground at its points (m).
+    pub fn lowest(&self) -> f64 {
+        self.origin.z + self.plan.ground().0
+    }
 
-        /// The highest ground at its points (m).
-        pub fn highest(&self) -> f64 {
-            self.origin.z + self.plan.ground().1
-        }
+    /// The highest ground at its points (m).
+    pub fn highest(&self) -> f64 {
+        self.origin.z + self.plan.ground().1
+    }
 
-        /// How high the walls are that it was made with (m); 0 if it was not told.
-        pub fn height(&self) -> f64 {
-            self.options.height.map_or(0.0, |height| height.0)
-        }
+    /// How high the walls are that it was made with (m); 0 if it was not told.
+    pub fn height(&self) -> f64 {
+        self.options.height.map_or(0.0, |height| height.0)
+    }
 
-        /// Whether it has this keyword.
-        pub fn has(&self, keyword: String) -> bool {
-            self.options.keywords.contains(&keyword)
-        }
+    /// Whether it has this keyword.
+    pub fn has(&self, keyword: String) -> bool {
+        self.options.keywords.contains(&keyword)
+    }
 
-        /// Distance (m) from a place to the nearest point of what it has drawn.
-        pub fn distance(&self, place: Vector) -> f64 {
-            self.drawing.distance(place.0 - self.origin)
-        }
+    /// Distance (m) from a place to the nearest point of what it has drawn.
+    pub fn distance(&self, place: Vector) -> f64 {
+        self.drawing.distance(place.0 - self.origin)
     }
 }
 
@@ -216,9 +215,10 @@ impl Footprint {
             let kind = Kind::new(
                 "footprint",
                 "A building: groundwork, walls and a roof over a polygon on the ground.",
-            );
-            let kind = kind.made_of(Options::fields(), |table| {
-                let options = Options::from_table(table)?;
+            )
+            .example(include_str!("../../scripts/footprint.lua"));
+            let kind = kind.made_of(FootprintOptions::fields(), |table| {
+                let options = FootprintOptions::from_table(table)?;
                 // Under other heights it is another plan.
                 let ready = if options.ground.is_none() { prefetched(table) } else { None };
                 Footprint::with(options, ready)
@@ -231,12 +231,12 @@ impl Footprint {
     }
 
     /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: FootprintOptions) -> Result<Self> {
         Self::with(options, None)
     }
 
     /// The same, where its plan may be ready.
-    fn with(mut options: Options, ready: Option<Result<Grounded>>) -> Result<Self> {
+    fn with(mut options: FootprintOptions, ready: Option<Result<Grounded>>) -> Result<Self> {
         if let Some(ground) = &options.ground {
             for point in options.geometry.0.iter_mut().flatten() {
                 point.z = ground.height(Vector(*point)).map_err(Error::of_data)?;

@@ -277,7 +277,7 @@ fn union(parts: &mut [[f64; 2]]) -> f64 {
 mod tests {
     use glam::DVec3;
 
-    use super::super::Options;
+    use super::super::FootprintOptions;
     use super::*;
     use burgeon_geometry::Rings;
 
@@ -331,7 +331,7 @@ mod tests {
         let point = |&[x, y]: &[f64; 2]| DVec3::new(x, y, 0.0);
         let ring = |ring: Vec<[f64; 2]>| ring.iter().map(point).collect::<Vec<_>>();
         let make = |rings: Vec<Vec<DVec3>>| {
-            let options = Options { geometry: Rings(rings), ..Options::default() };
+            let options = FootprintOptions { geometry: Rings(rings), ..FootprintOptions::default() };
             Box::new(Footprint::new(options).unwrap()) as Box<dyn Object>
         };
         let outer = make(vec![ring(rectangle(0.0, 0.0, 20.0, 20.0)), ring(rectangle(5.0, 5.0, 10.0, 10.0))]);

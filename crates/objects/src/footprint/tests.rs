@@ -16,7 +16,8 @@ fn table(entries: &[(&str, Value)]) -> Option<Arc<Table>> {
 
 /// The volume (m³) of a building with walls of 3 m and this roof, after having checked that it is a solid.
 fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
-    let mut house = Footprint::new(Options { geometry, ..Options::default() }).expect("a clean footprint");
+    let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
+        .expect("a clean footprint");
     house.begin();
     house.groundwork("extruded".into(), None).expect("groundwork");
     house.walls(table(&[("height", Value::Number(3.0))])).expect("walls");
@@ -140,7 +141,7 @@ fn with_facades(detail: u8) -> Footprint {
     let template = make(facade::Template::kind(), &[("wall", window)]);
     let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]]);
     let keywords = super::EdgeKeywords([(2, vec!["blind".to_owned()])].into_iter().collect());
-    let options = Options { geometry, edge_keywords: keywords, ..Options::default() };
+    let options = FootprintOptions { geometry, edge_keywords: keywords, ..FootprintOptions::default() };
     let mut house = Footprint::new(options).expect("a clean footprint");
     house.set_detail(detail);
     house.begin();
@@ -247,7 +248,8 @@ fn a_photo_covers_each_frontage_once() {
     let photo =
         table(&[("texture", Value::Text("front.png".into())), ("texture_size", vec![2.0, 4.0].into_value())]);
     let geometry = plan(&[&[(0., 0.), (12., 0.), (12., 5.), (0., 5.)]]);
-    let mut house = Footprint::new(Options { geometry, ..Options::default() }).expect("a clean footprint");
+    let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
+        .expect("a clean footprint");
     house.begin();
     let photo = Value::Table(photo.expect("a table"));
     house.walls(table(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");

@@ -11,25 +11,24 @@ use crate::facade::{Face, FaceMesh, Joiner, Laid, Rectangle, Template, Templates
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Ring, SAME, fill};
 use burgeon_kit::random::Stream;
-use burgeon_kit::{Color, Note};
+use burgeon_kit::{Color, Note, fields};
 use burgeon_scene::{Material, Part};
 
-fields! {
-    /// What `footprint:walls { ... }` takes.
-    pub struct Walls for "footprint:walls" {
-        /// How high they are (m); as high as the footprint says if left out.
-        pub height: Option<Height> = None,
-        /// What the frontages look like: a facade, a template or a list of templates.
-        pub templates: Option<Templates> = None,
-        /// A material whose image covers each frontage once, as a photo of the building does.
-        pub photo: Option<Surface> = None,
-        /// Colour of plain walls.
-        pub color: Option<Color> = None,
-        /// Material of plain walls, in place of the colour.
-        pub material: Option<Surface> = None,
-        /// Whether models on the walls become faces of the building, and not instances.
-        pub expand: bool = false,
-    }
+/// What `footprint:walls { ... }` takes.
+#[fields("footprint:walls")]
+pub struct Walls {
+    /// How high they are (m); as high as the footprint says if left out.
+    pub height: Option<Height>,
+    /// What the frontages look like: a facade, a template or a list of templates.
+    pub templates: Option<Templates>,
+    /// A material whose image covers each frontage once, as a photo of the building does.
+    pub photo: Option<Surface>,
+    /// Colour of plain walls.
+    pub color: Option<Color>,
+    /// Material of plain walls, in place of the colour.
+    pub material: Option<Surface>,
+    /// Whether models on the walls become faces of the building, and not instances.
+    pub expand: bool,
 }
 
 /// Plain walls that have been asked for but not drawn, since more may follow above them.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::Options;
+use super::PlanetOptions;
 use crate::terrain::looks::{blend, image, material, texels};
 use crate::terrain::mask::{Place, Spot};
 use burgeon_base::error::Result;
@@ -12,7 +12,7 @@ use burgeon_terrain::globe::{Globe, latitude, within};
 
 /// The material called `name` of a tile with its face.
 pub(super) fn of(
-    options: &Options,
+    options: &PlanetOptions,
     globe: &Globe,
     (face, tile): (usize, &Tile),
     name: &str,
@@ -102,7 +102,7 @@ impl<'a> Relief<'a> {
     )]
     fn spot<'b>(
         &self,
-        options: &Options,
+        options: &PlanetOptions,
         globe: &'b Globe,
         (face, tile): (usize, &Tile),
         (column, row, across): (usize, usize, usize),

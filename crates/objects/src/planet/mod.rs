@@ -11,49 +11,58 @@ use super::terrain::{Cover, RuleLayers, Water, lost_focus, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::Key;
-use burgeon_kit::{Color, Expand, Kind, Object, Rewriter, Seed, Show, Vector};
+use burgeon_kit::{Color, Expand, Kind, Object, Rewriter, Seed, Show, Vector, fields, methods};
 use burgeon_scene::{Instance, Material, Mesh, Scene};
 use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
 use burgeon_terrain::{Cells, World};
 
-fields! {
-    /// What `planet { ... }` takes.
-    pub struct Options for "planet" {
-        /// Its radius (m).
-        pub radius: f64 = 6_371_000.0,
-        /// What divides its six faces: a rule table, a system, or a list of these by level.
-        pub rules: RuleLayers = RuleLayers::default(),
-        /// The symbol of each face; the first by name, if it is left out.
-        pub start: Option<String> = None,
-        /// The height (m) of all of it.
-        pub height: f64 = 0.0,
-        /// How much (m) the changes of a rule table are at first.
-        pub decay: f64 = 4000.0,
-        /// How often a face is divided at most, where it is seen from near.
-        pub levels: u32 = 20,
-        /// A part of it is divided further while the eye is nearer to it than so many times its size.
-        pub closeness: f64 = 3.0,
-        /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
-        pub smooth: bool = true,
-        /// How far the triangles may be from the surface, in sizes of the cells there.
-        pub error: f64 = 0.05,
-        /// Its middle (m).
-        pub position: Vector = Vector(DVec3::ZERO),
-        /// The direction of its north pole, from which latitudes are told.
-        pub axis: Vector = Vector(DVec3::Z),
-        /// What its random numbers come from: a number or a string; the run's seed, if it is left out.
-        pub seed: Option<Seed> = None,
-        /// Whether what lies below the horizon of the focus is left out.
-        pub horizon: bool = false,
-        /// What lies on it, from the bottom to the top.
-        pub covers: Vec<Cover> = Vec::new(),
-        /// Its colour, where it has no covers.
-        pub color: Color = Color([0.30, 0.28, 0.22, 1.0]),
-        /// Its seas: their level (m), or more of them.
-        pub water: Option<Water> = None,
-        /// What lies on the water, such as ice near the poles.
-        pub ice: Option<Cover> = None,
-    }
+/// What `planet { ... }` takes.
+#[fields("planet")]
+pub struct PlanetOptions {
+    /// Its radius (m).
+    #[default(6_371_000.0)]
+    pub radius: f64,
+    /// What divides its six faces: a rule table, a system, or a list of these by level.
+    pub rules: RuleLayers,
+    /// The symbol of each face; the first by name, if it is left out.
+    pub start: Option<String>,
+    /// The height (m) of all of it.
+    #[default(0.0)]
+    pub height: f64,
+    /// How much (m) the changes of a rule table are at first.
+    #[default(4000.0)]
+    pub decay: f64,
+    /// How often a face is divided at most, where it is seen from near.
+    #[default(20)]
+    pub levels: u32,
+    /// A part of it is divided further while the eye is nearer to it than so many times its size.
+    #[default(3.0)]
+    pub closeness: f64,
+    /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
+    #[default(true)]
+    pub smooth: bool,
+    /// How far the triangles may be from the surface, in sizes of the cells there.
+    #[default(0.05)]
+    pub error: f64,
+    /// Its middle (m).
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// The direction of its north pole, from which latitudes are told.
+    #[default(Vector(DVec3::Z))]
+    pub axis: Vector,
+    /// What its random numbers come from: a number or a string; the run's seed, if it is left out.
+    pub seed: Option<Seed>,
+    /// Whether what lies below the horizon of the focus is left out.
+    pub horizon: bool,
+    /// What lies on it, from the bottom to the top.
+    pub covers: Vec<Cover>,
+    /// Its colour, where it has no covers.
+    #[default(Color([0.30, 0.28, 0.22, 1.0]))]
+    pub color: Color,
+    /// Its seas: their level (m), or more of them.
+    pub water: Option<Water>,
+    /// What lies on the water, such as ice near the poles.
+    pub ice: Option<Cover>,
 }
 
 /// A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.
@@ -61,7 +70,7 @@ fields! {
 /// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
 #[derive(Clone)]
 pub struct Planet {
-    options: Arc<Options>,
+    options: Arc<PlanetOptions>,
     globe: Globe,
     /// From where the present pass wants to see it (m, from its middle).
     wanted: Option<DVec3>,
@@ -72,50 +81,49 @@ pub struct Planet {
     warnings: Vec<Warning>,
 }
 
-methods! {
-    Planet = "planet" {
-        /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further. The last focus of a
-        /// pass counts.
-        pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
-            let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
-            if eye.length() < radius * (1.0 - DEEP) {
-                return Err(Error::argument(format!(
-                    "planet: the focus ({x}, {y}, {z}) is inside the planet, {:.0} m from its middle",
-                    eye.length()
-                ))
-                .help(format!("its ground is about {radius} m from its middle: look from farther out")));
-            }
-            if let Some(earlier) = self.wanted.filter(|earlier| *earlier != eye) {
-                let at = earlier + self.options.position.0;
-                self.warnings.push(lost_focus("planet", &format!("({}, {}, {})", at.x, at.y, at.z)));
-            }
-            self.wanted = Some(eye);
-            Ok(())
+#[methods("planet")]
+impl Planet {
+    /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further. The last focus of a
+    /// pass counts.
+    pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
+        let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
+        if eye.length() < radius * (1.0 - DEEP) {
+            return Err(Error::argument(format!(
+                "planet: the focus ({x}, {y}, {z}) is inside the planet, {:.0} m from its middle",
+                eye.length()
+            ))
+            .help(format!("its ground is about {radius} m from its middle: look from farther out")));
         }
+        if let Some(earlier) = self.wanted.filter(|earlier| *earlier != eye) {
+            let at = earlier + self.options.position.0;
+            self.warnings.push(lost_focus("planet", &format!("({}, {}, {})", at.x, at.y, at.z)));
+        }
+        self.wanted = Some(eye);
+        Ok(())
+    }
 
-        /// Height (m) of the ground in a direction from its middle; below the water that of the sea's floor.
-        pub fn height(&self, direction: Vector) -> Result<f64> {
-            self.known(self.globe.height(towards(direction)?), 0.0)
-        }
+    /// Height (m) of the ground in a direction from its middle; below the water that of the sea's floor.
+    pub fn height(&self, direction: Vector) -> Result<f64> {
+        self.known(self.globe.height(towards(direction)?), 0.0)
+    }
 
-        /// Where the ground or the water is (m) in a direction from its middle.
-        pub fn surface(&self, direction: Vector) -> Result<DVec3> {
-            let way = towards(direction)?;
-            let height = self.known(self.globe.height(way), 0.0)?;
-            Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
-        }
+    /// Where the ground or the water is (m) in a direction from its middle.
+    pub fn surface(&self, direction: Vector) -> Result<DVec3> {
+        let way = towards(direction)?;
+        let height = self.known(self.globe.height(way), 0.0)?;
+        Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
+    }
 
-        /// The symbol of the cell in a direction from its middle.
-        pub fn symbol(&self, direction: Vector) -> Result<String> {
-            self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
-        }
+    /// The symbol of the cell in a direction from its middle.
+    pub fn symbol(&self, direction: Vector) -> Result<String> {
+        self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
+    }
 
-        /// How many heights are expanded at present.
-        pub fn heights(&self) -> f64 {
-            #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
-            let count = self.globe.heights() as f64;
-            count
-        }
+    /// How many heights are expanded at present.
+    pub fn heights(&self) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
+        let count = self.globe.heights() as f64;
+        count
     }
 }
 
@@ -129,9 +137,10 @@ impl Planet {
             let kind = Kind::new(
                 "planet",
                 "A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.",
-            );
+            )
+.example(include_str!("../../scripts/planet.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Planet::new(Options::from_table(table)?))
+                kind.made_of(PlanetOptions::fields(), |table| Planet::new(PlanetOptions::from_table(table)?))
                     .methods(Planet::methods())
                     .begins_empty()
                     .shows::<Planet>()
@@ -150,7 +159,7 @@ impl Planet {
     }
 
     /// A planet of which nothing is expanded.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: PlanetOptions) -> Result<Self> {
         if !(options.radius > 0.0 && options.radius <= 1e9) {
             return Err(Error::argument(format!("planet: radius is {} m", options.radius))
                 .help("give a length above 0 and up to 1e9 m"));

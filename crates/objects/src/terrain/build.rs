@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Options, rules};
+use super::{TerrainOptions, rules};
 use crate::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::Key;
 use burgeon_terrain::{Layer, Measured, Rules, World};
 
 /// The world that `options` describe. Fails for what cannot be.
-pub(super) fn world(options: &Options) -> Result<World> {
+pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     if !(options.size > 0.0 && options.size <= 1e9) {
         return Err(Error::argument(format!("terrain: size is {} m", options.size))
             .help("give a length above 0 and up to 1e9 m"));

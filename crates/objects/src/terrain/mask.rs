@@ -5,29 +5,31 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expected, Parameter, Table, Value};
+use burgeon_kit::{Expected, Parameter, Table, Value, fields};
 use burgeon_terrain::{Ground, World, octaves, octaves_around};
 
-fields! {
-    /// Where a cover lies or plants grow.
-    pub struct Mask for "on" {
-        /// From which height (m) to which it fades in; out, if the first is greater.
-        pub height: Vec<f64> = Vec::new(),
-        /// From which slope (degrees) to which it fades in; out, if the first is greater.
-        pub slope: Vec<f64> = Vec::new(),
-        /// From which curvature (1/m) to which it fades in; hollows are above 0, crests below.
-        pub curvature: Vec<f64> = Vec::new(),
-        /// From which latitude (degrees, north or south) to which it fades in; on planets only.
-        pub latitude: Vec<f64> = Vec::new(),
-        /// The symbols of the cells where it is; all, if there are none.
-        pub symbols: Vec<String> = Vec::new(),
-        /// How far (0 to 1) noise shifts where it fades in.
-        pub noise: f64 = 0.0,
-        /// How much (0 to 1) it is missing between patches.
-        pub patches: f64 = 0.0,
-        /// The size (m) of patches, and of what noise shifts.
-        pub scale: f64 = 50.0,
-    }
+/// Where a cover lies or plants grow.
+#[fields("on")]
+pub struct Mask {
+    /// From which height (m) to which it fades in; out, if the first is greater.
+    pub height: Vec<f64>,
+    /// From which slope (degrees) to which it fades in; out, if the first is greater.
+    pub slope: Vec<f64>,
+    /// From which curvature (1/m) to which it fades in; hollows are above 0, crests below.
+    pub curvature: Vec<f64>,
+    /// From which latitude (degrees, north or south) to which it fades in; on planets only.
+    pub latitude: Vec<f64>,
+    /// The symbols of the cells where it is; all, if there are none.
+    pub symbols: Vec<String>,
+    /// How far (0 to 1) noise shifts where it fades in.
+    #[default(0.0)]
+    pub noise: f64,
+    /// How much (0 to 1) it is missing between patches.
+    #[default(0.0)]
+    pub patches: f64,
+    /// The size (m) of patches, and of what noise shifts.
+    #[default(50.0)]
+    pub scale: f64,
 }
 
 impl Parameter for Mask {

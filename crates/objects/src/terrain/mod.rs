@@ -28,53 +28,59 @@ use super::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::Key;
-use burgeon_kit::{Color, Kind, Object, ObjectParameter, Vector};
+use burgeon_kit::{Color, Kind, Object, ObjectParameter, Vector, fields, methods};
 use burgeon_kit::{Expand, Rewriter, Show};
 use burgeon_scene::Scene;
 use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, Map, View, World};
 
-fields! {
-    /// What `terrain { ... }` takes.
-    pub struct Options for "terrain" {
-        /// The length (m) of its sides.
-        pub size: f64 = 1024.0,
-        /// How often all of it is divided; left out, only what is focused on.
-        pub levels: Option<u32> = None,
-        /// What divides its cells: a rule table, a system, or a list of these by level.
-        pub rules: RuleLayers = RuleLayers::default(),
-        /// The symbol of the whole; the first by name, if it is left out.
-        pub start: Option<String> = None,
-        /// The height (m) of the whole.
-        pub height: f64 = 0.0,
-        /// How much (m) the changes of a rule table are at first.
-        pub decay: f64 = 100.0,
-        /// Whether the surface runs smoothly through the cells and through measured samples, or each cell keeps its own
-        /// height, and the ground is straight from sample to sample.
-        pub smooth: bool = true,
-        /// What heights (m) are changed to: pairs { from, to } with straight lines in between.
-        pub remap: Vec<Vec<f64>> = Vec::new(),
-        /// How far (m) the triangles may be from the surface; a tenth of the smallest cell, if it is left out.
-        pub error: Option<f64> = None,
-        /// The middle of its square (m); its z is added to all heights.
-        pub position: Vector = Vector(DVec3::ZERO),
-        /// Measured heights, which the ground has at each sample, and to which the rules add detail in between:
-        /// elevation("N43E007.hgt").
-        pub elevation: Option<Elevation> = None,
-        /// Changes of the ground that were kept: edits("ground.json").
-        pub edits: Option<EditFile> = None,
-        /// What lies on it, from the bottom to the top.
-        pub covers: Vec<Cover> = Vec::new(),
-        /// The height (m) of an underside: then it has sides and is closed.
-        pub base: Option<f64> = None,
-        /// The colour of its sides.
-        pub sides: Color = Color([0.16, 0.12, 0.09, 1.0]),
-        /// Its colour, where it has no covers.
-        pub color: Color = Color([0.30, 0.28, 0.22, 1.0]),
-        /// Standing water: its level (m), or more of it.
-        pub water: Option<Water> = None,
-        /// What grows on it.
-        pub plants: Vec<Plants> = Vec::new(),
-    }
+/// What `terrain { ... }` takes.
+#[fields("terrain")]
+pub struct TerrainOptions {
+    /// The length (m) of its sides.
+    #[default(1024.0)]
+    pub size: f64,
+    /// How often all of it is divided; left out, only what is focused on.
+    pub levels: Option<u32>,
+    /// What divides its cells: a rule table, a system, or a list of these by level.
+    pub rules: RuleLayers,
+    /// The symbol of the whole; the first by name, if it is left out.
+    pub start: Option<String>,
+    /// The height (m) of the whole.
+    #[default(0.0)]
+    pub height: f64,
+    /// How much (m) the changes of a rule table are at first.
+    #[default(100.0)]
+    pub decay: f64,
+    /// Whether the surface runs smoothly through the cells and through measured samples, or each cell keeps its own
+    /// height, and the ground is straight from sample to sample.
+    #[default(true)]
+    pub smooth: bool,
+    /// What heights (m) are changed to: pairs { from, to } with straight lines in between.
+    pub remap: Vec<Vec<f64>>,
+    /// How far (m) the triangles may be from the surface; a tenth of the smallest cell, if it is left out.
+    pub error: Option<f64>,
+    /// The middle of its square (m); its z is added to all heights.
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// Measured heights, which the ground has at each sample, and to which the rules add detail in between:
+    /// elevation("N43E007.hgt").
+    pub elevation: Option<Elevation>,
+    /// Changes of the ground that were kept: edits("ground.json").
+    pub edits: Option<EditFile>,
+    /// What lies on it, from the bottom to the top.
+    pub covers: Vec<Cover>,
+    /// The height (m) of an underside: then it has sides and is closed.
+    pub base: Option<f64>,
+    /// The colour of its sides.
+    #[default(Color([0.16, 0.12, 0.09, 1.0]))]
+    pub sides: Color,
+    /// Its colour, where it has no covers.
+    #[default(Color([0.30, 0.28, 0.22, 1.0]))]
+    pub color: Color,
+    /// Standing water: its level (m), or more of it.
+    pub water: Option<Water>,
+    /// What grows on it.
+    pub plants: Vec<Plants>,
 }
 
 /// Ground made by dividing a square into quadrants again and again, expanded where it is looked at.
@@ -82,7 +88,7 @@ fields! {
 /// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
 #[derive(Clone)]
 pub struct Terrain {
-    options: Arc<Options>,
+    options: Arc<TerrainOptions>,
     ground: Ground,
     /// The ground without what passes change, which the next pass finds.
     plain: Ground,
@@ -106,102 +112,103 @@ pub struct Terrain {
     warnings: Vec<Warning>,
 }
 
-methods! {
-    Terrain = "terrain" {
-        /// Expands what `view` shows from a place (m), and contracts everything else, when the pass ends; until then the
-        /// ground answers as it was. The last focus of a pass counts. A view is the size (m) of cells, and rings around
-        /// the place: how many cells across, and how often each is divided.
-        pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
-            // What cannot be is told where it is asked for.
-            view.check(self.ground.world(), DVec2::new(x, y))?;
-            let wanted = (DVec2::new(x, y), view);
-            let earlier = self.wanted.as_ref().filter(|earlier| **earlier != wanted);
-            self.warnings.extend(earlier.map(|(at, _)| lost_focus("terrain", &format!("({}, {})", at.x, at.y))));
-            self.wanted = Some(wanted);
-            Ok(())
-        }
+#[methods("terrain")]
+impl Terrain {
+    /// Expands what `view` shows from a place (m), and contracts everything else, when the pass ends; until then the
+    /// ground answers as it was. The last focus of a pass counts. A view is the size (m) of cells, and rings around
+    /// the place: how many cells across, and how often each is divided.
+    pub fn focus(&mut self, x: f64, y: f64, view: View) -> Result<()> {
+        // What cannot be is told where it is asked for.
+        view.check(self.ground.world(), DVec2::new(x, y))?;
+        let wanted = (DVec2::new(x, y), view);
+        let earlier = self.wanted.as_ref().filter(|earlier| **earlier != wanted);
+        self.warnings.extend(earlier.map(|(at, _)| lost_focus("terrain", &format!("({}, {})", at.x, at.y))));
+        self.wanted = Some(wanted);
+        Ok(())
+    }
 
-        /// Makes the ground within an outline level, when the pass ends: at `height` (m), or as it is in the middle. Over
-        /// `margin` (m, 5 unless given) around it the ground changes less and less.
-        pub fn flatten(&mut self, outline: Vec<Vector>, height: Option<f64>, margin: Option<f64>) -> Result<()> {
-            let outline = flat(&outline);
-            let middle = outline.iter().map(|at| DVec2::from(*at)).sum::<DVec2>() / outline.len().max(1) as f64;
-            let height = match height {
-                Some(height) => height - self.options.position.0.z,
-                None => self.ground.height(middle).ok_or_else(|| self.nothing(middle))?,
-            };
-            self.change(Edit::Flatten { outline, height, margin: margin.unwrap_or(5.0) })
-        }
+    /// Makes the ground within an outline level, when the pass ends: at `height` (m), or as it is in the middle. Over
+    /// `margin` (m, 5 unless given) around it the ground changes less and less.
+    pub fn flatten(&mut self, outline: Vec<Vector>, height: Option<f64>, margin: Option<f64>) -> Result<()> {
+        let outline = flat(&outline);
+        let middle = outline.iter().map(|at| DVec2::from(*at)).sum::<DVec2>() / outline.len().max(1) as f64;
+        let height = match height {
+            Some(height) => height - self.options.position.0.z,
+            None => self.ground.height(middle).ok_or_else(|| self.nothing(middle))?,
+        };
+        self.change(Edit::Flatten { outline, height, margin: margin.unwrap_or(5.0) })
+    }
 
-        /// Gives the ground along a path the heights of the path, over `width` (m), when the pass ends; beside it the
-        /// ground changes less and less over `margin` (m, the width unless given).
-        pub fn cut(&mut self, path: Vec<Vector>, width: f64, margin: Option<f64>) -> Result<()> {
-            let lift = self.options.position.0.z;
-            let path = path.iter().map(|at| [at.0.x, at.0.y, at.0.z - lift]).collect();
-            self.change(Edit::Cut { path, width, margin: margin.unwrap_or(width) })
-        }
+    /// Gives the ground along a path the heights of the path, over `width` (m), when the pass ends; beside it the
+    /// ground changes less and less over `margin` (m, the width unless given).
+    pub fn cut(&mut self, path: Vec<Vector>, width: f64, margin: Option<f64>) -> Result<()> {
+        let lift = self.options.position.0.z;
+        let path = path.iter().map(|at| [at.0.x, at.0.y, at.0.z - lift]).collect();
+        self.change(Edit::Cut { path, width, margin: margin.unwrap_or(width) })
+    }
 
-        /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle; raises it, if
-        /// the depth is below 0.
-        pub fn dig(&mut self, path: Vec<Vector>, width: f64, depth: f64) -> Result<()> {
-            self.change(Edit::Dig { path: flat(&path), width, depth })
-        }
+    /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle; raises it, if
+    /// the depth is below 0.
+    pub fn dig(&mut self, path: Vec<Vector>, width: f64, depth: f64) -> Result<()> {
+        self.change(Edit::Dig { path: flat(&path), width, depth })
+    }
 
-        /// Lets a river of `width` (m) run from a place downhill, to the standing water, the rim or an earlier river; its
-        /// bed is dug when the pass ends. There is none from a place under water.
-        pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
-            if !(width > 0.0 && width <= self.options.size) {
-                return Err(Error::argument(format!("terrain:river: width is {width} m")).help("give metres above 0"));
+    /// Lets a river of `width` (m) run from a place downhill, to the standing water, the rim or an earlier river; its
+    /// bed is dug when the pass ends. There is none from a place under water.
+    pub fn river(&mut self, source: Vector, width: f64) -> Result<()> {
+        if !(width > 0.0 && width <= self.options.size) {
+            return Err(
+                Error::argument(format!("terrain:river: width is {width} m")).help("give metres above 0")
+            );
+        }
+        let at = source.0.truncate();
+        let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
+        let sunk = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
+        let way = match (self.drainage()?.river(at), sunk) {
+            (Ok(way), _) => way,
+            // Water runs there already.
+            (Err(Dry::River), None) => return Ok(()),
+            (Err(_), sunk) => {
+                self.warnings.push(dry(at, sunk.map(|level| level - height)));
+                return Ok(());
             }
-            let at = source.0.truncate();
-            let height = self.ground.height(at).ok_or_else(|| self.nothing(at))?;
-            let sunk = self.options.water.as_ref().map(|water| water.level).filter(|level| height <= *level);
-            let way = match (self.drainage()?.river(at), sunk) {
-                (Ok(way), _) => way,
-                // Water runs there already.
-                (Err(Dry::River), None) => return Ok(()),
-                (Err(_), sunk) => {
-                    self.warnings.push(dry(at, sunk.map(|level| level - height)));
-                    return Ok(());
-                }
-            };
-            let depth = width * SHALLOW;
-            let path = way.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
-            self.rivers.push(River { way, width });
-            self.change(Edit::Cut { path, width, margin: width * 1.5 })
-        }
+        };
+        let depth = width * SHALLOW;
+        let path = way.iter().map(|at| [at.x, at.y, at.z - depth]).collect();
+        self.rivers.push(River { way, width });
+        self.change(Edit::Cut { path, width, margin: width * 1.5 })
+    }
 
-        /// Height (m) of the ground at a place; fails where nothing is expanded.
-        pub fn height(&self, place: Vector) -> Result<f64> {
-            let at = place.0.truncate();
-            Ok(self.known(at, self.ground.height(at), 0.0)? + self.options.position.0.z)
-        }
+    /// Height (m) of the ground at a place; fails where nothing is expanded.
+    pub fn height(&self, place: Vector) -> Result<f64> {
+        let at = place.0.truncate();
+        Ok(self.known(at, self.ground.height(at), 0.0)? + self.options.position.0.z)
+    }
 
-        /// The way up from the ground at a place, as a vector of length 1.
-        pub fn normal(&self, place: Vector) -> Result<DVec3> {
-            let at = place.0.truncate();
-            self.known(at, self.ground.way_up(at), DVec3::Z)
-        }
+    /// The way up from the ground at a place, as a vector of length 1.
+    pub fn normal(&self, place: Vector) -> Result<DVec3> {
+        let at = place.0.truncate();
+        self.known(at, self.ground.way_up(at), DVec3::Z)
+    }
 
-        /// How steep (degrees) the ground is at a place.
-        pub fn slope(&self, place: Vector) -> Result<f64> {
-            let at = place.0.truncate();
-            let up = self.known(at, self.ground.way_up(at), DVec3::Z)?;
-            Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
-        }
+    /// How steep (degrees) the ground is at a place.
+    pub fn slope(&self, place: Vector) -> Result<f64> {
+        let at = place.0.truncate();
+        let up = self.known(at, self.ground.way_up(at), DVec3::Z)?;
+        Ok(up.z.clamp(-1.0, 1.0).acos().to_degrees())
+    }
 
-        /// The symbol of the cell at a place.
-        pub fn symbol(&self, place: Vector) -> Result<String> {
-            let at = place.0.truncate();
-            self.known(at, self.ground.symbol(at), "").map(str::to_owned)
-        }
+    /// The symbol of the cell at a place.
+    pub fn symbol(&self, place: Vector) -> Result<String> {
+        let at = place.0.truncate();
+        self.known(at, self.ground.symbol(at), "").map(str::to_owned)
+    }
 
-        /// How many heights are expanded at present.
-        pub fn heights(&self) -> f64 {
-            #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
-            let count = self.ground.heights() as f64;
-            count
-        }
+    /// How many heights are expanded at present.
+    pub fn heights(&self) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
+        let count = self.ground.heights() as f64;
+        count
     }
 }
 
@@ -212,20 +219,23 @@ impl Terrain {
             let kind = Kind::new(
                 "terrain",
                 "Ground made by dividing a square into quadrants again and again, expanded where it is looked at.",
-            );
+            )
+.example(include_str!("../../scripts/terrain.lua"));
             Arc::new(
-                kind.made_of(Options::fields(), |table| Terrain::new(Options::from_table(table)?))
-                    .methods(Terrain::methods())
-                    .begins_empty()
-                    .shows::<Terrain>()
-                    .expands::<Terrain>(),
+                kind.made_of(TerrainOptions::fields(), |table| {
+                    Terrain::new(TerrainOptions::from_table(table)?)
+                })
+                .methods(Terrain::methods())
+                .begins_empty()
+                .shows::<Terrain>()
+                .expands::<Terrain>(),
             )
         });
         &KIND
     }
 
     /// A terrain of which nothing is expanded.
-    pub fn new(options: Options) -> Result<Self> {
+    pub fn new(options: TerrainOptions) -> Result<Self> {
         let world = build::world(&options)?;
         if let Some(levels) = options.levels {
             View::whole(&world, levels).check(&world, options.position.0.truncate())?;

@@ -9,23 +9,25 @@ use super::mask::{Mask, Spot};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::Key;
-use burgeon_kit::{Drawing, Expected, Model, Parameter, Table, Value};
+use burgeon_kit::{Drawing, Expected, Model, Parameter, Table, Value, fields};
 use burgeon_terrain::Ground;
 
-fields! {
-    /// A kind of model that is scattered over the ground.
-    pub struct Plants for "plants" {
-        /// What is scattered: several models are drawn from with equal chances.
-        pub models: Vec<Arc<Model>> = Vec::new(),
-        /// How many there are on a hectare where they grow best.
-        pub density: f64 = 100.0,
-        /// Where they grow; everywhere, if that is left out.
-        pub on: Mask = Mask::default(),
-        /// The least and the greatest size, as a multiple of the model's.
-        pub size: Vec<f64> = vec![0.8, 1.2],
-        /// How deep (m) they stand in the ground.
-        pub sink: f64 = 0.0,
-    }
+/// A kind of model that is scattered over the ground.
+#[fields("plants")]
+pub struct Plants {
+    /// What is scattered: several models are drawn from with equal chances.
+    pub models: Vec<Arc<Model>>,
+    /// How many there are on a hectare where they grow best.
+    #[default(100.0)]
+    pub density: f64,
+    /// Where they grow; everywhere, if that is left out.
+    pub on: Mask,
+    /// The least and the greatest size, as a multiple of the model's.
+    #[default(vec![0.8, 1.2])]
+    pub size: Vec<f64>,
+    /// How deep (m) they stand in the ground.
+    #[default(0.0)]
+    pub sink: f64,
 }
 
 /// The most models that are scattered.

@@ -5,22 +5,25 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2};
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Expected, Parameter, Table, Value};
+use burgeon_kit::{Color, Expected, Parameter, Table, Value, fields};
 use burgeon_scene::{Normal, Part};
 use burgeon_terrain::{Ground, Tile};
 
-fields! {
-    /// Standing water.
-    pub struct Water for "water" {
-        /// The height (m) of its surface.
-        pub level: f64 = 0.0,
-        /// Its colour where it is deep.
-        pub color: Color = Color([0.008, 0.045, 0.075, 1.0]),
-        /// Its colour at the shore.
-        pub shallow: Color = Color([0.07, 0.17, 0.17, 1.0]),
-        /// How deep (m) one sees into it.
-        pub clarity: f64 = 8.0,
-    }
+/// Standing water.
+#[fields("water")]
+pub struct Water {
+    /// The height (m) of its surface.
+    #[default(0.0)]
+    pub level: f64,
+    /// Its colour where it is deep.
+    #[default(Color([0.008, 0.045, 0.075, 1.0]))]
+    pub color: Color,
+    /// Its colour at the shore.
+    #[default(Color([0.07, 0.17, 0.17, 1.0]))]
+    pub shallow: Color,
+    /// How deep (m) one sees into it.
+    #[default(8.0)]
+    pub clarity: f64,
 }
 
 impl Parameter for Water {

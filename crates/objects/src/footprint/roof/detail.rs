@@ -7,46 +7,53 @@ use glam::{DAffine3, DMat3, DVec3};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Ring;
 use burgeon_geometry::roof::{LineKind, Patch, PatchKind, lines, normal};
-use burgeon_kit::Expected;
 use burgeon_kit::random::Stream;
+use burgeon_kit::{Expected, fields};
 use burgeon_kit::{Model, Parameter, Table, Value};
 
-fields! {
-    /// One of the `details` of `footprint:roof { ... }`.
-    ///
-    /// The model stands upright with its origin on the roof. Its x runs along the line, to the right as seen from
-    /// outside, and its front, -y, looks outwards.
-    pub struct Detail for "a detail of footprint:roof" {
-        /// What stands there: what `derive` returned.
-        pub model: Option<Arc<Model>> = None,
-        /// "ridge", "hip", "valley", "eaves", "slope" or "gable".
-        pub on: String = "ridge".into(),
-        /// Distance between two along the line (m); one in the middle if left out.
-        pub every: Option<f64> = None,
-        /// What is kept free at both ends of the line (m).
-        pub margin: f64 = 0.5,
-        /// How far up the slope, from the foot of the flap or gable (m, on the plan; m of height on gables); its
-        /// middle if left out.
-        pub offset: Option<f64> = None,
-        /// Rows on a slope.
-        pub rows: u32 = 1,
-        /// Which part of a slope with several, from the eaves up.
-        pub flap: u32 = 1,
-        /// At most so many on the whole roof, drawn from all places.
-        pub count: Option<u32> = None,
-        /// Part of the places that are taken, from 0 to 1.
-        pub chance: f64 = 1.0,
-        /// Size, as a multiple of the model's own.
-        pub scale: f64 = 1.0,
-        /// Turns it about its upright axis (degrees).
-        pub turn: f64 = 0.0,
-        /// How deep its origin is below the roof (m).
-        pub sink: f64 = 0.0,
-        /// Whether it leans with the roof, in place of standing upright.
-        pub tilt: bool = false,
-        /// Whether it is stretched along x to the whole length of the line, as a gutter.
-        pub stretch: bool = false,
-    }
+/// One of the `details` of `footprint:roof { ... }`.
+///
+/// The model stands upright with its origin on the roof. Its x runs along the line, to the right as seen from
+/// outside, and its front, -y, looks outwards.
+#[fields("a detail of footprint:roof")]
+pub struct Detail {
+    /// What stands there: what `derive` returned.
+    pub model: Option<Arc<Model>>,
+    /// "ridge", "hip", "valley", "eaves", "slope" or "gable".
+    #[default("ridge".into())]
+    pub on: String,
+    /// Distance between two along the line (m); one in the middle if left out.
+    pub every: Option<f64>,
+    /// What is kept free at both ends of the line (m).
+    #[default(0.5)]
+    pub margin: f64,
+    /// How far up the slope, from the foot of the flap or gable (m, on the plan; m of height on gables); its
+    /// middle if left out.
+    pub offset: Option<f64>,
+    /// Rows on a slope.
+    #[default(1)]
+    pub rows: u32,
+    /// Which part of a slope with several, from the eaves up.
+    #[default(1)]
+    pub flap: u32,
+    /// At most so many on the whole roof, drawn from all places.
+    pub count: Option<u32>,
+    /// Part of the places that are taken, from 0 to 1.
+    #[default(1.0)]
+    pub chance: f64,
+    /// Size, as a multiple of the model's own.
+    #[default(1.0)]
+    pub scale: f64,
+    /// Turns it about its upright axis (degrees).
+    #[default(0.0)]
+    pub turn: f64,
+    /// How deep its origin is below the roof (m).
+    #[default(0.0)]
+    pub sink: f64,
+    /// Whether it leans with the roof, in place of standing upright.
+    pub tilt: bool,
+    /// Whether it is stretched along x to the whole length of the line, as a gutter.
+    pub stretch: bool,
 }
 
 impl Parameter for Detail {

@@ -14,44 +14,50 @@ use burgeon_geometry::roof::{
     Cover, Eaves, Patch, PatchKind, STEEPEST_EAVES, Shape, Support, Surface as SurfaceOf,
 };
 use burgeon_geometry::{Plan, fill};
-use burgeon_kit::Note;
+use burgeon_kit::{Note, fields};
 pub use detail::Detail;
 
-fields! {
-    /// What `footprint:roof { ... }` takes.
-    pub struct Roof for "footprint:roof" {
-        /// "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or "dutch_hip".
-        pub kind: String = "hip".into(),
-        /// How high the highest ridge is above the eaves (m); after `slope` if left out.
-        pub height: Option<f64> = None,
-        /// Slope (degrees) from the eaves to the highest ridge, where no height is given.
-        pub slope: f64 = 35.0,
-        /// How far it juts out over the outermost walls (m), where there is room.
-        pub overhang: f64 = 0.0,
-        /// "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a plate
-        /// that follows the slope. "slab" if a `slab` is given, "closed" otherwise.
-        pub eaves: Option<String> = None,
-        /// Height of the upright faces along the outline, and of the edge of a plate (m); 0.15 where one is needed.
-        pub slab: f64 = 0.0,
-        /// Height of the border of a flat roof (m).
-        pub border: f64 = 0.0,
-        /// Width of the border of a flat roof (m).
-        pub border_width: f64 = 0.3,
-        /// Its colour.
-        pub color: Option<Color> = None,
-        /// Its material, in place of the colour.
-        pub material: Option<Surface> = None,
-        /// The material of gables; that of the walls below them if left out.
-        pub gable: Option<Surface> = None,
-        /// The material of slabs and borders; the roof's if left out.
-        pub trim: Option<Surface> = None,
-        /// The material of undersides; that of slabs if left out.
-        pub underside: Option<Surface> = None,
-        /// Whether walls along neighbours that run away from the street end in gables, as in a row of houses.
-        pub party_gables: bool = true,
-        /// What stands on it: a list of { model, on, every, ... }.
-        pub details: Vec<Detail> = Vec::new(),
-    }
+/// What `footprint:roof { ... }` takes.
+#[fields("footprint:roof")]
+pub struct Roof {
+    /// "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or "dutch_hip".
+    #[default("hip".into())]
+    pub kind: String,
+    /// How high the highest ridge is above the eaves (m); after `slope` if left out.
+    pub height: Option<f64>,
+    /// Slope (degrees) from the eaves to the highest ridge, where no height is given.
+    #[default(35.0)]
+    pub slope: f64,
+    /// How far it juts out over the outermost walls (m), where there is room.
+    #[default(0.0)]
+    pub overhang: f64,
+    /// "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a plate
+    /// that follows the slope. "slab" if a `slab` is given, "closed" otherwise.
+    pub eaves: Option<String>,
+    /// Height of the upright faces along the outline, and of the edge of a plate (m); 0.15 where one is needed.
+    #[default(0.0)]
+    pub slab: f64,
+    /// Height of the border of a flat roof (m).
+    #[default(0.0)]
+    pub border: f64,
+    /// Width of the border of a flat roof (m).
+    #[default(0.3)]
+    pub border_width: f64,
+    /// Its colour.
+    pub color: Option<Color>,
+    /// Its material, in place of the colour.
+    pub material: Option<Surface>,
+    /// The material of gables; that of the walls below them if left out.
+    pub gable: Option<Surface>,
+    /// The material of slabs and borders; the roof's if left out.
+    pub trim: Option<Surface>,
+    /// The material of undersides; that of slabs if left out.
+    pub underside: Option<Surface>,
+    /// Whether walls along neighbours that run away from the street end in gables, as in a row of houses.
+    #[default(true)]
+    pub party_gables: bool,
+    /// What stands on it: a list of { model, on, every, ... }.
+    pub details: Vec<Detail>,
 }
 
 impl Footprint {

@@ -1,0 +1,324 @@
+//! Prepares rules: writes their returns so that what they make needs no taking apart.
+
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{Call, Expression, Field, FunctionArgs, FunctionBody, Parameter, Prefix, Suffix};
+use full_moon::node::Node;
+use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
+use std::sync::atomic::Ordering;
+
+use super::syntax::{end_of, first_position, is_open, string_of, text_of};
+use super::walk::{Fact, Function, Role, Variable, Walk};
+
+/// The most parameters that a prepared return can have.
+const MOST_EMITTED: usize = 64;
+
+/// Added to the number of a shape, so that it cannot be taken for a count of modules.
+const SHAPE: usize = 1 << 30;
+
+/// What a return makes, as far as its text tells: symbols and brackets, and where the parameters stand.
+#[derive(Default)]
+struct Shape {
+    items: Vec<String>,
+    arguments: Vec<Argument>,
+}
+
+enum Argument {
+    /// From one place to another; open if it may have any number of values, of which one is taken.
+    At(usize, usize, bool),
+    /// Left out, before this place.
+    Missing(usize),
+}
+
+impl Walk<'_> {
+    /// Walks the arguments of `:rule` or `:interpret`; the functions among them have a role.
+    pub(super) fn rule(&mut self, arguments: &FunctionArgs, role: Role) {
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.arguments(arguments) };
+        let last = arguments.len().saturating_sub(1);
+        let outer = self.rule.take();
+        if let Some(Expression::String(text)) = arguments.iter().next() {
+            let pattern = string_of(text).filter(|pattern| !pattern.is_empty());
+            self.rule = pattern.map(|pattern| match role {
+                Role::Interpretation => format!("{pattern} (interpretation)"),
+                _ => pattern,
+            });
+        }
+        for (index, argument) in arguments.iter().enumerate() {
+            match argument {
+                Expression::Function(function) if index == last && index > 0 => {
+                    if role == Role::Rule {
+                        self.prepared(argument, function.body(), role);
+                    } else {
+                        self.function(function.body(), role, false);
+                    }
+                }
+                Expression::String(text) if role == Role::Rule && index == last && index > 0 => {
+                    self.mark_line(text);
+                }
+                Expression::TableConstructor(table) if role == Role::Rule => {
+                    for field in table.fields() {
+                        match field {
+                            Field::NameKey { key, value, .. } => match &**value {
+                                Expression::Function(function) if text_of(key) == "when" => {
+                                    self.prepared(value, function.body(), Role::Guard);
+                                }
+                                value => self.expression(value),
+                            },
+                            Field::NoKey(value) => self.expression(value),
+                            _ => {}
+                        }
+                    }
+                }
+                other => self.expression(other),
+            }
+        }
+        self.rule = outer;
+    }
+
+    /// Puts the line on which the content of a text successor begins before it.
+    fn mark_line(&mut self, text: &TokenReference) {
+        let Some(begin) = text.start_position() else { return };
+        // Luau leaves out a line break behind the opening bracket.
+        let left_out = match text.token_type() {
+            TokenType::StringLiteral { literal, quote_type: StringLiteralQuoteType::Brackets, .. } => {
+                literal.starts_with(['\n', '\r'])
+            }
+            _ => false,
+        };
+        let line = begin.line() + usize::from(left_out);
+        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::marked(line)));
+    }
+
+    /// Walks a function of a rule, and lets the script say that it has been seen.
+    fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: Role) {
+        if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
+            self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
+            let shapes = self.function(body, role, false);
+            let shapes: String = shapes.iter().map(|shape| format!(", {shape}")).collect();
+            self.edit(end.bytes(), end.bytes(), format!("{shapes})"));
+        }
+    }
+
+    /// Walks a function, which has a `self` if it `is_method`; gives the shapes of its returns.
+    pub(super) fn function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Vec<String> {
+        self.walk_function(body, role, is_method).shapes
+    }
+
+    /// Walks a function; gives what was learned of it.
+    pub(super) fn walk_function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Function {
+        let is_axiom = std::mem::take(&mut self.axiom);
+        let outside = self.variables.len();
+        let start = first_position(body.block(), body.end_token());
+        let mut parameters = body.parameters().iter();
+        let rule = if role == Role::Other { None } else { self.rule.clone() };
+        self.functions.push(Function::new(role, rule));
+        if is_method {
+            let id = self.facts.variables.len();
+            self.facts.variables.push(Fact::default());
+            self.variables.push(Variable {
+                name: "self".to_owned(),
+                id,
+                function: self.functions.len() - 1,
+                module: None,
+                fresh: false,
+                feature: false,
+                receiver: true,
+            });
+        }
+        for (index, parameter) in parameters.by_ref().enumerate() {
+            let is_first = index == 0 && !is_method;
+            if let Parameter::Name(name) = parameter {
+                let id = self.declare(name, start);
+                if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
+                    variable.feature = is_axiom;
+                    variable.receiver = is_first;
+                }
+            } else if let (true, Some(function)) = (is_first, self.functions.last_mut()) {
+                // It may look at any of its parameters.
+                function.asks = true;
+            }
+        }
+        self.block(body.block());
+        self.variables.truncate(outside);
+        let nothing = Function { pure: false, asks: true, ..Function::new(role, None) };
+        let function = self.functions.pop().unwrap_or(nothing);
+        if let Some(begin) = body.parameters_parentheses().tokens().0.start_position() {
+            *self.pure.entry(begin.line()).or_insert(true) &= function.pure;
+            *self.blind.entry(begin.line()).or_insert(true) &= !function.asks;
+            if let Some(line) = function.loses {
+                self.lost.insert(begin.line(), line);
+            }
+            self.begins.push(begin.bytes());
+        }
+        function
+    }
+
+    pub(super) fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
+        let role = self.functions.last().map_or(Role::Script, |function| function.role);
+        if role == Role::Interpretation && values.iter().any(|value| self.makes_modules(value)) {
+            let line = token.start_position().map(|position| position.line());
+            if let Some(function) = self.functions.last_mut() {
+                function.loses = function.loses.or(line);
+            }
+        }
+        if role != Role::Rule {
+            return self.expressions(values);
+        }
+        self.expressions(values);
+        let (Some(begin), Some(end)) = (token.end_position(), values.iter().last().and_then(end_of)) else {
+            return;
+        };
+        let mut shape = Shape::default();
+        if values.iter().all(|value| self.shape(value, &mut shape)) && shape.arguments.len() <= MOST_EMITTED {
+            self.emit(begin.bytes(), end.bytes(), values, &shape);
+        } else if values.len() == 1
+            && matches!(values.iter().next(), Some(Expression::Symbol(symbol)) if text_of(symbol) == "nil")
+        {
+            self.edit(begin.bytes(), end.bytes(), " __erased".to_owned());
+        } else {
+            self.edit(begin.bytes(), begin.bytes(), " __list(".to_owned());
+            self.edit(end.bytes(), end.bytes(), ")".to_owned());
+            let list = "__list".to_owned();
+            if let Some(function) = self.functions.last_mut().filter(|it| !it.shapes.contains(&list)) {
+                function.shapes.push(list);
+            }
+        }
+    }
+
+    /// Whether `value` can be seen to be a module, or a branch of them.
+    fn makes_modules(&self, value: &Expression) -> bool {
+        match value {
+            Expression::FunctionCall(call) => match (call.prefix(), call.suffixes().count()) {
+                (Prefix::Name(name), 1) => self.module(name).is_some(),
+                _ => false,
+            },
+            Expression::TableConstructor(table) => match table.fields().iter().next() {
+                Some(Field::NoKey(first)) => self.makes_modules(first),
+                _ => false,
+            },
+            _ => false,
+        }
+    }
+
+    /// Writes `return A(x), { B(y) }` as one call with the shape's number and the parameters in order.
+    fn emit(&mut self, begin: usize, end: usize, values: &Punctuated<Expression>, shape: &Shape) {
+        let number = self.globals.shapes.fetch_add(1, Ordering::Relaxed);
+        self.edit(begin, begin, format!(" __emit{}({}", shape.arguments.len(), SHAPE + number));
+        self.blank_items(values);
+        for argument in &shape.arguments {
+            match argument {
+                Argument::At(from, to, open) => {
+                    self.edit(*from, *from, if *open { ", (" } else { ", " }.to_owned());
+                    self.edit(*to, *to, if *open { ")" } else { "" }.to_owned());
+                }
+                Argument::Missing(at) => self.edit(*at, *at, ", nil".to_owned()),
+            }
+        }
+        self.edit(end, end, ")".to_owned());
+        if let Some(function) = self.functions.last_mut() {
+            function.shapes.push(format!("{{ {}, {} }}", SHAPE + number, shape.items.join(", ")));
+        }
+    }
+
+    /// Adds what `value` makes to `shape`; `false` if that cannot be seen from its text.
+    fn shape(&self, value: &Expression, shape: &mut Shape) -> bool {
+        match value {
+            Expression::FunctionCall(call) => {
+                let suffixes: Vec<&Suffix> = call.suffixes().collect();
+                let (Prefix::Name(name), [Suffix::Call(Call::AnonymousCall(arguments))]) =
+                    (call.prefix(), suffixes.as_slice())
+                else {
+                    return false;
+                };
+                let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments else { return false };
+                let (Some(signature), Some(close)) =
+                    (self.module(name), parentheses.tokens().1.start_position())
+                else {
+                    return false;
+                };
+                // The shape is made outside of the rule's function, where the module must mean the same.
+                let inside =
+                    self.find(&text_of(name)).is_some_and(|known| known.function + 1 >= self.functions.len());
+                let given = arguments.len();
+                if inside || given < signature.required || given > signature.arity() {
+                    return false;
+                }
+                shape.items.push(text_of(name));
+                for (index, argument) in arguments.iter().enumerate() {
+                    let open = is_open(argument) && index + 1 == given;
+                    if open && given < signature.arity() {
+                        return false;
+                    }
+                    let (Some(from), Some(to)) = (argument.start_position(), end_of(argument)) else {
+                        return false;
+                    };
+                    shape.arguments.push(Argument::At(from.bytes(), to.bytes(), open));
+                }
+                shape.arguments.extend((given..signature.arity()).map(|_| Argument::Missing(close.bytes())));
+                true
+            }
+            Expression::TableConstructor(table) => {
+                shape.items.push("0".to_owned());
+                let known = table.fields().iter().all(|field| match field {
+                    Field::NoKey(value) => self.shape(value, shape),
+                    _ => false,
+                });
+                shape.items.push("1".to_owned());
+                known
+            }
+            _ => false,
+        }
+    }
+
+    /// Takes away everything of a list of items but the arguments.
+    fn blank_items(&mut self, values: &Punctuated<Expression>) {
+        for pair in values.pairs() {
+            self.blank_item(pair.value());
+            if let Some(comma) = pair.punctuation() {
+                self.blank(comma, "");
+            }
+        }
+    }
+
+    fn blank_item(&mut self, value: &Expression) {
+        match value {
+            Expression::FunctionCall(call) => {
+                if let Prefix::Name(name) = call.prefix() {
+                    self.blank(name, "");
+                }
+                for suffix in call.suffixes() {
+                    if let Suffix::Call(Call::AnonymousCall(arguments)) = suffix
+                        && let FunctionArgs::Parentheses { parentheses, arguments } = &**arguments
+                    {
+                        let (open, close) = parentheses.tokens();
+                        self.blank(open, "");
+                        for comma in arguments.pairs().filter_map(|pair| pair.punctuation()) {
+                            self.blank(comma, "");
+                        }
+                        self.blank(close, "");
+                    }
+                }
+            }
+            Expression::TableConstructor(table) => {
+                let (open, close) = table.braces().tokens();
+                self.blank(open, "");
+                for pair in table.fields().pairs() {
+                    if let Field::NoKey(value) = pair.value() {
+                        self.blank_item(value);
+                    }
+                    if let Some(separator) = pair.punctuation() {
+                        self.blank(separator, "");
+                    }
+                }
+                self.blank(close, "");
+            }
+            _ => {}
+        }
+    }
+
+    /// Replaces a token by `text`.
+    fn blank(&mut self, token: &TokenReference, text: &str) {
+        if let (Some(begin), Some(end)) = (token.start_position(), token.end_position()) {
+            self.edit(begin.bytes(), end.bytes(), text.to_owned());
+        }
+    }
+}

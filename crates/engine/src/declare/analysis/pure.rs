@@ -1,0 +1,184 @@
+//! Which functions of a script leave nothing behind, so that running them once in one machine is as good as running
+//! them in each.
+//!
+//! A function is pure if it assigns only its own variables and tables that it made itself, and calls only modules,
+//! constructors, what the library is known to do, and pure functions of the same file. What cannot be told is not
+//! pure. It may draw random numbers: how far it got with them is easily told to other machines.
+
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{Call, Expression, FunctionArgs, FunctionCall, Index, Prefix, Suffix, Var};
+use full_moon::tokenizer::TokenReference;
+
+use super::syntax::text_of;
+use super::walk::Walk;
+
+/// Functions that remember nothing but which random numbers are drawn, and call no function that they are given.
+const FUNCTIONS: [&str; 22] = [
+    "assert", "error", "hsv", "ipairs", "lerp", "mix", "next", "noise", "pairs", "print", "random",
+    "rawequal", "rawlen", "remap", "rgb", "select", "tonumber", "tostring", "type", "typeof", "unpack",
+    "vec",
+];
+/// Libraries of such functions.
+const LIBRARIES: [&str; 5] = ["bit32", "ease", "math", "string", "utf8"];
+/// Those of `table`; of the second list those that change the table that they are given first.
+const OF_TABLES: [&str; 7] = ["concat", "create", "find", "isfrozen", "maxn", "pack", "unpack"];
+const CHANGES: [&str; 5] = ["clear", "freeze", "insert", "move", "remove"];
+/// Methods of strings.
+const OF_STRINGS: [&str; 11] =
+    ["byte", "find", "format", "gmatch", "len", "lower", "match", "rep", "reverse", "sub", "upper"];
+
+/// Whether a script gives tables a behaviour of its own, so that even reading one may leave something behind.
+pub(crate) fn has_metatables(text: &str) -> bool {
+    text.contains("setmetatable")
+}
+
+impl Walk<'_> {
+    /// The functions from this depth on leave something behind.
+    pub(super) fn impure_from(&mut self, depth: usize) {
+        self.functions.iter_mut().skip(depth).for_each(|function| function.pure = false);
+    }
+
+    /// A field of what `prefix` names is assigned.
+    pub(super) fn field_assigned(&mut self, prefix: &Prefix) {
+        let owner = match prefix {
+            Prefix::Name(name) => self.own_table(name),
+            _ => None,
+        };
+        self.impure_from(owner.map_or(1, |owner| owner + 1));
+    }
+
+    /// The function that made the table that a variable always holds.
+    fn own_table(&self, name: &TokenReference) -> Option<usize> {
+        let variable = self.find(&text_of(name))?;
+        (variable.fresh && !self.fact(variable.id).assigned).then_some(variable.function)
+    }
+
+    /// Something is called.
+    pub(super) fn called(&mut self, call: &FunctionCall) {
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        let Prefix::Name(name) = call.prefix() else { return self.impure_from(1) };
+        match suffixes.as_slice() {
+            [Suffix::Call(Call::AnonymousCall(_))] if self.is_pure(name) => {}
+            [Suffix::Index(Index::Dot { name: field, .. }), Suffix::Call(Call::AnonymousCall(arguments))]
+                if self.find(&text_of(name)).is_none() =>
+            {
+                self.library_called(&text_of(name), &text_of(field), arguments);
+            }
+            [fields @ .., Suffix::Call(Call::MethodCall(method))]
+                if OF_STRINGS.contains(&text_of(method.name()).as_str())
+                    && fields.iter().all(|field| matches!(field, Suffix::Index(_)))
+                    && self.find(&text_of(name)).is_some_and(|variable| variable.feature) => {}
+            _ => self.impure_from(1),
+        }
+    }
+
+    fn is_pure(&self, name: &TokenReference) -> bool {
+        let text = text_of(name);
+        match self.find(&text) {
+            Some(variable) => {
+                let pure = self.facts.variables.get(variable.id).is_some_and(|fact| fact.pure);
+                (pure || variable.module.is_some()) && !self.fact(variable.id).assigned
+            }
+            None => {
+                FUNCTIONS.contains(&text.as_str())
+                    || self.globals.modules.contains_key(&text)
+                    || self.globals.kinds.contains(&text)
+            }
+        }
+    }
+
+    fn library_called(&mut self, library: &str, function: &str, arguments: &FunctionArgs) {
+        if LIBRARIES.contains(&library) && function != "gsub"
+            || library == "table" && OF_TABLES.contains(&function)
+        {
+            return;
+        }
+        let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.impure_from(1) };
+        match arguments.iter().next() {
+            Some(Expression::Var(Var::Name(name))) if library == "table" && CHANGES.contains(&function) => {
+                let owner = self.own_table(name);
+                self.impure_from(owner.map_or(1, |owner| owner + 1));
+            }
+            _ => self.impure_from(1),
+        }
+    }
+
+    /// A loop goes through these, one of which may be a function that it calls.
+    pub(super) fn iterated(&mut self, expressions: &Punctuated<Expression>) {
+        let known = |expression: &Expression| match expression {
+            Expression::FunctionCall(_) => true,
+            Expression::Var(Var::Name(name)) => {
+                self.own_table(name).is_some()
+                    || self.find(&text_of(name)).is_some_and(|variable| variable.feature)
+            }
+            Expression::Var(Var::Expression(inner)) => match inner.prefix() {
+                Prefix::Name(name) => self.find(&text_of(name)).is_some_and(|variable| variable.feature),
+                _ => false,
+            },
+            _ => false,
+        };
+        if !expressions.iter().all(known) {
+            self.impure_from(1);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{Globals, analyse};
+
+    /// Whether the function in the last line but one is pure.
+    fn pure(script: &str) -> bool {
+        let names = ["math", "table", "string", "random", "footprint", "pairs", "source", "param", "pcall"];
+        let names = names.map(str::to_owned).to_vec();
+        let globals = Globals { names, kinds: vec!["footprint".to_owned()], ..Globals::default() };
+        let analysis = analyse("s.lua", script, &globals);
+        analysis.pure.contains(&script.lines().count())
+    }
+
+    #[test]
+    fn a_function_that_only_makes_something_is_pure() {
+        for body in [
+            "return footprint(f.geometry, { height = f.height or 3 })",
+            "local t = {} for k, v in pairs(f) do t[k] = v end return t",
+            "local t = { 1 } table.insert(t, math.max(f.a, 2)) return table.concat(t)",
+            "local h = 3 if f.a then h = 4 end return h",
+            "return f.name:lower()",
+            "return half(f.height)",
+            "return random()",
+        ] {
+            let script = format!(
+                "local s = source({{}})\nlocal function half(x) return x / 2 end\ns:axiom(s, function(f) {body} end)"
+            );
+            assert!(pure(&script), "{body}");
+        }
+    }
+
+    #[test]
+    fn a_function_that_leaves_something_behind_or_may_is_not_pure() {
+        for body in [
+            "count = count + 1 return f",
+            "count += 1",
+            "list[1] = f",
+            "table.insert(list, f)",
+            "local t = list t.x = 1",
+            "local t = {} t = list t.x = 1",
+            "f.call()",
+            "helper(f)",
+            "list:add(f)",
+            "pcall(function() count = 1 end)",
+            "for x in helper do return x end",
+            "table.sort(list)",
+            "return string.gsub(f.name, \"a\", helper)",
+            "local function inner() count = 1 end",
+            "local g = helper g()",
+            "param(\"x\", {})",
+            "function list.x() end",
+        ] {
+            let script = format!(
+                "local s, count, list = source({{}}), 0, {{}}\nlocal function helper(x) count = x end\ns:axiom(s, function(f) {body} end)"
+            );
+            assert!(!pure(&script), "{body}");
+        }
+    }
+}

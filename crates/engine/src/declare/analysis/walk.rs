@@ -1,0 +1,404 @@
+//! Walks a script: variables and their scopes, names, and the checks that need no running.
+
+use std::collections::BTreeMap;
+
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{Ast, Block, Expression, FunctionBody, LastStmt, Stmt, Var};
+use full_moon::node::Node;
+use full_moon::tokenizer::TokenReference;
+
+use super::Globals;
+use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
+use burgeon_base::error::{Error, Place};
+use burgeon_kit::rules::Signature;
+
+/// What the first walk learned about the variables, in the order of their declaration.
+#[derive(Default)]
+pub(super) struct Facts {
+    pub(super) variables: Vec<Fact>,
+}
+
+#[derive(Default, Clone)]
+pub(super) struct Fact {
+    pub(super) assigned: bool,
+    pub(super) assigned_inside: bool,
+    /// Whether it is a function that leaves nothing behind.
+    pub(super) pure: bool,
+}
+
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Role {
+    Script,
+    Rule,
+    Guard,
+    Interpretation,
+    Other,
+}
+
+pub(super) struct Function {
+    pub(super) role: Role,
+    /// The rule that it belongs to, as errors name it.
+    pub(super) rule: Option<String>,
+    /// What its prepared returns make, as Lua tables.
+    pub(super) shapes: Vec<String>,
+    /// Whether it has left nothing behind so far.
+    pub(super) pure: bool,
+    /// Whether it has looked at its first parameter so far.
+    pub(super) asks: bool,
+    /// The first of its returns that gives modules, where nobody takes them.
+    pub(super) loses: Option<usize>,
+}
+
+impl Function {
+    pub(super) fn new(role: Role, rule: Option<String>) -> Self {
+        Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None }
+    }
+}
+
+pub(super) struct Variable {
+    pub(super) name: String,
+    pub(super) id: usize,
+    pub(super) function: usize,
+    pub(super) module: Option<Signature>,
+    /// Whether it begins as a new table.
+    pub(super) fresh: bool,
+    /// Whether it is what the function of an axiom is given.
+    pub(super) feature: bool,
+    /// Whether it is the first parameter of its function.
+    pub(super) receiver: bool,
+}
+
+pub(super) struct Edit {
+    pub(super) begin: usize,
+    pub(super) end: usize,
+    pub(super) text: String,
+    pub(super) order: usize,
+}
+
+pub(super) struct Walk<'a> {
+    pub(super) file: &'a str,
+    pub(super) globals: &'a Globals,
+    pub(super) known: Facts,
+    pub(super) facts: Facts,
+    pub(super) functions: Vec<Function>,
+    pub(super) variables: Vec<Variable>,
+    pub(super) edits: Vec<Edit>,
+    pub(super) problems: Vec<Error>,
+    pub(super) random: bool,
+    /// The rule whose functions are being walked.
+    pub(super) rule: Option<String>,
+    /// Whether the next function is that of an axiom.
+    pub(super) axiom: bool,
+    /// By line: whether all functions that begin there leave nothing behind.
+    pub(super) pure: BTreeMap<usize, bool>,
+    /// By line: whether no function that begins there looks at its first parameter.
+    pub(super) blind: BTreeMap<usize, bool>,
+    /// By line: where an interpretation that begins there returns modules.
+    pub(super) lost: BTreeMap<usize, usize>,
+    /// Where the parameters of functions begin.
+    pub(super) begins: Vec<usize>,
+}
+
+impl<'a> Walk<'a> {
+    pub(super) fn new(file: &'a str, globals: &'a Globals, known: Facts) -> Self {
+        Self {
+            file,
+            globals,
+            known,
+            facts: Facts::default(),
+            functions: vec![Function { pure: false, ..Function::new(Role::Script, None) }],
+            variables: Vec::new(),
+            edits: Vec::new(),
+            problems: Vec::new(),
+            random: false,
+            rule: None,
+            axiom: false,
+            pure: BTreeMap::new(),
+            blind: BTreeMap::new(),
+            lost: BTreeMap::new(),
+            begins: Vec::new(),
+        }
+    }
+
+    pub(super) fn run(&mut self, ast: &Ast) {
+        self.block(ast.nodes());
+    }
+
+    pub(super) fn block(&mut self, block: &Block) {
+        let outside = self.variables.len();
+        self.open_block(block);
+        self.variables.truncate(outside);
+    }
+
+    /// Walks a block and leaves its variables in scope.
+    pub(super) fn open_block(&mut self, block: &Block) {
+        for statement in block.stmts() {
+            self.statement(statement);
+        }
+        if let Some(LastStmt::Return(statement)) = block.last_stmt() {
+            self.returns(statement.token(), statement.returns());
+        }
+    }
+
+    pub(super) fn statement(&mut self, statement: &Stmt) {
+        match statement {
+            Stmt::Assignment(assignment) => {
+                self.expressions(assignment.expressions());
+                for variable in assignment.variables() {
+                    self.assign(variable, statement);
+                }
+            }
+            Stmt::CompoundAssignment(assignment) => {
+                self.expression(assignment.rhs());
+                if let Var::Name(name) = assignment.lhs()
+                    && self.find(&text_of(name)).is_some()
+                {
+                    self.read(name);
+                }
+                self.assign(assignment.lhs(), statement);
+            }
+            Stmt::Do(inner) => self.block(inner.block()),
+            Stmt::FunctionCall(call) => self.call(call),
+            Stmt::FunctionDeclaration(declaration) => {
+                let names = declaration.name().names();
+                if let Some(first) = names.first() {
+                    if names.len() == 1 && declaration.name().method_name().is_none() {
+                        self.assign_name(first.value(), statement);
+                    } else {
+                        self.impure_from(1);
+                        self.read(first.value());
+                    }
+                }
+                self.function(declaration.body(), Role::Other, declaration.name().method_name().is_some());
+            }
+            Stmt::LocalFunction(function) => self.local_function(function.name(), function.body(), statement),
+            Stmt::ConstFunction(function) => self.local_function(function.name(), function.body(), statement),
+            Stmt::LocalAssignment(local) => self.local(local.names(), local.expressions(), statement),
+            Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions(), statement),
+            Stmt::GenericFor(generic) => {
+                self.expressions(generic.expressions());
+                self.iterated(generic.expressions());
+                self.check_keys(generic.expressions());
+                let outside = self.variables.len();
+                for name in generic.names() {
+                    self.declare(name, first_position(generic.block(), generic.end_token()));
+                }
+                self.block(generic.block());
+                self.variables.truncate(outside);
+            }
+            Stmt::NumericFor(numeric) => {
+                self.expression(numeric.start());
+                self.expression(numeric.end());
+                if let Some(step) = numeric.step() {
+                    self.expression(step);
+                }
+                let outside = self.variables.len();
+                self.declare(numeric.index_variable(), first_position(numeric.block(), numeric.end_token()));
+                self.block(numeric.block());
+                self.variables.truncate(outside);
+            }
+            Stmt::If(branches) => {
+                self.expression(branches.condition());
+                self.block(branches.block());
+                for branch in branches.else_if().into_iter().flatten() {
+                    self.expression(branch.condition());
+                    self.block(branch.block());
+                }
+                if let Some(block) = branches.else_block() {
+                    self.block(block);
+                }
+            }
+            Stmt::Repeat(repeat) => {
+                let outside = self.variables.len();
+                self.open_block(repeat.block());
+                self.expression(repeat.until());
+                self.variables.truncate(outside);
+            }
+            Stmt::While(repeat) => {
+                self.expression(repeat.condition());
+                self.block(repeat.block());
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
+        let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
+        self.facts.variables[id].pure = self.walk_function(body, Role::Other, false).pure;
+    }
+
+    pub(super) fn local(
+        &mut self,
+        names: &Punctuated<TokenReference>,
+        values: &Punctuated<Expression>,
+        statement: &Stmt,
+    ) {
+        self.expressions(values);
+        let values: Vec<&Expression> = values.iter().collect();
+        for (index, name) in names.iter().enumerate() {
+            let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
+            let module = values.get(index).and_then(|value| declared_module(value));
+            if let Some(variable) = self.variables.last_mut().filter(|variable| variable.id == id) {
+                variable.module = module;
+                variable.fresh = matches!(values.get(index), Some(Expression::TableConstructor(_)));
+            }
+        }
+    }
+
+    /// Puts a variable into scope. `behind` is where a statement may follow its declaration.
+    pub(super) fn declare(&mut self, name: &TokenReference, behind: Option<usize>) -> usize {
+        let id = self.facts.variables.len();
+        self.facts.variables.push(Fact::default());
+        let function = self.functions.len() - 1;
+        let text = text_of(name);
+        if text.starts_with("__") {
+            let error = Error::script(format!("a variable cannot be called {text}"));
+            self.problem(name, error.help("names that begin with two underscores are Burgeon's own"));
+        }
+        self.variables.push(Variable {
+            name: text,
+            id,
+            function,
+            module: None,
+            fresh: false,
+            feature: false,
+            receiver: false,
+        });
+        if function > 0
+            && self.fact(id).assigned_inside
+            && let Some(at) = behind
+        {
+            self.edit(at, at, format!(" local __epoch_{id} = __epoch();"));
+        }
+        id
+    }
+
+    pub(super) fn fact(&self, id: usize) -> Fact {
+        self.known.variables.get(id).cloned().unwrap_or_default()
+    }
+
+    pub(super) fn find(&self, name: &str) -> Option<&Variable> {
+        self.variables.iter().rev().find(|variable| variable.name == name)
+    }
+
+    pub(super) fn assign(&mut self, variable: &Var, statement: &Stmt) {
+        match variable {
+            Var::Name(name) => self.assign_name(name, statement),
+            Var::Expression(expression) => {
+                self.field_assigned(expression.prefix());
+                self.prefix(expression.prefix());
+                for suffix in expression.suffixes() {
+                    self.suffix(suffix);
+                }
+            }
+            _ => {}
+        }
+    }
+
+    pub(super) fn assign_name(&mut self, token: &TokenReference, statement: &Stmt) {
+        let name = text_of(token);
+        let here = self.functions.len() - 1;
+        let rule = self
+            .functions
+            .iter()
+            .rposition(|function| matches!(function.role, Role::Rule | Role::Guard | Role::Interpretation));
+        let found = self.find(&name).map(|variable| (variable.id, variable.function));
+        let Some((id, owner)) = found else {
+            if self.globals.names.contains(&name) {
+                let error = Error::scope(format!("{name} is Burgeon's own and cannot be assigned"));
+                self.problem(token, error.help("choose another name: local ..."));
+                return;
+            }
+            let error = Error::scope(format!("{name} is assigned, but it is no local variable"));
+            self.problem(token, match rule {
+                Some(_) => error.help("a rule writes only its own locals; declare it inside: local ..., or use an interpretation rule to change the object"),
+                None => error.help(format!("scripts have no globals of their own; write: local {name} = ...")),
+            });
+            return;
+        };
+        self.impure_from(owner + 1);
+        let fact = &mut self.facts.variables[id];
+        fact.assigned = true;
+        fact.assigned_inside |= owner < here;
+        if let Some(rule) = rule {
+            if owner < rule {
+                let what = match self.functions[rule].role {
+                    Role::Guard => "a guard",
+                    Role::Interpretation => "an interpretation rule",
+                    _ => "a rule",
+                };
+                let help = match self.functions[rule].role {
+                    Role::Interpretation => {
+                        "it changes only this; keep what must be remembered in a parameter of a module"
+                    }
+                    _ => {
+                        "carry it in a parameter of a module; to change the object, use an interpretation rule"
+                    }
+                };
+                self.problem(
+                    token,
+                    Error::scope(format!("{what} assigns {name}, a variable from outside it")).help(help),
+                );
+            }
+            return;
+        }
+        if owner < here
+            && let Some(begin) = statement.start_position()
+        {
+            let epoch = if owner == 0 { "0".to_owned() } else { format!("__epoch_{id}") };
+            self.edit(begin.bytes(), begin.bytes(), format!("__guard(\"{name}\", {epoch}); "));
+        }
+    }
+
+    pub(super) fn read(&mut self, token: &TokenReference) {
+        let name = text_of(token);
+        self.random |= name == "random";
+        if let Some(variable) = self.find(&name) {
+            if variable.receiver {
+                let function = variable.function;
+                self.functions[function].asks = true;
+            }
+            return;
+        }
+        if self.globals.names.contains(&name) {
+            return;
+        }
+        let message = format!("unknown name {name}");
+        if let Some(instead) = instead_of(&name) {
+            return self.problem(token, Error::not_found("name", &name, [], message).help(instead));
+        }
+        let locals = self.variables.iter().rev().map(|variable| variable.name.as_str());
+        let known = locals.chain(self.globals.names.iter().map(String::as_str));
+        let error = Error::not_found("name", &name, known, message);
+        let error = match name.starts_with(|c: char| c.is_ascii_uppercase()) {
+            true => error.help(format!("declare it as a module: local {name} = module(\"{name}\")")),
+            false => error.help(format!("declare it: local {name} = ...")),
+        };
+        self.problem(token, error);
+    }
+
+    /// The signature of the module whose constructor `name` is.
+    pub(super) fn module(&self, name: &TokenReference) -> Option<Signature> {
+        let text = text_of(name);
+        match self.find(&text) {
+            Some(variable) if self.fact(variable.id).assigned => None,
+            Some(variable) => variable.module.clone(),
+            None => self.globals.modules.get(&text).cloned(),
+        }
+    }
+
+    pub(super) fn edit(&mut self, begin: usize, end: usize, text: String) {
+        let order = self.edits.len();
+        self.edits.push(Edit { begin, end, text, order });
+    }
+
+    pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
+        let line = token.start_position().map_or(1, |position| position.line());
+        let error = error.at(Some(Place { file: self.file.to_owned(), line }));
+        let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
+        self.problems.push(match rule {
+            Some(rule) => error.rule(rule),
+            None => error,
+        });
+    }
+}

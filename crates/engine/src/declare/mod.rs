@@ -1,0 +1,18 @@
+//! What a run is told and what its script declares, without a virtual machine.
+//!
+//! Comes in: the options of a run and the text of its files. Goes out: a [`Session`] that all virtual machines of the run
+//! share, with the parameters, the data and the analysis of every file. It never runs Lua.
+
+pub(crate) mod analysis;
+mod data;
+mod options;
+mod param;
+pub(crate) mod paths;
+mod positions;
+mod preset;
+mod session;
+
+pub use options::{Limits, Print, RunOptions, Traced};
+pub use param::{Control, Param, Setting};
+pub use preset::Preset;
+pub use session::{Progress, Session};

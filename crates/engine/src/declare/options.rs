@@ -1,0 +1,146 @@
+//! How a script is to be run, and how much it may use.
+
+use std::fmt;
+use std::path::PathBuf;
+use std::sync::{Arc, LazyLock};
+use std::time::Duration;
+
+use super::Preset;
+use burgeon_base::stop::Stop;
+use burgeon_data::Cache;
+use burgeon_kit::Registry;
+
+/// How much a run may use.
+#[derive(Debug, Clone)]
+pub struct Limits {
+    /// Time for the whole run.
+    pub time: Duration,
+    /// Memory (bytes) of one virtual machine.
+    pub memory: usize,
+    /// Modules in all chains of a system.
+    pub modules: usize,
+    /// Triangles of all objects of a system.
+    pub triangles: usize,
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self { time: Duration::from_secs(300), memory: 2 << 30, modules: 50_000_000, triangles: 50_000_000 }
+    }
+}
+
+/// Takes what scripts print, call by call, from any thread.
+#[derive(Clone)]
+pub struct Print(Arc<dyn Fn(&str) + Send + Sync>);
+
+impl Print {
+    /// Hands each text that is printed to `take`, without a line break at its end.
+    pub fn new(take: impl Fn(&str) + Send + Sync + 'static) -> Self {
+        Self(Arc::new(take))
+    }
+
+    pub(crate) fn take(&self, text: &str) {
+        (self.0)(text);
+    }
+}
+
+impl fmt::Debug for Print {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Print")
+    }
+}
+
+/// The chains that a run is to trace.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Traced {
+    /// The system's place in the script, from 0. The run ends once it is derived.
+    pub system: usize,
+    /// The chain's number in the system; all of them if `None`.
+    pub chain: Option<usize>,
+}
+
+/// How a script is to be run.
+#[derive(Debug, Clone)]
+pub struct RunOptions {
+    /// Values for `param` declarations, by name, as text.
+    pub set: Vec<(String, String)>,
+    /// Values for `param` declarations that are not in `set`. Its seed does not count: `seed` does.
+    pub preset: Option<Preset>,
+    /// The seed of all random numbers.
+    pub seed: u64,
+    /// The greatest number of derivation steps of each system; as the script says if `None`.
+    pub steps: Option<usize>,
+    /// The level of detail: 0 ground plans, 1 blocks, 2 roofs, 3 everything. Scripts read it as `lod`.
+    pub lod: u8,
+    /// Worker threads; as many as there are cores if `None`.
+    pub threads: Option<usize>,
+    /// Modules that a worker takes at a time. The result does not depend on it.
+    pub batch: usize,
+    /// How much the run may use.
+    pub limits: Limits,
+    /// Whether to stop before deriving, after all declarations have been read.
+    pub check: bool,
+    /// Takes what scripts print; without it, nobody does.
+    pub print: Option<Print>,
+    /// Ends this run, too, when it is stopped.
+    pub stop: Option<Arc<Stop>>,
+    /// Folders besides the script's whose data files it may read.
+    pub data: Vec<PathBuf>,
+    /// Layers that earlier runs have read.
+    pub cache: Option<Arc<Cache>>,
+    /// The types of objects that scripts can use.
+    pub registry: Registry,
+    /// A file in the place of the built-in standard library.
+    pub stdlib: Option<PathBuf>,
+    /// Whether values in `set` that the script does not take are left out, and not an error;
+    /// [`Session::left_out`] tells which.
+    ///
+    /// [`Session::left_out`]: super::Session::left_out
+    pub forgiving: bool,
+    /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
+    pub profile: bool,
+    /// Whether warnings end the run as errors, and bad data does; otherwise its features are left out, and
+    /// [`Derived::remarks`] tells which.
+    ///
+    /// [`Derived::remarks`]: crate::derive::Derived::remarks
+    pub strict: bool,
+    /// The chains to note the lineage of; see [`trace`](crate::trace).
+    pub trace: Option<Traced>,
+}
+
+/// How many threads can run at once. Asking the system reads files, which takes longer than a step of a small chain.
+static CORES: LazyLock<usize> =
+    LazyLock::new(|| std::thread::available_parallelism().map_or(1, std::num::NonZero::get));
+
+impl RunOptions {
+    /// The number of worker threads.
+    pub fn worker_threads(&self) -> usize {
+        self.threads.unwrap_or_else(|| *CORES).max(1)
+    }
+}
+
+impl Default for RunOptions {
+    fn default() -> Self {
+        Self {
+            set: Vec::new(),
+            preset: None,
+            seed: 0,
+            steps: None,
+            lod: 3,
+            threads: None,
+            batch: 4096,
+            limits: Limits::default(),
+            check: false,
+            print: None,
+            stop: None,
+            data: Vec::new(),
+            cache: None,
+            registry: Registry::default(),
+            stdlib: None,
+            forgiving: false,
+            profile: false,
+            strict: false,
+            trace: None,
+        }
+    }
+}

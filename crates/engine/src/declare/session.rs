@@ -1,0 +1,382 @@
+//! What all virtual machines of one run share: source files, parameters, the reason to stop.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
+
+use rustc_hash::FxHashMap;
+
+use super::analysis::{Analysis, Globals, Reading, has_metatables};
+use super::data::Data;
+use super::options::RunOptions;
+use super::param::Param;
+use super::positions::RandomPositions;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::stop::Stop;
+use burgeon_base::warning::{Warning, Warnings};
+use burgeon_kit::rules::Values;
+
+/// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
+const LARGEST: u64 = 4_000_000;
+
+/// How far a run has come, for those who wait.
+#[derive(Debug, Default)]
+pub struct Progress {
+    step: AtomicUsize,
+    steps: AtomicUsize,
+    modules: AtomicUsize,
+    total: AtomicUsize,
+}
+
+impl Progress {
+    /// Notes that `step` of at most `steps` has made a chain of `modules`.
+    pub(crate) fn note(&self, step: usize, steps: usize, modules: usize) {
+        self.step.store(step, Ordering::Relaxed);
+        self.steps.store(steps, Ordering::Relaxed);
+        self.modules.store(modules, Ordering::Relaxed);
+        self.total.fetch_add(modules, Ordering::Relaxed);
+    }
+
+    /// The last step that is done, the greatest number of steps if there is one, and the modules of the chain.
+    pub fn counts(&self) -> (usize, Option<usize>, usize) {
+        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
+        let steps = load(&self.steps);
+        (load(&self.step), (steps != usize::MAX && steps > 0).then_some(steps), load(&self.modules))
+    }
+
+    /// Says it in words, with the rate and an estimate of the time left.
+    pub fn message(&self, elapsed: Duration) -> String {
+        let load = |count: &AtomicUsize| count.load(Ordering::Relaxed);
+        let (step, steps) = (load(&self.step), load(&self.steps));
+        #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
+        let rate = load(&self.total) as f64 / elapsed.as_secs_f64().max(1e-3) / 1e6;
+        let modules = load(&self.modules);
+        let of = if steps == usize::MAX { String::new() } else { format!(" of {steps}") };
+        // Chains grow, so the steps that are left take at least as long as those that are done.
+        let left = match (step, steps) {
+            (1.., steps) if steps != usize::MAX && steps > step => {
+                #[allow(clippy::cast_precision_loss, reason = "an estimate")]
+                let seconds = elapsed.as_secs_f64() * (steps - step) as f64 / step as f64;
+                if seconds < 1.0 { String::new() } else { format!(", at least {seconds:.0} s left") }
+            }
+            _ => String::new(),
+        };
+        format!("step {step}{of}, {modules} modules, {rate:.1} M modules/s{left}")
+    }
+}
+
+/// A source file, read once, as every virtual machine runs it.
+#[derive(Debug)]
+pub(crate) struct Source {
+    /// The name in messages, relative to where the script was called.
+    pub name: String,
+    /// What reading it gave.
+    pub analysis: Analysis,
+}
+
+/// One run of a script.
+pub struct Session {
+    /// How to run it.
+    pub options: RunOptions,
+    /// Asks the run to stop.
+    pub stop: Arc<Stop>,
+    /// How far the run has come.
+    pub progress: Progress,
+    /// The parameters of modules that are not numbers.
+    pub(crate) values: Arc<Values>,
+    script: PathBuf,
+    root: PathBuf,
+    data_roots: Vec<PathBuf>,
+    /// The data files that were read.
+    pub(crate) data: Data,
+    /// How far its random numbers have got.
+    pub(crate) drawn: RandomPositions,
+    stdlib: Option<(String, String)>,
+    sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    /// The main file while it is read ahead, and its path.
+    ahead: Mutex<Option<(PathBuf, Reading)>>,
+    sought: Mutex<BTreeMap<PathBuf, bool>>,
+    params: Mutex<Vec<Param>>,
+    left_out: Mutex<Vec<(String, Error)>>,
+    warnings: Warnings,
+    /// Counts the shapes of the rules' returns.
+    pub(crate) shapes: Arc<AtomicUsize>,
+    randoms: AtomicBool,
+    peeking: AtomicBool,
+    metatables: AtomicBool,
+    kept: Mutex<Vec<f64>>,
+}
+
+impl Session {
+    /// A run of the file `script`.
+    pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
+        let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
+        let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
+        let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
+        let data_roots = options.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
+        Ok(Arc::new(Self {
+            stop: Arc::new(Stop::under(options.stop.clone())),
+            options,
+            progress: Progress::default(),
+            values: Arc::default(),
+            script: script.to_path_buf(),
+            root,
+            data_roots,
+            data: Data::default(),
+            drawn: RandomPositions::default(),
+            stdlib,
+            sources: Mutex::default(),
+            ahead: Mutex::default(),
+            sought: Mutex::default(),
+            params: Mutex::default(),
+            left_out: Mutex::default(),
+            warnings: Warnings::default(),
+            shapes: Arc::default(),
+            randoms: AtomicBool::new(false),
+            peeking: AtomicBool::new(false),
+            metatables: AtomicBool::new(false),
+            kept: Mutex::default(),
+        }))
+    }
+
+    /// The script's file as it was named.
+    pub fn script(&self) -> &Path {
+        &self.script
+    }
+
+    /// The folder that holds the script and all that it may read.
+    pub fn root(&self) -> &Path {
+        &self.root
+    }
+
+    /// The folders besides the script's whose data files it may read.
+    pub(crate) fn data_roots(&self) -> &[PathBuf] {
+        &self.data_roots
+    }
+
+    /// Every file that was read, in the order of their paths.
+    pub fn files(&self) -> Vec<PathBuf> {
+        let mut files: Vec<PathBuf> =
+            self.sources.lock().unwrap_or_else(PoisonError::into_inner).keys().cloned().collect();
+        files.sort();
+        files
+    }
+
+    /// Every file that decides what the run makes, and whether it was there: the script, the standard library's
+    /// replacement, and all that was read or looked for, in the order of their paths.
+    pub fn sought(&self) -> Vec<(PathBuf, bool)> {
+        let mut files = self.sought.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let read = self.files().into_iter().chain([self.script.clone()]).chain(self.options.stdlib.clone());
+        files.extend(read.map(|path| (path, true)));
+        files.into_iter().collect()
+    }
+
+    /// Takes notice of a file that was looked for, and whether it was there.
+    pub(crate) fn seek(&self, path: &Path, there: bool) {
+        self.sought.lock().unwrap_or_else(PoisonError::into_inner).insert(path.to_path_buf(), there);
+    }
+
+    /// The name and the text of the file in the place of the standard library, if there is one.
+    pub(crate) fn stdlib(&self) -> Option<(&str, &str)> {
+        self.stdlib.as_ref().map(|(name, text)| (name.as_str(), text.as_str()))
+    }
+
+    /// The values that a forgiving run did not use: the parameter's name and what is wrong.
+    pub fn left_out(&self) -> Vec<(String, Error)> {
+        self.left_out.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    /// Passes `error` on, or notes it if the run forgives that a value of `name` cannot be used.
+    pub(crate) fn forgive(&self, name: &str, error: Error) -> Result<()> {
+        if !self.options.forgiving {
+            return Err(error);
+        }
+        let mut left_out = self.left_out.lock().unwrap_or_else(PoisonError::into_inner);
+        if !left_out.iter().any(|(known, _)| known == name) {
+            left_out.push((name.to_owned(), error));
+        }
+        Ok(())
+    }
+
+    /// Takes notice of something that people should know; what is said twice is counted.
+    pub fn warn(&self, warning: Warning) {
+        self.warnings.add(warning);
+    }
+
+    /// What people should know of the run so far, in the order of files and lines.
+    pub fn warnings(&self) -> Vec<Warning> {
+        self.warnings.list()
+    }
+
+    /// The parameters that the script declared, in order.
+    pub fn params(&self) -> Vec<Param> {
+        self.params.lock().unwrap_or_else(PoisonError::into_inner).clone()
+    }
+
+    pub(crate) fn add_param(&self, param: Param) {
+        let mut params = self.params.lock().unwrap_or_else(PoisonError::into_inner);
+        if !params.iter().any(|known| known.name == param.name) {
+            params.push(param);
+        }
+    }
+
+    /// Whether any file of the script names `random`.
+    pub(crate) fn draws_random(&self) -> bool {
+        self.randoms.load(Ordering::Acquire)
+    }
+
+    /// Whether any file of the script could tell a table that is made later from one that is there.
+    pub(crate) fn peeks(&self) -> bool {
+        self.peeking.load(Ordering::Acquire)
+    }
+
+    /// Whether the functions that begin in a line of a file leave nothing behind.
+    pub(crate) fn is_pure(&self, file: &str, line: usize) -> bool {
+        !self.metatables.load(Ordering::Acquire)
+            && self.source_called(file).is_some_and(|source| source.analysis.pure.contains(&line))
+    }
+
+    /// Whether the functions that begin in a line of a file do not look at their first parameter.
+    pub(crate) fn is_blind(&self, file: &str, line: usize) -> bool {
+        self.source_called(file).is_some_and(|source| source.analysis.blind.contains(&line))
+    }
+
+    /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
+    pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
+        self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        sources.values().find(|source| source.name == file).cloned()
+    }
+
+    /// Takes notice of what a piece of the script may do.
+    pub(crate) fn note(&self, analysis: &Analysis) {
+        self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
+        self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
+        self.peeking.fetch_or(super::analysis::peeks(&analysis.text), Ordering::AcqRel);
+    }
+
+    /// Keeps the values that `params` names for the rest of the run.
+    pub(crate) fn keep(&self, params: &[f64]) {
+        let boxed = params.iter().filter(|stored| stored.is_nan());
+        self.kept.lock().unwrap_or_else(PoisonError::into_inner).extend(boxed);
+    }
+
+    /// Drops the values that neither `params` nor earlier systems name, once they are many.
+    pub(crate) fn forget_unused(&self, params: &[f64]) {
+        let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
+        self.values.retain_if_many(&[params, &kept]);
+    }
+
+    /// All problems that reading the files showed, in the order of the files' names.
+    pub(crate) fn problems(&self) -> Vec<Error> {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut sources: Vec<_> = sources.values().collect();
+        sources.sort_by(|a, b| a.name.cmp(&b.name));
+        sources.iter().flat_map(|source| source.analysis.problems.clone()).collect()
+    }
+
+    /// Begins to read the main file, so that it is read while a machine is made. What goes wrong is told when the
+    /// file is asked for.
+    pub(crate) fn read_ahead(&self) {
+        let begin =
+            |path: PathBuf| Some((begin_reading(&path, &self.script.display().to_string()).ok()?, path));
+        let reading = self.script.canonicalize().ok().and_then(begin);
+        *self.ahead.lock().unwrap_or_else(PoisonError::into_inner) =
+            reading.map(|(reading, path)| (path, reading));
+    }
+
+    /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
+    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<Source>> {
+        let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(source) = sources.get(path) {
+            return Ok(Arc::clone(source));
+        }
+        let ahead =
+            self.ahead.lock().unwrap_or_else(PoisonError::into_inner).take_if(|(main, _)| main == path);
+        let reading = match ahead {
+            Some((_, reading)) => reading,
+            None => begin_reading(path, name)?,
+        };
+        let analysis = reading.finish(globals);
+        self.note(&analysis);
+        let source = Arc::new(Source { name: name.to_owned(), analysis });
+        sources.insert(path.to_path_buf(), Arc::clone(&source));
+        Ok(source)
+    }
+}
+
+/// Begins to read the file at `path`; `name` is for messages.
+fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
+    let bytes =
+        burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Error::file(path, format!("{name} is not a text file"))
+            .help("scripts are UTF-8 text; check the file's name")
+    })?;
+    Ok(Reading::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
+}
+
+/// A folder of data files, without links in its path.
+fn data_root(folder: &Path) -> Result<PathBuf> {
+    let found = folder.canonicalize().ok().filter(|found| found.is_dir());
+    found.ok_or_else(|| {
+        let shown = folder.display();
+        Error::not_found("folder", &shown, [], format!("there is no folder {shown}"))
+            .help("--data names a folder of data files")
+    })
+}
+
+/// The name and the text of a file in the place of the standard library.
+fn read_stdlib(path: &Path) -> Result<(String, String)> {
+    let name = path.display().to_string();
+    let remedy = "--stdlib names a Lua file; without it the built-in one is used";
+    let bytes = burgeon_base::files::read(path, LARGEST).map_err(|error| {
+        Error::file(path, format!("cannot read the standard library {name}: {error}")).help(remedy)
+    })?;
+    let text = String::from_utf8(bytes).map_err(|_| {
+        Error::file(path, format!("the standard library {name} is not a text file")).help(remedy)
+    })?;
+    let text = text.strip_prefix('\u{feff}').map(str::to_owned).unwrap_or(text);
+    Ok((name, text))
+}
+
+/// The error for a script that cannot be read.
+fn unreadable(path: &Path, error: &std::io::Error) -> Error {
+    let shown = path.display();
+    match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            Error::not_found("script", &shown, [], format!("there is no script {shown}"))
+                .help("check the path, or make one: burgeon new NAME")
+        }
+        std::io::ErrorKind::IsADirectory => {
+            Error::file(path, format!("{shown} is a folder")).help("name a script in it")
+        }
+        std::io::ErrorKind::FileTooLarge => {
+            Error::limit(Limit::Size, format!("{shown} is larger than {} MB", LARGEST / 1_000_000))
+                .help("divide it; other files of its folder come in with require")
+        }
+        std::io::ErrorKind::InvalidInput => {
+            Error::file(path, format!("cannot read {shown}: {error}")).help("scripts are text files")
+        }
+        _ => Error::file(path, format!("cannot read {shown}: {error}")),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn progress_tells_the_time_left_once_there_is_some() {
+        let progress = Progress::default();
+        progress.note(5, 20, 1_000_000);
+        let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
+        assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");
+        assert_eq!(after(4.0), "step 5 of 20, 1000000 modules, 0.2 M modules/s, at least 12 s left");
+    }
+}

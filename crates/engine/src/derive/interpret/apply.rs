@@ -1,0 +1,372 @@
+//! Applies recorded method calls to the objects, brackets and ends of chains in between.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use mlua::Buffer;
+
+use super::InterpretationPass;
+use super::notices::Notice;
+use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
+use burgeon_kit::rules::{CLOSE, END, Mark, OPEN, Values, module_brief};
+use burgeon_kit::{Call, Kind, Object, Value};
+
+/// Where a piece of the chain has been applied up to.
+pub(crate) struct Applier {
+    pass: Arc<InterpretationPass>,
+    objects: Arc<Objects>,
+    kind: Arc<Kind>,
+    values: Arc<Values>,
+    triangle_limit: usize,
+    buffers: [Buffer; 3],
+    /// The next symbol to be applied.
+    position: usize,
+    /// Where its parameters begin.
+    param: usize,
+    /// Its chain.
+    chain: usize,
+    /// Whether the chain's object has begun its pass.
+    begun: bool,
+    /// The triangles of the chain's object that have been counted.
+    counted: usize,
+    entries: Vec<(usize, usize)>,
+    /// The first entry that is not wholly applied.
+    next: usize,
+    calls: Vec<u16>,
+    numbers: Vec<f64>,
+    ends: Vec<u32>,
+    /// The time that the calls of each entry took, if that is measured.
+    times: Vec<Duration>,
+    /// How many recorded calls of the entry `next` have been applied already.
+    applied: usize,
+    /// The entry and the number of the call that failed.
+    failed: Option<(usize, usize)>,
+    /// The next of the calls that have been read, and the first of its arguments.
+    call_at: usize,
+    number_at: usize,
+    /// What the objects have warned of during the batch.
+    notices: Vec<Notice>,
+}
+
+/// Where applying has stopped.
+#[derive(PartialEq)]
+enum Reached {
+    /// Behind the end of a chain.
+    End,
+    /// Where it was to stop.
+    Last,
+}
+
+impl Applier {
+    pub(crate) fn new(pass: Arc<InterpretationPass>, machine: &Machine, begin: Mark) -> Result<Self> {
+        let missing = || Error::script("the system has no object");
+        let objects = pass.plan.objects.clone().ok_or_else(missing)?;
+        let kind = objects.read(begin.chain, |object| Ok(Arc::clone(object.kind())))?;
+        let (calls, numbers, counts) =
+            machine.prelude().recorded().map_err(|error| machine.translate(error))?;
+        Ok(Self {
+            values: Arc::clone(&machine.session.values),
+            triangle_limit: machine.session.options.limits.triangles,
+            pass,
+            objects,
+            kind,
+            buffers: [calls, numbers, counts],
+            position: begin.module,
+            param: begin.param,
+            chain: begin.chain,
+            begun: false,
+            counted: 0,
+            entries: Vec::new(),
+            next: 0,
+            calls: Vec::new(),
+            numbers: Vec::new(),
+            ends: Vec::new(),
+            times: Vec::new(),
+            applied: 0,
+            failed: None,
+            call_at: 0,
+            number_at: 0,
+            notices: Vec::new(),
+        })
+    }
+
+    /// Begins a batch of entries, each the place of a module and of its parameters; `buffers` are the columns
+    /// of calls, of their arguments, and of the number of calls up to each entry.
+    pub(crate) fn begin_entries(&mut self, entries: &[(usize, usize)], buffers: [Buffer; 3]) {
+        self.buffers = buffers;
+        self.entries.clear();
+        self.entries.extend_from_slice(entries);
+        self.next = 0;
+        self.times.clear();
+        (self.applied, self.failed) = (0, None);
+    }
+
+    /// The entry of the batch whose call failed, and the number of that call.
+    pub(crate) fn failed(&self) -> Option<(usize, usize)> {
+        self.failed
+    }
+
+    /// The times of the entries that have been applied.
+    pub(crate) fn take_times(&mut self) -> Vec<Duration> {
+        std::mem::take(&mut self.times)
+    }
+
+    /// What the objects have warned of since this was asked last.
+    pub(crate) fn take_notices(&mut self) -> Vec<Notice> {
+        std::mem::take(&mut self.notices)
+    }
+
+    /// Takes what `object` warns of after the module at hand, in its recorded call `call` if it was one.
+    #[inline]
+    fn listen(&mut self, object: &mut dyn Object, call: Option<(usize, usize)>) {
+        let said = object.take_warnings();
+        if !said.is_empty() {
+            self.note(said, call);
+        }
+    }
+
+    #[cold]
+    fn note(&mut self, said: Vec<Warning>, call: Option<(usize, usize)>) {
+        let module = (self.position, self.param);
+        self.notices.extend(said.into_iter().map(|warning| Notice { warning, module, call }));
+    }
+
+    /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
+    pub(crate) fn forgive(&mut self, error: Error) -> Result<()> {
+        self.objects.forgive(self.chain, error)
+    }
+
+    /// Applies the rest of a batch, of whose calls `called` were recorded last, and all symbols before `until`.
+    pub(crate) fn finish_entries(&mut self, called: usize, until: usize) -> Result<()> {
+        let last = self.entries.len();
+        self.read(last, called)?;
+        self.apply(last, until)?;
+        self.count()
+    }
+
+    /// Reads the calls recorded since the last time: those of the entries before `entry`, and `called` in all.
+    fn read(&mut self, entry: usize, called: usize) -> Result<()> {
+        let [calls, numbers, counts] = self.buffers.clone();
+        read_column(calls, called, &mut self.calls)?;
+        read_column(numbers, self.arguments_of(0..called), &mut self.numbers)?;
+        read_column(counts, entry.min(self.entries.len()), &mut self.ends)?;
+        (self.call_at, self.number_at) = (0, 0);
+        Ok(())
+    }
+
+    /// Applies the calls of the entries up to `last`, and every symbol before `until` that no rule interprets:
+    /// brackets, ends and the modules of the standard library.
+    fn apply(&mut self, last: usize, until: usize) -> Result<()> {
+        let objects = Arc::clone(&self.objects);
+        while self.position < until || self.next < self.entries.len().min(last + 1) {
+            let failed = objects.has_failed(self.chain);
+            // One lock for all that is done to an object.
+            match objects.write(self.chain, |object| self.apply_to(object, failed, last, until)) {
+                Ok(Reached::Last) => break,
+                Ok(Reached::End) => {
+                    self.count()?;
+                    self.chain += 1;
+                    self.begun = false;
+                    self.counted = 0;
+                }
+                Err(error) => {
+                    let error = self.blame(error, self.position, self.param).of_data();
+                    objects.forgive(self.chain, error)?;
+                    self.failed = None;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// As [`Applier::apply`], to the end of the chain at most; nothing is done to an object that has `failed`.
+    fn apply_to(
+        &mut self,
+        object: &mut dyn Object,
+        failed: bool,
+        last: usize,
+        until: usize,
+    ) -> Result<Reached> {
+        let pass = Arc::clone(&self.pass);
+        if !self.begun {
+            object.begin();
+            self.begun = true;
+        }
+        while self.next <= last
+            && let Some((module, _)) = self.entries.get(self.next).copied()
+        {
+            if self.symbols(&pass, object, failed, module)? == Reached::End {
+                return Ok(Reached::End);
+            }
+            let begin = pass.plan.profiled.then(Instant::now);
+            let applied = self.calls(&pass, object, failed);
+            if let Some(begin) = begin {
+                self.times.resize(self.next + 1, Duration::ZERO);
+                self.times[self.next] += begin.elapsed();
+            }
+            applied?;
+            if self.next == last {
+                return Ok(Reached::Last);
+            }
+            self.next += 1;
+            self.applied = 0;
+        }
+        self.symbols(&pass, object, failed, until)
+    }
+
+    /// Applies the symbols before `until`, to the end of the chain at most.
+    #[inline]
+    fn symbols(
+        &mut self,
+        pass: &InterpretationPass,
+        object: &mut dyn Object,
+        failed: bool,
+        until: usize,
+    ) -> Result<Reached> {
+        let arities = pass.plan.grammar.arities();
+        let methods = &pass.plan.interpretations.methods;
+        while self.position < until {
+            let symbol = pass.chain.symbols[self.position];
+            let params = self.param..self.param + usize::from(arities[usize::from(symbol)]);
+            if pass.plan.traced {
+                follow(object, self.position);
+            }
+            match symbol {
+                _ if failed => {}
+                OPEN => object.push(),
+                CLOSE => {
+                    object.pop()?;
+                    self.listen(object, None);
+                }
+                END => {
+                    object.end()?;
+                    self.listen(object, None);
+                }
+                symbol => {
+                    let method = methods[usize::from(symbol)];
+                    if method != u16::MAX {
+                        self.call(object, method, &pass.chain.params[params.clone()])?;
+                        self.listen(object, None);
+                    }
+                }
+            }
+            self.position += 1;
+            self.param = params.end;
+            if symbol == END {
+                return Ok(Reached::End);
+            }
+        }
+        Ok(Reached::Last)
+    }
+
+    /// Applies the calls of the entry `next` that have been read.
+    #[inline]
+    fn calls(&mut self, pass: &InterpretationPass, object: &mut dyn Object, failed: bool) -> Result<()> {
+        let end = self.ends.get(self.next).map_or(self.calls.len(), |end| *end as usize);
+        if failed {
+            self.number_at += self.arguments_of(self.call_at..end);
+            self.applied += end - self.call_at;
+            self.call_at = end;
+            return Ok(());
+        }
+        if pass.plan.traced {
+            follow(object, self.position);
+        }
+        while self.call_at < end {
+            let method = self.calls[self.call_at];
+            let count = self.kind.methods[usize::from(method)].arguments.len();
+            let numbers = self.number_at..self.number_at + count;
+            if let Err(error) = self.call(object, method, &self.numbers[numbers]) {
+                self.failed = Some((self.next, self.applied));
+                return Err(error);
+            }
+            self.listen(object, Some((self.next, self.applied)));
+            self.call_at += 1;
+            self.number_at += count;
+            self.applied += 1;
+        }
+        Ok(())
+    }
+
+    /// The number of arguments that these recorded calls have together.
+    fn arguments_of(&self, calls: std::ops::Range<usize>) -> usize {
+        let calls = self.calls.get(calls).unwrap_or_default();
+        calls.iter().map(|call| self.kind.methods[usize::from(*call)].arguments.len()).sum()
+    }
+
+    fn count(&mut self) -> Result<()> {
+        if !self.begun {
+            return Ok(());
+        }
+        let triangles = self.objects.read(self.chain, |object| Ok(object.triangles()))?;
+        self.pass.count_triangles(self.triangle_limit, triangles.saturating_sub(self.counted))?;
+        self.counted = triangles;
+        Ok(())
+    }
+
+    fn call(&self, object: &mut dyn Object, method: u16, numbers: &[f64]) -> Result<()> {
+        match self.kind.methods.get(usize::from(method)).map(|method| &method.call) {
+            Some(Call::Write { numbers: Some(call), .. }) => call(object, numbers),
+            Some(Call::Write { values: call, .. }) => {
+                let mut values: Vec<Value> =
+                    numbers.iter().map(|number| self.values.unpack(*number)).collect();
+                while matches!(values.last(), Some(Value::Nil)) {
+                    values.pop();
+                }
+                call(object, &values).map(|_| ())
+            }
+            _ => Err(Error::internal("this method cannot be recorded")),
+        }
+    }
+
+    /// An error with the module where it happened, and how that is interpreted.
+    fn blame(&self, error: Error, module: usize, param: usize) -> Error {
+        let plan = &self.pass.plan;
+        let symbol = self.pass.chain.symbols[module];
+        if symbol <= END {
+            return error;
+        }
+        let arity = usize::from(plan.grammar.arities()[usize::from(symbol)]);
+        let params = &self.pass.chain.params[param..param + arity];
+        let text = module_brief(plan.grammar.symbols(), &self.values, symbol, params);
+        let interpretations = &plan.interpretations;
+        match interpretations.list.get(usize::from(interpretations.by_symbol[usize::from(symbol)])) {
+            Some(known) => error.at(known.place.clone()).rule(format!("{} (interpretation)", known.name)),
+            None => error,
+        }
+        .module(text, self.pass.step)
+    }
+}
+
+/// Notes that the symbol at place `position` of the chain draws what follows.
+fn follow(object: &mut dyn Object, position: usize) {
+    if let Some(drawing) = object.drawing_mut() {
+        drawing.trace(u32::try_from(position).unwrap_or(u32::MAX));
+    }
+}
+
+impl Flusher for Applier {
+    fn flush(&mut self, entry: usize, called: usize) -> Result<()> {
+        self.read(entry, called)?;
+        self.apply(entry, self.position)
+    }
+
+    fn chain(&self) -> usize {
+        self.chain
+    }
+
+    fn warn(&mut self, said: Vec<Warning>) {
+        self.note(said, None);
+    }
+
+    fn lost(&mut self, entry: usize) {
+        let Some(module) = self.entries.get(entry).copied() else { return };
+        let interpretations = &self.pass.plan.interpretations;
+        let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
+        if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
+            self.notices.push(Notice { warning: returns_modules(), module, call: None });
+        }
+    }
+}

@@ -1,0 +1,264 @@
+//! A whole derivation, in the machine whose result counts: it is planned, its steps are made, and what came of it is
+//! settled.
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::interpret::InterpretationPass;
+use super::plan::{Derivation, Plan};
+use super::rewriter::SystemRewriter;
+use super::step::Stepper;
+use super::threads::ThreadPool;
+use crate::declare::Traced;
+use crate::machine::{Axiom, Machine, Objects};
+use crate::results::{Derived, Remark, RuleName, RuleReport, Step, Times, Trace, Use};
+use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::warning::Warning;
+use burgeon_kit::Object;
+use burgeon_kit::rules::Chain;
+
+/// How a derivation has ended.
+pub(super) enum Ending {
+    /// With a system as the script asked for it.
+    Derived(Derived),
+    /// With the lineage that the options of the run ask for.
+    Traced(Trace),
+}
+
+/// Derives system `index` of the machine's script by at most `steps` steps, or to the end.
+pub(super) fn lead(
+    machine: &Machine,
+    threads: &ThreadPool,
+    index: usize,
+    steps: Option<usize>,
+) -> Result<Ending> {
+    let mut derivation = Derivation::plan(machine, index, steps)?;
+    let chain = std::mem::take(&mut derivation.axiom.chain);
+    let grown = Growth::new(machine, threads, &derivation).grow(chain)?;
+    settle(machine, derivation, grown)
+}
+
+/// The steps of a derivation, and what is counted on the way.
+struct Growth<'a> {
+    machine: &'a Machine,
+    threads: &'a ThreadPool,
+    derivation: &'a Derivation,
+    rewriter: SystemRewriter<'a>,
+    stepper: Stepper,
+    times: Times,
+    interpretations: Vec<Use>,
+    /// What objects have warned of before the first pass, and since.
+    first: Vec<Warning>,
+    said: Vec<Warning>,
+    steps: Vec<Step>,
+}
+
+/// What the steps of a derivation gave.
+struct Steps {
+    chain: Chain,
+    done: usize,
+    times: Times,
+    rules: Vec<RuleReport>,
+    warnings: Vec<Warning>,
+    steps: Vec<Step>,
+}
+
+impl<'a> Growth<'a> {
+    fn new(machine: &'a Machine, threads: &'a ThreadPool, derivation: &'a Derivation) -> Self {
+        Self {
+            machine,
+            threads,
+            derivation,
+            rewriter: SystemRewriter::new(machine, threads),
+            stepper: Stepper::new(Arc::clone(&derivation.plan)),
+            times: Times::default(),
+            interpretations: vec![Use::default(); derivation.plan.interpretations.list.len()],
+            first: Vec::new(),
+            said: Vec::new(),
+            steps: Vec::new(),
+        }
+    }
+
+    /// Makes steps from the first `chain` on, until nothing can change or there have been enough.
+    fn grow(mut self, mut chain: Chain) -> Result<Steps> {
+        let (derivation, session) = (self.derivation, &self.machine.session);
+        let plan = &derivation.plan;
+        chain.mark(plan.batch, plan.grammar.arities());
+        let interprets = plan.objects.is_some() && !session.options.check;
+        if session.options.check {
+            plan.sketch()?;
+        }
+        if interprets {
+            plan.expand(&self.rewriter, &mut self.first)?;
+        }
+        if interprets && !derivation.last_only {
+            chain = self.interpret(chain, 0)?;
+        }
+        let mut done = 0;
+        while done < derivation.limit {
+            session.stop.check()?;
+            let outcome;
+            (chain, outcome) = self.step(chain, done + 1)?;
+            let still = !outcome.changed && derivation.draws_afresh && !plan.grammar.draws_random();
+            if !outcome.ran || still {
+                break;
+            }
+            done += 1;
+            session.progress.note(done, derivation.limit, chain.symbols.len());
+            session.forget_unused(&chain.params);
+            if interprets && !derivation.last_only {
+                chain = self.interpret(chain, done)?;
+            }
+        }
+        if interprets && derivation.last_only {
+            chain = self.interpret(chain, done)?;
+        }
+        let said = self.said;
+        self.first.retain(|warning| said.iter().all(|later| later.message() != warning.message()));
+        Ok(Steps {
+            chain,
+            done,
+            times: self.times,
+            rules: reports(plan, self.stepper.uses(), &self.interpretations),
+            warnings: self.first.into_iter().chain(said).collect(),
+            steps: self.steps,
+        })
+    }
+
+    /// Makes step number `step`, and notes it where the lineage is asked for.
+    fn step(&mut self, chain: Chain, step: usize) -> Result<(Chain, Change)> {
+        let begin = Instant::now();
+        self.times.read += chain.symbols.len();
+        let before = match self.derivation.traced {
+            Some(Traced { chain: Some(_), .. }) => chain.clone(),
+            _ => Chain::default(),
+        };
+        let outcome =
+            self.stepper.step((self.machine, self.threads), &self.derivation.declared, chain, step)?;
+        self.times.rewriting += begin.elapsed();
+        if self.derivation.traced.is_some() {
+            self.steps.push(Step { chain: before, applied: outcome.applied });
+        }
+        Ok((outcome.chain, Change { ran: outcome.ran, changed: outcome.changed }))
+    }
+
+    /// Has the chain interpreted as it stands after `step` steps, and gives it back.
+    fn interpret(&mut self, chain: Chain, step: usize) -> Result<Chain> {
+        let begin = Instant::now();
+        let plan = &self.derivation.plan;
+        if self.derivation.draws_afresh {
+            // What only earlier passes drew is gone.
+            self.said.clear();
+        }
+        let threads = (self.machine, self.threads);
+        let chain =
+            InterpretationPass::pass(threads, plan, chain, step, &mut self.interpretations, &mut self.said)?;
+        plan.expand(&self.rewriter, &mut self.said)?;
+        self.times.interpretation += begin.elapsed();
+        Ok(chain)
+    }
+}
+
+/// What a step did.
+struct Change {
+    /// Whether any rule ran.
+    ran: bool,
+    /// Whether any rule that ran replaced or erased its module.
+    changed: bool,
+}
+
+/// Takes leave of the machine: tells what is to be told, and gives the objects to who looks at them.
+fn settle(machine: &Machine, derivation: Derivation, grown: Steps) -> Result<Ending> {
+    let session = &machine.session;
+    let Derivation { mut axiom, plan, declared, traced, place, axiom_place, draws, .. } = derivation;
+    for warning in grown.warnings {
+        session.warn(warning.at(place.clone()));
+    }
+    let undrawn =
+        machine.library.systems.borrow()[plan.system].undrawn(&machine.library, &grown.chain.symbols);
+    drop(declared);
+    machine.current.objects.replace(None);
+    session.keep(&grown.chain.params);
+    let plan = Arc::try_unwrap(plan).map_err(|_| Error::internal("a worker still holds the plan"))?;
+    let Plan { system, grammar, interpretations, objects, .. } = plan;
+    let objects = objects.map(Arc::try_unwrap).transpose();
+    let objects = objects.map_err(|_| Error::internal("a worker still holds the objects"))?;
+    if traced.is_some()
+        && let Some(objects) = objects
+    {
+        let named = |text: &str, place: &Option<Place>| RuleName { text: text.into(), place: place.clone() };
+        let rules = grammar.rules().iter().map(|rule| named(&rule.pattern.text, &rule.place));
+        let interpreters = interpretations.list.iter().map(|known| named(&known.name, &known.place));
+        let shared = (grammar.symbols(), &session.values);
+        let by_symbol = interpretations.by_symbol.clone();
+        let mut trace = Trace::new(shared, rules.collect(), interpreters.collect(), by_symbol, axiom_place);
+        let drawn = objects.into_owned().into_iter();
+        trace.makers = drawn.map(|(mut object, _)| object.drawing_mut()?.take_makers()).collect();
+        (trace.steps, trace.chain) = (grown.steps, grown.chain);
+        return Ok(Ending::Traced(trace));
+    }
+    let objects = match objects {
+        Some(objects) => {
+            let mut remarks = Vec::new();
+            let objects = shared(objects, &axiom, &mut remarks)?;
+            // What was left out before comes first, and the chains follow in their order.
+            axiom.remarks.append(&mut remarks);
+            objects
+        }
+        None => Vec::new(),
+    };
+    let mut derived = Derived::new(
+        system,
+        grown.chain,
+        Arc::clone(grammar.symbols()),
+        Arc::clone(&session.values),
+        objects,
+        axiom.features,
+        grown.done,
+        grown.times,
+        grown.rules,
+        place,
+    );
+    (derived.given, derived.remarks, derived.undrawn) = (axiom.given, axiom.remarks, undrawn);
+    derived.draws = draws;
+    Ok(Ending::Derived(derived))
+}
+
+/// The objects as they are after the last pass, and what is to be remarked on them. Fails if all of them have failed.
+fn shared(objects: Objects, axiom: &Axiom, remarks: &mut Vec<Remark>) -> Result<Vec<Arc<dyn Object>>> {
+    let mut settled: Vec<Arc<dyn Object>> = Vec::new();
+    let (mut failed, mut first) = (0, None);
+    for (index, (mut object, failure)) in objects.into_owned().into_iter().enumerate() {
+        let feature = axiom.features.get(index).and_then(Option::as_deref);
+        if let Some(error) = failure {
+            object.begin();
+            remarks.push(Remark::skipped(&axiom.source, feature, &error));
+            failed += 1;
+            first.get_or_insert(error);
+        } else {
+            let notes = object.notes().iter();
+            remarks.extend(notes.map(|note| Remark::simplified(&axiom.source, feature, note)));
+        }
+        settled.push(Arc::from(object));
+    }
+    match first {
+        Some(error) if failed == settled.len() => Err(error),
+        _ => Ok(settled),
+    }
+}
+
+/// What the rules and interpretation rules have done, in the order of their declaration.
+fn reports(plan: &Plan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
+    let rules = plan.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
+        name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },
+        interprets: false,
+        done: *done,
+    });
+    let interpretations =
+        plan.interpretations.list.iter().zip(interpretations).map(|(known, done)| RuleReport {
+            name: RuleName { text: known.name.clone(), place: known.place.clone() },
+            interprets: true,
+            done: *done,
+        });
+    rules.chain(interpretations).collect()
+}

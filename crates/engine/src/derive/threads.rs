@@ -1,0 +1,281 @@
+//! The threads that help: each runs the same script in a machine of its own and waits at `derive` for work.
+
+use std::cell::RefCell;
+use std::collections::hash_map::Entry;
+use std::rc::Rc;
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Arc, Weak};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use rustc_hash::FxHashMap;
+
+use super::batch::Scratch;
+use super::interpret::InterpretationPass;
+use super::step::RewritingStep;
+use super::{Ending, lead};
+use crate::declare::Session;
+use crate::machine::{Declared, Driver, Machine, Watchdog};
+use crate::results::{Derived, Trace};
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::Prefetch;
+
+/// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
+#[derive(Clone)]
+pub(crate) enum Job {
+    Rewrite(Weak<RewritingStep>),
+    Interpret(Weak<InterpretationPass>),
+    Prefetch(Weak<dyn Prefetch>),
+}
+
+enum Message {
+    Work(Job),
+    Derived(Result<Arc<Derived>>),
+}
+
+struct Helper {
+    outbox: Sender<Message>,
+    thread: JoinHandle<()>,
+}
+
+/// About what it costs to start a helper.
+const STARTING: Duration = Duration::from_millis(20);
+
+/// The threads of a run, as one machine sees them: it leads the others, or follows.
+pub(crate) struct ThreadPool {
+    /// What each derivation has given so far, in order.
+    done: RefCell<Vec<Result<Arc<Derived>>>>,
+    role: RefCell<Role>,
+    /// The lineage that was asked for, once it is known.
+    trace: RefCell<Option<Trace>>,
+}
+
+enum Role {
+    /// With the time when there was work for helpers first.
+    Lead {
+        helpers: Vec<Helper>,
+        watchdog: Arc<Watchdog>,
+        since: Option<Instant>,
+    },
+    Follow {
+        inbox: Rc<Receiver<Message>>,
+        recorded: Vec<Result<Arc<Derived>>>,
+    },
+}
+
+impl ThreadPool {
+    /// The threads as the machine sees them whose result counts.
+    pub(crate) fn leading(watchdog: &Arc<Watchdog>) -> Self {
+        Self::new(Role::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog), since: None })
+    }
+
+    fn new(role: Role) -> Self {
+        Self { done: RefCell::default(), role: RefCell::new(role), trace: RefCell::default() }
+    }
+
+    /// The lineage that the options of the run ask for, if it has come to it.
+    pub(crate) fn take_trace(&self) -> Option<Trace> {
+        self.trace.borrow_mut().take()
+    }
+
+    /// In a following machine: works for the leader until system `index` is derived, and returns the result.
+    fn follow(&self, machine: &Machine, index: usize) -> Result<Option<Arc<Derived>>> {
+        let (inbox, known) = match &*self.role.borrow() {
+            Role::Lead { .. } => return Ok(None),
+            Role::Follow { inbox, recorded } => {
+                (Rc::clone(inbox), recorded.get(self.done.borrow().len()).cloned())
+            }
+        };
+        // What the axiom's function changes or draws is seen by what follows, in every machine.
+        machine.library.systems.borrow()[index].replay_axiom(machine)?;
+        let derived = match known {
+            Some(derived) => derived,
+            None => serve(machine, &inbox, index)?,
+        };
+        machine.library.systems.borrow()[index].catch_up(machine);
+        self.done.borrow_mut().push(derived.clone());
+        derived.map(Some)
+    }
+
+    /// In the leading machine: tells the others what a system became, or why it did not.
+    fn finished(&self, derived: &Result<Arc<Derived>>) {
+        if let Role::Lead { helpers, .. } = &*self.role.borrow() {
+            for helper in helpers {
+                // A helper that has ended needs no news.
+                let _ = helper.outbox.send(Message::Derived(derived.clone()));
+            }
+        }
+        self.done.borrow_mut().push(derived.clone());
+    }
+
+    /// Gives a job of `pieces` pieces to as many helpers as can be of use.
+    ///
+    /// Helpers are started for `many` pieces, or when there has been work for them for longer than their start takes.
+    pub(crate) fn hand_out(
+        &self,
+        machine: &Machine,
+        pieces: usize,
+        many: usize,
+        job: impl Fn() -> Job,
+    ) -> Result<()> {
+        let useful = machine.session.options.worker_threads().min(pieces).saturating_sub(1);
+        let mut role = self.role.borrow_mut();
+        let Role::Lead { helpers, watchdog, since } = &mut *role else { return Ok(()) };
+        if useful == 0 {
+            return Ok(());
+        }
+        let pays = machine.session.options.threads.is_some()
+            || pieces >= many
+            || since.get_or_insert_with(Instant::now).elapsed() > STARTING;
+        while pays && helpers.len() < useful {
+            helpers.push(Helper::start(&machine.session, watchdog, self.done.borrow().clone())?);
+        }
+        for helper in helpers.iter().take(useful) {
+            // A helper that has ended leaves its share to the others.
+            let _ = helper.outbox.send(Message::Work(job()));
+        }
+        Ok(())
+    }
+
+    /// Waits until every helper has let go of a job.
+    pub(crate) fn reclaim<T>(&self, mut job: Arc<T>) -> T {
+        loop {
+            match Arc::try_unwrap(job) {
+                Ok(job) => return job,
+                Err(shared) => {
+                    std::thread::yield_now();
+                    job = shared;
+                }
+            }
+        }
+    }
+}
+
+impl Driver for ThreadPool {
+    fn derive(&self, machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<Derived>> {
+        let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
+        if !problems.is_empty() {
+            return Err(Error::several(problems));
+        }
+        if let Some(derived) = self.follow(machine, index)? {
+            return Ok(derived);
+        }
+        let derived = lead(machine, self, index, steps).and_then(|ended| match ended {
+            Ending::Derived(derived) => Ok(Arc::new(derived)),
+            Ending::Traced(trace) => {
+                self.trace.replace(Some(trace));
+                // Nobody wants to know what else the script does.
+                Err(Error::stopped("the traced system is derived"))
+            }
+        });
+        machine.current.objects.replace(None);
+        self.finished(&derived);
+        derived
+    }
+
+    fn derived(&self) -> Vec<Result<Arc<Derived>>> {
+        self.done.borrow().clone()
+    }
+
+    fn count(&self) -> usize {
+        self.done.borrow().len()
+    }
+
+    fn leads(&self) -> bool {
+        matches!(&*self.role.borrow(), Role::Lead { .. })
+    }
+
+    fn prefetch(&self, machine: &Machine, prefetch: &Arc<dyn Prefetch>) -> Result<()> {
+        self.hand_out(machine, 2, 2, || Job::Prefetch(Arc::downgrade(prefetch)))
+    }
+}
+
+impl Drop for ThreadPool {
+    fn drop(&mut self) {
+        if let Role::Lead { helpers, .. } = self.role.get_mut() {
+            for Helper { outbox, thread } in helpers.drain(..) {
+                drop(outbox);
+                // A helper that panicked has been left out of the result already.
+                let _ = thread.join();
+            }
+        }
+    }
+}
+
+impl Helper {
+    fn start(
+        session: &Arc<Session>,
+        watchdog: &Arc<Watchdog>,
+        recorded: Vec<Result<Arc<Derived>>>,
+    ) -> Result<Self> {
+        let (outbox, inbox) = channel();
+        let (session, watchdog) = (Arc::clone(session), Arc::clone(watchdog));
+        let follow = move || {
+            let threads = ThreadPool::new(Role::Follow { inbox: Rc::new(inbox), recorded });
+            if let Ok(machine) = Machine::new(&session, &watchdog, Rc::new(threads)) {
+                machine.silence();
+                // What goes wrong here goes wrong in the leading machine as well, which tells of it.
+                let _ = machine.run();
+            }
+        };
+        let thread =
+            std::thread::Builder::new().name("burgeon helper".to_owned()).spawn(follow).map_err(|error| {
+                Error::system(format!("cannot start a thread: {error}")).help("try --threads 1")
+            })?;
+        Ok(Self { outbox, thread })
+    }
+}
+
+/// Works on jobs for system `index` until the leader has derived it.
+fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Result<Arc<Derived>>> {
+    // What was declared since the last derivation holds as well.
+    machine.current.system.set(None);
+    let mut known: FxHashMap<usize, Declared> = FxHashMap::default();
+    let mut scratch = Scratch::default();
+    loop {
+        let job = match inbox.recv() {
+            Ok(Message::Work(job)) => job,
+            Ok(Message::Derived(derived)) => return Ok(derived),
+            Err(_) => return Err(Error::stopped("the run has ended")),
+        };
+        // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
+        match job {
+            Job::Rewrite(rewriting) => {
+                let Some(rewriting) = rewriting.upgrade() else { continue };
+                let system = rewriting.plan.system;
+                let declared = prepared(machine, &mut known, system)?;
+                machine.enter(system)?;
+                machine.current.objects.replace(rewriting.plan.objects.clone());
+                machine.refresh();
+                while rewriting.work(machine, declared, &mut scratch) {}
+                machine.current.objects.replace(None);
+            }
+            Job::Prefetch(prefetch) => {
+                if let Some(prefetch) = prefetch.upgrade() {
+                    prefetch.work();
+                }
+            }
+            Job::Interpret(interpreting) => {
+                let Some(interpreting) = interpreting.upgrade() else { continue };
+                prepared(machine, &mut known, index)?;
+                machine.enter(index)?;
+                machine.current.objects.replace(interpreting.plan.objects.clone());
+                machine.refresh();
+                while interpreting.work(machine) {}
+                machine.current.objects.replace(None);
+            }
+        }
+    }
+}
+
+/// A system ready to derive in this machine, whose tables stay frozen as long as it is known.
+fn prepared<'a>(
+    machine: &Machine,
+    known: &'a mut FxHashMap<usize, Declared>,
+    system: usize,
+) -> Result<&'a Declared> {
+    Ok(match known.entry(system) {
+        Entry::Occupied(entry) => entry.into_mut(),
+        Entry::Vacant(entry) => entry.insert(machine.library.systems.borrow()[system].prepare(machine)?),
+    })
+}

@@ -1,0 +1,85 @@
+//! The part of a machine that is the same for every run, which a thread may make before it is needed.
+
+use std::cell::RefCell;
+
+use mlua::{Function, Lua, LuaOptions, StdLib};
+
+use super::host::native;
+use super::prelude::Prelude;
+
+thread_local! {
+    static READY: RefCell<Option<BlankMachine>> = const { RefCell::new(None) };
+}
+
+/// A state without anything of a script.
+pub(super) struct BlankMachine {
+    pub(super) lua: Lua,
+    /// `prelude.luau`, which has not been called.
+    pub(super) prelude: Function,
+}
+
+impl BlankMachine {
+    /// The one that this thread has made ready, or a new one.
+    pub(super) fn take() -> mlua::Result<Self> {
+        READY.take().map_or_else(Self::new, Ok)
+    }
+
+    fn new() -> mlua::Result<Self> {
+        let libraries = StdLib::MATH
+            | StdLib::STRING
+            | StdLib::TABLE
+            | StdLib::BIT
+            | StdLib::UTF8
+            | StdLib::BUFFER
+            | StdLib::COROUTINE
+            | StdLib::VECTOR
+            | StdLib::OS
+            | StdLib::DEBUG;
+        let lua = Lua::new_with(libraries, LuaOptions::default())?;
+        lua.set_compiler(super::compiler());
+        lua.enable_jit(true);
+        let prelude = Prelude::chunk(&lua)?;
+        Ok(Self { lua, prelude })
+    }
+}
+
+/// Begins the next machine of this thread, for a thread that waits and is to run a script as soon as it is asked to:
+/// with native code of all that scripts may come to use, it takes longer than a machine that is begun for a run.
+pub fn make_ready() {
+    if READY.with_borrow(Option::is_some) {
+        return;
+    }
+    let begun = BlankMachine::new().and_then(|begun| {
+        native(&begun.lua, &begun.prelude)?;
+        Ok(begun)
+    });
+    // What goes wrong here goes wrong again in the run, which tells of it.
+    READY.set(begun.ok());
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+    use crate::declare::RunOptions;
+
+    #[test]
+    fn a_machine_that_was_made_ready_makes_what_others_do_once() {
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scripts/herb.lua");
+        let made = || -> Vec<String> {
+            let run = crate::run::run(
+                &script,
+                RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },
+            )
+            .unwrap();
+            run.systems.iter().map(|system| system.chain_text()).collect()
+        };
+        let expected = made();
+        make_ready();
+        assert!(READY.with_borrow(Option::is_some));
+        assert_eq!(made(), expected);
+        assert!(READY.with_borrow(Option::is_none));
+        assert_eq!(made(), expected);
+    }
+}

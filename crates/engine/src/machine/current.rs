@@ -1,0 +1,141 @@
+//! The work that a machine is at, for the functions that Rust gives to Lua.
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+
+use crate::declare::Session;
+use crate::machine::handles::Objects;
+use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::warning::Warning;
+use burgeon_kit::random::Stream;
+use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::{Call, Method, Value};
+
+/// Applies recorded method calls to objects while a batch is interpreted.
+pub(crate) trait Flusher: std::any::Any {
+    /// Applies all calls recorded so far: those of the entries before `entry` and the first `called` of it.
+    fn flush(&mut self, entry: usize, called: usize) -> Result<()>;
+
+    /// The chain that is being interpreted.
+    fn chain(&self) -> usize;
+
+    /// Takes what the object of the chain has warned of.
+    fn warn(&mut self, said: Vec<Warning>);
+
+    /// Notes that the interpretation rule of `entry` has returned modules.
+    fn lost(&mut self, entry: usize);
+}
+
+/// What a prepared return makes: the symbols of its modules and brackets.
+#[derive(Default)]
+pub(crate) struct Shape {
+    pub symbols: Vec<Symbol>,
+    /// The number of all parameters.
+    pub params: usize,
+}
+
+/// Lua adds this to the number of a shape.
+const SHAPE: usize = 1 << 30;
+
+/// What is being rewritten or interpreted.
+pub(crate) struct Current {
+    pub session: Arc<Session>,
+    /// The system that the machine works for.
+    pub system: Cell<Option<usize>>,
+    /// The objects of the system at work.
+    pub objects: RefCell<Option<Arc<Objects>>>,
+    /// The chain of each application in the batch.
+    pub chains: RefCell<Vec<u32>>,
+    /// The random key of each application in the batch.
+    pub keys: RefCell<Vec<Key>>,
+    /// How many numbers of its stream an application's weighted choice has used already.
+    pub used: Cell<usize>,
+    /// The most random numbers that one application has drawn lately.
+    pub drawn: Cell<usize>,
+    /// The methods of `this`, as their numbers in Lua.
+    pub methods: RefCell<Vec<Method>>,
+    /// The shapes of prepared returns, by number.
+    pub shapes: RefCell<Vec<Shape>>,
+    /// Applies recorded calls while interpreting.
+    pub flusher: RefCell<Option<Box<dyn Flusher>>>,
+    /// The stream of the top level of the script.
+    pub top: RefCell<Stream>,
+}
+
+impl Current {
+    pub(crate) fn new(session: Arc<Session>) -> Self {
+        let top = Key::seed(session.options.seed).stream();
+        Self {
+            session,
+            system: Cell::new(None),
+            objects: RefCell::default(),
+            chains: RefCell::default(),
+            keys: RefCell::default(),
+            used: Cell::new(0),
+            drawn: Cell::new(0),
+            methods: RefCell::default(),
+            shapes: RefCell::default(),
+            flusher: RefCell::default(),
+            top: RefCell::new(top),
+        }
+    }
+
+    pub(crate) fn add_shape(&self, number: usize, symbols: Vec<Symbol>, arities: &[u8]) {
+        let Some(number) = number.checked_sub(SHAPE) else { return };
+        let params = symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
+        let mut shapes = self.shapes.borrow_mut();
+        if shapes.len() <= number {
+            shapes.resize_with(number + 1, Shape::default);
+        }
+        shapes[number] = Shape { symbols, params };
+    }
+
+    /// Draws number `index` of an application's stream.
+    pub(crate) fn draw(&self, application: usize, index: usize) -> Result<f64> {
+        let keys = self.keys.borrow();
+        let key = keys.get(application).ok_or_else(|| Error::scope("random is not available here"))?;
+        let mut stream = key.stream();
+        for _ in 0..self.used.get() + index {
+            stream.uniform();
+        }
+        self.drawn.set(self.drawn.get().max(index + 1));
+        Ok(stream.uniform())
+    }
+
+    /// Calls a method of `this` at once, while rewriting or interpreting, in the line at `place`.
+    pub(crate) fn call(
+        &self,
+        method: usize,
+        application: usize,
+        arguments: &[Value],
+        place: impl FnOnce() -> Option<Place>,
+    ) -> Result<Value> {
+        let methods = self.methods.borrow();
+        let method = methods.get(method).ok_or_else(|| Error::internal("there is no such method"))?;
+        let chain = match self.flusher.borrow().as_ref() {
+            Some(flusher) => flusher.chain(),
+            None => self.chains.borrow().get(application).copied().unwrap_or(0) as usize,
+        };
+        let objects = self.objects.borrow();
+        let objects = objects.as_ref().ok_or_else(|| Error::scope("this is only known within rules"))?;
+        match &method.call {
+            Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
+            Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
+            Call::Write { values, .. } => {
+                let mut said = Vec::new();
+                let done = objects.write(chain, |object| {
+                    let done = values(object, arguments);
+                    said = object.take_warnings();
+                    done
+                });
+                if !said.is_empty()
+                    && let Some(flusher) = self.flusher.borrow_mut().as_mut()
+                {
+                    let place = place();
+                    flusher.warn(said.into_iter().map(|warning| warning.at(place.clone())).collect());
+                }
+                done.or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil))
+            }
+        }
+    }
+}

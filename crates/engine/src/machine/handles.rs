@@ -1,0 +1,180 @@
+//! Objects and derived systems as scripts hold them.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock, PoisonError, RwLock};
+
+use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
+
+use crate::results::Derived;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::Object;
+
+/// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
+pub(crate) struct Objects {
+    list: Vec<RwLock<Box<dyn Object>>>,
+    /// By object: what its data is at fault for. Nothing more is drawn with such an object.
+    failures: Vec<OnceLock<Error>>,
+    any_failed: AtomicBool,
+    forgiving: bool,
+}
+
+impl Objects {
+    /// The objects of chains. With `forgiving`, bad data leaves a chain out and does not end the run.
+    pub(crate) fn new(objects: Vec<Box<dyn Object>>, forgiving: bool) -> Self {
+        let failures = objects.iter().map(|_| OnceLock::new()).collect();
+        Self {
+            list: objects.into_iter().map(RwLock::new).collect(),
+            failures,
+            any_failed: AtomicBool::new(false),
+            forgiving,
+        }
+    }
+
+    /// Whether the data of any chain was at fault.
+    pub(crate) fn any_failed(&self) -> bool {
+        self.any_failed.load(Ordering::Relaxed)
+    }
+
+    /// Whether the data of a chain was at fault, so that nothing more is done with its object.
+    pub(crate) fn has_failed(&self, chain: usize) -> bool {
+        self.failures.get(chain).is_some_and(|failure| failure.get().is_some())
+    }
+
+    /// Leaves a chain out whose data is at fault; passes every other error on.
+    pub(crate) fn forgive(&self, chain: usize, error: Error) -> Result<()> {
+        match self.failures.get(chain) {
+            Some(failure) if self.forgiving && error.is_of_data() => {
+                // The first one counts.
+                let _ = failure.set(error);
+                self.any_failed.store(true, Ordering::Relaxed);
+                Ok(())
+            }
+            _ => Err(error),
+        }
+    }
+
+    pub(crate) fn read<T>(&self, chain: usize, ask: impl FnOnce(&dyn Object) -> Result<T>) -> Result<T> {
+        let object = self.list.get(chain).ok_or_else(no_object)?;
+        ask(&**object.read().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    pub(crate) fn write<T>(
+        &self,
+        chain: usize,
+        change: impl FnOnce(&mut dyn Object) -> Result<T>,
+    ) -> Result<T> {
+        let object = self.list.get(chain).ok_or_else(no_object)?;
+        change(&mut **object.write().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// The objects, each with what its data is at fault for.
+    pub(crate) fn into_owned(self) -> Vec<(Box<dyn Object>, Option<Error>)> {
+        let objects = self.list.into_iter().zip(self.failures);
+        objects
+            .map(|(object, failure)| {
+                (object.into_inner().unwrap_or_else(PoisonError::into_inner), failure.into_inner())
+            })
+            .collect()
+    }
+}
+
+fn no_object() -> Error {
+    Error::script("the system has no object").help("give it one: lsystem { object = turtle() }")
+}
+
+/// An object as a value of a script; read-only.
+pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
+
+impl UserData for ObjectHandle {
+    fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
+        methods.add_meta_method(MetaMethod::Index, |lua, this, name: String| {
+            let table: Table = lua.named_registry_value(&methods_key(&this.0.kind().name))?;
+            match table.raw_get::<LuaValue>(name.as_str())? {
+                LuaValue::Nil => Err(mlua::Error::external(this.0.kind().unknown_method(&name))),
+                method => Ok(method),
+            }
+        });
+        methods.add_meta_method(
+            MetaMethod::NewIndex,
+            |_, this, (name, _): (LuaValue, LuaValue)| -> mlua::Result<()> {
+                let (kind, name) = (this.0.kind().name.clone(), name.to_string().unwrap_or_default());
+                Err(mlua::Error::external(
+                    Error::script(format!("{name} of a {kind} cannot be assigned"))
+                        .help(format!("its fields are given when it is made: {kind} {{ {name} = ... }}")),
+                ))
+            },
+        );
+        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| Ok(this.0.kind().name.to_string()));
+    }
+}
+
+/// The registry's name for the methods of a type of object.
+pub(crate) fn methods_key(kind: &str) -> String {
+    format!("burgeon methods {kind}")
+}
+
+/// What `derive` returns.
+pub(crate) struct DerivedHandle(pub Arc<Derived>);
+
+impl DerivedHandle {
+    pub(crate) fn model(&self) -> Result<Arc<dyn Object>> {
+        self.0.model()
+    }
+}
+
+const FIELDS: [&str; 4] = ["objects", "chains", "steps", "modules"];
+
+impl UserData for DerivedHandle {
+    fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
+        methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
+            if let LuaValue::Table(cached) = this.user_value::<LuaValue>()?
+                && let value @ (LuaValue::Table(_) | LuaValue::Number(_) | LuaValue::Integer(_)) =
+                    cached.raw_get::<LuaValue>(name.as_str())?
+            {
+                return Ok(value);
+            }
+            let value = this.borrow::<Self>()?.field(lua, &name)?;
+            let cached = match this.user_value::<LuaValue>()? {
+                LuaValue::Table(cached) => cached,
+                _ => lua.create_table()?,
+            };
+            cached.raw_set(name, value.clone())?;
+            this.set_user_value(cached)?;
+            Ok(value)
+        });
+        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| {
+            Ok(format!("a derived system of {} modules", this.0.modules()))
+        });
+    }
+}
+
+impl DerivedHandle {
+    fn field(&self, lua: &Lua, name: &str) -> mlua::Result<LuaValue> {
+        let derived = &self.0;
+        #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
+        let number = |count: usize| Ok(LuaValue::Number(count as f64));
+        match name {
+            "steps" => number(derived.steps),
+            "modules" => number(derived.modules()),
+            "chains" => {
+                let lines = derived.read_chains();
+                let table = lua.create_sequence_from(lines.lines())?;
+                table.set_readonly(true);
+                Ok(LuaValue::Table(table))
+            }
+            "objects" => {
+                let handles = derived.objects.iter().map(|object| ObjectHandle(Arc::clone(object)));
+                let handles: Vec<AnyUserData> =
+                    handles.map(|handle| lua.create_userdata(handle)).collect::<mlua::Result<_>>()?;
+                let table = lua.create_sequence_from(handles)?;
+                table.set_readonly(true);
+                Ok(LuaValue::Table(table))
+            }
+            _ => {
+                let message = format!("a derived system has no field called {name}");
+                let error = Error::not_found("field", name, FIELDS, message);
+                Err(mlua::Error::external(error.help(format!("it has {}", FIELDS.join(", ")))))
+            }
+        }
+    }
+}

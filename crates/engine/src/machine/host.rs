@@ -1,0 +1,204 @@
+//! The functions that Rust gives to `prelude.luau`.
+
+use std::rc::Rc;
+use std::sync::LazyLock;
+
+use mlua::{Lua, MultiValue, Table, Value as LuaValue};
+
+use super::current::Current;
+use crate::machine::convert::{to_lua, to_value};
+use crate::machine::handles::ObjectHandle;
+use crate::machine::library::Library;
+use burgeon_base::error::{Error, Limit};
+use burgeon_kit::rules::{DEEPEST, module_text};
+use burgeon_kit::{Call, Value};
+
+/// While guards run, in `prelude.luau`.
+const GUARD: u8 = 2;
+/// At the top level, in `prelude.luau`.
+const TOP: u8 = 0;
+
+pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>) -> mlua::Result<Table> {
+    let host = lua.create_table()?;
+    host.set("deepest", DEEPEST)?;
+    let state = Rc::clone(current);
+    host.set(
+        "pack",
+        lua.create_function(move |_, value: LuaValue| {
+            let value = to_value(&value, true).map_err(mlua::Error::external)?;
+            match burgeon_kit::rules::Boxed::unpack(state.session.values.pack(value)) {
+                burgeon_kit::rules::Boxed::Handle(handle) => Ok(handle),
+                _ => Err(mlua::Error::external(Error::argument("this value cannot be a parameter"))),
+            }
+        })?,
+    )?;
+    host.set(
+        "native",
+        lua.create_function(|lua, function: mlua::Function| {
+            native(lua, &function)?;
+            Ok(function)
+        })?,
+    )?;
+    host.set(
+        "freeze",
+        lua.create_function(|_, table: Table| {
+            table.set_readonly(true);
+            Ok(())
+        })?,
+    )?;
+    host.set(
+        "told",
+        lua.create_function(|lua, value: LuaValue| match value {
+            LuaValue::Error(error) => {
+                let error = super::translate(&error);
+                let place = error.place().map_or_else(String::new, |place| format!("{place}: "));
+                Ok(LuaValue::String(lua.create_string(format!("{place}{}", error.message()))?))
+            }
+            other => Ok(other),
+        })?,
+    )?;
+    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "shape",
+        lua.create_function(move |_, (number, symbols): (usize, Vec<u16>)| {
+            state.add_shape(number, symbols, &shelf.symbols.borrow().arities());
+            Ok(())
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "unpack",
+        lua.create_function(move |lua, handle: u32| {
+            to_lua(lua, &state.session.values.get(handle).unwrap_or(Value::Nil), true)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "check_growth",
+        lua.create_function(move |_, modules: usize| {
+            let limit = state.session.options.limits.modules;
+            if modules > limit {
+                return Err(mlua::Error::external(
+                    Error::limit(
+                        Limit::Modules,
+                        format!("one application of a rule made more than {limit} modules"),
+                    )
+                    .help("look for a loop that never ends, or raise the limit: --module-limit N"),
+                ));
+            }
+            Ok(())
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "random",
+        lua.create_function(move |_, (phase, application, drawn): (u8, usize, usize)| match phase {
+            TOP => Ok(state.top.borrow_mut().uniform()),
+            GUARD => Err(mlua::Error::external(
+                Error::scope("a guard draws no random numbers")
+                    .help("draw in the successor, or give the rules weights: { weight = 2 }"),
+            )),
+            _ => state.draw(application, drawn).map_err(mlua::Error::external),
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "flush",
+        lua.create_function(move |_, (entry, called): (usize, usize)| {
+            match state.flusher.borrow_mut().as_mut() {
+                Some(flusher) => flusher.flush(entry, called).map_err(mlua::Error::external),
+                None => Ok(()),
+            }
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "lost",
+        lua.create_function(move |_, entry: usize| {
+            if let Some(flusher) = state.flusher.borrow_mut().as_mut() {
+                flusher.lost(entry);
+            }
+            Ok(())
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "call",
+        lua.create_function(move |lua, (method, application, arguments): (usize, usize, MultiValue)| {
+            let arguments = values(&arguments)?;
+            let answer = state
+                .call(method, application, &arguments, || super::Machine::place(lua))
+                .map_err(mlua::Error::external)?;
+            to_lua(lua, &answer, false)
+        })?,
+    )?;
+    host.set(
+        "call_object",
+        lua.create_function(|lua, (name, object, arguments): (String, LuaValue, MultiValue)| {
+            let (_, method) = name.split_once(':').unwrap_or(("", &name));
+            let LuaValue::UserData(data) = &object else {
+                return Err(mlua::Error::external(
+                    Error::argument(format!("{name} needs its object"))
+                        .help(format!("call it with a colon: object:{method}()")),
+                ));
+            };
+            let handle = data.borrow::<ObjectHandle>()?;
+            let Some(method) = handle.0.kind().method(method) else {
+                return Err(mlua::Error::external(handle.0.kind().unknown_method(method)));
+            };
+            match &method.call {
+                Call::Read(read) => {
+                    let answer = read(&*handle.0, &values(&arguments)?).map_err(mlua::Error::external)?;
+                    to_lua(lua, &answer, false)
+                }
+                Call::Write { .. } => Err(mlua::Error::external(Error::scope(format!(
+                    "{name} changes the object, and only interpretation rules may"
+                )))),
+            }
+        })?,
+    )?;
+    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "module_text",
+        lua.create_function(move |_, module: Table| {
+            let symbol: u16 = module.raw_get(1)?;
+            let given: usize = module.raw_get(2)?;
+            let mut params = Vec::new();
+            for index in 0..given {
+                let value = to_value(&module.raw_get::<LuaValue>(index + 3)?, false)
+                    .map_err(mlua::Error::external)?;
+                params.push(state.session.values.pack(value));
+            }
+            Ok(module_text(&shelf.symbols.borrow(), &state.session.values, symbol, &params))
+        })?,
+    )?;
+    Ok(host)
+}
+
+/// Whether Luau makes native code for this processor. Asking takes tens of microseconds where the computer is virtual.
+static SUPPORTED: LazyLock<bool> = LazyLock::new(|| {
+    #[allow(unsafe_code, reason = "mlua does not tell")]
+    // SAFETY: the function takes nothing and only looks at what the processor says of itself.
+    unsafe {
+        mlua::ffi::luau_codegen_supported() != 0
+    }
+});
+
+/// Makes native code of a Lua function and of those within it, unless it has been made.
+pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
+    #[allow(unsafe_code, reason = "mlua makes native code of whole files only")]
+    // SAFETY: luau_codegen_compile takes the index of a Lua function and leaves the stack as it was; mlua has set up
+    // code generation for this state, which it has done wherever it made native code itself.
+    unsafe {
+        lua.exec_raw::<()>(function, |state| {
+            if *SUPPORTED {
+                mlua::ffi::luau_codegen_compile(state, -1);
+            }
+            mlua::ffi::lua_settop(state, 0);
+        })
+    }
+}
+
+fn values(arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
+    arguments.iter().map(|value| to_value(value, false).map_err(mlua::Error::external)).collect()
+}

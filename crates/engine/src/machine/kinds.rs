@@ -1,0 +1,125 @@
+//! Types of objects as scripts see them: a constructor and a table of methods for each.
+
+use std::sync::Arc;
+
+use mlua::{Function, MultiValue, Table, Value as LuaValue};
+
+use super::Machine;
+use super::convert::to_field;
+use super::handles::{ObjectHandle, methods_key};
+use super::system::is_unread_geometry;
+use burgeon_base::error::{Error, Result};
+use burgeon_kit::{Call, Construct, Key, Kind, Table as ValueTable, Value};
+
+/// Makes the constructor of a type of object and its table of methods.
+pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>) -> mlua::Result<()> {
+    let lua = machine.lua();
+    let methods = lua.create_table()?;
+    for (index, method) in kind.methods.iter().enumerate() {
+        let name = format!("{}:{}", kind.name, method.name);
+        let function: Function = match &method.call {
+            Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
+                machine.prelude().recorder.call((index, name, method.arguments.len()))?
+            }
+            Call::Write { .. } => machine.prelude().direct.call((index, name, true))?,
+            Call::Read(_) => machine.prelude().direct.call((index, name, false))?,
+        };
+        methods.raw_set(&*method.name, function)?;
+    }
+    let unknown = lua.create_table()?;
+    let of = Arc::clone(kind);
+    unknown.raw_set(
+        "__index",
+        lua.create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            Err(mlua::Error::external(of.unknown_method(&name)))
+        })?,
+    )?;
+    methods.set_metatable(Some(unknown))?;
+    lua.set_named_registry_value(&methods_key(&kind.name), &methods)?;
+    let library = std::rc::Rc::clone(&machine.library);
+    let constructor = match &kind.construct {
+        Construct::Given => return Ok(()),
+        Construct::Fields(make) => {
+            let (kind, make) = (Arc::clone(kind), Arc::clone(make));
+            lua.create_function(move |_, given: MultiValue| {
+                let table = constructor_fields(&kind, given).map_err(mlua::Error::external)?;
+                // What one feature has in place of a number, another may have right.
+                let mut object = make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
+                for warning in object.take_warnings() {
+                    library.machine().map_err(mlua::Error::external)?.warn(warning);
+                }
+                Ok(ObjectHandle(Arc::from(object)))
+            })?
+        }
+        Construct::File(loader) => {
+            let (kind, loader) = (Arc::clone(kind), loader.clone());
+            let session = Arc::clone(&machine.session);
+            lua.create_function(move |_, (name, fields): (LuaValue, LuaValue)| {
+                let name = match name {
+                    LuaValue::String(name) => name.to_string_lossy(),
+                    _ => String::new(),
+                };
+                let load = || {
+                    library.at_top_level(&kind.name)?;
+                    let fields = match to_field(&fields)? {
+                        Value::Nil => Arc::default(),
+                        Value::Table(fields) => fields,
+                        other => {
+                            let (name, what) = (&kind.name, other.describe());
+                            return Err(Error::argument(format!(
+                                "{name} takes a table of options, not {what}"
+                            ))
+                            .help(format!("write {}", loader.example_with_fields)));
+                        }
+                    };
+                    let loaded = session.data.object(&session, (&kind.name, &loader), &name, &fields)?;
+                    let machine = library.machine()?;
+                    loaded.warnings.into_iter().for_each(|warning| machine.warn(warning));
+                    Ok(ObjectHandle(loaded.object))
+                };
+                load().map_err(mlua::Error::external)
+            })?
+        }
+    };
+    globals.raw_set(&*kind.name, constructor)
+}
+
+/// The named fields that a constructor takes: a table, before which one of them may stand by itself.
+fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>> {
+    let mut given = given.into_iter();
+    let one = given.next().unwrap_or(LuaValue::Nil);
+    let two = given.next().unwrap_or(LuaValue::Nil);
+    let Some(first) = kind.first.as_deref() else { return named_fields(&kind.name, one) };
+    let alone = match (&one, &two) {
+        (LuaValue::Nil, LuaValue::Nil) => true,
+        (LuaValue::Table(table), LuaValue::Nil) if !is_unread_geometry(table) => {
+            table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
+                kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == *field.name))
+            })
+        }
+        _ => false,
+    };
+    if alone {
+        return named_fields(&kind.name, one);
+    }
+    let mut table = ValueTable::clone(&*named_fields(&kind.name, two)?);
+    if table.get(first).is_some() {
+        return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
+    }
+    table.entries.push((Key::Name(first.into()), to_field(&one)?));
+    Ok(Arc::new(table))
+}
+
+/// The one table of named fields that a constructor takes; nothing is an empty one.
+pub(super) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
+    match to_field(&options)? {
+        Value::Nil => Ok(Arc::default()),
+        Value::Table(table) => Ok(table),
+        _ => Err(no_table(what, &options)),
+    }
+}
+
+pub(super) fn no_table(what: &str, given: &LuaValue) -> Error {
+    Error::argument(format!("{what} takes a table of named fields, not a {}", given.type_name()))
+        .help(format!("write {what} {{ name = value }}"))
+}

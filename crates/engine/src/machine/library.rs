@@ -1,0 +1,384 @@
+//! The names that scripts have: `module`, `lsystem`, `param`, `require`, objects, and the standard library.
+
+use std::cell::RefCell;
+use std::path::PathBuf;
+use std::sync::{Arc, LazyLock};
+
+use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use super::convert::{class_key, to_lua};
+use super::kinds::{install_kind, named_fields, no_table};
+use super::require::require;
+use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
+use super::{Machine, compile, native};
+use crate::declare::Param;
+use crate::declare::Print;
+use crate::declare::analysis::Globals;
+use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::Construct;
+use burgeon_kit::rules::{Signature, Symbol, Symbols};
+
+/// The standard library, which every script has, compiled once for all machines.
+static STANDARD_COMPILED: LazyLock<Vec<u8>> =
+    LazyLock::new(|| compile(include_str!("../../../../stdlib.lua")));
+
+/// Names that would make a script's meaning depend on more than itself, or would slow it down.
+const LOCKED: [&str; 14] = [
+    "getfenv",
+    "setfenv",
+    "loadstring",
+    "load",
+    "newproxy",
+    "collectgarbage",
+    "os",
+    "debug",
+    "vector",
+    "_G",
+    "gcinfo",
+    "io",
+    "dofile",
+    "loadfile",
+];
+
+/// An interpretation that the standard library gives to modules of every system with a type of object.
+pub(crate) struct Standard {
+    pub kind: String,
+    pub symbol: Symbol,
+    /// The place of a method among those of the type, called with the module's parameters.
+    pub method: usize,
+}
+
+/// What a machine knows of its script.
+#[derive(Default)]
+pub(crate) struct Library {
+    pub symbols: RefCell<Symbols>,
+    pub systems: RefCell<Vec<System>>,
+    pub standard: RefCell<Vec<Standard>>,
+    pub problems: RefCell<Vec<Error>>,
+    /// Where the script declared its modules.
+    pub places: RefCell<FxHashMap<Symbol, Place>>,
+    /// Constructors of modules, by symbol.
+    pub constructors: RefCell<FxHashMap<Symbol, Function>>,
+    /// The files that are being required, from the main one on.
+    pub(super) loading: RefCell<Vec<PathBuf>>,
+    pub(super) loaded: RefCell<FxHashMap<PathBuf, LuaValue>>,
+    /// Functions of Rust and C that rules may reach, by address.
+    pub stateless: RefCell<FxHashSet<usize>>,
+    /// The functions of the standard library, and the whole of it until it is made native code.
+    functions: RefCell<Vec<String>>,
+    standard_chunk: RefCell<Option<Function>>,
+    names: RefCell<Vec<String>>,
+    modules: RefCell<FxHashMap<String, Signature>>,
+    /// The constructors of objects, by name.
+    kinds: RefCell<Vec<String>>,
+    /// The parameters as they were declared first, and where.
+    params: RefCell<Vec<(Param, Option<Place>)>>,
+    machine: RefCell<Option<std::rc::Weak<Machine>>>,
+}
+
+impl Library {
+    /// What scripts may use without declaring it.
+    pub(crate) fn globals(&self) -> Globals {
+        let shapes = self.machine().map(|machine| Arc::clone(&machine.session.shapes)).unwrap_or_default();
+        Globals {
+            names: self.names.borrow().clone(),
+            modules: self.modules.borrow().clone(),
+            kinds: self.kinds.borrow().clone(),
+            shapes,
+        }
+    }
+
+    /// The machine that this library belongs to, once it is complete.
+    pub(crate) fn machine(&self) -> Result<std::rc::Rc<Machine>> {
+        let machine = self.machine.borrow().as_ref().and_then(std::rc::Weak::upgrade);
+        machine.ok_or_else(|| Error::internal("this cannot be used while the machine is being made"))
+    }
+
+    pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
+        *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
+    }
+
+    /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
+    /// line once more, share it.
+    fn add_param(&self, param: Param, place: Option<Place>) -> Result<()> {
+        let machine = self.machine()?;
+        let mut params = self.params.borrow_mut();
+        if let Some((known, first)) = params.iter().find(|(known, _)| known.name == param.name) {
+            let in_file = |place: &Option<Place>| place.as_ref().map(|place| place.file.clone());
+            let shared = *known == param && (*first == place || in_file(first) != in_file(&place));
+            if !shared {
+                let first = first.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
+                let text = format!(
+                    "the parameter {} is declared already{first}, and people only see that one",
+                    param.name
+                );
+                let help = "declare it once and use its value again, or give this one another name";
+                machine.warn(Warning::new(WarningKind::ParameterTwice, text).at(place).help(help));
+            }
+            return Ok(());
+        }
+        machine.session.add_param(param.clone());
+        params.push((param, place));
+        Ok(())
+    }
+
+    /// Refuses what belongs at the top level while rules run; the standard library is always at the top.
+    pub(super) fn at_top_level(&self, what: &str) -> Result<()> {
+        self.machine()?.refuse_in_rules(what)
+    }
+
+    /// Gives the machine its globals and runs the standard library.
+    pub(crate) fn install(&self, machine: &Machine) -> Result<()> {
+        self.install_names(machine).map_err(|error| machine.translate(error))?;
+        self.note_names(machine.lua());
+        let (name, chunk) = match machine.session.stdlib() {
+            None => ("stdlib.lua", machine.load_compiled(&STANDARD_COMPILED)?),
+            Some((name, text)) => (name, machine.load(name, text)?),
+        };
+        let exports: LuaValue = chunk.call(()).map_err(|error| machine.translate(error))?;
+        let LuaValue::Table(exports) = exports else {
+            return Err(Error::script(format!("{name} returns no table"))
+                .help("end it with: return { name = value, ... }, the names that scripts get"));
+        };
+        let globals = machine.lua().globals();
+        for pair in exports.pairs::<String, LuaValue>() {
+            let (name, value) = pair.map_err(|_| {
+                Error::script(format!("{name} returns a table with keys that are no names"))
+                    .help("return { name = value, ... }")
+            })?;
+            if name.starts_with(char::is_lowercase) {
+                self.functions.borrow_mut().push(name.clone());
+            }
+            globals.raw_set(name, value).map_err(|error| machine.translate(error))?;
+        }
+        self.standard_chunk.replace(Some(chunk));
+        for name in ["__interpretation", "__class", "__refuse", "__describe"] {
+            globals.raw_set(name, LuaValue::Nil).map_err(|error| machine.translate(error))?;
+        }
+        self.note_names(machine.lua());
+        self.note_functions(&globals);
+        let mut symbols = self.symbols.borrow_mut();
+        symbols.end_of_standard();
+        *self.modules.borrow_mut() = symbols
+            .names()
+            .filter_map(|name| Some((name.to_owned(), symbols.signature(symbols.find(name).ok()?).clone())))
+            .collect();
+        Ok(())
+    }
+
+    /// Makes native code of the standard library once a script that names one of its functions is loaded.
+    pub(crate) fn prepare_functions(&self, lua: &Lua, text: &str) -> mlua::Result<()> {
+        if self.functions.borrow().iter().any(|name| text.contains(name))
+            && let Some(chunk) = self.standard_chunk.take()
+        {
+            native(lua, &chunk)?;
+        }
+        Ok(())
+    }
+
+    /// Notes the functions of Rust and C that every script has; they remember nothing between calls.
+    fn note_functions(&self, globals: &Table) {
+        let mut known = self.stateless.borrow_mut();
+        for pair in globals.pairs::<LuaValue, LuaValue>().flatten() {
+            match pair.1 {
+                LuaValue::Function(function) => {
+                    known.insert(function.to_pointer() as usize);
+                }
+                LuaValue::Table(inner) => {
+                    for (_, value) in inner.pairs::<LuaValue, LuaValue>().flatten() {
+                        if let LuaValue::Function(function) = value {
+                            known.insert(function.to_pointer() as usize);
+                        }
+                    }
+                }
+                _ => {}
+            }
+        }
+    }
+
+    fn note_names(&self, lua: &Lua) {
+        let mut names: Vec<String> = lua
+            .globals()
+            .pairs::<String, LuaValue>()
+            .filter_map(|pair| pair.ok())
+            .map(|(name, _)| name)
+            .filter(|name| !name.starts_with("__"))
+            .collect();
+        names.sort();
+        *self.names.borrow_mut() = names;
+    }
+
+    fn install_names(&self, machine: &Machine) -> mlua::Result<()> {
+        let lua = machine.lua();
+        let globals = lua.globals();
+        for name in LOCKED {
+            globals.raw_set(name, LuaValue::Nil)?;
+        }
+        let math: Table = globals.raw_get("math")?;
+        for name in ["random", "randomseed", "noise"] {
+            math.raw_set(name, LuaValue::Nil)?;
+        }
+        for pair in machine.prelude().globals.pairs::<String, LuaValue>() {
+            let (name, value) = pair?;
+            globals.raw_set(name, value)?;
+        }
+        let string: Table = globals.raw_get("string")?;
+        string.raw_set("format", globals.raw_get::<LuaValue>("format")?)?;
+        globals.raw_set("format", LuaValue::Nil)?;
+        let coroutine: Table = globals.raw_get("coroutine")?;
+        coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
+        globals.raw_set("resume", LuaValue::Nil)?;
+        self.install_plain(machine, &globals)?;
+        lua.set_app_data(Eager(Arc::clone(&machine.session)));
+        install_lazy(lua, self)?;
+        for kind in machine.session.options.registry.kinds() {
+            install_kind(machine, &globals, kind)?;
+            if matches!(kind.construct, Construct::Fields(_)) {
+                self.kinds.borrow_mut().push(kind.name.to_string());
+            }
+        }
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
+            "__interpretation",
+            lua.create_function(move |_, (kind, module, method): (String, String, String)| {
+                let symbol = library.symbols.borrow().find(&module).map_err(mlua::Error::external)?;
+                // A run without the type has no system that draws with it.
+                let Some(known) = session.options.registry.get(&kind) else { return Ok(()) };
+                let method = known.methods.iter().position(|known| known.name == method);
+                let method = method.ok_or_else(|| {
+                    mlua::Error::external(Error::internal(format!("{kind} has no such method")))
+                })?;
+                library.standard.borrow_mut().push(Standard { kind, symbol, method });
+                Ok(())
+            })?,
+        )?;
+        globals.raw_set(
+            "__class",
+            lua.create_function(|lua, (name, metatable): (String, Table)| {
+                metatable.raw_set("__class", name.as_str())?;
+                lua.set_named_registry_value(&class_key(&name), metatable)
+            })?,
+        )
+    }
+
+    fn install_plain(&self, machine: &Machine, globals: &Table) -> mlua::Result<()> {
+        let lua = machine.lua();
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "module",
+            lua.create_function(move |lua, (name, parameters): (String, Variadic<String>)| {
+                library.at_top_level("module").map_err(mlua::Error::external)?;
+                let (symbol, constructor) =
+                    declare(&library, &name, &parameters).map_err(mlua::Error::external)?;
+                if let (false, Some(place)) =
+                    (library.symbols.borrow().is_standard(symbol), Machine::place(lua))
+                {
+                    library.places.borrow_mut().entry(symbol).or_insert(place);
+                }
+                Ok(constructor)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
+            "param",
+            lua.create_function(move |lua, (name, options): (LuaValue, LuaValue)| {
+                library.at_top_level("param").map_err(mlua::Error::external)?;
+                let LuaValue::String(name) = name else {
+                    return Err(mlua::Error::external(
+                        Error::argument("param begins with a name")
+                            .help("write param(\"height\", { default = 3 })"),
+                    ));
+                };
+                let name = name.to_string_lossy();
+                let options =
+                    named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
+                let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
+                match param.given(&session.options.set, session.options.preset.as_ref()) {
+                    Ok(value) => param.value = value,
+                    Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
+                }
+                let value = param.value.to_value();
+                library.add_param(param, Machine::place(lua)).map_err(mlua::Error::external)?;
+                to_lua(lua, &value, false)
+            })?,
+        )?;
+        globals.raw_set("lod", machine.session.options.lod)?;
+        let hook = machine.session.options.print.clone();
+        globals.raw_set(
+            "print",
+            lua.create_function(move |lua, values: MultiValue| match &hook {
+                Some(hook) => print(lua, &values, hook),
+                None => Ok(()),
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "lsystem",
+            lua.create_function(move |lua, options: LuaValue| {
+                let create = || {
+                    library.at_top_level("lsystem")?;
+                    let options = match options {
+                        LuaValue::Nil => None,
+                        LuaValue::Table(options) => Some(options),
+                        other => return Err(no_table("lsystem", &other)),
+                    };
+                    SystemHandle::create(&library, options.as_ref(), Machine::place(lua))
+                };
+                create().map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "source",
+            lua.create_function(move |_, (what, options): (LuaValue, LuaValue)| {
+                let made = library
+                    .at_top_level("source")
+                    .and_then(|()| SourceHandle::new(&*library.machine()?, &what, &options));
+                made.map_err(mlua::Error::external)
+            })?,
+        )?;
+        let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
+        globals.raw_set(
+            "require",
+            lua.create_function(move |_, name: LuaValue| {
+                let name = match name {
+                    LuaValue::String(name) => name.to_string_lossy(),
+                    _ => String::new(),
+                };
+                let required =
+                    library.at_top_level("require").and_then(|()| require(&library, &session, &name));
+                required.map_err(mlua::Error::external)
+            })?,
+        )
+    }
+}
+
+fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symbol, Function)> {
+    let signature = Signature::new(name, parameters)?;
+    let symbol = library.symbols.borrow_mut().declare(signature)?;
+    if let Some(constructor) = library.constructors.borrow().get(&symbol) {
+        return Ok((symbol, constructor.clone()));
+    }
+    // The standard library declares modules before the machine is complete, so the prelude is asked directly.
+    let machine = library.machine()?;
+    let constructor =
+        machine.constructor(&library.symbols.borrow(), symbol).map_err(|error| machine.translate(error))?;
+    library.constructors.borrow_mut().insert(symbol, constructor.clone());
+    Ok((symbol, constructor))
+}
+
+fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
+    if lua.app_data_ref::<Silence>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
+        return Ok(());
+    }
+    let tostring: Function = lua.globals().get("tostring")?;
+    let texts: Vec<String> = values.iter().map(|value| tostring.call(value)).collect::<mlua::Result<_>>()?;
+    hook.take(&texts.join("\t"));
+    Ok(())
+}
+
+/// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
+/// function that tells whether the top level is running.
+pub(crate) struct Silence(pub Function);

@@ -1,0 +1,314 @@
+//! Makes the first chains of a system.
+
+use std::sync::Arc;
+
+use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
+
+use crate::machine::Machine;
+use crate::machine::convert::to_value;
+use crate::machine::handles::ObjectHandle;
+use crate::results::Remark;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_kit::rules::{CLOSE, Chain, DEEPEST, END, Key, OPEN, Symbol};
+use burgeon_kit::{Object, Prefetch, Value};
+
+use super::lazy::is_feature;
+use super::source::{each_feature, layer_of, refused_of, shown};
+use super::{DeclaredAxiom, System};
+
+/// The first chains of a system and what belongs to each.
+#[derive(Default)]
+pub(crate) struct Axiom {
+    pub chain: Chain,
+    /// One object for each chain, or none at all.
+    pub objects: Vec<Box<dyn Object>>,
+    /// The id of each chain's feature.
+    pub features: Vec<Option<String>>,
+    /// What the features come from; empty without any, and for a list that the script made.
+    pub source: String,
+    /// How many features there were, those that were left out among them.
+    pub given: usize,
+    /// Features that were left out.
+    pub remarks: Vec<Remark>,
+}
+
+impl Axiom {
+    /// Chain number `index` alone.
+    pub(crate) fn only(mut self, index: usize, arities: &[u8]) -> Self {
+        Self {
+            chain: self.chain.only(index, arities),
+            objects: self.objects.drain(..).skip(index).take(1).collect(),
+            features: self.features.drain(..).skip(index).take(1).collect(),
+            ..self
+        }
+    }
+}
+
+impl System {
+    /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes, unless it
+    /// can be seen to change nothing but the random numbers that follow, which [`System::catch_up`] sets right.
+    pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
+        let is_pure = |function: &Function| {
+            let info = function.info();
+            let file = info.source.as_deref().and_then(|source| source.strip_prefix('@'));
+            file.zip(info.line_defined).is_some_and(|(file, line)| machine.session.is_pure(file, line))
+        };
+        match &self.axiom {
+            Some(DeclaredAxiom::Source(_, function)) if is_pure(function) => Ok(()),
+            Some(DeclaredAxiom::Source(..)) => self.axiom(machine, Key::default(), false).map(|_| ()),
+            _ => Ok(()),
+        }
+    }
+
+    /// In a machine that only helps, once a derivation is over: random numbers go on where the leader's do.
+    pub(crate) fn catch_up(&self, machine: &Machine) {
+        if let Some(DeclaredAxiom::Source(..)) = self.axiom
+            && let Some(stream) = machine.session.drawn.after(machine.driver.count())
+        {
+            machine.current.top.replace(stream);
+        }
+    }
+
+    /// Makes the first chains: one from modules, or one for each feature. What is wrong with them is told where the
+    /// axiom was set.
+    pub(crate) fn axiom(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
+        self.first_chains(machine, key, random).map_err(|error| error.at(self.axiom_place.clone()))
+    }
+
+    fn first_chains(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
+        let mut axiom = Axiom::default();
+        let mut builder = Builder { machine, chain: &mut axiom.chain, random };
+        match &self.axiom {
+            None if self.object.as_ref().is_some_and(|object| object.expands()) => {
+                builder.push(END, &[], key);
+                axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
+                axiom.features.push(None);
+            }
+            None => return Err(Error::script("the system has no axiom").help("write system:axiom(A(1))")),
+            Some(DeclaredAxiom::Modules(modules)) => {
+                builder.list(modules, key)?;
+                builder.push(END, &[], key);
+                axiom.objects.extend(self.object.as_ref().map(|object| prepared(machine, &**object, key)));
+                axiom.features.push(None);
+            }
+            Some(DeclaredAxiom::Source(source, function)) => {
+                let made = self.features(machine, source, function, key, random, &mut axiom);
+                // The script may go on where it fails.
+                machine.session.drawn.note(machine.driver.count(), &machine.current.top.borrow());
+                made?;
+            }
+        }
+        if let Some(gather) = axiom.objects.first().and_then(|object| object.kind().gather) {
+            gather(&mut axiom.objects);
+        }
+        Ok(axiom)
+    }
+
+    fn features(
+        &self,
+        machine: &Machine,
+        source: &LuaValue,
+        function: &Function,
+        key: Key,
+        random: bool,
+        axiom: &mut Axiom,
+    ) -> Result<()> {
+        let LuaValue::UserData(source) = source else { return Ok(()) };
+        let prefetch = self.prefetch(machine, source)?;
+        let mut refused: Option<Error> = None;
+        axiom.source = shown(source);
+        for (id, error) in refused_of(source) {
+            axiom.given += 1;
+            axiom.remarks.push(Remark { unread: true, ..Remark::skipped(&axiom.source, Some(&id), &error) });
+        }
+        let each = |index: usize, feature: LuaValue, id: Option<&str>| {
+            let from_file = id.is_some();
+            let id = match (id, &feature) {
+                (Some(id), _) => id.to_owned(),
+                (None, LuaValue::Table(feature)) => match own_id(feature) {
+                    Ok(
+                        id @ (LuaValue::String(_)
+                        | LuaValue::Number(_)
+                        | LuaValue::Integer(_)
+                        | LuaValue::Boolean(_)),
+                    ) => id.to_string().unwrap_or_default(),
+                    // What else it may be has no name that is the same each time.
+                    _ => index.to_string(),
+                },
+                (None, _) => index.to_string(),
+            };
+            let key = key.feature(&id);
+            axiom.given += 1;
+            let made: MultiValue = match machine.call(function, feature) {
+                Ok(made) => made,
+                Err(error) => {
+                    let error = machine.translate(error);
+                    let told = if from_file { error.clone().feature(&id) } else { error.clone() };
+                    if !error.is_of_data() || machine.session.options.strict {
+                        return Err(told);
+                    }
+                    axiom.remarks.push(Remark::skipped(&axiom.source, Some(&id), &error));
+                    refused.get_or_insert(told);
+                    return Ok(());
+                }
+            };
+            let mut made: Vec<LuaValue> = made.into_iter().collect();
+            let own = match made.first() {
+                Some(LuaValue::UserData(data)) => {
+                    data.borrow::<ObjectHandle>().ok().map(|handle| Arc::clone(&handle.0))
+                }
+                _ => None,
+            };
+            if own.is_some() {
+                made.remove(0);
+            }
+            let object = own.or_else(|| self.object.clone());
+            if let (Some(object), Some(expected)) = (&object, &self.object)
+                && object.kind().name != expected.kind().name
+            {
+                return Err(Error::argument(format!(
+                    "feature {id} got a {} where the system's object is a {}",
+                    object.kind().name,
+                    expected.kind().name
+                )));
+            }
+            axiom.objects.extend(object.map(|object| prepared(machine, &*object, key)));
+            axiom.features.push(Some(id));
+            let mut builder = Builder { machine, chain: &mut axiom.chain, random };
+            builder.list(&made, key)?;
+            builder.push(END, &[], key);
+            Ok(())
+        };
+        let prefetch = prefetch.as_ref().map(|prefetch| &prefetch.0);
+        each_feature(machine.lua(), source, prefetch, each, |error| machine.translate(error))?;
+        // Where nothing is left, the error tells more.
+        match refused {
+            Some(error) if axiom.features.is_empty() => Err(error),
+            _ => Ok(()),
+        }
+    }
+}
+
+impl System {
+    /// Has what the system's objects need of many features made by a thread that helps, if there is one.
+    fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<PrefetchGuard>> {
+        let begin = self.object.as_ref().and_then(|object| object.kind().prefetch);
+        let begin = begin.filter(|_| !machine.session.options.check);
+        let layer = layer_of(source).filter(|layer| layer.features.len() >= MANY);
+        let (Some(begin), Some(layer)) = (begin, layer) else { return Ok(None) };
+        let prefetching = PrefetchGuard(begin(&layer));
+        machine.driver.prefetch(machine, &prefetching.0)?;
+        Ok(Some(prefetching))
+    }
+}
+
+/// From this many features on, helpers will be needed anyway to interpret the chains, so they may as well start now.
+const MANY: usize = 256;
+
+/// A prefetch that lasts for as long as features are gone through.
+struct PrefetchGuard(Arc<dyn Prefetch>);
+
+impl Drop for PrefetchGuard {
+    fn drop(&mut self) {
+        self.0.end();
+    }
+}
+
+/// The id that a feature in a list of the script has.
+fn own_id(feature: &Table) -> mlua::Result<LuaValue> {
+    match feature.metatable() {
+        // One of a file, which may not have been looked into.
+        Some(metatable) if is_feature(&metatable) => feature.get("id"),
+        _ => feature.raw_get("id"),
+    }
+}
+
+/// A copy of `object` for the chain with this key.
+fn prepared(machine: &Machine, object: &dyn Object, key: Key) -> Box<dyn Object> {
+    let mut object = object.boxed();
+    object.seed(key.0);
+    object.set_detail(machine.session.options.lod);
+    object
+}
+
+/// Writes modules that were made outside of rules into a chain.
+struct Builder<'a> {
+    machine: &'a Machine,
+    chain: &'a mut Chain,
+    random: bool,
+}
+
+impl Builder<'_> {
+    fn push(&mut self, symbol: Symbol, params: &[f64], key: Key) {
+        self.chain.symbols.push(symbol);
+        self.chain.params.extend_from_slice(params);
+        if self.random {
+            self.chain.keys.push(key);
+        }
+    }
+
+    fn list(&mut self, items: &[LuaValue], key: Key) -> Result<()> {
+        let mut ordinal = 0;
+        self.items(items, key, &mut ordinal, 0)
+    }
+
+    fn items(&mut self, items: &[LuaValue], key: Key, ordinal: &mut usize, depth: usize) -> Result<()> {
+        for item in items {
+            let LuaValue::Table(table) = item else {
+                let what = match to_value(item, false) {
+                    Ok(value @ (Value::Number(_) | Value::Boolean(_) | Value::Text(_))) => {
+                        format!("{} {value}", value.describe().replacen('a', "the", 1))
+                    }
+                    Ok(value) => value.describe().to_owned(),
+                    Err(_) => format!("a {}", item.type_name()),
+                };
+                return Err(Error::argument(format!("an axiom is made of modules, but one item is {what}"))
+                    .help("write system:axiom(A(1), { B() })"));
+            };
+            let is_module = self
+                .machine
+                .prelude()
+                .is_module
+                .call::<bool>(table)
+                .map_err(|error| self.machine.translate(error))?;
+            if !is_module {
+                if depth == DEEPEST {
+                    return Err(Error::limit(
+                        Limit::Size,
+                        format!("branches are nested more than {DEEPEST} deep, or a branch contains itself"),
+                    )
+                    .help("let a rule make the rest: each step adds to what is there"));
+                }
+                let inner: Vec<LuaValue> = table
+                    .sequence_values()
+                    .collect::<mlua::Result<_>>()
+                    .map_err(|error| self.machine.translate(error))?;
+                self.push(OPEN, &[], key);
+                self.items(&inner, key, ordinal, depth + 1)?;
+                self.push(CLOSE, &[], key);
+                continue;
+            }
+            let read = |index: usize| {
+                table.raw_get::<LuaValue>(index).map_err(|error| self.machine.translate(error))
+            };
+            let symbol = match read(1)? {
+                LuaValue::Integer(symbol) => Symbol::try_from(symbol).unwrap_or(END),
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "written by the prelude"
+                )]
+                LuaValue::Number(symbol) => symbol as Symbol,
+                _ => END,
+            };
+            let arity = self.machine.library.symbols.borrow().signature(symbol).arity();
+            let mut params = Vec::with_capacity(arity);
+            for index in 0..arity {
+                params.push(self.machine.session.values.pack(to_value(&read(index + 3)?, true)?));
+            }
+            self.push(symbol, &params, key.child(*ordinal));
+            *ordinal += 1;
+        }
+        Ok(())
+    }
+}

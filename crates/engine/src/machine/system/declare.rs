@@ -1,0 +1,258 @@
+//! What `axiom`, `rule` and `interpret` add to a system, and what they refuse.
+
+use mlua::{Function, Lua, Table, Value as LuaValue};
+
+use crate::declare::Session;
+use crate::declare::analysis::{analyse, unmarked};
+use crate::machine::Machine;
+use crate::machine::convert::to_value;
+use crate::machine::library::Library;
+use burgeon_base::error::{Error, Limit, Place, Result};
+use burgeon_base::text::grouped;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::Value;
+use burgeon_kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
+
+use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, System};
+
+impl System {
+    pub(super) fn set_axiom(&mut self, mut arguments: Vec<LuaValue>) -> Result<()> {
+        let is_source =
+            matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
+        if is_source {
+            let (Some(LuaValue::Function(function)), 2) = (arguments.get(1).cloned(), arguments.len()) else {
+                return Err(Error::argument(
+                    "axiom(source, function) takes a function that makes each feature's chain",
+                ));
+            };
+            self.axiom = Some(DeclaredAxiom::Source(arguments.swap_remove(0), function));
+        } else {
+            self.axiom = Some(DeclaredAxiom::Modules(arguments));
+        }
+        Ok(())
+    }
+
+    pub(super) fn add_rule(
+        &mut self,
+        library: &Library,
+        lua: &Lua,
+        mut arguments: Vec<LuaValue>,
+    ) -> Result<()> {
+        let usage = "write system:rule(\"A(x)\", function(this, x) return ... end)";
+        let Some(LuaValue::String(text)) = arguments.first().cloned() else {
+            return Err(Error::argument("a rule begins with a pattern").help(usage));
+        };
+        if self.rules.len() == MOST_RULES {
+            return Err(Error::limit(
+                Limit::Size,
+                format!("a system has at most {} rules", grouped(MOST_RULES)),
+            )
+            .help("let one rule stand for many: carry what tells them apart in a parameter"));
+        }
+        let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
+        let name = pattern.text.clone();
+        let named = |error: Error| error.rule(&name);
+        let options = match (arguments.len(), arguments.get(1)) {
+            (3, Some(LuaValue::Table(options))) => Some(options.clone()),
+            (3, _) => {
+                return Err(named(
+                    Error::argument("the options of a rule are a table").help("write { weight = 2 }"),
+                ));
+            }
+            (2, _) => None,
+            (count, _) => {
+                return Err(named(
+                    Error::argument(format!("rule takes 2 or 3 arguments, not {count}")).help(usage),
+                ));
+            }
+        };
+        let (weight, guard) = match options {
+            Some(options) => rule_options(&options).map_err(named)?,
+            None => (None, None),
+        };
+        let place = Machine::place(lua);
+        let session = std::sync::Arc::clone(&library.machine()?.session);
+        let (successor, mut asks) = match arguments.pop() {
+            Some(LuaValue::Function(function)) => {
+                check_parameters(&function, &pattern, "the successor").map_err(named)?;
+                let asks = may_ask(&session, &function);
+                (function, asks)
+            }
+            Some(LuaValue::String(body)) => {
+                compile_successor(library, &pattern, &body.to_string_lossy(), place.as_ref())
+                    .map_err(named)?
+            }
+            other => {
+                let what = other.map_or("nothing", |value| value.type_name());
+                return Err(named(
+                    Error::argument(format!("the successor must be a function or a string, not {what}"))
+                        .help(usage),
+                ));
+            }
+        };
+        if let Some(guard) = &guard {
+            check_parameters(guard, &pattern, "the guard").map_err(named)?;
+            asks |= may_ask(&session, guard);
+        }
+        let rule = Rule::new(pattern, weight, guard.is_some(), place);
+        self.rules.push(DeclaredRule { rule, guard, successor, asks });
+        Ok(())
+    }
+
+    pub(super) fn add_interpretation(
+        &mut self,
+        library: &Library,
+        lua: &Lua,
+        pattern: &LuaValue,
+        rule: LuaValue,
+    ) -> Result<()> {
+        let usage = "write system:interpret(\"A(x)\", function(this, x) ... end)";
+        let LuaValue::String(text) = pattern else {
+            return Err(Error::argument("an interpretation begins with a pattern").help(usage));
+        };
+        let pattern = Pattern::parse(&text.to_string_lossy(), &library.symbols.borrow())?;
+        let name = pattern.text.clone();
+        if !pattern.left.is_empty() || !pattern.right.is_empty() {
+            return Err(Error::argument("an interpretation has no contexts")
+                .rule(&name)
+                .help("contexts are for rules; carry what is needed in a parameter of the module"));
+        }
+        let LuaValue::Function(rule) = rule else {
+            return Err(Error::argument("an interpretation needs a function").rule(&name).help(usage));
+        };
+        check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
+        let item = pattern.predecessor;
+        if let Some(known) = self.interpretations.iter().find(|known| known.symbol == item.symbol) {
+            let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
+            return Err(Error::script(format!("{name} is interpreted already{line}"))
+                .rule(&name)
+                .help("a module has one interpretation; join the two functions"));
+        }
+        let machine = library.machine()?;
+        let line = begin_of(&rule)
+            .and_then(|(file, line)| Some(Place { line: machine.session.loses_modules(&file, line)?, file }));
+        let loses = line.is_some();
+        if loses {
+            machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
+        }
+        let (symbol, bound, place) = (item.symbol, item.bound, Machine::place(lua));
+        self.interpretations.push(DeclaredInterpretation { symbol, bound, rule, name, place, loses });
+        Ok(())
+    }
+}
+
+/// The warning for an interpretation that returns modules.
+pub(crate) fn returns_modules() -> Warning {
+    Warning::new(WarningKind::ReturnedModules, "an interpretation returns modules, and nobody takes them")
+        .help("return them from a rule, system:rule(pattern, function); an interpretation calls methods of this")
+}
+
+/// The file and the line on which a function of the script begins.
+fn begin_of(function: &Function) -> Option<(String, usize)> {
+    let info = function.info();
+    Some((info.source?.strip_prefix('@')?.to_owned(), info.line_defined?))
+}
+
+/// Whether a function may look at its first parameter, `this`.
+fn may_ask(session: &Session, function: &Function) -> bool {
+    let info = function.info();
+    let takes_any = info.num_params > 0 || info.is_vararg;
+    takes_any && !begin_of(function).is_some_and(|(file, line)| session.is_blind(&file, line))
+}
+
+fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
+    let (mut weight, mut guard) = (None, None);
+    for pair in options.pairs::<LuaValue, LuaValue>() {
+        let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
+        let key = key.to_string().unwrap_or_default();
+        match (key.as_str(), value) {
+            ("weight", value) => match to_value(&value, false)? {
+                Value::Number(number) if number >= 0.0 && number.is_finite() => weight = Some(number),
+                other => {
+                    return Err(Error::argument(format!("weight must be a number from 0, not {other}"))
+                        .help("a rule of weight 0 is never chosen"));
+                }
+            },
+            ("when", LuaValue::Function(function)) => guard = Some(function),
+            ("when", other) => {
+                return Err(Error::argument(format!("when must be a function, not a {}", other.type_name()))
+                    .help("write { when = function(this, x) return x > 0 end }"));
+            }
+            (other, _) => {
+                let message = format!("a rule has no option called {other}");
+                return Err(Error::not_found("option", other, ["weight", "when"], message)
+                    .help("it has weight and when"));
+            }
+        }
+    }
+    Ok((weight, guard))
+}
+
+/// Refuses a function that takes more parameters than the pattern gives.
+fn check_parameters(function: &Function, pattern: &Pattern, what: &str) -> Result<()> {
+    let info = function.info();
+    let given = pattern.formals.len() + 1;
+    let taken = usize::from(info.num_params);
+    if taken > given {
+        let formals = std::iter::once("this").chain(pattern.formals.iter().map(String::as_str));
+        let formals: Vec<&str> = formals.collect();
+        return Err(Error::argument(format!(
+            "{what} takes {taken} parameters, but the pattern gives {given}"
+        ))
+        .help(format!("write function({})", formals.join(", "))));
+    }
+    Ok(())
+}
+
+/// Compiles a successor given as a string of Lua, with the formal parameters, `this` and all modules in scope; tells
+/// whether it may look at `this`.
+fn compile_successor(
+    library: &Library,
+    pattern: &Pattern,
+    body: &str,
+    place: Option<&Place>,
+) -> Result<(Function, bool)> {
+    let machine = library.machine()?;
+    let (marked, body) = unmarked(body);
+    let (file, line) = place.map_or(("rule", 1), |place| (place.file.as_str(), place.line));
+    let line = marked.unwrap_or(line);
+    let symbols = library.symbols.borrow();
+    let mentioned: Vec<(Symbol, &str)> = (FIRST_SYMBOL..)
+        .zip(symbols.names())
+        .filter(|(symbol, name)| {
+            symbols.find(name).is_ok_and(|known| known == *symbol) && mentions(body, name)
+        })
+        .collect();
+    let mut text = "\n".repeat(line.saturating_sub(1));
+    for (symbol, name) in mentioned {
+        let signature = symbols.signature(symbol);
+        let parameters: String = signature
+            .parameters
+            .iter()
+            .enumerate()
+            .map(|(index, name)| format!(", \"{name}{}\"", if index < signature.required { "" } else { "?" }))
+            .collect();
+        // The analysis learns the signature from this call; it declares the same module again.
+        text.push_str(&format!("local {name} = module(\"{name}\"{parameters}) "));
+    }
+    let formals: String = pattern.formals.iter().map(|formal| format!(", {formal}")).collect();
+    text.push_str(&format!("lsystem:rule(\"\", function(this{formals}) {body}\nend)"));
+    drop(symbols);
+    let analysis = analyse(file, &text, &library.globals());
+    machine.session.note(&analysis);
+    if !analysis.problems.is_empty() {
+        return Err(Error::several(analysis.problems));
+    }
+    let text = analysis.text.replacen("lsystem:rule(\"\", ", "return (", 1);
+    let chunk = machine.load(file, &text)?;
+    let successor: Function = chunk.call(()).map_err(|error| machine.translate(error))?;
+    let begin = successor.info().line_defined;
+    Ok((successor, !begin.is_some_and(|line| analysis.blind.contains(&line))))
+}
+
+/// Whether `name` stands in `text` as a whole word.
+fn mentions(text: &str, name: &str) -> bool {
+    let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    text.match_indices(name)
+        .any(|(at, _)| !text[..at].ends_with(is_word) && !text[at + name.len()..].starts_with(is_word))
+}

@@ -1,0 +1,259 @@
+//! Systems and sources as scripts hold them.
+
+use std::cell::{Cell, RefCell};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
+
+use crate::machine::Machine;
+use crate::machine::convert::to_value;
+use crate::machine::handles::{DerivedHandle, ObjectHandle};
+use crate::machine::library::Library;
+use burgeon_base::error::{Error, Place, Result};
+use burgeon_kit::rules::Symbol;
+use burgeon_kit::{Object, Value};
+
+use super::System;
+
+const METHODS: [&str; 6] = ["axiom", "rule", "interpret", "ignore", "consider", "derive"];
+
+/// A system as a script holds it.
+pub(crate) struct SystemHandle {
+    library: Rc<Library>,
+    index: usize,
+}
+
+impl SystemHandle {
+    pub(crate) fn create(
+        library: &Rc<Library>,
+        options: Option<&Table>,
+        place: Option<Place>,
+    ) -> Result<Self> {
+        let mut system = System {
+            object: None,
+            last_only: false,
+            seed: None,
+            index: library.systems.borrow().len(),
+            place,
+            axiom_place: None,
+            axiom: None,
+            rules: Vec::new(),
+            interpretations: Vec::new(),
+            ignored: Vec::new(),
+            considered: None,
+            derivations: RefCell::default(),
+            late: RefCell::default(),
+            axiom_is_new: Cell::new(false),
+            given: Cell::new(false),
+        };
+        for pair in options.into_iter().flat_map(Table::pairs::<LuaValue, LuaValue>) {
+            let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
+            let key = key.to_string().unwrap_or_default();
+            match (key.as_str(), value) {
+                ("object", value) => system.object = Some(prototype(library, value)?),
+                ("interpret", LuaValue::String(when)) if when.to_string_lossy() == "last" => {
+                    system.last_only = true
+                }
+                ("interpret", _) => {
+                    return Err(Error::argument("lsystem: interpret must be \"last\"")
+                        .help("leave it out to interpret after every step"));
+                }
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "the range is checked"
+                )]
+                ("seed", value) => match to_value(&value, false)? {
+                    Value::Number(seed) if seed.fract() == 0.0 && (0.0..9e15).contains(&seed) => {
+                        system.seed = Some(seed as u64);
+                    }
+                    _ => return Err(Error::argument("lsystem: seed must be a whole number from 0")),
+                },
+                (other, _) => {
+                    let known = ["object", "interpret", "seed"];
+                    let message = format!("lsystem has no field called {other}");
+                    return Err(Error::not_found("field", other, known, message)
+                        .help(format!("it has {}", known.join(", "))));
+                }
+            }
+        }
+        let index = system.index;
+        let Ok(mut systems) = library.systems.try_borrow_mut() else { return Err(in_axiom("lsystem")) };
+        systems.push(system);
+        Ok(Self { library: Rc::clone(library), index })
+    }
+
+    /// Runs a declaration of `what`; a mistake is kept, so that all of them can be told at once. Fails while rules run.
+    fn declare(
+        &self,
+        lua: &Lua,
+        what: &'static str,
+        declare: impl FnOnce(&mut System) -> Result<()>,
+    ) -> mlua::Result<()> {
+        let place = Machine::place(lua);
+        let machine = self.library.machine().map_err(mlua::Error::external)?;
+        machine.refuse_in_rules("a declaration").map_err(mlua::Error::external)?;
+        let Ok(mut systems) = self.library.systems.try_borrow_mut() else {
+            return Err(mlua::Error::external(in_axiom("a declaration")));
+        };
+        let system = &mut systems[self.index];
+        if !system.derivations.get_mut().is_empty() {
+            system.late.get_mut().push((what, place.clone()));
+        }
+        let result = declare(system);
+        if let Err(error) = result {
+            let error = error.at(place);
+            let mut problems = self.library.problems.borrow_mut();
+            let same = |known: &Error| known.place() == error.place() && known.message() == error.message();
+            // What a loop declares again and again is wrong once.
+            if !problems.last().is_some_and(same) {
+                problems.push(error);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The error for what an axiom's function may not do while it makes the chains.
+fn in_axiom(what: &str) -> Error {
+    Error::scope(format!("{what} belongs outside of the function that makes each feature's chain"))
+        .help("put it before derive, and let the function use it")
+}
+
+/// The object of a system: one that was made, or a constructor to be called without fields.
+fn prototype(library: &Library, value: LuaValue) -> Result<Arc<dyn Object>> {
+    let value = match value {
+        LuaValue::Function(constructor) => {
+            let machine = library.machine()?;
+            constructor.call::<LuaValue>(()).map_err(|error| machine.translate(error))?
+        }
+        value => value,
+    };
+    match value {
+        LuaValue::UserData(data) => match data.borrow::<ObjectHandle>() {
+            Ok(handle) => Ok(Arc::clone(&handle.0)),
+            Err(_) => {
+                Err(Error::argument("lsystem: object must be an object").help("write object = turtle()"))
+            }
+        },
+        _ => Err(Error::argument("lsystem: object must be an object").help("write object = turtle()")),
+    }
+}
+
+impl UserData for SystemHandle {
+    fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
+        methods.add_function("axiom", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+            let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+            let place = Machine::place(lua);
+            this.declare(lua, "axiom", |system| {
+                system.axiom_place = place;
+                system.axiom_is_new.set(true);
+                system.set_axiom(arguments)
+            })?;
+            Ok(this.again())
+        });
+        methods.add_function("rule", |lua, (this, arguments): (UserDataRef<Self>, MultiValue)| {
+            let arguments: Vec<LuaValue> = arguments.into_iter().collect();
+            let library = Rc::clone(&this.library);
+            this.declare(lua, "rule", |system| system.add_rule(&library, lua, arguments))?;
+            Ok(this.again())
+        });
+        methods.add_function(
+            "interpret",
+            |lua, (this, pattern, rule): (UserDataRef<Self>, LuaValue, LuaValue)| {
+                let library = Rc::clone(&this.library);
+                this.declare(lua, "interpretation", |system| {
+                    system.add_interpretation(&library, lua, &pattern, rule)
+                })?;
+                Ok(this.again())
+            },
+        );
+        methods.add_function("ignore", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
+            let library = Rc::clone(&this.library);
+            this.declare(lua, "ignore", |system| {
+                let symbols = named_symbols(&library, &names)?;
+                system.ignored.extend(symbols);
+                Ok(())
+            })?;
+            Ok(this.again())
+        });
+        methods.add_function("consider", |lua, (this, names): (UserDataRef<Self>, MultiValue)| {
+            let library = Rc::clone(&this.library);
+            this.declare(lua, "consider", |system| {
+                let symbols = named_symbols(&library, &names)?;
+                system.considered.get_or_insert_default().extend(symbols);
+                Ok(())
+            })?;
+            Ok(this.again())
+        });
+        methods.add_function("derive", |lua, (this, steps): (UserDataRef<Self>, LuaValue)| {
+            let machine = this.library.machine().map_err(mlua::Error::external)?;
+            machine.refuse_in_rules("derive").map_err(mlua::Error::external)?;
+            let steps = match to_value(&steps, false).map_err(mlua::Error::external)? {
+                Value::Nil => None,
+                #[allow(
+                    clippy::cast_possible_truncation,
+                    clippy::cast_sign_loss,
+                    reason = "the range is checked"
+                )]
+                Value::Number(steps) if steps.fract() == 0.0 && (0.0..1e9).contains(&steps) => {
+                    Some(steps as usize)
+                }
+                other => {
+                    return Err(mlua::Error::external(
+                        Error::argument(format!("derive takes a whole number of steps from 0, not {other}"))
+                            .help("leave it out to derive until no rule applies"),
+                    ));
+                }
+            };
+            let derived = machine
+                .driver
+                .derive(&machine, this.index, steps)
+                .map_err(|error| mlua::Error::external(error.at(Machine::place(lua))))?;
+            Ok(DerivedHandle(derived))
+        });
+        methods.add_meta_function("__newindex", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            Err(mlua::Error::external(
+                Error::script(format!("a system has no field {name} to assign"))
+                    .help("its object, interpret and seed are given to lsystem"),
+            ))
+        });
+        methods.add_meta_function("__index", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            let message = format!("a system has no method called {name}");
+            let error = Error::not_found("method", &name, METHODS, message);
+            Err(mlua::Error::external(error.help(format!("it has {}", METHODS.join(", ")))))
+        });
+    }
+}
+
+impl SystemHandle {
+    /// Its place among the systems of the script, for an object that uses its rules.
+    pub(crate) fn give(&self) -> usize {
+        self.library.systems.borrow()[self.index].given.set(true);
+        self.index
+    }
+
+    fn again(&self) -> Self {
+        Self { library: Rc::clone(&self.library), index: self.index }
+    }
+}
+
+fn named_symbols(library: &Library, names: &MultiValue) -> Result<Vec<Symbol>> {
+    let symbols = library.symbols.borrow();
+    let mut found = Vec::new();
+    for name in names {
+        match name {
+            LuaValue::String(text) => {
+                for name in text.to_string_lossy().split_whitespace() {
+                    found.push(symbols.find(name)?);
+                }
+            }
+            _ => {
+                return Err(Error::argument("ignore and consider take names of modules")
+                    .help("write ignore(\"Turn\")"));
+            }
+        }
+    }
+    Ok(found)
+}

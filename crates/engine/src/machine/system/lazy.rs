@@ -1,0 +1,281 @@
+//! Features and geometries that become tables only where the script looks into them.
+//!
+//! Most geometries are just handed on to a constructor, for which making a table of every point and reading it again
+//! would be most of the work, and most attributes nobody asks for. Until then such a table is empty and frozen, with
+//! the number of its feature under a key that no script has. A script could tell the difference with the functions that
+//! look at a table as it is, such as `pairs`; where one of them is named anywhere, the tables are made at once.
+
+use std::ffi::c_void;
+use std::rc::Rc;
+use std::sync::Arc;
+
+use mlua::{Function, LightUserData, Lua, MetaMethod, Table, UserData, UserDataRef, Value as LuaValue};
+
+use rustc_hash::FxHashMap;
+
+use super::source::{Maker, nested};
+use crate::machine::library::Library;
+use crate::machine::native;
+use burgeon_data::{Attribute, Kind, Layer};
+use burgeon_kit::{Key, Prefetch, Shape, Table as ValueTable, Value};
+
+/// What tables of features and their metatables know of themselves, under keys that no script has: addresses, which
+/// take no text to be made of at each question.
+static KEYS: [u8; 3] = [0; 3];
+/// The feature's number.
+const NUMBER: usize = 0;
+/// In the metatable: the layer.
+const LAYER: usize = 1;
+/// In the metatable of features, not in that of geometries.
+const IS_FEATURE: usize = 2;
+
+/// A layer as Lua holds it, with its attributes by name.
+struct Held {
+    layer: Arc<Layer>,
+    /// What makes plans of its polygons before they are asked for, if something does.
+    prefetch: Option<Arc<dyn Prefetch>>,
+    names: FxHashMap<String, usize>,
+}
+
+impl UserData for Held {}
+
+/// What makes tables of geometries, kept by the machine.
+struct Kept(Rc<Maker>);
+
+/// Marks a machine whose script could see the difference.
+pub(crate) struct Eager(pub Arc<crate::declare::Session>);
+
+fn key(what: usize) -> LuaValue {
+    LuaValue::LightUserData(LightUserData((&raw const KEYS[what]).cast_mut().cast::<c_void>()))
+}
+
+/// The registry's name for what the prelude knows of such features.
+pub(crate) const UNREAD: &str = "burgeon unread";
+
+/// What the features of a layer have in common.
+pub(super) struct Unread {
+    /// Makes the feature with a number.
+    make: Function,
+}
+
+/// What the features of `layer` have in common; `None` where they have to be tables from the beginning.
+pub(super) fn unread(
+    lua: &Lua,
+    layer: &Arc<Layer>,
+    prefetch: Option<&Arc<dyn Prefetch>>,
+) -> mlua::Result<Option<Unread>> {
+    if lua.app_data_ref::<Eager>().is_none_or(|eager| eager.0.peeks()) {
+        return Ok(None);
+    }
+    if lua.app_data_ref::<Kept>().is_none() {
+        lua.set_app_data(Kept(Rc::new(Maker::new(lua)?)));
+    }
+    let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
+    let held = lua.create_userdata(Held { layer: Arc::clone(layer), prefetch: prefetch.cloned(), names })?;
+    let functions: Table = lua.named_registry_value(LAZY)?;
+    let make = |kind: &str| -> mlua::Result<Table> {
+        let metatable = lua.create_table()?;
+        metatable.raw_set(key(LAYER), &held)?;
+        for event in [MetaMethod::Index, MetaMethod::Iter] {
+            let function: Function = functions.raw_get(format!("{kind}{}", event.name()))?;
+            metatable.raw_set(event.name(), function)?;
+        }
+        Ok(metatable)
+    };
+    let (feature, geometry) = (make("feature")?, make("geometry")?);
+    geometry.set_readonly(true);
+    feature.raw_set(key(IS_FEATURE), true)?;
+    feature.set_readonly(true);
+    let unread: Function = lua.named_registry_value(UNREAD)?;
+    native(lua, &unread)?;
+    Ok(Some(Unread { make: unread.call((key(NUMBER), feature, geometry))? }))
+}
+
+/// The registry's name for the functions of such metatables.
+const LAZY: &str = "burgeon lazy";
+
+/// Makes the functions that all such metatables share, which remember nothing that rules could see.
+pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
+    let functions = lua.create_table()?;
+    let named = |name: LuaValue| match name {
+        LuaValue::String(name) => Some(name.to_string_lossy()),
+        _ => None,
+    };
+    let indices = [
+        lua.create_function(move |lua, (table, name): (Table, LuaValue)| match named(name) {
+            Some(name) => of_geometry(lua, &table, &name),
+            None => Ok(LuaValue::Nil),
+        })?,
+        lua.create_function(move |lua, (table, name): (Table, LuaValue)| match named(name) {
+            Some(name) => of_feature(lua, &table, &name),
+            None => Ok(LuaValue::Nil),
+        })?,
+    ];
+    let iterations = [
+        lua.create_function(|lua, table: Table| {
+            let names = ["kind", "rings", "points"].map(str::to_owned);
+            walk(lua, names.as_slice(), |name| of_geometry(lua, &table, name))
+        })?,
+        lua.create_function(|lua, table: Table| {
+            let mut names = ["id", "layer", "geometry"].map(str::to_owned).to_vec();
+            if let Some(held) = held(&table) {
+                names.extend(held.layer.names.iter().cloned());
+            }
+            walk(lua, &names, |name| of_feature(lua, &table, name))
+        })?,
+    ];
+    for (event, made) in [(MetaMethod::Index, indices), (MetaMethod::Iter, iterations)] {
+        for (kind, function) in ["geometry", "feature"].into_iter().zip(made) {
+            library.stateless.borrow_mut().insert(function.to_pointer() as usize);
+            functions.raw_set(format!("{kind}{}", event.name()), function)?;
+        }
+    }
+    lua.set_named_registry_value(LAZY, functions)
+}
+
+/// What a loop over a table needs, all of whose fields are made.
+fn walk(
+    lua: &Lua,
+    names: &[String],
+    field: impl Fn(&str) -> mlua::Result<LuaValue>,
+) -> mlua::Result<(Function, Table)> {
+    let whole = lua.create_table()?;
+    for name in names {
+        whole.raw_set(name.as_str(), field(name)?)?;
+    }
+    whole.set_readonly(true);
+    Ok((lua.globals().get("next")?, whole))
+}
+
+impl Unread {
+    /// The feature with this number, from 0, whose table knows nothing but its geometry.
+    pub(super) fn feature(&self, index: usize) -> mlua::Result<Table> {
+        self.make.call(index)
+    }
+}
+
+fn held(table: &Table) -> Option<UserDataRef<Held>> {
+    table.metatable()?.raw_get(key(LAYER)).ok()
+}
+
+/// Whether this is what the features of a layer have in common.
+pub(super) fn is_feature(metatable: &Table) -> bool {
+    matches!(metatable.raw_get(key(IS_FEATURE)), Ok(true))
+}
+
+/// Whether this stands for a geometry, which has no fields before someone asks for them.
+pub(crate) fn is_unread_geometry(table: &Table) -> bool {
+    table.metatable().is_some_and(|metatable| {
+        matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_))) && !is_feature(&metatable)
+    })
+}
+
+/// The geometry that a table with this metatable stands for.
+pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<Shape> {
+    let held: UserDataRef<Held> = metatable.raw_get(key(LAYER)).ok()?;
+    if is_feature(metatable) {
+        return None;
+    }
+    Shape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.prefetch.as_ref())
+}
+
+/// What a table with this metatable knows of its feature, if it stands for one: its geometry and its other fields.
+pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Shape, Vec<(Key, Value)>)> {
+    let held: UserDataRef<Held> = metatable.raw_get(key(LAYER)).ok()?;
+    let index: usize = table.raw_get(key(NUMBER)).ok()?;
+    let feature = held.layer.features.get(index)?;
+    let name = |name: &str| Key::Name(name.into());
+    let own = feature.attributes.iter().map(|(index, value)| (&held.layer.names[*index], value));
+    let own = own.filter(|(name, _)| !matches!(name.as_str(), "id" | "layer" | "geometry"));
+    let mut fields: Vec<(Key, Value)> = own
+        .map(|(key, value)| {
+            let value = match value {
+                Attribute::Boolean(value) => Value::Boolean(*value),
+                Attribute::Number(value) => Value::Number(*value),
+                Attribute::Text(text) => Value::Text(Arc::clone(text)),
+                Attribute::Nested(json) => from_json(json),
+            };
+            (name(key), value)
+        })
+        .collect();
+    fields.push((name("id"), Value::Text(feature.id.as_str().into())));
+    fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
+    Some((Shape::new(&held.layer, index, held.prefetch.as_ref())?, fields))
+}
+
+/// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.
+fn from_json(json: &serde_json::Value) -> Value {
+    use serde_json::Value as Json;
+    let mut entries: Vec<(Key, Value)> = match json {
+        Json::Null => return Value::Nil,
+        Json::Bool(value) => return Value::Boolean(*value),
+        Json::Number(number) => return Value::Number(number.as_f64().unwrap_or(f64::NAN)),
+        Json::String(text) => return Value::Text(text.as_str().into()),
+        Json::Array(items) => {
+            let item = |item: &Json| if item.is_null() { Value::Boolean(false) } else { from_json(item) };
+            (1..).map(Key::Index).zip(items.iter().map(item)).collect()
+        }
+        Json::Object(fields) => {
+            let known = fields.iter().filter(|(_, value)| !value.is_null());
+            known.map(|(name, value)| (Key::Name(name.as_str().into()), from_json(value))).collect()
+        }
+    };
+    entries.sort_by(|a, b| a.0.cmp(&b.0));
+    Value::Table(Arc::new(ValueTable { class: None, entries }))
+}
+
+/// A field that has been kept, or the value that is made of it and kept.
+fn kept(table: &Table, name: &str, make: impl FnOnce() -> mlua::Result<LuaValue>) -> mlua::Result<LuaValue> {
+    match table.raw_get(name)? {
+        LuaValue::Nil => {}
+        known => return Ok(known),
+    }
+    let made = make()?;
+    table.set_readonly(false);
+    let kept = table.raw_set(name, &made);
+    table.set_readonly(true);
+    kept.map(|()| made)
+}
+
+/// A field of a feature.
+fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
+    let Some(held) = held(table) else { return Ok(LuaValue::Nil) };
+    let index: usize = table.raw_get(key(NUMBER))?;
+    let Some(feature) = held.layer.features.get(index) else { return Ok(LuaValue::Nil) };
+    let text = |text: &str| lua.create_string(text).map(LuaValue::String);
+    match name {
+        "id" => return text(&feature.id),
+        "layer" => return text(&held.layer.name),
+        "geometry" => return table.raw_get(name),
+        _ => {}
+    }
+    let column = held.names.get(name);
+    let found = column.and_then(|column| feature.attributes.iter().find(|(index, _)| index == column));
+    match found.map(|(_, value)| value) {
+        None => Ok(LuaValue::Nil),
+        Some(Attribute::Boolean(value)) => Ok(LuaValue::Boolean(*value)),
+        Some(Attribute::Number(value)) => Ok(LuaValue::Number(*value)),
+        Some(Attribute::Text(value)) => text(value),
+        Some(Attribute::Nested(json)) => kept(table, name, || nested(lua, json)),
+    }
+}
+
+/// A field of a geometry.
+fn of_geometry(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
+    let Some(shape) = table.metatable().and_then(|metatable| shape_of(table, &metatable)) else {
+        return Ok(LuaValue::Nil);
+    };
+    let polygon = shape.geometry().kind() == Kind::Polygon;
+    match name {
+        "kind" => lua.create_string(shape.geometry().kind().name()).map(LuaValue::String),
+        "rings" if polygon => kept(table, name, || made(lua, &shape, name)),
+        "points" if !polygon => kept(table, name, || made(lua, &shape, name)),
+        _ => Ok(LuaValue::Nil),
+    }
+}
+
+/// The tables of a geometry's points.
+fn made(lua: &Lua, shape: &Shape, name: &str) -> mlua::Result<LuaValue> {
+    let maker = lua.app_data_ref::<Kept>().map(|kept| Rc::clone(&kept.0));
+    maker.map_or(Ok(LuaValue::Nil), |maker| maker.shape(lua, shape.geometry())?.raw_get(name))
+}

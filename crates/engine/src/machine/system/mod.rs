@@ -1,0 +1,249 @@
+//! `lsystem`: what a script declares of a system, in each machine.
+
+mod axiom;
+mod declare;
+mod handle;
+mod lazy;
+mod source;
+mod unseen;
+
+pub(crate) use axiom::Axiom;
+pub(crate) use declare::returns_modules;
+
+pub(crate) use handle::SystemHandle;
+pub(crate) use lazy::{Eager, UNREAD, feature_of, install as install_lazy, is_unread_geometry, shape_of};
+pub(crate) use source::{GEOMETRY, SourceHandle};
+pub(crate) use unseen::tell_unseen;
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+
+use mlua::{Function, Table, Value as LuaValue};
+
+use super::Machine;
+use super::freeze::{Frozen, Reached, freeze};
+use super::handles::methods_key;
+use super::library::Library;
+use burgeon_base::error::{Place, Result};
+use burgeon_kit::Object;
+use burgeon_kit::rules::{FIRST_SYMBOL, Grammar, Rule, Symbol};
+
+/// What a script declared of one system.
+pub(crate) struct System {
+    /// The object that each chain gets a copy of.
+    pub object: Option<Arc<dyn Object>>,
+    /// Whether only the last step is interpreted.
+    pub last_only: bool,
+    /// Its own seed, in place of the run's.
+    pub seed: Option<u64>,
+    /// Its place among the systems of the script.
+    pub index: usize,
+    /// Where it was made.
+    pub place: Option<Place>,
+    /// Where its axiom was set.
+    pub axiom_place: Option<Place>,
+    pub(super) axiom: Option<DeclaredAxiom>,
+    pub(super) rules: Vec<DeclaredRule>,
+    pub(super) interpretations: Vec<DeclaredInterpretation>,
+    pub(super) ignored: Vec<Symbol>,
+    pub(super) considered: Option<Vec<Symbol>>,
+    /// Each time that it was derived.
+    pub(super) derivations: RefCell<Vec<DerivationRecord>>,
+    /// What was declared since it was derived last, and where.
+    pub(super) late: RefCell<Vec<(&'static str, Option<Place>)>>,
+    /// Whether its axiom was set since it was derived last.
+    pub(super) axiom_is_new: Cell<bool>,
+    /// Whether the script gave it to an object.
+    pub(super) given: Cell<bool>,
+}
+
+/// A time that a system was derived.
+pub(super) struct DerivationRecord {
+    pub(super) place: Option<Place>,
+    /// Its number among those of the script.
+    pub(super) number: usize,
+    /// Whether it began from an axiom of its own.
+    pub(super) axiom_is_new: bool,
+}
+
+pub(super) enum DeclaredAxiom {
+    Modules(Vec<LuaValue>),
+    Source(LuaValue, Function),
+}
+
+pub(super) struct DeclaredRule {
+    pub(super) rule: Rule,
+    pub(super) guard: Option<Function>,
+    pub(super) successor: Function,
+    /// Whether one of them may look at `this`.
+    pub(super) asks: bool,
+}
+
+pub(super) struct DeclaredInterpretation {
+    pub(super) symbol: Symbol,
+    pub(super) bound: usize,
+    pub(super) rule: Function,
+    pub(super) name: String,
+    pub(super) place: Option<Place>,
+    /// Whether it has been told already that it returns modules.
+    pub(super) loses: bool,
+}
+
+/// A system ready to derive in one machine: the functions that the grammar's rules run.
+pub(crate) struct Declared {
+    /// By rule: the function that applies it to a batch.
+    pub drivers: Vec<Function>,
+    /// By rule: the function that asks its guard about a batch.
+    pub guards: Vec<Option<Function>>,
+    /// Keeps what the rules can reach frozen.
+    _frozen: Frozen,
+}
+
+/// How modules are interpreted: the same in every machine.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Interpretations {
+    /// By symbol: the number of its interpretation rule, from 0, or `u16::MAX`.
+    pub by_symbol: Vec<u16>,
+    /// By symbol: the method that the standard library gives it, or `u16::MAX`.
+    pub methods: Vec<u16>,
+    /// The interpretations by their numbers.
+    pub list: Vec<Interpretation>,
+}
+
+/// An interpretation rule, as it is the same in every machine.
+#[derive(Debug, Clone)]
+pub(crate) struct Interpretation {
+    /// How many parameters it takes.
+    pub bound: usize,
+    /// Its pattern.
+    pub name: String,
+    /// Where it was declared.
+    pub place: Option<Place>,
+    /// Whether it has been told already that it returns modules.
+    pub loses: bool,
+}
+
+impl System {
+    /// Whether every interpretation pass begins with empty objects, so that earlier passes leave no trace.
+    pub(crate) fn draws_afresh(&self) -> bool {
+        self.object.as_ref().is_none_or(|object| object.kind().begins_empty)
+    }
+
+    /// Whether only the last pass can be seen: each begins with an empty object, and no rule asks what it drew.
+    pub(crate) fn shows_last_only(&self) -> bool {
+        let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
+        self.last_only
+            || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+    }
+
+    /// The rules as they can be shared between machines.
+    pub(crate) fn grammar(&self, library: &Library, random: bool) -> Grammar {
+        let symbols = Arc::new(library.symbols.borrow().clone());
+        let ignored = match &self.considered {
+            Some(considered) => (FIRST_SYMBOL..)
+                .take(symbols.names().count())
+                .filter(|symbol| !considered.contains(symbol) || self.ignored.contains(symbol))
+                .collect(),
+            None => self.ignored.clone(),
+        };
+        let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();
+        Grammar::new(symbols, rules, &ignored, random)
+    }
+
+    /// How modules are interpreted.
+    pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
+        let symbols = library.symbols.borrow().arities().len();
+        let (mut by_symbol, mut methods) = (vec![u16::MAX; symbols], vec![u16::MAX; symbols]);
+        let mut list = Vec::new();
+        if let Some(object) = &self.object {
+            for standard in library.standard.borrow().iter().filter(|known| known.kind == object.kind().name)
+            {
+                methods[usize::from(standard.symbol)] = u16::try_from(standard.method).unwrap_or(u16::MAX);
+            }
+            for (index, known) in (0u16..).zip(&self.interpretations) {
+                by_symbol[usize::from(known.symbol)] = index;
+                methods[usize::from(known.symbol)] = u16::MAX;
+                let DeclaredInterpretation { bound, name, place, loses, .. } = known;
+                list.push(Interpretation {
+                    bound: *bound,
+                    name: name.clone(),
+                    place: place.clone(),
+                    loses: *loses,
+                });
+            }
+        }
+        Interpretations { by_symbol, methods, list }
+    }
+
+    /// Prepares `machine` for deriving this system: drivers and frozen tables.
+    pub(crate) fn prepare(&self, machine: &Machine) -> Result<Declared> {
+        let mut reached = Vec::new();
+        let (drivers, guards) =
+            self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
+        let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
+        Ok(Declared { drivers, guards, _frozen: frozen })
+    }
+
+    /// Has `machine` work for this system from now on: its `this` and its interpretation rules.
+    pub(crate) fn enter(&self, machine: &Machine) -> mlua::Result<()> {
+        let prelude = machine.prelude();
+        let lua = machine.lua();
+        let this = match &self.object {
+            Some(object) => {
+                *machine.current.methods.borrow_mut() = object.kind().methods.clone();
+                let this = lua.create_table()?;
+                let metatable = lua.create_table()?;
+                let methods: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;
+                metatable.raw_set("__index", methods)?;
+                metatable.raw_set("__metatable", "this")?;
+                this.set_metatable(Some(metatable))?;
+                this.set_readonly(true);
+                LuaValue::Table(this)
+            }
+            None => LuaValue::Nil,
+        };
+        prelude.set_this.call::<()>(this)?;
+        prelude.fresh_interpreters.call::<()>(())?;
+        if self.object.is_some() {
+            for (index, known) in self.interpretations.iter().enumerate() {
+                prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
+            }
+        }
+        Ok(())
+    }
+
+    fn prepare_functions(
+        &self,
+        machine: &Machine,
+        reached: &mut Vec<Reached>,
+    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
+        let prelude = machine.prelude();
+        let mut drivers = Vec::new();
+        let mut guards = Vec::new();
+        for declared in &self.rules {
+            let arity = declared.rule.arguments();
+            drivers.push(prelude.driver.call((&declared.successor, arity))?);
+            let reach = |function: &Function| Reached {
+                function: function.clone(),
+                name: declared.rule.pattern.text.clone(),
+                place: declared.rule.place.clone(),
+            };
+            reached.push(reach(&declared.successor));
+            guards.push(match &declared.guard {
+                Some(guard) => {
+                    reached.push(reach(guard));
+                    Some(prelude.guard_driver.call((guard, arity))?)
+                }
+                None => None,
+            });
+        }
+        for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
+            reached.push(Reached {
+                function: known.rule.clone(),
+                name: known.name.clone(),
+                place: known.place.clone(),
+            });
+        }
+        Ok((drivers, guards))
+    }
+}

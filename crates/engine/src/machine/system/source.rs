@@ -1,0 +1,385 @@
+//! Sources as scripts hold them: a list that the script made, or a layer of a data file.
+
+use std::cell::RefCell;
+use std::sync::Arc;
+
+use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
+
+use super::lazy;
+use crate::machine::{Machine, native, write_column};
+use burgeon_base::error::{Error, Result};
+use burgeon_data::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
+use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
+
+const FIELDS: [&str; 5] = ["features", "bounds", "layer", "crs", "origin"];
+const OPTIONS: [&str; 6] = ["where", "limit", "id", "kind", "crs", "layer"];
+
+/// The features of a data source as a script holds them.
+pub(crate) enum SourceHandle {
+    /// A list of tables.
+    List(Table),
+    /// A layer, of which tables are made when they are asked for.
+    Layer(Arc<Layer>),
+}
+
+impl SourceHandle {
+    /// What `source(what, options)` gives.
+    pub(crate) fn new(machine: &Machine, what: &LuaValue, options: &LuaValue) -> Result<Self> {
+        let options = crate::machine::convert::to_value(options, false)?;
+        match (what, &options) {
+            (LuaValue::Table(features), Value::Nil) => Ok(Self::List(features.clone())),
+            (LuaValue::Table(_), _) => Err(Error::argument("a list of features takes no options")
+                .help("choose among them in Lua: where, limit and the like are for files")),
+            (LuaValue::String(text), Value::Nil) => {
+                Self::load(machine, &text.to_string_lossy(), Wanted::default())
+            }
+            (LuaValue::String(text), Value::Table(options)) => {
+                Self::load(machine, &text.to_string_lossy(), wanted(options)?)
+            }
+            (LuaValue::String(_), other) => {
+                Err(Error::argument(format!("source takes a table of options, not {}", other.describe()))
+                    .help("write source(\"town.gpkg:buildings\", { limit = 100 })"))
+            }
+            _ => Err(Error::argument("source takes the name of a data file or a list of features")
+                .help("write source(\"village.geojson\") or source({ { id = \"a\", ... }, ... })")),
+        }
+    }
+
+    fn load(machine: &Machine, text: &str, wanted: Wanted) -> Result<Self> {
+        let layer = machine.session.data.load(&machine.session, text, wanted)?;
+        layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
+        Ok(Self::Layer(layer))
+    }
+
+    /// The source as constructors take it.
+    pub(crate) fn value(&self) -> Result<Value> {
+        match self {
+            Self::List(features) => {
+                crate::machine::convert::to_value(&LuaValue::Table(features.clone()), false)
+            }
+            Self::Layer(layer) => Ok(Value::Object(Arc::new(Features(Arc::clone(layer))))),
+        }
+    }
+
+    fn field(&self, lua: &Lua, maker: &Maker, name: &str) -> mlua::Result<LuaValue> {
+        let frozen = |table: Table| {
+            table.set_readonly(true);
+            Ok(LuaValue::Table(table))
+        };
+        match (self, name) {
+            (Self::List(features), "features") => Ok(LuaValue::Table(features.clone())),
+            (Self::List(_), name) if FIELDS.contains(&name) => Ok(LuaValue::Nil),
+            (Self::Layer(layer), "features") => {
+                let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
+                let names = Names::new(lua, layer, None)?;
+                // All of it stays, so looking for what does not would be in vain.
+                let collects = lua.gc_is_running();
+                lua.gc_stop();
+                let features = layer.features.iter().enumerate();
+                let made = features
+                    .map(|(index, feature)| table.raw_push(maker.feature(lua, &names, index, feature)?));
+                let made: mlua::Result<()> = made.collect();
+                if collects {
+                    lua.gc_restart();
+                }
+                made?;
+                frozen(table)
+            }
+            (Self::Layer(layer), "bounds") => {
+                let table = lua.create_table()?;
+                for (name, corner) in ["min", "max"].into_iter().zip(layer.bounds) {
+                    table.raw_set(name, frozen(lua.create_sequence_from(corner)?)?)?;
+                }
+                frozen(table)
+            }
+            (Self::Layer(layer), "layer") => Ok(LuaValue::String(lua.create_string(&layer.name)?)),
+            (Self::Layer(layer), "crs") => Ok(LuaValue::String(lua.create_string(&layer.crs)?)),
+            (Self::Layer(layer), "origin") => frozen(lua.create_sequence_from(layer.origin)?),
+            _ => {
+                let message = format!("a source has no field called {name}");
+                let error = Error::not_found("field", name, FIELDS, message);
+                Err(mlua::Error::external(error.help(format!("it has {}", FIELDS.join(", ")))))
+            }
+        }
+    }
+}
+
+impl UserData for SourceHandle {
+    fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
+        methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
+            field(lua, &this, &name)
+        });
+        methods.add_meta_function(MetaMethod::Len, |_, this: AnyUserData| {
+            Ok(match &*this.borrow::<Self>()? {
+                Self::List(features) => features.raw_len(),
+                Self::Layer(layer) => layer.features.len(),
+            })
+        });
+        methods.add_meta_function(MetaMethod::Iter, |lua, this: AnyUserData| {
+            let next: Function = lua.globals().get("next")?;
+            Ok((next, field(lua, &this, "features")?))
+        });
+        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| {
+            Ok(match this {
+                Self::List(features) => format!("a source of {} features", features.raw_len()),
+                Self::Layer(layer) => format!("a source of {} features", layer.features.len()),
+            })
+        });
+        methods.add_meta_function(
+            MetaMethod::NewIndex,
+            |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+                Err(mlua::Error::external(
+                    Error::script(format!("{name} of a source cannot be assigned"))
+                        .help("make a list of what you need, and a source of it: source(list)"),
+                ))
+            },
+        );
+    }
+}
+
+/// A field of a source; what was made for it is kept.
+fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
+    if let LuaValue::Table(kept) = this.user_value::<LuaValue>()?
+        && let value @ (LuaValue::Table(_) | LuaValue::String(_)) = kept.raw_get::<LuaValue>(name)?
+    {
+        return Ok(value);
+    }
+    let value = this.borrow::<SourceHandle>()?.field(lua, &Maker::new(lua)?, name)?;
+    let kept = match this.user_value::<LuaValue>()? {
+        LuaValue::Table(kept) => kept,
+        _ => lua.create_table()?,
+    };
+    kept.raw_set(name, value.clone())?;
+    this.set_user_value(kept)?;
+    Ok(value)
+}
+
+/// The file and layer of a source; empty for a list that the script made.
+pub(super) fn shown(source: &AnyUserData) -> String {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => layer.shown.clone(),
+        _ => String::new(),
+    }
+}
+
+/// The layer that a source is; none for a list that the script made.
+pub(super) fn layer_of(source: &AnyUserData) -> Option<Arc<Layer>> {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => Some(Arc::clone(layer)),
+        _ => None,
+    }
+}
+
+/// The features that a source left out, and why.
+pub(super) fn refused_of(source: &AnyUserData) -> Vec<(String, Error)> {
+    match source.borrow::<SourceHandle>().as_deref() {
+        Ok(SourceHandle::Layer(layer)) => layer.refused.clone(),
+        _ => Vec::new(),
+    }
+}
+
+/// Calls `each` with every feature of a source, its number from 1, and its id where it has one of its own.
+///
+/// The tables of a layer's features live only as long as they are used, unless the script has asked for all of them.
+/// What they need may come from `prefetch`.
+pub(super) fn each_feature(
+    lua: &Lua,
+    source: &AnyUserData,
+    prefetch: Option<&Arc<dyn Prefetch>>,
+    mut each: impl FnMut(usize, LuaValue, Option<&str>) -> Result<()>,
+    failed: impl Fn(mlua::Error) -> Error,
+) -> Result<()> {
+    let kept = match source.user_value::<LuaValue>().map_err(&failed)? {
+        LuaValue::Table(kept) => kept.raw_get::<LuaValue>("features").map_err(&failed)?,
+        _ => LuaValue::Nil,
+    };
+    let layer = match &*source.borrow::<SourceHandle>().map_err(&failed)? {
+        SourceHandle::List(features) => {
+            for (index, feature) in features.sequence_values::<LuaValue>().enumerate() {
+                each(index + 1, feature.map_err(&failed)?, None)?;
+            }
+            return Ok(());
+        }
+        SourceHandle::Layer(layer) => Arc::clone(layer),
+    };
+    let (maker, names) =
+        (Maker::new(lua).map_err(&failed)?, Names::new(lua, &layer, prefetch).map_err(&failed)?);
+    for (index, feature) in layer.features.iter().enumerate() {
+        let made = match &kept {
+            LuaValue::Table(kept) => kept.raw_get(index + 1),
+            _ => maker.feature(lua, &names, index, feature).map(LuaValue::Table),
+        };
+        each(index + 1, made.map_err(&failed)?, Some(&feature.id))?;
+    }
+    Ok(())
+}
+
+/// The names of a layer's attributes, and of what every feature has, as Lua's strings.
+struct Names {
+    attributes: Vec<mlua::LuaString>,
+    layer: mlua::LuaString,
+    fixed: [mlua::LuaString; 3],
+    /// What makes features of tables that know only their number; none where the script could tell.
+    unread: Option<lazy::Unread>,
+}
+
+impl Names {
+    fn new(lua: &Lua, layer: &Arc<Layer>, prefetch: Option<&Arc<dyn Prefetch>>) -> mlua::Result<Self> {
+        let text = |text: &str| lua.create_string(text);
+        Ok(Self {
+            attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
+            layer: text(&layer.name)?,
+            fixed: [text("id")?, text("geometry")?, text("layer")?],
+            unread: lazy::unread(lua, layer, prefetch)?,
+        })
+    }
+}
+
+/// Makes features' tables.
+pub(super) struct Maker {
+    geometry: Function,
+    kinds: [mlua::LuaString; 3],
+    /// Lists of points on their way to Lua, and the same as bytes.
+    numbers: RefCell<Vec<f64>>,
+    column: RefCell<mlua::Buffer>,
+}
+
+impl Maker {
+    pub(super) fn new(lua: &Lua) -> mlua::Result<Self> {
+        let geometry: Function = lua.named_registry_value(GEOMETRY)?;
+        native(lua, &geometry)?;
+        let [point, line, polygon] = Kind::ALL.map(|kind| lua.create_string(kind.name()));
+        Ok(Self {
+            geometry,
+            kinds: [point?, line?, polygon?],
+            numbers: RefCell::default(),
+            column: RefCell::new(lua.create_buffer(vec![0; 8192])?),
+        })
+    }
+
+    fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
+        if let Some(unread) = &names.unread {
+            return unread.feature(index);
+        }
+        let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
+        for (index, value) in feature.attributes.iter() {
+            let name = &names.attributes[*index];
+            match value {
+                Attribute::Boolean(value) => table.raw_set(name, *value)?,
+                Attribute::Number(value) => table.raw_set(name, *value)?,
+                Attribute::Text(text) => table.raw_set(name, &**text)?,
+                Attribute::Nested(value) => table.raw_set(name, nested(lua, value)?)?,
+            }
+        }
+        let [id, geometry, layer] = &names.fixed;
+        table.raw_set(id, feature.id.as_str())?;
+        table.raw_set(geometry, self.shape(lua, &feature.geometry)?)?;
+        table.raw_set(layer, &names.layer)?;
+        table.set_readonly(true);
+        Ok(table)
+    }
+
+    /// A geometry, written into a column and read from there by Lua, which makes its many small tables much faster.
+    pub(super) fn shape(&self, lua: &Lua, geometry: &Geometry) -> mlua::Result<Table> {
+        let mut numbers = self.numbers.borrow_mut();
+        numbers.clear();
+        #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
+        match geometry {
+            Geometry::Polygon(rings) => numbers.extend(rings.iter().map(|ring| ring.len() as f64)),
+            Geometry::Line(points) => numbers.push(points.len() as f64),
+            Geometry::Point(_) => numbers.push(1.0),
+        }
+        let lists = numbers.len();
+        numbers.extend(geometry.points().flatten());
+        let mut column = self.column.borrow_mut();
+        if column.len() < numbers.len() * 8 {
+            *column = lua.create_buffer(vec![0; numbers.len() * 16])?;
+        }
+        write_column(column.clone(), &numbers).map_err(mlua::Error::external)?;
+        self.geometry.call((&self.kinds[geometry.kind() as usize], &*column, lists))
+    }
+}
+
+/// The registry's name for what the prelude knows of geometries.
+pub(crate) const GEOMETRY: &str = "burgeon geometry";
+
+/// A list or an object of GeoJSON as a frozen table; nulls are left out of objects, and are false in lists.
+pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaValue> {
+    use serde_json::Value as Json;
+    Ok(match value {
+        Json::Null => LuaValue::Nil,
+        Json::Bool(value) => LuaValue::Boolean(*value),
+        Json::Number(number) => LuaValue::Number(number.as_f64().unwrap_or(f64::NAN)),
+        Json::String(text) => LuaValue::String(lua.create_string(text)?),
+        Json::Array(items) => {
+            let table = lua.create_table_with_capacity(items.len(), 0)?;
+            for item in items {
+                match nested(lua, item)? {
+                    LuaValue::Nil => table.raw_push(false)?,
+                    item => table.raw_push(item)?,
+                }
+            }
+            table.set_readonly(true);
+            LuaValue::Table(table)
+        }
+        Json::Object(fields) => {
+            let table = lua.create_table()?;
+            for (name, value) in fields {
+                table.raw_set(name.as_str(), nested(lua, value)?)?;
+            }
+            table.set_readonly(true);
+            LuaValue::Table(table)
+        }
+    })
+}
+
+/// The options of `source`.
+fn wanted(options: &ValueTable) -> Result<Wanted> {
+    let mut wanted = Wanted::default();
+    for (key, value) in &options.entries {
+        let name = match key {
+            burgeon_kit::Key::Name(name) => name,
+            burgeon_kit::Key::Index(_) => {
+                return Err(Error::argument("source takes named options").help("write { limit = 100 }"));
+            }
+        };
+        let text = |example: &str| match value {
+            Value::Text(text) => Ok(Some(text.to_string())),
+            other => Err(Error::argument(format!("source: {name} must be a text, not {}", other.describe()))
+                .help(format!("write {{ {name} = {example} }}"))),
+        };
+        #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]
+        let whole = |example: &str| match value {
+            Value::Number(number) if number.fract() == 0.0 && (0.0..=4e9).contains(number) => {
+                Ok(*number as u32)
+            }
+            other => {
+                Err(Error::argument(format!("source: {name} must be a whole number from 0, not {other}"))
+                    .help(format!("write {{ {name} = {example} }}")))
+            }
+        };
+        match &**name {
+            "where" => wanted.condition = text("\"height > 10\"")?,
+            "limit" => wanted.limit = Some(whole("100")? as usize),
+            "id" => wanted.id = text("\"name\"")?,
+            "layer" => wanted.layer = text("\"buildings\"")?,
+            "crs" => wanted.crs = Some(whole("3067")?),
+            "kind" => {
+                let kind = text("\"polygon\"")?.unwrap_or_default();
+                let known = Kind::ALL.into_iter().find(|known| known.name() == kind);
+                wanted.kind = Some(known.ok_or_else(|| {
+                    let names = Kind::ALL.map(Kind::name);
+                    let message = format!("source: there is no kind {kind:?} of geometry");
+                    Error::not_found("kind", &kind, names, message)
+                        .help(format!("it is one of {}", names.join(", ")))
+                })?);
+            }
+            other => {
+                let message = format!("source has no option called {other}");
+                return Err(Error::not_found("option", other, OPTIONS, message)
+                    .help(format!("it has {}", OPTIONS.join(", "))));
+            }
+        }
+    }
+    Ok(wanted)
+}

@@ -1,0 +1,289 @@
+//! Tells of what a script declares that can never be seen or never happens: rules that others forestall, modules that
+//! nothing draws, declarations that come too late.
+//!
+//! Each is certain, not likely: a script that means what it says is never warned of.
+
+use rustc_hash::{FxHashMap, FxHashSet};
+
+use crate::machine::Machine;
+use crate::machine::library::Library;
+use crate::results::Derived;
+use burgeon_base::error::Place;
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_kit::rules::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
+
+use super::{DerivationRecord, System};
+
+impl System {
+    /// Notes that the system is derived from now on, with all that has been declared.
+    pub(crate) fn note_derivation(&self, machine: &Machine) {
+        self.derivations.borrow_mut().push(DerivationRecord {
+            place: Machine::place(machine.lua()),
+            number: machine.driver.count(),
+            axiom_is_new: self.axiom_is_new.take(),
+        });
+        self.late.borrow_mut().clear();
+    }
+
+    /// Tells of interpretations that nothing runs, and of rules that can never apply.
+    pub(crate) fn tell_forestalled(&self, machine: &Machine, grammar: &Grammar) {
+        if let (None, Some(first)) = (&self.object, self.interpretations.first()) {
+            let text = "the system has no object, so its interpretations are never run";
+            let warning = Warning::new(WarningKind::NoObject, text);
+            let warning = warning.rule(format!("{} (interpretation)", first.name));
+            machine.warn(
+                warning.at(first.place.clone()).help("give it one, such as lsystem({ object = turtle() })"),
+            );
+        }
+        let mut sure = Sure::default();
+        for rule in grammar.rules().iter().filter(|rule| rule.weight != Some(0.0)) {
+            let warn =
+                |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
+            let earlier = sure.forestalls(rule);
+            if let Some(item) = rule.contexts().iter().find(|item| grammar.is_skipped(item.symbol)) {
+                let name = &grammar.symbols().signature(item.symbol).name;
+                let (text, help) = match self.considered {
+                    Some(_) if !self.ignored.contains(&item.symbol) => (
+                        format!("{name} is not among the modules to consider, so this context never occurs"),
+                        format!("add it: system:consider(\"{name}\")"),
+                    ),
+                    _ => (
+                        format!("{name} is ignored, so this context never occurs"),
+                        "take it out of system:ignore(...), or out of the context".to_owned(),
+                    ),
+                };
+                warn(Warning::new(WarningKind::ImpossibleContext, text).help(help));
+            } else if let Some(earlier) = earlier {
+                let place = earlier.place.as_ref().map_or_else(String::new, |place| format!(" in {place}"));
+                let name = &earlier.pattern.text;
+                let text = format!("it is never used, for the rule {name}{place} always comes first");
+                let help = match earlier.weight {
+                    Some(_) => "give both rules a weight: { weight = 1 }",
+                    None => "give the earlier rule a guard, or both a weight, or put this one before it",
+                };
+                warn(Warning::new(WarningKind::UnreachableRule, text).help(help));
+            }
+            sure.add(rule);
+        }
+    }
+
+    /// Tells of the modules among `symbols`, those of the final chains, that this system neither draws nor looks at.
+    pub(crate) fn undrawn(&self, library: &Library, symbols: &[Symbol]) -> Vec<Warning> {
+        let mut open: Vec<(Symbol, Warning)> = (FIRST_SYMBOL..)
+            .take(library.symbols.borrow().names().count())
+            .filter_map(|symbol| Some((symbol, self.warning_of(library, symbol)?)))
+            .collect();
+        let mut found: Vec<(Symbol, Warning)> = Vec::new();
+        for symbol in symbols {
+            if open.is_empty() {
+                break;
+            }
+            if let Some(index) = open.iter().position(|(other, _)| other == symbol) {
+                found.push(open.swap_remove(index));
+            }
+        }
+        found.sort_by_key(|(symbol, _)| *symbol);
+        found.into_iter().map(|(_, warning)| warning).collect()
+    }
+
+    /// What to tell of a module with this symbol in a chain of this system, if nothing draws it or looks at it.
+    fn warning_of(&self, library: &Library, symbol: Symbol) -> Option<Warning> {
+        let kind = &self.object.as_ref()?.kind().name;
+        let (symbols, standard) = (library.symbols.borrow(), library.standard.borrow());
+        let signature = symbols.signature(symbol);
+        if self.interpretations.iter().any(|known| known.symbol == symbol)
+            || standard.iter().any(|known| known.symbol == symbol && known.kind == *kind)
+        {
+            return None;
+        }
+        let bare = signature.parameters.join(", ");
+        let name = &signature.name;
+        let pattern = if bare.is_empty() { name.clone() } else { format!("{name}({bare})") };
+        let comma = if bare.is_empty() { "" } else { ", " };
+        let interpret = format!("system:interpret(\"{pattern}\", function(this{comma}{bare}) ... end)");
+        let place = library.places.borrow().get(&symbol).cloned();
+        let hidden = standard.iter().find(|known| {
+            known.symbol != symbol && known.kind == *kind && symbols.signature(known.symbol).name == *name
+        });
+        if let Some(hidden) = hidden {
+            let text = format!(
+                "{} stands in the place of the standard library's {}, so the {kind} draws nothing for it",
+                signature.usage(),
+                symbols.signature(hidden.symbol).usage()
+            );
+            let help = format!("interpret it, {interpret}, or give it another name");
+            return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
+        }
+        // Without interpretations only modules of the standard library are drawn, if the object knows any.
+        let draws = !self.interpretations.is_empty() || standard.iter().any(|known| known.kind == *kind);
+        let is_used = !draws
+            || self.ignored.contains(&symbol)
+            || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))
+            || self.rules.iter().any(|declared| names(&declared.rule.pattern, symbol));
+        if is_used {
+            return None;
+        }
+        if let Some(known) = standard.iter().find(|known| known.symbol == symbol) {
+            let text = format!("the standard library draws {name} with a {}, and this is none", known.kind);
+            return Some(
+                Warning::new(WarningKind::UndrawnModule, text).help(interpret).at(self.place.clone()),
+            );
+        }
+        let text = format!("{name} has neither a rule nor an interpretation, so it is drawn nowhere");
+        let help = format!("{interpret}; if it is only a mark, say so: system:ignore(\"{name}\")");
+        Some(
+            Warning::new(WarningKind::UndrawnModule, text)
+                .help(help)
+                .at(place.or_else(|| self.place.clone())),
+        )
+    }
+}
+
+/// A predecessor and its contexts, without the names of parameters.
+type Around = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
+
+/// The rules so far that are candidates wherever their contexts match, by what they match.
+#[derive(Default)]
+struct Sure<'a> {
+    rules: FxHashMap<Around, [Option<&'a Rule>; 3]>,
+    /// The symbols with a rule that has a weight.
+    weighted: FxHashSet<Symbol>,
+}
+
+// The places of a rule among those that match the same: it wins before all that follow; before those without a weight,
+// for it has none, and one that has a weight may have come first; or it has a weight itself, and keeps those from winning.
+const BEFORE_ALL: usize = 0;
+const BEFORE_PLAIN: usize = 1;
+const WEIGHTED: usize = 2;
+
+impl<'a> Sure<'a> {
+    /// The rule without contexts, or with the same, that keeps `rule` from ever being chosen.
+    fn forestalls(&self, rule: &Rule) -> Option<&'a Rule> {
+        let around = around(rule);
+        let anywhere = (around.0, Vec::new(), Vec::new());
+        let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
+        let of = |around: &Around| self.rules.get(around)?[places.clone()].iter().flatten().next().copied();
+        of(&anywhere).or_else(|| of(&around))
+    }
+
+    fn add(&mut self, rule: &'a Rule) {
+        let symbol = rule.pattern.predecessor.symbol;
+        let place = match rule.weight {
+            Some(_) => WEIGHTED,
+            None if self.weighted.contains(&symbol) => BEFORE_PLAIN,
+            None => BEFORE_ALL,
+        };
+        if rule.weight.is_some() {
+            self.weighted.insert(symbol);
+        }
+        if !rule.guarded {
+            self.rules.entry(around(rule)).or_default()[place].get_or_insert(rule);
+        }
+    }
+}
+
+fn around(rule: &Rule) -> Around {
+    let pattern = &rule.pattern;
+    let left = pattern.left.iter().map(|item| item.symbol).collect();
+    (pattern.predecessor.symbol, left, plain(&pattern.right))
+}
+
+/// A right context without the names of parameters.
+fn plain(contexts: &[Context]) -> Vec<Option<Symbol>> {
+    let mut symbols = Vec::new();
+    for context in contexts {
+        match context {
+            Context::Module(item) => symbols.push(Some(item.symbol)),
+            Context::Branch(inner) => {
+                symbols.push(None);
+                symbols.extend(plain(inner));
+                symbols.push(None);
+            }
+        }
+    }
+    symbols
+}
+
+/// Whether a pattern names `symbol`.
+fn names(pattern: &Pattern, symbol: Symbol) -> bool {
+    pattern.predecessor.symbol == symbol || pattern.context_items().iter().any(|item| item.symbol == symbol)
+}
+
+/// Once a script has run to its end: tells of what it has declared in vain. A script that `returns` something is one
+/// that others require.
+pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
+    let library = &machine.library;
+    let systems = library.systems.borrow();
+    let done = machine.driver.derived();
+    let derived = |number: usize| done.get(number).and_then(|derived| derived.as_ref().ok());
+    for system in systems.iter() {
+        for (what, place) in system.late.borrow().iter() {
+            let text = format!("this {what} comes after derive, so it has no effect");
+            let warning = Warning::new(WarningKind::LateDeclaration, text).at(place.clone());
+            machine.warn(warning.help("put it before system:derive()"));
+        }
+        if !machine.session.options.check {
+            tell_derived_twice(machine, system, derived);
+        }
+    }
+    if machine.session.options.check {
+        tell_undrawn(machine, &systems);
+    } else {
+        for derived in done.iter().flatten().filter(|derived| !derived.is_read()) {
+            derived.undrawn.iter().for_each(|warning| machine.warn(warning.clone()));
+        }
+    }
+    let first = systems.iter().find(|system| system.axiom.is_some() && !system.given.get());
+    if let (true, Some(system), false) = (done.is_empty(), first, returns) {
+        let warning = Warning::new(WarningKind::NotDerived, "no system is derived, so nothing is made");
+        machine.warn(warning.at(system.place.clone()).help("end the script with system:derive()"));
+    }
+}
+
+/// Tells of each time that a system was derived again from the same axiom, if both models are seen.
+fn tell_derived_twice<'a>(
+    machine: &Machine,
+    system: &System,
+    derived: impl Fn(usize) -> Option<&'a std::sync::Arc<Derived>>,
+) {
+    let is_seen = |derivation: &DerivationRecord| {
+        derived(derivation.number).is_some_and(|derived| !derived.is_placed() && !derived.objects.is_empty())
+    };
+    let derivations = system.derivations.borrow();
+    let mut seen: Option<&DerivationRecord> = None;
+    for derivation in derivations.iter() {
+        if derivation.axiom_is_new {
+            seen = None;
+        }
+        if !is_seen(derivation) {
+            continue;
+        }
+        if let Some(earlier) = seen {
+            let line = |place: &Place| format!(" after the time in {place}");
+            let earlier = earlier.place.as_ref().map(line).unwrap_or_default();
+            let text = format!("the system is derived again{earlier}, and both models stay");
+            let warning = Warning::new(WarningKind::DerivedTwice, text).at(derivation.place.clone());
+            machine.warn(warning.help("derive it once; what another system places is not shown by itself"));
+        }
+        seen.get_or_insert(derivation);
+    }
+}
+
+/// In a script that is only checked: tells of modules that its rules or axioms make, and that no system draws.
+fn tell_undrawn(machine: &Machine, systems: &[System]) {
+    let (library, done) = (&machine.library, machine.driver.derived());
+    let mut made: Vec<Symbol> =
+        done.iter().flatten().flat_map(|derived| derived.chain.symbols.clone()).collect();
+    made.extend(machine.current.shapes.borrow().iter().flat_map(|shape| shape.symbols.iter().copied()));
+    made.sort_unstable();
+    made.dedup();
+    for symbol in made.into_iter().filter(|symbol| *symbol >= FIRST_SYMBOL) {
+        let mut of_systems = systems.iter().map(|system| system.warning_of(library, symbol));
+        // Where some system draws it or means it for something else, nobody knows whose it is.
+        if let Some(Some(first)) = of_systems.next()
+            && of_systems.all(|warning| warning.is_some())
+        {
+            machine.warn(first);
+        }
+    }
+}

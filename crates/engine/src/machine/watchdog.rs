@@ -1,0 +1,161 @@
+//! Stops scripts that run too long, at no cost until it happens.
+
+use std::ffi::c_int;
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use mlua::{Lua, ffi};
+
+use crate::declare::Session;
+use burgeon_base::error::{Error, Limit};
+use burgeon_base::text::grouped;
+
+/// How often the watchdog looks whether a stop was asked for.
+const PERIOD: Duration = Duration::from_millis(20);
+
+/// A thread that ends every virtual machine of a run when its time is over or a stop is asked for.
+///
+/// A machine polls for an interrupt at loops and calls in any case. As long as none is set, that costs nothing;
+/// once it is set it raises an error again and again, so that `pcall` cannot swallow it.
+pub struct Watchdog {
+    shared: Arc<Shared>,
+    thread: Option<JoinHandle<()>>,
+}
+
+#[derive(Default)]
+struct Shared {
+    inner: Mutex<Inner>,
+    wake: Condvar,
+}
+
+#[derive(Default)]
+struct Inner {
+    states: Vec<State>,
+    stopped: bool,
+    over: bool,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+struct State(*mut ffi::lua_State);
+
+#[allow(unsafe_code, reason = "the watchdog sets a callback of machines that run in other threads")]
+// SAFETY: the pointer is only used to set the interrupt callback, while the machine is registered and so alive.
+unsafe impl Send for State {}
+
+/// Keeps a machine on the watchdog's list; must go before the machine's state does.
+pub(crate) struct Registration {
+    shared: Arc<Shared>,
+    state: State,
+}
+
+impl Watchdog {
+    /// Watches over `session` from now on.
+    pub fn new(session: &Arc<Session>) -> Self {
+        let shared = Arc::new(Shared::default());
+        let (theirs, stop) = (Arc::clone(&shared), Arc::clone(&session.stop));
+        let deadline = Instant::now() + session.options.limits.time;
+        let watched = Arc::clone(session);
+        let watch = move || {
+            let mut inner = theirs.inner.lock().unwrap_or_else(PoisonError::into_inner);
+            while !inner.over && !stop.is_stopped() {
+                if Instant::now() >= deadline {
+                    stop.stop(overdue(&watched));
+                    break;
+                }
+                inner = theirs.wake.wait_timeout(inner, PERIOD).unwrap_or_else(PoisonError::into_inner).0;
+            }
+            if !inner.over {
+                inner.stopped = true;
+                inner.states.iter().for_each(|state| interrupt(*state));
+            }
+        };
+        Self { shared, thread: Some(std::thread::spawn(watch)) }
+    }
+
+    pub(crate) fn register(&self, lua: &Lua) -> Registration {
+        let mut state = std::ptr::null_mut();
+        #[allow(unsafe_code, reason = "mlua gives the state only to raw functions")]
+        // SAFETY: the function neither reads nor changes the stack.
+        let taken: mlua::Result<()> = unsafe { lua.exec_raw((), |raw| state = raw) };
+        let state = State(if taken.is_ok() { state } else { std::ptr::null_mut() });
+        let mut inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        inner.states.push(state);
+        if inner.stopped {
+            interrupt(state);
+        }
+        drop(inner);
+        Registration { shared: Arc::clone(&self.shared), state }
+    }
+}
+
+/// What a run is told whose time is over.
+fn overdue(session: &Session) -> Error {
+    let error = Error::limit(
+        Limit::Time,
+        format!("the run took longer than {} s", session.options.limits.time.as_secs_f64()),
+    );
+    match session.progress.counts() {
+        (0, ..) => error.help("look for a loop that never ends, or raise the limit: --time-limit SECONDS"),
+        (step, _, modules) => error.help(format!(
+            "step {} is done, with {} modules: derive fewer steps, look for a loop that never ends, or raise the limit: --time-limit SECONDS",
+            grouped(step),
+            grouped(modules)
+        )),
+    }
+}
+
+impl Drop for Watchdog {
+    fn drop(&mut self) {
+        self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner).over = true;
+        self.shared.wake.notify_all();
+        if let Some(thread) = self.thread.take() {
+            // A watchdog that panicked has nothing left to stop.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl Drop for Registration {
+    fn drop(&mut self) {
+        let mut inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some(index) = inner.states.iter().position(|state| *state == self.state) {
+            inner.states.swap_remove(index);
+        }
+    }
+}
+
+fn interrupt(state: State) {
+    if state.0.is_null() {
+        return;
+    }
+    #[allow(unsafe_code, reason = "Luau offers no other way to stop a running script from outside")]
+    // SAFETY: the machine is registered, so its state is alive. Luau reads the pointer at safe points and
+    // documents that it may be set from another thread.
+    unsafe {
+        (*ffi::lua_callbacks(state.0)).interrupt = Some(raise);
+    }
+}
+
+#[allow(unsafe_code, reason = "called by Luau")]
+unsafe extern "C-unwind" fn raise(state: *mut ffi::lua_State, collecting: c_int) {
+    // Luau also calls it during garbage collection, with a number from 0, where no error may be raised.
+    if collecting < 0 {
+        // SAFETY: `state` is the running state that Luau passed in; the frame owns nothing to be dropped, and
+        // luaL_where pushes one string, of which at most three are on the stack.
+        unsafe {
+            ffi::lua_checkstack(state, 4);
+            // The innermost function may be one of C, which has no line.
+            for level in 0..3 {
+                ffi::luaL_where(state, level);
+                if ffi::lua_objlen(state, -1) > 0 || level == 2 {
+                    break;
+                }
+                ffi::lua_pop(state, 1);
+            }
+            ffi::lua_pushstring(state, c"stopped".as_ptr());
+            ffi::lua_concat(state, 2);
+            ffi::lua_error(state)
+        }
+    }
+}

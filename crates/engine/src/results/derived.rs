@@ -1,0 +1,197 @@
+//! A system that has been derived.
+
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
+use std::time::Duration;
+
+use super::remark::Remark;
+use super::trace::RuleName;
+use super::uses::Use;
+use burgeon_base::error::{Place, Result};
+use burgeon_base::warning::Warning;
+use burgeon_kit::rules::{Chain, Symbols, Values, chain_text, write_chains};
+use burgeon_kit::{Model, Object};
+use burgeon_scene::{Origin, Scene};
+
+/// Where the time of a derivation went.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct Times {
+    /// Finding and applying rules.
+    pub rewriting: Duration,
+    /// Symbols that all steps together have read: the length of the chains before each step.
+    pub read: usize,
+    /// Interpretation passes.
+    pub interpretation: Duration,
+}
+
+/// What a rule has done in a derivation.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct RuleReport {
+    /// The rule.
+    pub name: RuleName,
+    /// Whether it is an interpretation rule.
+    pub interprets: bool,
+    /// How much it has done. The time of interpretation rules is measured if
+    /// [`RunOptions::profile`](crate::script::RunOptions::profile) says so.
+    pub done: Use,
+}
+
+/// The chains and objects that a system ended with.
+pub struct Derived {
+    /// The system's place in the script, from 0.
+    pub system: usize,
+    /// The chains.
+    pub chain: Chain,
+    /// The declared modules.
+    pub symbols: Arc<Symbols>,
+    /// The parameters that are not numbers.
+    pub values: Arc<Values>,
+    /// The object of each chain; none if the system has no objects. After a run they have given away what
+    /// they had drawn to the run's scene.
+    pub objects: Vec<Arc<dyn Object>>,
+    /// The id of each chain's feature.
+    pub features: Vec<Option<String>>,
+    /// The number of derivation steps.
+    pub steps: usize,
+    /// Where the time went.
+    pub times: Times,
+    /// What the rules and the interpretation rules have done, in the order of their declaration.
+    pub rules: Vec<RuleReport>,
+    /// Where the system was made.
+    pub place: Option<Place>,
+    /// The number of features that it was given, those that were left out among them.
+    pub given: usize,
+    /// What could not be built as asked: features that got no chain, then the chains in their order.
+    pub remarks: Vec<Remark>,
+    /// Whether it has an object that draws.
+    pub(crate) draws: bool,
+    /// What its chains hold that nothing draws; it counts unless the script reads the chains.
+    pub(crate) undrawn: Vec<Warning>,
+    read: AtomicBool,
+    modules: usize,
+    model: OnceLock<Arc<Model>>,
+    placed: AtomicBool,
+}
+
+impl Derived {
+    #[allow(clippy::too_many_arguments, reason = "called once, with everything that a derivation knows")]
+    pub(crate) fn new(
+        system: usize,
+        chain: Chain,
+        symbols: Arc<Symbols>,
+        values: Arc<Values>,
+        objects: Vec<Arc<dyn Object>>,
+        features: Vec<Option<String>>,
+        steps: usize,
+        times: Times,
+        rules: Vec<RuleReport>,
+        place: Option<Place>,
+    ) -> Self {
+        let modules = chain.modules();
+        Self {
+            system,
+            chain,
+            symbols,
+            values,
+            objects,
+            features,
+            steps,
+            times,
+            rules,
+            place,
+            given: 0,
+            remarks: Vec::new(),
+            draws: false,
+            undrawn: Vec::new(),
+            read: AtomicBool::new(false),
+            modules,
+            model: OnceLock::new(),
+            placed: AtomicBool::new(false),
+        }
+    }
+
+    /// The number of modules in all chains, without brackets.
+    pub fn modules(&self) -> usize {
+        self.modules
+    }
+
+    /// The chains as text, a line for each.
+    pub fn chain_text(&self) -> String {
+        chain_text(&self.chain, &self.symbols, &self.values)
+    }
+
+    /// The chains as text for the script, which may make of their modules what it likes.
+    pub(crate) fn read_chains(&self) -> String {
+        self.read.store(true, Ordering::Relaxed);
+        self.chain_text()
+    }
+
+    /// Whether the script has read its chains.
+    pub(crate) fn is_read(&self) -> bool {
+        self.read.load(Ordering::Relaxed)
+    }
+
+    /// Writes the chains as text, a line for each.
+    pub fn write_chains(&self, out: &mut impl std::io::Write) -> std::io::Result<()> {
+        write_chains(out, &self.chain, &self.symbols, &self.values)
+    }
+
+    /// What its objects have drawn, as one model that another system can place.
+    ///
+    /// A system that is placed somewhere is not shown by itself.
+    pub fn model(&self) -> Result<Arc<dyn Object>> {
+        self.placed.store(true, Ordering::Relaxed);
+        if let Some(model) = self.model.get() {
+            return Ok(Arc::clone(model) as Arc<dyn Object>);
+        }
+        let mut scene = Scene::default();
+        self.add_to(&mut scene)?;
+        let model = Arc::clone(self.model.get_or_init(|| Arc::new(Model::new(scene))));
+        Ok(model as Arc<dyn Object>)
+    }
+
+    /// Whether another system has placed it.
+    pub fn is_placed(&self) -> bool {
+        self.placed.load(Ordering::Relaxed)
+    }
+
+    /// As [`Derived::add_to`], but the objects that nobody else holds give away what they have drawn.
+    pub(crate) fn hand_over(&mut self, scene: &mut Scene) -> Result<()> {
+        let name = self.name();
+        for (chain, (object, feature)) in self.objects.iter_mut().zip(&self.features).enumerate() {
+            let known = (scene.meshes.len(), scene.instances.len());
+            match Arc::get_mut(object) {
+                Some(object) => object.hand_over(scene, &name, feature.as_deref())?,
+                None => object.show(scene, &name, feature.as_deref())?,
+            }
+            sign(scene, known, Origin { system: self.system, chain });
+        }
+        Ok(())
+    }
+
+    fn name(&self) -> String {
+        format!("system {}", self.system + 1)
+    }
+
+    /// Adds what its objects have drawn to `scene`, in the order of the chains.
+    pub fn add_to(&self, scene: &mut Scene) -> Result<()> {
+        let name = self.name();
+        for (chain, (object, feature)) in self.objects.iter().zip(&self.features).enumerate() {
+            let known = (scene.meshes.len(), scene.instances.len());
+            object.show(scene, &name, feature.as_deref())?;
+            sign(scene, known, Origin { system: self.system, chain });
+        }
+        Ok(())
+    }
+}
+
+/// Notes the origin of the meshes and instances that `scene` has got since it had as many as `known`.
+fn sign(scene: &mut Scene, known: (usize, usize), origin: Origin) {
+    for mesh in &mut scene.meshes[known.0..] {
+        // A mesh that was placed keeps its own.
+        mesh.origin.get_or_insert(origin);
+    }
+    for instance in &mut scene.instances[known.1..] {
+        instance.origin = Some(origin);
+    }
+}

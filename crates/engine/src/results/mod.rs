@@ -1,0 +1,15 @@
+//! What a derivation gives: the derived system, what could not be built of it, and which rules made what.
+//!
+//! Comes in: what the derivation hands over. Goes out: the same, to be asked by scripts, by commands and by the page.
+//! It never runs a rule.
+
+mod derived;
+mod remark;
+mod trace;
+mod uses;
+
+pub use derived::{Derived, RuleReport, Times};
+pub use remark::{Remark, Report};
+pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace};
+pub(crate) use trace::{Step, around};
+pub use uses::Use;

@@ -1,0 +1,143 @@
+//! What pages ask for: each message changes the request and has a run made, or is answered.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+use axum::extract::ws::Utf8Bytes;
+use tokio::sync::mpsc::Sender;
+
+use super::message::{self, Cause, Command, Event};
+use super::request::seed;
+use super::state::{Due, Inner, State};
+use super::{tools, trace};
+use burgeon_base::error::{Error, Result};
+
+impl State {
+    /// Does what `text`, a page's message, asks for. Returns what that page alone is answered; what takes longer
+    /// comes through `page`.
+    pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Event> {
+        let refused = |id: Option<u64>, error: &Error| Some(Event::refused(id, error));
+        match message::read(text) {
+            Err(refused) => Some(*refused),
+            Ok(Command::Pick(pick)) => Some(trace::pick(self, &pick)),
+            Ok(Command::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
+            Ok(Command::Chain { id, system, chain, module }) => {
+                Some(trace::chain(self, id, system, chain, module))
+            }
+            Ok(Command::Variations { id, seeds, param, values }) => {
+                tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
+            }
+            Ok(Command::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
+            Ok(Command::Open { file, line }) => {
+                self.open(&file, line.unwrap_or(1)).err().and_then(|error| refused(None, &error))
+            }
+            Ok(Command::Cancel {}) => {
+                let mut inner = self.lock();
+                let waiting = inner.due.take().is_some();
+                let running = inner.stop("it was cancelled");
+                if waiting && !running {
+                    let run = inner.runs + 1;
+                    inner.cancelled(self, run);
+                }
+                let idle = !waiting && !running;
+                idle.then(|| Event::refused(None, &Error::unavailable("nothing is running")))
+            }
+            Ok(Command::Set { params }) => {
+                self.change(Cause::Parameters, |inner| inner.request.set(&params, inner.params.as_deref()))
+            }
+            Ok(Command::Reset {}) => self.change(Cause::Parameters, |inner| {
+                inner.request.reset();
+                Ok(())
+            }),
+            Ok(Command::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
+                inner.request.set_seed(seed(&wished)?);
+                Ok(())
+            }),
+            Ok(Command::Steps { steps }) => self.change(Cause::Steps, |inner| {
+                inner.request.steps = steps;
+                Ok(())
+            }),
+        }
+    }
+
+    /// Changes the request and has a run made of it, or answers with what there is already.
+    pub(super) fn change(
+        &self,
+        cause: Cause,
+        change: impl FnOnce(&mut Inner) -> Result<()>,
+    ) -> Option<Event> {
+        let mut inner = self.lock();
+        if let Err(error) = change(&mut inner) {
+            return Some(Event::refused(None, &error));
+        }
+        let same = inner.finished.as_ref() == Some(&inner.request.inputs(inner.generation));
+        let idle = inner.due.is_none() && inner.running.as_ref().is_none_or(|running| running.background);
+        if same && idle {
+            let present =
+                inner.trouble.clone().or_else(|| inner.present().map(|it| Event::Model(Box::new(it))));
+            if inner.cancelled.take().is_none() {
+                return present;
+            }
+            // What is shown is the present model again, for all pages.
+            present.iter().for_each(|event| self.send(event));
+            return None;
+        }
+        inner.post(Due { cause, files: Vec::new(), at: Instant::now() });
+        self.wake.notify_all();
+        None
+    }
+
+    /// Opens a line of a file in the editor. Fails if there is no editor or the file is none of the script's.
+    fn open(&self, file: &str, line: usize) -> Result<()> {
+        let Some(editor) = &self.editor else {
+            return Err(
+                Error::usage("no editor was named").help("start with --editor 'code -g {file}:{line}'")
+            );
+        };
+        editor.open(&self.own_file(file)?, line.max(1))
+    }
+
+    /// The script's file that errors, or the list of files, name so.
+    pub(super) fn own_file(&self, name: &str) -> Result<PathBuf> {
+        let mut own: Vec<PathBuf> = self.lock().files.clone();
+        own.extend(
+            [&self.script]
+                .into_iter()
+                .chain(&self.options.stdlib)
+                .filter_map(|path| path.canonicalize().ok()),
+        );
+        let script = self.script.canonicalize().unwrap_or_else(|_| self.script.clone());
+        let root = script.parent().unwrap_or(Path::new("."));
+        let candidates = [PathBuf::from(name), root.join(name)];
+        let found =
+            candidates.iter().filter_map(|path| path.canonicalize().ok()).find(|path| own.contains(path));
+        let mut alike: Vec<&PathBuf> = own.iter().filter(|path| path.ends_with(name)).collect();
+        alike.sort();
+        alike.dedup();
+        match (found, &alike[..]) {
+            (Some(path), _) => Ok(path),
+            // The name of a link to the script is not that of the file it leads to.
+            (None, _) if name == self.script_name() => Ok(script),
+            // A file in another folder by its name alone, if there is no other one of that name.
+            (None, [path]) if !name.is_empty() => Ok((*path).clone()),
+            (None, _) => {
+                Err(Error::not_found("file", name, [], format!("{name:?} is not a file of the script")))
+            }
+        }
+    }
+
+    /// The name that the engine has for `path`, a file of the script.
+    pub(super) fn engine_name(&self, path: &Path) -> String {
+        let is = |known: &Path| known.canonicalize().is_ok_and(|known| known == path);
+        let whole = [&self.script].into_iter().chain(&self.options.stdlib).find(|known| is(known));
+        let root = self.script.canonicalize().ok().and_then(|script| script.parent().map(Path::to_path_buf));
+        let inner = root.as_deref().and_then(|root| path.strip_prefix(root).ok()).unwrap_or(path);
+        let named = match (whole, self.script.parent()) {
+            (Some(whole), _) => whole.clone(),
+            (None, Some(folder)) => folder.join(inner),
+            (None, None) => inner.to_path_buf(),
+        };
+        named.display().to_string()
+    }
+}

@@ -1,0 +1,249 @@
+//! What pages have requested: values of parameters, the seed, the limit of steps.
+//!
+//! Values are kept by name across saves of the script, and beside each the default that the script had when it
+//! was set, so that a page can show both when the script changes its mind.
+
+use std::collections::BTreeMap;
+
+use serde_json::{Map, Value};
+
+use super::message::ParamMessage;
+use burgeon_base::error::{Error, Result};
+use burgeon_engine::script::{Param, Preset, RunOptions, Setting};
+use burgeon_presets::Presets;
+
+/// What pages have requested.
+#[derive(Debug, Clone, Default)]
+pub(super) struct Request {
+    values: BTreeMap<String, Given>,
+    seed: u64,
+    pub steps: Option<usize>,
+    /// The preset that has been loaded or saved, as long as its values and its seed are the present ones.
+    preset: Option<Preset>,
+}
+
+/// A value that was set.
+#[derive(Debug, Clone)]
+struct Given {
+    text: String,
+    /// The script's default at that time, once it is known.
+    default: Option<Setting>,
+}
+
+/// All that decides what a run makes.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Inputs {
+    pub set: Vec<(String, String)>,
+    pub seed: u64,
+    pub steps: Option<usize>,
+    /// Counts the changes of files.
+    pub generation: u64,
+}
+
+impl Request {
+    /// What the command line requests.
+    pub(super) fn new(options: &RunOptions) -> Self {
+        let given = |text: &String| Given { text: text.clone(), default: None };
+        let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
+        let values =
+            preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
+        Self { values, seed: options.seed, steps: options.steps, preset: None }
+    }
+
+    pub(super) fn inputs(&self, generation: u64) -> Inputs {
+        let set = self.values.iter().map(|(name, given)| (name.clone(), given.text.clone())).collect();
+        Inputs { set, seed: self.seed, steps: self.steps, generation }
+    }
+
+    /// Sets parameters, all or none of them; null puts a default back.
+    ///
+    /// Fails if a value is not text, a number or a switch, and if it is none that its parameter takes, where
+    /// `params`, those of the script as it is, are known.
+    pub(super) fn set(&mut self, wished: &Map<String, Value>, params: Option<&[Param]>) -> Result<()> {
+        let mut read = Vec::new();
+        for (name, value) in wished {
+            let text = match value {
+                Value::Null => None,
+                Value::String(text) => Some(text.clone()),
+                Value::Number(_) | Value::Bool(_) => Some(value.to_string()),
+                _ => {
+                    return Err(Error::argument(format!(
+                        "the value of {name} must be text, a number or a switch"
+                    )));
+                }
+            };
+            let param = params.and_then(|params| params.iter().find(|param| param.name == *name));
+            match (&text, param, params) {
+                (Some(text), Some(param), _) => {
+                    param.accept(text)?;
+                }
+                (Some(_), None, Some(params)) => {
+                    let names = params.iter().map(|param| param.name.as_str());
+                    let message = format!("the script has no parameter called {name}");
+                    return Err(Error::not_found("parameter", name, names, message));
+                }
+                _ => {}
+            }
+            read.push((name.clone(), text, param.map(|param| param.default.clone())));
+        }
+        if !read.is_empty() {
+            self.preset = None;
+        }
+        for (name, text, default) in read {
+            match text {
+                Some(text) => {
+                    self.values.insert(name, Given { text, default });
+                }
+                None => {
+                    self.values.remove(&name);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Puts all defaults back.
+    pub(super) fn reset(&mut self) {
+        self.values.clear();
+        self.preset = None;
+    }
+
+    /// The seed.
+    pub(super) fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Takes another seed.
+    pub(super) fn set_seed(&mut self, seed: u64) {
+        if seed != self.seed {
+            self.preset = None;
+        }
+        self.seed = seed;
+    }
+
+    /// The name of the preset whose values and seed are the present ones.
+    pub(super) fn preset(&self) -> Option<String> {
+        self.preset.as_ref().map(|preset| preset.name.clone())
+    }
+
+    /// Notes that `preset` has the present values and seed.
+    pub(super) fn is_preset(&mut self, preset: Preset) {
+        self.preset = Some(preset);
+    }
+
+    /// Forgets the preset unless it is one of `presets` still, as it was.
+    pub(super) fn look_for_preset(&mut self, presets: &Presets) {
+        self.preset.take_if(|known| !presets.get(&known.name).is_ok_and(|preset| preset.is_like(known)));
+    }
+
+    /// Takes the values of a preset in the place of all others, and its seed if it has one.
+    pub(super) fn load(&mut self, preset: &Preset) {
+        let given = |(name, text)| (name, Given { text, default: None });
+        self.values = preset.set().into_iter().map(given).collect();
+        self.seed = preset.seed.unwrap_or(self.seed);
+        self.preset = Some(preset.clone());
+    }
+
+    /// The values that are set and that `params` take.
+    pub(super) fn used(&self, params: &[Param]) -> Vec<(String, Setting)> {
+        let used = params.iter().filter_map(|param| {
+            let given = self.values.get(&param.name)?;
+            Some((param.name.clone(), param.accept(&given.text).ok()?))
+        });
+        used.collect()
+    }
+
+    /// The parameters of a run as pages show them. Notes the defaults of values whose default was not known.
+    pub(super) fn params(&mut self, params: &[Param]) -> Vec<ParamMessage> {
+        let mut messages = Vec::with_capacity(params.len());
+        for param in params {
+            let given = self.values.get_mut(&param.name);
+            // A value that the script does not take any more is not the one that is shown.
+            let used = given.filter(|given| param.accept(&given.text).is_ok());
+            let old = used.map(|given| given.default.get_or_insert_with(|| param.default.clone()));
+            messages.push(ParamMessage::new(param, old.as_deref()));
+        }
+        messages
+    }
+}
+
+/// The seed that a page sent: a whole number from 0, as text or as a number.
+pub(super) fn seed(value: &Value) -> Result<u64> {
+    let seed = match value {
+        Value::String(text) => text.trim().parse().ok(),
+        other => other.as_u64(),
+    };
+    seed.ok_or_else(|| Error::argument(format!("a seed is a whole number from 0 to {}", u64::MAX)))
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+    use burgeon_engine::script::Control;
+
+    fn param(default: f64, max: f64) -> Param {
+        Param {
+            name: "floors".into(),
+            value: Setting::Number(default),
+            default: Setting::Number(default),
+            control: Control::Number { min: Some(1.0), max: Some(max), step: Some(1.0) },
+            unit: String::new(),
+            text: String::new(),
+        }
+    }
+
+    fn set(request: &mut Request, value: Value, params: &[Param]) -> Result<()> {
+        let Value::Object(map) = value else { panic!() };
+        request.set(&map, Some(params))
+    }
+
+    #[test]
+    fn values_that_the_script_does_not_take_are_refused_with_the_others_of_their_message() {
+        let (mut request, params) = (Request::default(), [param(4.0, 10.0)]);
+        set(&mut request, json!({ "floors": "7" }), &params).unwrap();
+        for wrong in [
+            json!({ "floors": "3", "flors": "1" }),
+            json!({ "floors": 30 }),
+            json!({ "floors": "x" }),
+            json!({ "floors": [1] }),
+        ] {
+            assert!(set(&mut request, wrong, &params).is_err());
+        }
+        assert_eq!(request.inputs(0).set, [("floors".to_owned(), "7".to_owned())]);
+        set(&mut request, json!({ "floors": null }), &params).unwrap();
+        assert!(request.inputs(0).set.is_empty());
+    }
+
+    #[test]
+    fn a_default_that_changed_since_the_value_was_set_is_shown_beside_it() {
+        let mut request = Request::default();
+        set(&mut request, json!({ "floors": 7 }), &[param(4.0, 10.0)]).unwrap();
+        let old = |request: &mut Request, default: f64, max: f64| {
+            request.params(&[Param { value: Setting::Number(7.0), ..param(default, max) }])[0]
+                .old_default
+                .clone()
+        };
+        assert_eq!(old(&mut request, 4.0, 10.0), None);
+        assert_eq!(old(&mut request, 5.0, 10.0), Some(json!(4.0)));
+        assert_eq!(old(&mut request, 5.0, 6.0), None);
+        set(&mut request, json!({ "floors": 7 }), &[param(5.0, 10.0)]).unwrap();
+        assert_eq!(old(&mut request, 5.0, 10.0), None);
+        let mut early =
+            Request::new(&RunOptions { set: vec![("floors".into(), "7".into())], ..RunOptions::default() });
+        assert_eq!(old(&mut early, 4.0, 10.0), None);
+        assert_eq!(old(&mut early, 5.0, 10.0), Some(json!(4.0)));
+    }
+
+    #[test]
+    fn a_seed_is_a_whole_number_of_64_bits() {
+        assert_eq!(seed(&json!("18446744073709551615")).unwrap(), u64::MAX);
+        assert_eq!(seed(&json!(7)).unwrap(), 7);
+        for wrong in
+            [json!("-1"), json!("1.5"), json!(""), json!(null), json!("18446744073709551616"), json!(-3)]
+        {
+            assert!(seed(&wrong).is_err(), "{wrong}");
+        }
+    }
+}

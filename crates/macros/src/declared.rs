@@ -1,0 +1,43 @@
+//! What both attributes take, and what becomes of an item that they refuse.
+
+use proc_macro2::TokenStream;
+use syn::parse::{Parse, ParseStream};
+use syn::{LitStr, Path, Result, Token, parse_quote};
+
+/// What stands in the attribute: what is declared, and the crate with the contract of objects.
+pub(crate) struct Declared {
+    /// The name for scripts and messages.
+    pub name: LitStr,
+    /// The path of the contract.
+    pub kit: Path,
+}
+
+impl Parse for Declared {
+    fn parse(input: ParseStream<'_>) -> Result<Self> {
+        let name = input.parse()?;
+        let mut kit = parse_quote!(::burgeon_kit);
+        if input.parse::<Option<Token![,]>>()?.is_some() && !input.is_empty() {
+            input.parse::<Token![crate]>()?;
+            input.parse::<Token![=]>()?;
+            kit = input.call(Path::parse_mod_style)?;
+        }
+        Ok(Self { name, kit })
+    }
+}
+
+/// What `expand` makes of an item; where it refuses it, the item as it stands and the error, so that an editor still
+/// knows what the item has.
+pub(crate) fn expand(
+    arguments: TokenStream,
+    item: TokenStream,
+    expand: impl Fn(&Declared, TokenStream) -> std::result::Result<TokenStream, (TokenStream, syn::Error)>,
+) -> TokenStream {
+    let expanded = match syn::parse2(arguments) {
+        Ok(declared) => expand(&declared, item),
+        Err(error) => Err((item, error)),
+    };
+    expanded.unwrap_or_else(|(mut item, error)| {
+        item.extend(error.into_compile_error());
+        item
+    })
+}

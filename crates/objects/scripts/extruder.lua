@@ -1,0 +1,7 @@
+local Post = module("Post", "height")
+local fence = lsystem({ object = extruder({ sides = 8, smooth = false }) })
+fence:axiom(Post(3))
+fence:interpret("Post(height)", function(this, height)
+  this:scale(0.1):extrude(height)
+end)
+fence:derive()

@@ -1,0 +1,7 @@
+local House = module("House", "height")
+local house = lsystem({ object = footprint({ { 0, 0 }, { 10, 0 }, { 10, 8 }, { 0, 8 } }) })
+house:axiom(House(6))
+house:interpret("House(height)", function(this, height)
+  this:walls({ height = height }):roof({ kind = "hip", slope = 35 })
+end)
+house:derive()

@@ -1,0 +1,2 @@
+local windows = grid(panel({ width = 2, height = 3 }))
+print(windows:fits(8, 9))

@@ -1,0 +1,272 @@
+//! The house stands as it is drawn: who uses whom, what each member names in its Cargo.toml, who may know which
+//! names, and who may print.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+
+mod sources;
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use burgeon::kit::Construct;
+use sources::{Source, paths, words};
+
+type Uses = BTreeMap<String, BTreeSet<String>>;
+
+fn root() -> PathBuf {
+    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn text(path: impl AsRef<Path>) -> String {
+    let path = root().join(path);
+    fs::read_to_string(&path).unwrap_or_else(|error| panic!("{}: {error}", path.display()))
+}
+
+/// The members under `crates/`.
+fn members() -> Vec<String> {
+    let entries = fs::read_dir(root().join("crates")).unwrap();
+    let mut names: Vec<String> =
+        entries.map(|entry| entry.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    assert!(names.len() > 10, "{names:?}");
+    names
+}
+
+/// The map in the front page of the façade: a member, an arrow, those that it uses. Members stand in an order.
+fn drawn() -> (Vec<String>, Uses) {
+    let front = text("src/lib.rs");
+    let lines = front.lines().filter_map(|line| line.strip_prefix("//! ")?.split_once(" uses ──►"));
+    let mut order = Vec::new();
+    let uses = lines.map(|(name, uses)| {
+        order.push(name.trim().to_owned());
+        let uses = uses.split(',').map(|name| name.trim().to_owned()).filter(|name| name != "nothing");
+        (name.trim().to_owned(), uses.collect())
+    });
+    let uses = uses.collect();
+    (order, uses)
+}
+
+/// The names in a section of a Cargo.toml.
+fn section(manifest: &str, title: &str) -> BTreeSet<String> {
+    let lines = manifest.lines().skip_while(|line| *line != format!("[{title}]")).skip(1);
+    let lines = lines.take_while(|line| !line.starts_with('['));
+    let names = lines.filter_map(|line| Some(line.split(['.', ' ', '=']).next()?.trim().to_owned()));
+    names.filter(|name| !name.is_empty() && !name.starts_with('#')).collect()
+}
+
+/// The members among `names`, without what all their names begin with.
+fn of_the_house(names: &BTreeSet<String>) -> BTreeSet<String> {
+    names.iter().filter_map(|name| name.strip_prefix("burgeon-")).map(str::to_owned).collect()
+}
+
+/// A way from a name back to itself, if there is one.
+fn circle(uses: &Uses) -> Option<Vec<String>> {
+    fn walk<'a>(uses: &'a Uses, way: &mut Vec<&'a str>, done: &mut BTreeSet<&'a str>) -> bool {
+        let last = way[way.len() - 1];
+        for next in uses.get(last).into_iter().flatten() {
+            if way.contains(&next.as_str()) {
+                way.push(next);
+                return true;
+            }
+            if !done.contains(next.as_str()) {
+                way.push(next);
+                if walk(uses, way, done) {
+                    return true;
+                }
+                way.pop();
+            }
+        }
+        done.insert(last);
+        false
+    }
+    let mut done = BTreeSet::new();
+    uses.keys().find_map(|name| {
+        let mut way = vec![name.as_str()];
+        walk(uses, &mut way, &mut done).then(|| way.into_iter().map(str::to_owned).collect())
+    })
+}
+
+/// Which folder of a member's `src` uses which other.
+fn folders(member: &str) -> Uses {
+    let folder = root().join("crates").join(member).join("src");
+    let sources = Source::all(&folder);
+    let names = fs::read_dir(&folder).unwrap().filter_map(|entry| {
+        let path = entry.unwrap().path();
+        path.is_dir().then(|| path.file_name().unwrap().to_string_lossy().into_owned())
+    });
+    let mut uses: Uses = names.map(|name| (name, BTreeSet::new())).collect();
+    for source in sources {
+        let Some(own) = source.module.first().filter(|own| uses.contains_key(*own)) else { continue };
+        for path in source.inner_paths() {
+            if let Some(other) = path.first().filter(|other| *other != own && uses.contains_key(*other)) {
+                uses.get_mut(own).unwrap().insert(other.clone());
+            }
+        }
+    }
+    uses
+}
+
+#[test]
+fn members_use_those_that_stand_before_them_in_the_drawn_map() {
+    let (order, drawn) = drawn();
+    let known: BTreeSet<String> = members().into_iter().chain(["burgeon".to_owned()]).collect();
+    assert_eq!(order.iter().cloned().collect::<BTreeSet<_>>(), known, "the map and crates/ differ");
+    for (place, member) in order.iter().enumerate() {
+        let folder = if member == "burgeon" { root() } else { root().join("crates").join(member) };
+        let built = of_the_house(&section(&text(folder.join("Cargo.toml")), "dependencies"));
+        assert_eq!(drawn[member], built, "{member}: the map in src/lib.rs and its Cargo.toml differ");
+        for used in &drawn[member] {
+            assert!(order[..place].contains(used), "{member} uses {used}, which does not stand before it");
+        }
+        let named: BTreeSet<String> = Source::all(&folder.join("src"))
+            .iter()
+            .flat_map(|source| paths(&source.code))
+            .filter_map(|path| Some(path[0].strip_prefix("burgeon_")?.to_owned()))
+            .collect();
+        assert_eq!(drawn[member], named, "{member}: the map in src/lib.rs and its `use` lines differ");
+    }
+    assert_eq!(circle(&drawn), None);
+}
+
+#[test]
+fn a_circle_is_found() {
+    let uses = |pairs: &[(&str, &str)]| -> Uses {
+        let mut uses = Uses::new();
+        for (user, used) in pairs {
+            uses.entry((*user).to_owned()).or_default().insert((*used).to_owned());
+        }
+        uses
+    };
+    assert_eq!(circle(&uses(&[("a", "b"), ("a", "c"), ("b", "c")])), None);
+    assert_eq!(circle(&uses(&[("a", "b"), ("b", "c"), ("c", "b")])).unwrap(), ["a", "b", "c", "b"]);
+}
+
+#[test]
+fn no_circle_leads_through_the_folders_of_a_member() {
+    for member in members() {
+        let folders = folders(&member);
+        assert_eq!(circle(&folders), None, "{member}: {folders:?}");
+    }
+}
+
+#[test]
+fn a_member_names_the_crates_that_it_uses_and_no_others() {
+    let own = members().into_iter().map(|member| Path::new("crates").join(member));
+    for folder in own.chain([PathBuf::new()]) {
+        let manifest = text(folder.join("Cargo.toml"));
+        let sources = Source::all(&root().join(&folder).join("src"));
+        let own: BTreeSet<&String> = sources.iter().filter_map(|source| source.module.first()).collect();
+        let code: Vec<Vec<String>> = sources
+            .iter()
+            .flat_map(|source| {
+                let mut paths = paths(&source.code);
+                // In the root of a crate its own module comes before a crate of that name.
+                paths.retain(|path| !source.module.is_empty() || !own.contains(&path[0]));
+                paths
+            })
+            .collect();
+        let mut tests: String =
+            sources.iter().flat_map(|source| [source.tests.as_str(), &source.comments]).collect();
+        if folder == Path::new("") {
+            let mut files = Vec::new();
+            ["tests", "benches", "examples"]
+                .iter()
+                .for_each(|name| sources::collect(&root().join(name), "rs", &mut files));
+            files.iter().for_each(|file| tests += &text(file));
+        }
+        let tests = paths(&tests);
+        let used = |paths: &[Vec<String>], name: &str| {
+            let name = name.replace('-', "_");
+            paths.iter().any(|path| path[0] == name)
+        };
+        let dependencies = section(&manifest, "dependencies");
+        let none = |what: &str, wrong: Vec<&String>| {
+            assert_eq!(wrong, [""; 0], "{}: {what}", folder.join("Cargo.toml").display());
+        };
+        let unused = dependencies.iter().filter(|name| !used(&code, name));
+        none("dependencies that nobody uses, or only tests", unused.collect());
+        let of_tests = section(&manifest, "dev-dependencies");
+        none("dependencies twice", of_tests.intersection(&dependencies).collect());
+        none("no test uses", of_tests.iter().filter(|name| !used(&tests, name)).collect());
+    }
+}
+
+#[test]
+fn the_engine_knows_no_type_of_object_by_name() {
+    let registry = burgeon::objects::registry();
+    let kinds: BTreeSet<&str> = registry
+        .kinds()
+        .filter(|kind| !matches!(kind.construct, Construct::Given))
+        .map(|kind| &*kind.name)
+        .collect();
+    let exported = text("crates/objects/src/lib.rs");
+    let structs: BTreeSet<&str> = exported
+        .lines()
+        .filter_map(|line| line.strip_prefix("pub use "))
+        .flat_map(words)
+        .filter(|word| word.starts_with(char::is_uppercase))
+        .collect();
+    for name in ["Extruder", "Turtle", "Footprint", "Facade", "Terrain", "Planet", "Elevation", "Universe"] {
+        assert!(structs.contains(name) && kinds.contains(&*name.to_lowercase()), "{name} is found");
+    }
+    let mut prelude = Vec::new();
+    sources::collect(&root().join("crates/engine/src"), "luau", &mut prelude);
+    assert!(!prelude.is_empty());
+    let lua = prelude.into_iter().map(|path| {
+        let text = text(&path);
+        let code: Vec<String> =
+            text.lines().map(|line| line.split("--").next().unwrap_or_default().to_owned()).collect();
+        (path, code.join("\n"))
+    });
+    let rust = Source::all(&root().join("crates/engine/src")).into_iter().map(|it| (it.path, it.code));
+    for (path, code) in rust.chain(lua) {
+        let named: Vec<&str> = words(&code).filter(|word| structs.contains(word)).collect();
+        assert_eq!(named, [""; 0], "{}", path.display());
+        // A kind's name may be an ordinary word; in quotes, or called, it is that kind.
+        let meant = kinds.iter().filter(|kind| code.contains(&format!("\"{kind}\"")));
+        assert_eq!(meant.collect::<Vec<_>>(), [&""; 0], "{}", path.display());
+    }
+}
+
+#[test]
+fn members_print_nothing() {
+    for member in members() {
+        for source in Source::all(&root().join("crates").join(&member).join("src")) {
+            for printing in ["print!", "println!", "eprint!", "eprintln!", "dbg!"] {
+                let mut found = source.code.match_indices(printing).map(|(at, _)| &source.code[..at]);
+                let whole = |before: &str| !before.ends_with(|c: char| c.is_alphanumeric() || c == '_');
+                assert!(!found.any(whole), "{}: {printing}", source.path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn each_member_has_a_front_page_that_says_what_comes_in_what_goes_out_and_what_it_never_does() {
+    for member in members() {
+        let front = text(format!("crates/{member}/src/lib.rs"));
+        let page: String = front.lines().map_while(|line| line.strip_prefix("//!")).collect();
+        for words in ["Comes in: ", "Goes out: ", " never "] {
+            assert!(page.contains(words), "crates/{member}/src/lib.rs does not say what {words:?}");
+        }
+    }
+}
+
+#[test]
+fn the_oldest_rust_is_the_same_wherever_it_is_stated() {
+    let manifest = text("Cargo.toml");
+    let oldest =
+        manifest.lines().find_map(|line| line.strip_prefix("rust-version = ")).unwrap().trim_matches('"');
+    for file in ["README.md", ".ci/run"] {
+        assert!(text(file).contains(&format!("Rust {oldest}")), "{file} does not name Rust {oldest}");
+    }
+    for member in members().into_iter().map(|member| format!("crates/{member}")).chain(["fuzz".to_owned()]) {
+        let manifest = text(format!("{member}/Cargo.toml"));
+        for inherited in
+            ["rust-version.workspace = true", "license.workspace = true", "[lints]\nworkspace = true"]
+        {
+            assert!(manifest.contains(inherited), "{member}/Cargo.toml has not {inherited:?}");
+        }
+    }
+}

@@ -1,0 +1,184 @@
+//! Reads the sources of a member: what stands in them without comments and tests, and the paths that they name.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// A file of Rust.
+pub(crate) struct Source {
+    /// Where it is, from the root of the tree.
+    pub(crate) path: PathBuf,
+    /// The module that it is, as names from the crate's root; empty for the root itself.
+    pub(crate) module: Vec<String>,
+    /// Its text without comments and without tests; of a file of tests, without comments.
+    pub(crate) code: String,
+    /// What its tests say, without comments.
+    pub(crate) tests: String,
+    /// Its comments, whose examples are tests as well.
+    pub(crate) comments: String,
+}
+
+impl Source {
+    /// All files under `folder`, the `src` of a crate, in the order of their paths.
+    pub(crate) fn all(folder: &Path) -> Vec<Self> {
+        let mut files = Vec::new();
+        collect(folder, "rs", &mut files);
+        files.sort();
+        let whole: Vec<String> = files.iter().map(|file| fs::read_to_string(file).unwrap()).collect();
+        let texts: Vec<String> = whole.iter().map(|text| bare(text)).collect();
+        let tests: Vec<Vec<String>> = files
+            .iter()
+            .zip(&texts)
+            .flat_map(|(file, text)| {
+                let module = module(folder, file);
+                test_modules(text).into_iter().map(move |name| [module.as_slice(), &[name]].concat())
+            })
+            .collect();
+        let read = files.into_iter().zip(texts).zip(whole).map(|((path, text), whole)| {
+            let module = module(folder, &path);
+            let is_test = tests.iter().any(|test| module.starts_with(test));
+            let end = if is_test { 0 } else { text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len()) };
+            let (code, tests) = text.split_at(end);
+            Self { code: code.to_owned(), tests: tests.to_owned(), comments: comments(&whole), path, module }
+        });
+        read.collect()
+    }
+
+    /// The paths that its code names, from the crate's root: `crate`, `self` and `super` are followed.
+    pub(crate) fn inner_paths(&self) -> Vec<Vec<String>> {
+        let mut found = Vec::new();
+        for path in paths(&self.code) {
+            let ups = path.iter().take_while(|name| *name == "super").count();
+            let rest = match path.first().map(String::as_str) {
+                Some("crate") => path[1..].to_vec(),
+                Some("self") => [&self.module, &path[1..]].concat(),
+                Some("super") if ups <= self.module.len() => {
+                    [&self.module[..self.module.len() - ups], &path[ups..]].concat()
+                }
+                _ => continue,
+            };
+            found.push(rest);
+        }
+        found
+    }
+}
+
+/// The files under `folder` that end in `extension`.
+pub(crate) fn collect(folder: &Path, extension: &str, files: &mut Vec<PathBuf>) {
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            collect(&path, extension, files);
+        } else if path.extension().is_some_and(|found| found == extension) {
+            files.push(path);
+        }
+    }
+}
+
+/// The module that `file` is, as names from the root of the crate in `folder`.
+fn module(folder: &Path, file: &Path) -> Vec<String> {
+    let inner = file.strip_prefix(folder).unwrap().with_extension("");
+    let mut names: Vec<String> = inner.iter().map(|name| name.to_string_lossy().into_owned()).collect();
+    names.pop_if(|last| matches!(&**last, "lib" | "main" | "mod"));
+    names
+}
+
+/// The names of the files that a module keeps for its tests.
+fn test_modules(text: &str) -> Vec<String> {
+    let after = text.split("#[cfg(test)]\n").skip(1);
+    let lines = after.filter_map(|rest| rest.lines().next());
+    lines.filter_map(|line| Some(line.trim().strip_suffix(';')?.split_once("mod ")?.1.to_owned())).collect()
+}
+
+/// `text` without comments that fill a line.
+fn bare(text: &str) -> String {
+    let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
+    lines.flat_map(|line| [line, "\n"]).collect()
+}
+
+/// The comments of `text` that fill a line.
+fn comments(text: &str) -> String {
+    let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix("//"));
+    lines.flat_map(|line| [line.trim_start_matches(['/', '!', ' ', '#']), "\n"]).collect()
+}
+
+/// The words of a text: what stands between all that cannot be in a name.
+pub(crate) fn words(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| !c.is_alphanumeric() && c != '_').filter(|word| !word.is_empty())
+}
+
+/// All paths of two and more names in `code`, and what is used, or named as a crate, by one name; those of a group in braces each by itself.
+pub(crate) fn paths(code: &str) -> Vec<Vec<String>> {
+    let tokens = tokens(code);
+    let (mut found, mut at) = (Vec::new(), 0);
+    while at < tokens.len() {
+        let used = at > 0 && matches!(tokens[at - 1], "use" | "crate");
+        if is_name(tokens[at]) && (used || tokens.get(at + 1) == Some(&"::")) {
+            path(&tokens, &mut at, &[], &mut found);
+        } else {
+            at += 1;
+        }
+    }
+    found
+}
+
+/// Reads the path that begins at token `at`, behind the names `before`.
+fn path(tokens: &[&str], at: &mut usize, before: &[String], found: &mut Vec<Vec<String>>) {
+    let mut names = before.to_vec();
+    while let Some(name) = tokens.get(*at).filter(|name| is_name(name)) {
+        names.push((*name).to_owned());
+        *at += 1;
+        if tokens.get(*at) != Some(&"::") {
+            break;
+        }
+        *at += 1;
+        if tokens.get(*at) == Some(&"{") {
+            *at += 1;
+            while tokens.get(*at).is_some_and(|token| *token != "}") {
+                let begin = *at;
+                path(tokens, at, &names, found);
+                *at = (*at).max(begin + 1);
+            }
+            *at += 1;
+            return;
+        }
+    }
+    if names.len() > before.len() {
+        found.push(names);
+    }
+}
+
+fn is_name(token: &str) -> bool {
+    token.starts_with(|c: char| c.is_alphabetic() || c == '_')
+}
+
+/// Names, `::`, and every other character that is no space by itself.
+fn tokens(code: &str) -> Vec<&str> {
+    let (mut found, mut rest) = (Vec::new(), code.trim_start());
+    while let Some(first) = rest.chars().next() {
+        let name = rest.find(|c: char| !c.is_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let end = if name > 0 {
+            name
+        } else if rest.starts_with("::") {
+            2
+        } else {
+            first.len_utf8()
+        };
+        found.push(&rest[..end]);
+        rest = rest[end..].trim_start();
+    }
+    found
+}
+
+#[test]
+fn a_group_of_names_is_as_many_paths() {
+    let found = paths("use crate::{a::{B, C}, d};\nlet e = super::f::<G>(h) + i;\nuse j::*;");
+    let found: Vec<String> = found.iter().map(|path| path.join(" ")).collect();
+    assert_eq!(found, ["crate a B", "crate a C", "crate d", "super f", "j"]);
+}
+
+#[test]
+fn tests_and_comments_are_no_code() {
+    let text = "//! Uses a::b.\nuse c::d;\n#[cfg(test)]\nmod far;\nfn e() {}\n#[cfg(test)]\nmod tests {\n}\n";
+    assert_eq!(test_modules(&bare(text)), ["far"]);
+    assert!(!bare(text).contains("a::b"));
+}
