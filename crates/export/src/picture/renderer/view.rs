@@ -1,6 +1,6 @@
 //! Where to look from: the viewpoint that shows a model of unknown shape best.
 
-use super::settings::Picture;
+use super::super::settings::Picture;
 use glam::{DMat3, DVec3, Vec3A};
 
 /// A standing model is flat if its thickness is below this part of its next larger extent.

@@ -253,8 +253,8 @@ fn broken(message: String) -> Error {
 
 #[cfg(test)]
 mod tests {
+    use super::super::samples;
     use super::*;
-    use crate::picture::samples;
 
     #[test]
     fn a_triangle_is_found_by_its_number() {

@@ -2,8 +2,8 @@
 
 use rusqlite::Connection;
 
-use super::super::{Geometry, Layer, Source, Wanted};
 use super::*;
+use crate::{Geometry, Layer, Source, Wanted};
 use burgeon_kit::random::Stream;
 
 /// A blob of a GeoPackage of a type, with a number of items, and points.
@@ -55,7 +55,7 @@ fn arcs_are_within_a_centimetre_in_metres_and_in_degrees() {
             assert!(off < 0.0101, "{crs}: {off}");
         }
         assert!(points.len() < 2000, "{}", points.len());
-        let listing = super::super::Listing::read(&path, &Arc::default()).unwrap().text();
+        let listing = crate::Listing::read(&path, &Arc::default()).unwrap().text();
         assert!(listing.contains("4 points, 1 line"), "{listing}");
     }
 }

@@ -2,8 +2,9 @@
 
 use tiff::tags::Tag;
 
-use super::geotiff::{Keys, Tiff, keys};
-use super::raw::narrow;
+use super::super::elevation::names::tiff_key as keys;
+use super::super::elevation::raw::narrow;
+use super::geotiff::{Keys, Tiff};
 use burgeon_base::error::{Error, Result};
 
 /// What GDAL tells of a file and its bands, as XML.

@@ -5,7 +5,8 @@
 //! The reader is our own, since it must be bounded: 13 bytes that claim 2^32 points make geozero ask for the memory
 //! of all of them, which ends the program. Here room is made for what is there.
 
-use super::{DEEPEST, Geometry, arc};
+use super::super::{DEEPEST, Geometry};
+use super::arc;
 use burgeon_base::budget::Budget;
 
 /// Reads one blob of a GeoPackage: its geometry's parts, none if it is empty. Fails with the reason.

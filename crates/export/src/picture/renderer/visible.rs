@@ -2,8 +2,8 @@
 
 use super::camera::Camera;
 use super::coverage::Coverage;
+use super::detail::Detail;
 use super::raster::Grid;
-use super::settings::Detail;
 use super::stage::Stage;
 use glam::Vec3A;
 use rayon::prelude::*;

@@ -7,8 +7,10 @@ use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
 use super::super::Crs;
+use super::super::elevation::names::tiff_key as keys;
+use super::super::elevation::raster::{Found, Grid, check_size, count};
 use super::meaning::Meaning;
-use super::raster::{DEFLATED, Found, Grid, can_hold, cannot_hold, check_size, count};
+use super::packed::{DEFLATED, can_hold, cannot_hold};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -21,51 +23,13 @@ const PACKED: usize = 100_000;
 const LARGEST_PART: usize = 1_000_000_000;
 const LARGEST_TAG: usize = 64_000_000;
 
-/// Keys of GeoTIFF, and values of theirs.
-pub mod keys {
-    /// Whether coordinates are projected or geographic.
-    pub const MODEL: u16 = 1024;
-    /// Coordinates are projected.
-    pub const IS_PROJECTED: u16 = 1;
-    /// Whether a sample is an area or a point.
-    pub const RASTER: u16 = 1025;
-    /// A sample is an area.
-    pub const AREA: u16 = 1;
-    /// A sample is a point.
-    pub const POINT: u16 = 2;
-    /// The EPSG code of geographic coordinates.
-    pub const GEOGRAPHIC: u16 = 2048;
-    /// Longitude and latitude of WGS 84.
-    pub const WGS_84: u16 = 4326;
-    /// The EPSG code of projected coordinates.
-    pub const PROJECTED: u16 = 3072;
-    /// A coordinate system that is described, not named.
-    pub const OWN: u16 = 32767;
-    /// The EPSG code of a projection without its datum.
-    pub const PROJECTION: u16 = 3074;
-    /// How a projection works.
-    pub const METHOD: u16 = 3075;
-    /// Transverse Mercator.
-    pub const TRANSVERSE_MERCATOR: u16 = 1;
-    /// The unit of projected coordinates.
-    pub const LINEAR_UNIT: u16 = 3076;
-    /// Metres.
-    pub const METRE: u16 = 9001;
-    /// The longitude and the latitude (degrees) of the middle, its coordinates, and the scale there.
-    pub const MIDDLE: [u16; 5] = [3080, 3081, 3082, 3083, 3092];
-    /// The EPSG code of heights.
-    pub const VERTICAL: u16 = 4096;
-    /// The unit of heights.
-    pub const VERTICAL_UNIT: u16 = 4099;
-}
-
 /// A TIFF in memory that is being read.
 pub(super) type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 
 /// Reads a file called `name`.
 ///
 /// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     let damaged = |error: TiffError| damaged(name, &error);
     if !texts_fit(bytes) {
         return Err(damaged(TiffError::LimitsExceeded));

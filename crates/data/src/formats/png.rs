@@ -4,19 +4,13 @@ use std::io::Cursor;
 
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
 
-use super::raster::{DEFLATED, Found, can_hold, cannot_hold, check_size};
-use super::raw::narrow;
-use super::{MOST, Wanted};
+use super::super::elevation::names::png_text as text;
+use super::super::elevation::raster::{Found, check_size};
+use super::super::elevation::raw::narrow;
+use super::super::elevation::{MOST, Wanted};
+use super::packed::{DEFLATED, can_hold, cannot_hold};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
-
-/// The names of the texts in a PNG that tell heights (m).
-pub mod text {
-    /// That of black.
-    pub const LOW: &str = "low";
-    /// That of white.
-    pub const HIGH: &str = "high";
-}
 
 /// A PNG in memory that is being read.
 type Png<'a> = Decoder<Cursor<&'a [u8]>>;
@@ -25,7 +19,7 @@ type Png<'a> = Decoder<Cursor<&'a [u8]>>;
 ///
 /// Fails on 8 bits of grey, and on colours unless `wanted` says what they mean; if the heights of black and white are
 /// neither in the file nor in `wanted`; if it is damaged or cut short.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MOST * 8 });
     decoder.set_transformations(Transformations::IDENTITY);
     let info = decoder.read_header_info().map_err(|error| damaged(name, bytes, &error))?;

@@ -94,9 +94,9 @@ impl Camera {
 
 #[cfg(test)]
 mod tests {
+    use super::super::stage::Stage;
+    use super::super::{Picture, samples, view};
     use super::*;
-    use crate::picture::stage::Stage;
-    use crate::picture::{Picture, samples, view};
 
     #[test]
     fn all_corners_are_inside_and_the_model_touches_the_margin() {

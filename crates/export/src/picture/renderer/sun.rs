@@ -1,9 +1,9 @@
 //! The sun: where it stands, and how much of it is seen from a point.
 
 use super::coverage::Coverage;
+use super::detail::Detail;
 use super::light_map::Frame;
 use super::raster::Grid;
-use super::settings::Detail;
 use super::stage::Stage;
 use super::view::Viewpoint;
 use glam::{Vec2, Vec3A};
@@ -136,8 +136,9 @@ fn disc(count: usize) -> Vec<Vec2> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::samples;
     use super::*;
-    use crate::picture::{Quality, samples};
+    use crate::picture::Quality;
     use glam::DVec3;
 
     #[test]

@@ -73,9 +73,10 @@ fn blur(cells: &[f32]) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::detail::Detail;
+    use super::super::{samples, view::Viewpoint};
     use super::*;
-    use crate::picture::settings::Detail;
-    use crate::picture::{Quality, samples, view::Viewpoint};
+    use crate::picture::Quality;
     use glam::DVec3;
 
     #[test]

@@ -3,7 +3,9 @@
 use super::tone;
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::Material;
+use burgeon_scene::image::{self, Image};
 use glam::{Vec2, Vec3, Vec4};
+use std::io::Read;
 
 /// Lookups along a stretched footprint, at most.
 const STRETCH: f32 = 8.0;
@@ -40,10 +42,10 @@ impl Texture {
                 .help("give the width and height of one repetition in metres"));
         }
         let image = open(texture).map_err(|error| {
-            Error::data(format!("the texture {name} cannot be read: {error}"))
+            Error::data(format!("the texture {name} cannot be read: {}", error.message()))
                 .help("check the path; a texture is a PNG or JPEG file")
         })?;
-        let pixels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();
+        let pixels = image.pixels().to_vec();
         let holes = pixels.iter().any(|pixel| pixel[3] < 255);
         let mut levels =
             vec![Level { width: image.width() as usize, height: image.height() as usize, pixels }];
@@ -102,14 +104,18 @@ impl Texture {
     }
 }
 
-fn open(texture: &burgeon_scene::Texture) -> Result<image::RgbaImage, image::ImageError> {
+/// The image of a texture, from its file unless it has none.
+fn open(texture: &burgeon_scene::Texture) -> Result<Image> {
     match &texture.content {
-        Some(content) => Ok(image::load_from_memory(content)?.to_rgba8()),
-        None => {
-            let file = std::io::BufReader::new(burgeon_base::files::open(&texture.path)?.0);
-            Ok(image::ImageReader::new(file).with_guessed_format()?.decode()?.to_rgba8())
-        }
+        Some(content) => image::decode(content),
+        None => image::decode(&read(texture).map_err(Error::data)?),
     }
+}
+
+fn read(texture: &burgeon_scene::Texture) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    burgeon_base::files::open(&texture.path)?.0.read_to_end(&mut bytes)?;
+    Ok(bytes)
 }
 
 /// The linear colour of a pixel times its opacity, and the opacity.

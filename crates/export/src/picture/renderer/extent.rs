@@ -52,8 +52,9 @@ impl Extent {
 
 #[cfg(test)]
 mod tests {
+    use super::super::{render, render_within, samples};
     use super::*;
-    use crate::picture::{Picture, Quality, render, render_within, samples};
+    use crate::picture::{Picture, Quality};
     use burgeon_base::stop::Stop;
 
     fn picture() -> Picture {
@@ -63,9 +64,9 @@ mod tests {
     }
 
     /// Pixels that differ from an empty picture.
-    fn seen(image: &image::RgbaImage) -> usize {
+    fn seen(image: &burgeon_scene::image::Image) -> usize {
         let empty = render(&Scene::default(), &picture()).unwrap();
-        image.pixels().zip(empty.pixels()).filter(|(a, b)| a != b).count()
+        image.pixels().iter().zip(empty.pixels()).filter(|(a, b)| a != b).count()
     }
 
     #[test]

@@ -13,8 +13,9 @@ use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
 
+use super::super::{Attribute, Crs, Table, Wanted};
+use super::arc;
 use super::wkb::read_blob;
-use super::{Attribute, Crs, Table, Wanted, arc};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -77,7 +78,7 @@ struct Described {
 }
 
 impl GeoPackage {
-    pub(super) fn open(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
+    pub(crate) fn open(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
         let connection = connect(path).map_err(|error| broken(name, &error))?;
         let (owned, budget) = (name.to_owned(), Arc::clone(&wanted.budget));
         watched(connection, &wanted.budget, move |connection| Self::with(connection, owned, &budget))
@@ -125,11 +126,11 @@ impl GeoPackage {
         Ok(Self { connection, name, layers })
     }
 
-    pub(super) fn layers(&self) -> Vec<String> {
+    pub(crate) fn layers(&self) -> Vec<String> {
         self.layers.iter().map(|layer| layer.table.clone()).collect()
     }
 
-    pub(super) fn read(self, layer: &str, wanted: &Wanted) -> Result<Table> {
+    pub(crate) fn read(self, layer: &str, wanted: &Wanted) -> Result<Table> {
         let Self { connection, name, layers } = self;
         let (layer, wanted) = (layer.to_owned(), wanted.clone());
         let budget = Arc::clone(&wanted.budget);

@@ -1,14 +1,15 @@
 //! From samples to pixels: finds what each pixel sees, has it lit, and mixes the colours.
 
+use super::super::settings::{Background, Picture};
 use super::coverage::noise;
-use super::settings::{Background, Detail, Picture};
+use super::detail::Detail;
 use super::shade::{Fragment, Light};
 use super::sky::smooth;
 use super::surface::Surface;
 use super::tone;
 use super::visible::Visible;
+use burgeon_scene::image::Image;
 use glam::{Vec3, Vec3A, Vec4};
-use image::RgbaImage;
 use rayon::prelude::*;
 
 /// Samples held at a time, which bounds the memory to 8 times as many bytes.
@@ -27,11 +28,11 @@ struct Share {
 }
 
 /// The picture in `light`.
-pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> RgbaImage {
+pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Image {
     let (width, height) = (picture.width as usize, picture.height as usize);
-    let mut pixels = vec![0_u8; width * height * 4];
+    let mut pixels = vec![[0; 4]; width * height];
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
-    for (index, rows) in pixels.chunks_mut(band * width * 4).enumerate() {
+    for (index, rows) in pixels.chunks_mut(band * width).enumerate() {
         // What is seen of a band takes its time and its memory, also where nothing is drawn any more.
         if light.stage.stop.is_stopped() {
             break;
@@ -39,24 +40,21 @@ pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Rgba
         let first = index * band;
         let last = (first + band).min(height);
         let visible = Visible::new(light.stage, light.camera, detail, width, first..last);
-        rows.par_chunks_mut(TILE[1] * width * 4).enumerate().for_each(|(index, rows)| {
+        rows.par_chunks_mut(TILE[1] * width).enumerate().for_each(|(index, rows)| {
             let top = first + index * TILE[1];
             for left in (0..width).step_by(TILE[0]) {
                 if light.stage.stop.is_stopped() {
                     return;
                 }
-                let size = [TILE[0].min(width - left), rows.len() / (width * 4)];
+                let size = [TILE[0].min(width - left), rows.len() / width];
                 let tile = tile(light, picture, &visible, [left, top], size);
                 for (y, line) in tile.chunks(size[0]).enumerate() {
-                    for (x, color) in line.iter().enumerate() {
-                        let at = (y * width + left + x) * 4;
-                        rows[at..at + 4].copy_from_slice(color);
-                    }
+                    rows[y * width + left..][..line.len()].copy_from_slice(line);
                 }
             }
         });
     }
-    RgbaImage::from_raw(picture.width, picture.height, pixels).unwrap_or_default()
+    Image::from_pixels(picture.width, picture.height, pixels).unwrap_or_else(|| Image::filled(0, 0, [0; 4]))
 }
 
 /// The colours of the pixels from `corner` on.

@@ -1,11 +1,12 @@
 //! What a picture must show, checked on small ones.
 
 use super::samples::{boxes, instance, prism, quad, ring, scene_of, twisted_tower};
-use super::{Background, Picture, Quality, render, render_within};
+use super::{render, render_within};
+use crate::picture::{Background, Picture, Quality};
 use burgeon_base::stop::Stop;
+use burgeon_scene::image::Image;
 use burgeon_scene::{Material, Part, Scene, Texture};
 use glam::{DAffine3, DVec3, Vec3};
-use image::RgbaImage;
 
 /// A small picture from the south-east on a transparent background, without a ground.
 fn small() -> Picture {
@@ -22,16 +23,22 @@ fn small() -> Picture {
 }
 
 /// The mean brightness, 0 to 255, of the opaque pixels in columns `xs` and rows `ys`.
-fn brightness(image: &RgbaImage, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>) -> f64 {
-    let pixels = ys.flat_map(|y| xs.clone().map(move |x| image.get_pixel(x, y).0));
+fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>) -> f64 {
+    let pixels = ys.flat_map(|y| xs.clone().map(move |x| image.pixel(x, y)));
     let opaque: Vec<[u8; 4]> = pixels.filter(|pixel| pixel[3] == 255).collect();
     assert!(!opaque.is_empty(), "nothing is seen there");
     let sum: f64 = opaque.iter().map(|pixel| pixel[..3].iter().map(|c| f64::from(*c)).sum::<f64>()).sum();
     sum / (3.0 * opaque.len() as f64)
 }
 
-fn covered(image: &RgbaImage) -> usize {
-    image.pixels().filter(|pixel| pixel[3] > 0).count()
+/// Each pixel with its column and row.
+fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
+    let rows = 0..image.height();
+    rows.flat_map(move |y| (0..image.width()).map(move |x| (x, y, image.pixel(x, y))))
+}
+
+fn covered(image: &Image) -> usize {
+    image.pixels().iter().filter(|pixel| pixel[3] > 0).count()
 }
 
 /// A square of 4 m standing on the x axis, its front to the south.
@@ -46,7 +53,7 @@ fn wall(material: Material) -> Scene {
 fn the_model_fills_the_picture_up_to_the_margin() {
     let image = render(&twisted_tower(12), &Picture { height: 200, ..small() }).unwrap();
     let seen: Vec<(u32, u32)> =
-        image.enumerate_pixels().filter(|(_, _, pixel)| pixel[3] > 0).map(|(x, y, _)| (x, y)).collect();
+        places(&image).filter(|(_, _, pixel)| pixel[3] > 0).map(|(x, y, _)| (x, y)).collect();
     let (top, bottom) = (seen.iter().map(|p| p.1).min().unwrap(), seen.iter().map(|p| p.1).max().unwrap());
     assert!((11..=13).contains(&top) && (186..=188).contains(&bottom), "rows {top} to {bottom} of 200");
     assert!(seen.iter().all(|(x, _)| (5..91).contains(x)));
@@ -96,7 +103,7 @@ fn the_number_of_threads_does_not_change_a_byte() {
 #[test]
 fn an_edge_is_smooth() {
     let image = render(&boxes(&[DVec3::ZERO]), &Picture { quality: Quality::Fine, ..small() }).unwrap();
-    let mut values: Vec<u8> = image.pixels().map(|pixel| pixel[3]).collect();
+    let mut values: Vec<u8> = image.pixels().iter().map(|pixel| pixel[3]).collect();
     values.sort_unstable();
     values.dedup();
     assert!(values.len() > 12, "{} steps between nothing and the model", values.len());
@@ -115,7 +122,7 @@ fn a_texture_repeats_at_its_size_in_metres() {
         let picture = Picture { width: 200, azimuth: Some(180.0), elevation: Some(0.0), ..small() };
         let image = render(&scene, &picture).unwrap();
         let row: Vec<u8> =
-            (0..200).map(|x| image.get_pixel(x, 50)).filter(|p| p[3] == 255).map(|p| p[0]).collect();
+            (0..200).map(|x| image.pixel(x, 50)).filter(|p| p[3] == 255).map(|p| p[0]).collect();
         row.windows(2).filter(|pair| (pair[0] > 128) != (pair[1] > 128)).count()
     };
     assert_eq!((stripes(1.0), stripes(2.0), stripes(8.0)), (7, 3, 0));
@@ -142,7 +149,7 @@ fn half_opacity_lets_half_of_the_background_through() {
     let scene = wall(Material { base_color: [0.5, 0.5, 0.5, 0.5], ..Material::default() });
     let image = render(&scene, &Picture { azimuth: Some(180.0), quality: Quality::Fine, ..small() }).unwrap();
     let mean = (30..66).flat_map(|y| (30..66).map(move |x| (x, y)));
-    let mean = mean.map(|(x, y)| f64::from(image.get_pixel(x, y)[3])).sum::<f64>() / 1296.0;
+    let mean = mean.map(|(x, y)| f64::from(image.pixel(x, y)[3])).sum::<f64>() / 1296.0;
     assert!((mean - 127.5).abs() < 3.0, "{mean}");
 }
 
@@ -153,9 +160,9 @@ fn the_ground_shows_a_shadow_and_fades_out() {
     let without = covered(&render(&scene, &picture).unwrap());
     let image = render(&scene, &Picture { ground: true, ..picture }).unwrap();
     assert!(covered(&image) > without + 500);
-    let darkest = (150..192).map(|x| image.get_pixel(x, 60)[3]).max().unwrap();
+    let darkest = (150..192).map(|x| image.pixel(x, 60)[3]).max().unwrap();
     assert!((60..255).contains(&darkest), "shadow of {darkest}");
-    assert!(image.get_pixel(1, 1)[3] < 6);
+    assert!(image.pixel(1, 1)[3] < 6);
 }
 
 #[test]
@@ -166,7 +173,7 @@ fn what_has_no_size_or_is_not_finite_gives_a_picture_all_the_same() {
     let mut part = Part::default();
     quad(&mut part, [Vec3::ONE; 4]);
     let point = render(&scene_of(part, Material::default()), &picture).unwrap();
-    assert!(point.iter().zip(plain.iter()).all(|(a, b)| a.abs_diff(*b) <= 1));
+    assert!(point.bytes().iter().zip(plain.bytes()).all(|(a, b)| a.abs_diff(*b) <= 1));
 
     let mut scene = wall(Material::default());
     let expected = render(&scene, &picture).unwrap();
@@ -186,7 +193,8 @@ fn a_line_and_a_view_straight_down_or_up_are_no_trouble() {
     let scene = scene_of(part, Material { double_sided: true, ..Material::default() });
     for elevation in [90.0, 0.0, -90.0] {
         let picture = Picture { height: 7, elevation: Some(elevation), ground: true, ..small() };
-        assert_eq!(render(&scene, &picture).unwrap().dimensions(), (96, 7));
+        let image = render(&scene, &picture).unwrap();
+        assert_eq!((image.width(), image.height()), (96, 7));
     }
 }
 
@@ -203,7 +211,7 @@ fn front() -> Picture {
 }
 
 /// A picture of the wall with a texture of one repetition over all of it.
-fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> RgbaImage {
+fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> Image {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("leaf.png");
     image::RgbaImage::from_fn(64, 64, |x, y| image::Rgba(pixel(x, y))).save(&path).unwrap();
@@ -221,9 +229,9 @@ fn what_a_texture_leaves_out_is_not_there() {
     let (some, all) = (covered(&image), covered(&whole));
     assert!((some * 2).abs_diff(all) < all / 20, "{some} of {all}");
     // No dark seam where it ends.
-    let row = |image: &RgbaImage| {
+    let row = |image: &Image| {
         let middle = image.height() / 2;
-        let row = (0..image.width()).map(|x| *image.get_pixel(x, middle));
+        let row = (0..image.width()).map(|x| image.pixel(x, middle));
         row.filter(|pixel| pixel[3] > 250).map(|pixel| pixel[0]).collect::<Vec<_>>()
     };
     let (least, lit) = (*row(&image).iter().min().unwrap(), *row(&whole).iter().min().unwrap());
@@ -236,7 +244,7 @@ fn fine_holes_let_through_as_much_as_they_are() {
     let picture = front();
     let (image, whole) =
         (papered(dots, [1.0; 4], &picture), papered(|_, _| [90, 140, 60, 255], [1.0; 4], &picture));
-    let opacity = |image: &RgbaImage| image.pixels().map(|pixel| f64::from(pixel[3])).sum::<f64>();
+    let opacity = |image: &Image| image.pixels().iter().map(|pixel| f64::from(pixel[3])).sum::<f64>();
     let part = opacity(&image) / opacity(&whole);
     assert!((0.2..0.3).contains(&part), "{part}");
     // A translucent material with holes lets through more.
@@ -251,10 +259,9 @@ fn the_shadow_of_what_is_cut_out_has_its_holes() {
     let (barred, whole) =
         (papered(bars, [1.0; 4], &picture), papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture));
     // The sun stands on the left, so the shadow goes on to the right of the wall.
-    let edge =
-        whole.enumerate_pixels().filter(|(_, _, pixel)| pixel[3] == 255).map(|(x, ..)| x).max().unwrap();
-    let shadow = |image: &RgbaImage| {
-        let beside = image.enumerate_pixels().filter(|(x, ..)| *x > edge + 2);
+    let edge = places(&whole).filter(|(_, _, pixel)| pixel[3] == 255).map(|(x, ..)| x).max().unwrap();
+    let shadow = |image: &Image| {
+        let beside = places(image).filter(|(x, ..)| *x > edge + 2);
         beside.map(|(_, _, pixel)| f64::from(pixel[3])).sum::<f64>()
     };
     let part = shadow(&barred) / shadow(&whole);

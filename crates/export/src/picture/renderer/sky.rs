@@ -4,9 +4,9 @@
 //! is not behind what the map shows there; the sum over the maps is the light with its soft shadows.
 
 use super::coverage::Coverage;
+use super::detail::Detail;
 use super::light_map::Frame;
 use super::raster::Grid;
-use super::settings::Detail;
 use super::stage::Stage;
 use super::sun::Sun;
 use glam::{Vec2, Vec3, Vec3A};
