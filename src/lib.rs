@@ -15,10 +15,11 @@
 //!
 //! ```text
 //! base       uses ──► nothing
+//! macros     uses ──► nothing
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
 //! data       uses ──► base
-//! kit        uses ──► base, data, scene
+//! kit        uses ──► base, data, macros, scene
 //! terrain    uses ──► base, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
 //! engine     uses ──► base, data, kit, scene

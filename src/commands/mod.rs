@@ -7,7 +7,7 @@ mod api;
 mod check;
 mod completions;
 mod fit;
-#[cfg(feature = "live")]
+#[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
 mod new;
 mod progress;
@@ -38,7 +38,6 @@ struct Cli {
 #[derive(Subcommand)]
 enum Command {
     Run(Box<run::Run>),
-    #[cfg(feature = "live")]
     Live(live::Serve),
     Check(check::Check),
     Api(api::Api),
@@ -57,7 +56,6 @@ pub(crate) fn main() -> ExitCode {
     };
     let (json, result) = match cli.command {
         Command::Run(command) => (command.json(), command.run()),
-        #[cfg(feature = "live")]
         Command::Live(command) => (command.json(), command.run()),
         Command::Api(command) => (command.json(), command.run()),
         Command::Check(command) => (command.json(), command.run()),

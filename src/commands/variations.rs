@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use burgeon::export::{self, Format};
 use burgeon::picture::{Picture, Quality};
+use burgeon::scene::image;
 use burgeon::variations::{Cell, Framing, Over, Sheet, Variations as Cells, sheet};
 use burgeon::{Error, Result, Warning};
 use clap::{ArgGroup, Args, ValueEnum};
@@ -95,7 +96,7 @@ impl Variations {
             let content = cells.iter().zip(&texts).map(|(cell, told)| {
                 (cell.label.as_str(), cell.made.as_ref().map(|made| &made.picture).map_err(|_| told.as_str()))
             });
-            let png = export::encode_png(&sheet(&layout, picture.background, content))?;
+            let png = image::encode(&sheet(&layout, picture.background, content))?;
             export::write_file(&self.output, |out| std::io::Write::write_all(out, &png))?;
         }
         if self.script.json {

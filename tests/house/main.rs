@@ -166,7 +166,8 @@ fn a_member_names_the_crates_that_it_uses_and_no_others() {
                 paths
             })
             .collect();
-        let mut tests: String = sources.iter().map(|source| source.tests.as_str()).collect();
+        let mut tests: String =
+            sources.iter().flat_map(|source| [source.tests.as_str(), &source.comments]).collect();
         if folder == Path::new("") {
             let mut files = Vec::new();
             ["tests", "benches", "examples"]
@@ -248,6 +249,68 @@ fn each_member_has_a_front_page_that_says_what_comes_in_what_goes_out_and_what_i
         let page: String = front.lines().map_while(|line| line.strip_prefix("//!")).collect();
         for words in ["Comes in: ", "Goes out: ", " never "] {
             assert!(page.contains(words), "crates/{member}/src/lib.rs does not say what {words:?}");
+        }
+    }
+}
+
+#[test]
+fn the_oldest_rust_is_the_same_wherever_it_is_stated() {
+    let manifest = text("Cargo.toml");
+    let oldest =
+        manifest.lines().find_map(|line| line.strip_prefix("rust-version = ")).unwrap().trim_matches('"');
+    for file in ["README.md", ".ci/run"] {
+        assert!(text(file).contains(&format!("Rust {oldest}")), "{file} does not name Rust {oldest}");
+    }
+    for member in members().into_iter().map(|member| format!("crates/{member}")).chain(["fuzz".to_owned()]) {
+        let manifest = text(format!("{member}/Cargo.toml"));
+        for inherited in
+            ["rust-version.workspace = true", "license.workspace = true", "[lints]\nworkspace = true"]
+        {
+            assert!(manifest.contains(inherited), "{member}/Cargo.toml has not {inherited:?}");
+        }
+    }
+}
+
+/// What stands between backquotes in a page, without its blocks of code.
+fn quoted(page: &str) -> Vec<String> {
+    let plain: String = page.split("```").step_by(2).collect();
+    plain.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_for_those_who_change_burgeon_names_what_is_there() {
+    let page = text("CONTRIBUTING.md");
+    let (order, drawn) = drawn();
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| `")?.split_once("` | "));
+    let rows: Vec<(&str, BTreeSet<String>)> = rows
+        .map(|(name, rest)| {
+            let uses = rest.split(" | ").next().unwrap_or_default().split(", ").map(str::to_owned);
+            (name, uses.filter(|name| name != "nothing").collect())
+        })
+        .collect();
+    let expected = order.iter().filter(|name| *name != "burgeon");
+    assert_eq!(rows, expected.map(|name| (name.as_str(), drawn[name].clone())).collect::<Vec<_>>());
+
+    let mut files = Vec::new();
+    for folder in ["src", "crates", "tests", "benches", "examples", "fuzz"] {
+        sources::collect(&root().join(folder), "rs", &mut files);
+    }
+    let code: String = files.iter().map(|file| text(file)).collect();
+    let known: BTreeSet<&str> = words(&code).collect();
+    for name in quoted(&page) {
+        if name.contains(['"', ' ', '=']) || name.contains("NAME") {
+            continue;
+        }
+        if name.contains('/') {
+            // Long paths are from the root; short ones end as a file of a member does.
+            let ends = |file: &PathBuf| {
+                file.ends_with(&name) || file.to_string_lossy().contains(&format!("/{name}/"))
+            };
+            assert!(root().join(&name).exists() || files.iter().any(ends), "there is no {name}");
+        } else if !name.contains('.') && name.contains(|c: char| c.is_ascii_uppercase() || "_:".contains(c)) {
+            for word in words(&name) {
+                assert!(known.contains(word), "{name} is nowhere in the code");
+            }
         }
     }
 }

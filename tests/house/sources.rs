@@ -13,6 +13,8 @@ pub(crate) struct Source {
     pub(crate) code: String,
     /// What its tests say, without comments.
     pub(crate) tests: String,
+    /// Its comments, whose examples are tests as well.
+    pub(crate) comments: String,
 }
 
 impl Source {
@@ -21,7 +23,8 @@ impl Source {
         let mut files = Vec::new();
         collect(folder, "rs", &mut files);
         files.sort();
-        let texts: Vec<String> = files.iter().map(|file| bare(&fs::read_to_string(file).unwrap())).collect();
+        let whole: Vec<String> = files.iter().map(|file| fs::read_to_string(file).unwrap()).collect();
+        let texts: Vec<String> = whole.iter().map(|text| bare(text)).collect();
         let tests: Vec<Vec<String>> = files
             .iter()
             .zip(&texts)
@@ -30,12 +33,12 @@ impl Source {
                 test_modules(text).into_iter().map(move |name| [module.as_slice(), &[name]].concat())
             })
             .collect();
-        let read = files.into_iter().zip(texts).map(|(path, text)| {
+        let read = files.into_iter().zip(texts).zip(whole).map(|((path, text), whole)| {
             let module = module(folder, &path);
             let is_test = tests.iter().any(|test| module.starts_with(test));
             let end = if is_test { 0 } else { text.find("#[cfg(test)]\nmod tests {").unwrap_or(text.len()) };
             let (code, tests) = text.split_at(end);
-            Self { code: code.to_owned(), tests: tests.to_owned(), path, module }
+            Self { code: code.to_owned(), tests: tests.to_owned(), comments: comments(&whole), path, module }
         });
         read.collect()
     }
@@ -90,6 +93,12 @@ fn test_modules(text: &str) -> Vec<String> {
 fn bare(text: &str) -> String {
     let lines = text.lines().filter(|line| !line.trim_start().starts_with("//"));
     lines.flat_map(|line| [line, "\n"]).collect()
+}
+
+/// The comments of `text` that fill a line.
+fn comments(text: &str) -> String {
+    let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix("//"));
+    lines.flat_map(|line| [line.trim_start_matches(['/', '!', ' ', '#']), "\n"]).collect()
 }
 
 /// The words of a text: what stands between all that cannot be in a name.

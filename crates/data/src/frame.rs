@@ -2,10 +2,9 @@
 
 use std::borrow::Cow;
 
-use proj4rs::Proj;
-use proj4rs::transform::transform;
 use rayon::prelude::*;
 
+use super::formats::projection::{Projection, known};
 use super::table::{Feature, Table};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
@@ -30,13 +29,11 @@ impl Crs {
     pub fn epsg(code: u32) -> Result<Self> {
         // Numbers that were in use before there was one of EPSG's.
         let code = if matches!(code, 900_913 | 102_100 | 102_113) { 3857 } else { code };
-        let found = u16::try_from(code).ok().and_then(crs_definitions::from_code);
-        let found = found.ok_or_else(|| {
+        let (code, definition) = known(code)?.ok_or_else(|| {
             let message = format!("the coordinate system EPSG:{code} is not known");
             Error::not_found("coordinate system", code, [], message).help(REMEDY)
         })?;
-        let definition = Cow::Borrowed(found.proj4);
-        Ok(Self { code: Some(found.code), name: format!("EPSG:{}", found.code), definition })
+        Ok(Self { code: Some(code), name: format!("EPSG:{code}"), definition: Cow::Borrowed(definition) })
     }
 
     /// The transverse Mercator projection around a middle, a longitude and a latitude (degrees) of WGS 84, from where
@@ -80,7 +77,7 @@ impl Crs {
         if self.is_geographic() { 1f64.to_radians() } else { 1.0 }
     }
 
-    fn projection(&self) -> Result<Proj> {
+    fn projection(&self) -> Result<Projection> {
         let cannot = |why: String| {
             Error::argument(format!("the coordinate system {} cannot be used: {why}", self.name()))
                 .help(REMEDY)
@@ -88,7 +85,7 @@ impl Crs {
         if self.definition.contains("+proj=geocent") {
             return Err(cannot("it counts from the centre of the earth".into()));
         }
-        Proj::from_proj_string(&self.definition).map_err(|error| cannot(error.to_string()))
+        Projection::new(&self.definition, cannot)
     }
 
     /// Whether its metres are those of the ground, but for the thousandths that every projection costs.
@@ -115,7 +112,7 @@ pub struct Frame {
     /// The longitude and the latitude (degrees) that a transverse Mercator projection of the run's own is around.
     pub middle: Option<[f64; 2]>,
     definition: String,
-    projection: Proj,
+    projection: Projection,
 }
 
 impl Frame {
@@ -165,7 +162,7 @@ impl Frame {
                 [x, y]
             } else {
                 let mut point = (x, y, 0.0);
-                transform(&source, &Crs::epsg(4326)?.projection()?, &mut point).map_err(|error| {
+                source.bring(&Crs::epsg(4326)?.projection()?, &mut point).map_err(|error| {
                     Error::data(format!("{shown} cannot be projected: {error}")).help(REMEDY)
                 })?;
                 [point.0.to_degrees(), point.1.to_degrees()]
@@ -174,8 +171,8 @@ impl Frame {
             let crs = Crs::around(middle);
             (crs.name(), crs.definition.into_owned(), Some(middle))
         };
-        let projection = Proj::from_proj_string(&definition)
-            .map_err(|error| Error::argument(format!("{name} cannot be used: {error}")).help(REMEDY))?;
+        let cannot = |why| Error::argument(format!("{name} cannot be used: {why}")).help(REMEDY);
+        let projection = Projection::new(&definition, cannot)?;
         let mut frame = Self { name, origin: [0.0; 2], middle, definition, projection };
         let centre = frame.passage(crs)?.enter([x, y]);
         frame.origin = centre.map(|value| (value / 100.0).round() * 100.0);
@@ -235,7 +232,7 @@ fn within(place: [f64; 2]) -> bool {
 /// The way from a coordinate system into a frame, and back.
 pub(super) struct Passage<'a> {
     frame: &'a Frame,
-    outside: Proj,
+    outside: Projection,
     /// What the outside's coordinates are multiplied by to be radians, or 1.
     unit: f64,
     /// Whether both have the same projection, so that coordinates stay as they are.
@@ -248,7 +245,7 @@ impl Passage<'_> {
         let mut point = (x * self.unit, y * self.unit, 0.0);
         if self.stays {
             point = (x, y, 0.0);
-        } else if transform(&self.outside, &self.frame.projection, &mut point).is_err() {
+        } else if self.outside.bring(&self.frame.projection, &mut point).is_err() {
             return [f64::NAN; 2];
         }
         [point.0 - self.frame.origin[0], point.1 - self.frame.origin[1]]
@@ -260,7 +257,7 @@ impl Passage<'_> {
         if self.stays {
             return [point.0, point.1];
         }
-        match transform(&self.frame.projection, &self.outside, &mut point) {
+        match self.frame.projection.bring(&self.outside, &mut point) {
             Ok(()) => [point.0 / self.unit, point.1 / self.unit],
             Err(_) => [f64::NAN; 2],
         }
@@ -392,7 +389,7 @@ mod tests {
         let frame = Frame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
         let wgs = Crs::epsg(4326).unwrap();
         let mut point = (385_600.0, 6_671_500.0, 0.0);
-        transform(&frame.projection, &wgs.projection().unwrap(), &mut point).unwrap();
+        frame.projection.bring(&wgs.projection().unwrap(), &mut point).unwrap();
         let [degrees] = placed(&frame, table(4326, &[[point.0.to_degrees(), point.1.to_degrees()]]))[..]
         else {
             panic!("one")

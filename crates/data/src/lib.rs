@@ -5,16 +5,15 @@
 //! be modelled. Coordinates are projected here, once: everything behind works in metres. It never panics on
 //! what a file holds, and never changes a file.
 
-mod arc;
 mod cache;
 pub mod elevation;
+#[cfg_attr(not(feature = "data"), path = "absent.rs")]
+mod formats;
 mod frame;
 mod geojson;
-mod geopackage;
 mod layer;
 mod listing;
 mod table;
-mod wkb;
 
 use std::fmt;
 use std::io::{Read, Seek};
@@ -22,6 +21,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 pub use cache::Cache;
+pub use formats::GeoPackage;
 pub use frame::{Crs, Frame};
 pub use layer::Layer;
 pub use listing::nearest_file;
@@ -74,7 +74,7 @@ pub enum Source {
     /// A GeoJSON file, all of it.
     GeoJson(Table),
     /// A GeoPackage, a database of layers.
-    GeoPackage(geopackage::GeoPackage),
+    GeoPackage(GeoPackage),
 }
 
 impl Source {
@@ -102,7 +102,7 @@ impl Source {
         let mut head = Vec::new();
         (&mut file).take(16).read_to_end(&mut head).map_err(cannot)?;
         if head.starts_with(b"SQLite format 3") {
-            return Ok(Self::GeoPackage(geopackage::GeoPackage::open(path, name, wanted)?));
+            return Ok(Self::GeoPackage(GeoPackage::open(path, name, wanted)?));
         }
         if meta.len() > geojson::LARGEST {
             return Err(Error::limit(

@@ -72,13 +72,14 @@ impl Listing {
         let source = open()?;
         let format = source.format();
         let mut layers = Vec::new();
-        if let Source::GeoJson(table) = source {
-            layers.push(LayerListing::of(&table));
-        } else {
-            for layer in source.layers() {
-                let Source::GeoPackage(package) = open()? else { continue };
-                layers.push(LayerListing::of(&package.read(&layer, &wanted)?));
-                budget.settle(before, 0);
+        match source {
+            Source::GeoJson(table) => layers.push(LayerListing::of(&table)),
+            Source::GeoPackage(package) => {
+                for layer in package.layers() {
+                    let Source::GeoPackage(package) = open()? else { continue };
+                    layers.push(LayerListing::of(&package.read(&layer, &wanted)?));
+                    budget.settle(before, 0);
+                }
             }
         }
         budget.settle(before, 0);

@@ -1,6 +1,7 @@
 //! The formats that a scene can be written in.
 
 use burgeon_base::error::{Error, Result};
+use burgeon_scene::image;
 use std::path::Path;
 
 /// What kind of file to write.
@@ -31,6 +32,11 @@ impl Format {
             Self::Png => "png",
             Self::Svg => "svg",
         }
+    }
+
+    /// Refuses the format that this program was built without.
+    pub fn check(self) -> Result<()> {
+        if self == Self::Png { image::check() } else { Ok(()) }
     }
 
     /// The format that the extension of `path` names, in upper or lower case.

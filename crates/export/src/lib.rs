@@ -39,7 +39,7 @@ use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
 use picture::Picture;
-use std::io::{self, Cursor, Write};
+use std::io::{self, Write};
 use std::path::Path;
 
 /// Writes `scene` to `path` in the format of its extension; `picture` matters to `.png` alone.
@@ -58,7 +58,9 @@ impl Files {
     /// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
     /// does, if the extension is no format, if the scene is not sound and if a texture cannot be read.
     pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
-        match Format::of(path)? {
+        let format = Format::of(path)?;
+        format.check()?;
+        match format {
             Format::Glb => gltf::write_glb(scene, path, self),
             Format::Gltf => gltf::write_gltf(scene, path, self),
             Format::Obj => obj::write(scene, path, self),
@@ -97,16 +99,7 @@ fn stem(path: &Path) -> String {
 
 /// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.
 pub fn png(scene: &Scene, picture: &Picture, stop: &Stop) -> Result<Vec<u8>> {
-    encode_png(&picture::render_within(scene, None, picture, stop)?)
-}
-
-/// `image` as a PNG file.
-pub fn encode_png(image: &image::RgbaImage) -> Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    image.write_to(&mut Cursor::new(&mut bytes), image::ImageFormat::Png).map_err(|error| {
-        burgeon_base::error::Error::internal(format!("cannot encode the picture as PNG: {error}"))
-    })?;
-    Ok(bytes)
+    burgeon_scene::image::encode(&picture::render_within(scene, None, picture, stop)?)
 }
 
 #[cfg(test)]
@@ -160,6 +153,7 @@ mod tests {
         let path = folder.path().join("a.png");
         let picture = Picture { width: 40, height: 30, ..Picture::default() };
         write(&samples::boxes(1), &path, &picture).unwrap();
-        assert_eq!(image::open(path).unwrap().into_rgba8().dimensions(), (40, 30));
+        let image = burgeon_scene::image::decode(&std::fs::read(path).unwrap()).unwrap();
+        assert_eq!((image.width(), image.height()), (40, 30));
     }
 }

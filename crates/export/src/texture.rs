@@ -6,9 +6,8 @@ use super::files::Files;
 use super::stem;
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::Texture;
-use image::{ImageDecoder, ImageFormat, ImageReader};
+use burgeon_scene::image::{self, ImageKind};
 use std::fs;
-use std::io::Cursor;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -28,7 +27,7 @@ pub(super) struct ImageFile {
     /// What the file holds, unchanged.
     pub(super) bytes: Vec<u8>,
     /// PNG or JPEG, by its content and not by its name.
-    format: ImageFormat,
+    kind: ImageKind,
     /// Whether its pixels have an opacity.
     pub(super) has_alpha: bool,
 }
@@ -102,16 +101,11 @@ impl ImageFile {
             })?,
         };
         let remedy = "give a PNG or JPEG file that an image viewer opens";
-        let format = match image::guess_format(&bytes) {
-            Ok(format @ (ImageFormat::Png | ImageFormat::Jpeg)) => format,
-            _ => return Err(refused(&"it is neither PNG nor JPEG").help(remedy)),
-        };
-        let has_alpha = ImageReader::with_format(Cursor::new(&bytes), format)
-            .into_decoder()
-            .map(|decoder| decoder.color_type().has_alpha())
-            .map_err(|error| refused(&error).help(remedy))?;
+        let kind =
+            ImageKind::of(&bytes).ok_or_else(|| refused(&"it is neither PNG nor JPEG").help(remedy))?;
+        let has_alpha = image::has_alpha(&bytes).map_err(|error| refused(&error.message()).help(remedy))?;
         let content = texture.content.clone();
-        Ok(Self { path: path.clone(), content, bytes, format, has_alpha })
+        Ok(Self { path: path.clone(), content, bytes, kind, has_alpha })
     }
 
     /// The file's name without folder and extension; all that it is called, of an image without a file.
@@ -124,29 +118,31 @@ impl ImageFile {
 
     /// `png` or `jpg`.
     pub(super) fn extension(&self) -> &'static str {
-        if self.format == ImageFormat::Png { "png" } else { "jpg" }
+        self.kind.extension()
     }
 
     /// The media type, such as `image/png`.
     pub(super) fn media_type(&self) -> &'static str {
-        self.format.to_mime_type()
+        self.kind.media_type()
     }
 
     /// The mean colour of what is opaque, linear from 0 to 1; white if the file turns out to be damaged.
-    pub(super) fn mean_color(&self) -> [f32; 3] {
-        let Ok(image) = image::load_from_memory_with_format(&self.bytes, self.format) else {
-            return [1.0; 3];
-        };
-        let small = image.thumbnail(64, 64).into_rgba8();
+    ///
+    /// Fails where images are not decoded.
+    pub(super) fn mean_color(&self) -> Result<[f32; 3]> {
+        image::check()?;
+        let Ok(image) = image::decode(&self.bytes) else { return Ok([1.0; 3]) };
+        let lights: [f64; 256] = std::array::from_fn(|byte| f64::from(linear(byte as f32 / 255.0)));
         let mut sum = [0.0; 4];
-        for pixel in small.pixels() {
-            let opacity = f32::from(pixel[3]) / 255.0;
-            for (sum, value) in sum.iter_mut().zip(&pixel.0[..3]) {
-                *sum += linear(f32::from(*value) / 255.0) * opacity;
+        for [color @ .., alpha] in image.pixels() {
+            let opacity = f64::from(*alpha);
+            for (sum, byte) in sum.iter_mut().zip(color) {
+                *sum += lights[usize::from(*byte)] * opacity;
             }
             sum[3] += opacity;
         }
-        if sum[3] > 0.0 { [sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]] } else { [1.0; 3] }
+        let [.., opacity] = sum;
+        Ok(if opacity > 0.0 { [0, 1, 2].map(|channel| (sum[channel] / opacity) as f32) } else { [1.0; 3] })
     }
 }
 
@@ -173,7 +169,7 @@ mod tests {
         let scene = samples::textured(folder.path());
         let images = Images::load(&check(&scene).unwrap()).unwrap();
         assert_eq!(images.of_material, [Some(0), Some(1), Some(0)]);
-        let [red, green, blue] = images.files[0].mean_color();
+        let [red, green, blue] = images.files[0].mean_color().unwrap();
         assert!(red > 0.1 && green > 0.02 && blue < 0.05, "{red} {green} {blue}");
         assert!(!images.files[0].has_alpha);
         assert_eq!((images.files[0].extension(), images.files[1].extension()), ("png", "jpg"));

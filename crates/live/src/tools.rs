@@ -14,9 +14,9 @@ use super::request::seed;
 use super::state::State;
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::{Param, Preset, RunOptions};
-use burgeon_export::encode_png;
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
+use burgeon_scene::image;
 use burgeon_variations::{Cell, Framing, Over, Variations};
 
 /// How often a page is told how many scripts of variations have run.
@@ -204,7 +204,7 @@ fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Event {
     let mut params: BTreeMap<String, serde_json::Value> = BTreeMap::new();
     let picture = cell.made.and_then(|made| {
         params.extend(made.params.iter().map(|param| (param.name.clone(), json(&param.value))));
-        encode_png(&made.picture)
+        image::encode(&made.picture)
     });
     if let Some((name, value)) = cell.set {
         params.entry(name).or_insert_with(|| value.into());

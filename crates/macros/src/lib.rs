@@ -1,7 +1,7 @@
 //! Attributes that declare what scripts can do with a type of object.
 //!
 //! Comes in: an `impl` block or a struct, as anyone would write it. Goes out: the same, and what the contract of
-//! objects, the crate `burgeon_kit`, needs to know of it. They read no files and keep nothing.
+//! objects, the crate `burgeon_kit`, needs to know of it. They never read a file, and keep nothing.
 
 mod declared;
 mod doc;

@@ -3,6 +3,7 @@
 //! Comes in: meshes and instances from objects, in chain order. Goes out: the same, unchanged.
 //! It never builds geometry and never looks at rules.
 
+pub mod image;
 mod material;
 mod mesh;
 mod normal;

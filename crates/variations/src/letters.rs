@@ -4,7 +4,7 @@
 //! National Bureau of Standards and which may be used freely with this acknowledgement ("Calligraphy for computers",
 //! 1967; in the format that James Hurt made for the Usenet Font Consortium).
 
-use image::{Rgba, RgbaImage};
+use burgeon_scene::image::Image;
 
 /// From the top of the capitals to the bottom of letters such as g, in units of the capitals' height.
 pub(super) const LINE: f32 = 28.0 / CAPITAL;
@@ -51,7 +51,7 @@ pub(super) fn wrapped(text: &str, height: f32, room: f32) -> Vec<String> {
 }
 
 /// Draws `text` with the upper left corner of its first capital at `place` (pixels).
-pub(super) fn draw(image: &mut RgbaImage, text: &str, place: [f32; 2], height: f32, color: [u8; 3]) {
+pub(super) fn draw(image: &mut Image, text: &str, place: [f32; 2], height: f32, color: [u8; 3]) {
     let scale = height / CAPITAL;
     let mut x = place[0];
     for letter in text.chars() {
@@ -65,7 +65,7 @@ pub(super) fn draw(image: &mut RgbaImage, text: &str, place: [f32; 2], height: f
 }
 
 /// Colours the pixels that are within `reach` of a stroke.
-fn ink(image: &mut RgbaImage, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8; 3]) {
+fn ink(image: &mut Image, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8; 3]) {
     let ends = || strokes.iter().flatten();
     let low = |axis: usize| ends().map(|end| end[axis]).fold(f32::INFINITY, f32::min) - reach - 1.0;
     let high = |axis: usize| ends().map(|end| end[axis]).fold(f32::NEG_INFINITY, f32::max) + reach + 1.0;
@@ -84,7 +84,7 @@ fn ink(image: &mut RgbaImage, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8;
                 strokes.iter().map(|stroke| distance(center, *stroke)).fold(f32::INFINITY, f32::min);
             let cover = (reach + 0.5 - distance).clamp(0.0, 1.0);
             if cover > 0.0 {
-                let pixel = image.get_pixel_mut(x, y);
+                let pixel = &mut image.row_mut(y)[x as usize];
                 *pixel = over(*pixel, color, cover);
             }
         }
@@ -92,14 +92,14 @@ fn ink(image: &mut RgbaImage, strokes: &[[[f32; 2]; 2]], reach: f32, color: [u8;
 }
 
 /// `pixel` with `color` over it, `cover` of it opaque.
-fn over(pixel: Rgba<u8>, color: [u8; 3], cover: f32) -> Rgba<u8> {
+fn over(pixel: [u8; 4], color: [u8; 3], cover: f32) -> [u8; 4] {
     let below = f32::from(pixel[3]) / 255.0;
     let opacity = cover + below * (1.0 - cover);
     let mix = |i: usize| {
         let sum = f32::from(color[i]) * cover + f32::from(pixel[i]) * below * (1.0 - cover);
         (sum / opacity).round() as u8
     };
-    Rgba([mix(0), mix(1), mix(2), (opacity * 255.0).round() as u8])
+    [mix(0), mix(1), mix(2), (opacity * 255.0).round() as u8]
 }
 
 fn distance(point: [f32; 2], [from, to]: [[f32; 2]; 2]) -> f32 {
@@ -196,10 +196,10 @@ mod tests {
 
     #[test]
     fn a_text_stays_within_its_width_and_height() {
-        let mut image = RgbaImage::new(200, 60);
+        let mut image = Image::filled(200, 60, [0; 4]);
         draw(&mut image, "Egy 7", [10.0, 10.0], 20.0, [9, 8, 7]);
-        let inked = image.enumerate_pixels().filter(|(.., pixel)| pixel[3] > 0);
-        let (xs, ys): (Vec<u32>, Vec<u32>) = inked.map(|(x, y, _)| (x, y)).unzip();
+        let places = (0..60).flat_map(|y| (0..200).map(move |x| (x, y)));
+        let (xs, ys): (Vec<u32>, Vec<u32>) = places.filter(|(x, y)| image.pixel(*x, *y)[3] > 0).unzip();
         let right = 10.0 + width("Egy 7", 20.0);
         assert!(xs.iter().all(|x| *x >= 9 && (*x as f32) < right) && xs.len() > 300);
         assert!(ys.iter().all(|y| *y >= 8 && (*y as f32) < 10.0 + 20.0 * LINE + 1.0));

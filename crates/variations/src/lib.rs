@@ -17,8 +17,6 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{Sender, channel};
 use std::sync::{Arc, Mutex, PoisonError};
 
-use image::{Rgba, RgbaImage};
-
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
@@ -26,6 +24,7 @@ use burgeon_engine::run::{declare, no_such, run_session};
 use burgeon_engine::script::{Control, Param, RunOptions, Session, Setting};
 use burgeon_export::picture::{Extent, Picture, Quality, render_within};
 use burgeon_scene::Scene;
+use burgeon_scene::image::{self, Image};
 
 /// What finished scenes may take (bytes) while they wait for a common camera; further ones are made anew.
 const HELD: usize = 1 << 30;
@@ -60,7 +59,7 @@ pub struct Cell {
 #[derive(Debug)]
 pub struct Thumbnail {
     /// How it looks.
-    pub picture: RgbaImage,
+    pub picture: Image,
     /// All parameters of the script, with their values here.
     pub params: Vec<Param>,
     /// Modules of all chains.
@@ -101,9 +100,10 @@ struct Ran {
 impl Variations {
     /// Variations of `script`, otherwise run with `options`, whose limits are those of each run.
     ///
-    /// Fails if there are none or more than [`MOST`], and if the script has no such parameter or refuses one of
-    /// the values. A script that fails is told by its cells.
+    /// Fails if there are none or more than [`MOST`], without the feature `pictures`, and if the script has no such
+    /// parameter or refuses one of the values. A script that fails is told by its cells.
     pub fn new(script: &Path, options: &RunOptions, over: &Over) -> Result<Self> {
+        image::check()?;
         let options = RunOptions { print: None, ..options.clone() };
         let plans: Vec<Plan> = match over {
             Over::Seeds(seeds) => seeds
@@ -264,27 +264,27 @@ impl Variations {
     }
 }
 
-fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<RgbaImage> {
+fn thumbnail(scene: &Scene, extent: &Extent, picture: &Picture, stop: &Stop) -> Result<Image> {
     let (width, height) = (picture.width, picture.height);
     if picture.quality == Quality::Fine || width.max(height) > Picture::LARGEST / 2 {
         return render_within(scene, Some(extent), picture, stop);
     }
     let large = Picture { width: 2 * width, height: 2 * height, ..picture.clone() };
     let large = render_within(scene, Some(extent), &large, stop)?;
-    Ok(RgbaImage::from_fn(width, height, |x, y| {
-        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| *large.get_pixel(2 * x + i, 2 * y + j));
+    Ok(Image::from_fn(width, height, |x, y| {
+        let four = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| large.pixel(2 * x + i, 2 * y + j));
         mean(four)
     }))
 }
 
 /// The mean colour of pixels that differ in opacity.
-fn mean(pixels: [Rgba<u8>; 4]) -> Rgba<u8> {
+fn mean(pixels: [[u8; 4]; 4]) -> [u8; 4] {
     let opacity: u32 = pixels.iter().map(|pixel| u32::from(pixel[3])).sum();
     let color = |i: usize| {
         let sum: u32 = pixels.iter().map(|pixel| u32::from(pixel[i]) * u32::from(pixel[3])).sum();
         ((sum + opacity / 2) / opacity.max(1)) as u8
     };
-    Rgba([color(0), color(1), color(2), ((opacity + 2) / 4) as u8])
+    [color(0), color(1), color(2), ((opacity + 2) / 4) as u8]
 }
 
 /// The parameter `name` of `script`.
@@ -361,7 +361,7 @@ s:derive()
     }
 
     fn pixels(cell: &Cell) -> Option<&[u8]> {
-        cell.made.as_ref().ok().map(|made| made.picture.as_raw().as_slice())
+        cell.made.as_ref().ok().map(|made| made.picture.bytes())
     }
 
     #[test]

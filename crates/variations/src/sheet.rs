@@ -1,10 +1,9 @@
 //! A contact sheet: pictures side by side, each with its label.
 
-use image::{Rgba, RgbaImage, imageops};
-
 use super::letters::{LINE, draw, fitted, width, wrapped};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_export::picture::{Background, Picture};
+use burgeon_scene::image::Image;
 
 /// What a sheet shows when it is not much wider than high.
 const ASPECT: f64 = 1.5;
@@ -78,21 +77,21 @@ impl Sheet {
 pub fn sheet<'a>(
     layout: &Sheet,
     background: Background,
-    cells: impl IntoIterator<Item = (&'a str, Result<&'a RgbaImage, &'a str>)>,
-) -> RgbaImage {
+    cells: impl IntoIterator<Item = (&'a str, Result<&'a Image, &'a str>)>,
+) -> Image {
     let (paper, ink, wrong) = match background {
         Background::Light => ([246, 245, 243, 255], [58, 56, 54], [168, 44, 30]),
         Background::Dark => ([22, 23, 25, 255], [204, 206, 210], [240, 128, 108]),
         Background::Clear => ([0, 0, 0, 0], [120, 120, 120], [200, 80, 60]),
     };
-    let mut image = RgbaImage::from_pixel(layout.size[0], layout.size[1], Rgba(paper));
+    let mut image = Image::filled(layout.size[0], layout.size[1], paper);
     let letters = layout.letters;
     let [wide, high] = layout.cell.map(|side| side as f32);
     for (number, (label, content)) in cells.into_iter().enumerate() {
         let [left, top] = layout.corner(number);
         let (x, y) = (left as f32, top as f32);
         match content {
-            Ok(picture) => imageops::replace(&mut image, picture, i64::from(left), i64::from(top)),
+            Ok(picture) => image.put(picture, left, top),
             Err(message) => {
                 let small = (letters * 0.85).max(7.0);
                 let lines = wrapped(message, small, wide - 2.0 * letters);
@@ -139,11 +138,11 @@ mod tests {
     #[test]
     fn every_cell_is_within_the_sheet_and_touches_no_other() {
         let layout = Sheet::new(7, Some(3), &picture(60, 40)).unwrap();
-        let red = RgbaImage::from_pixel(60, 40, Rgba([255, 0, 0, 255]));
+        let red = Image::filled(60, 40, [255, 0, 0, 255]);
         let cells = (0..7).map(|_| ("", Ok(&red)));
         let image = sheet(&layout, Background::Light, cells);
         assert_eq!([image.width(), image.height()], layout.size);
-        assert_eq!(image.pixels().filter(|pixel| pixel.0 == [255, 0, 0, 255]).count(), 7 * 60 * 40);
+        assert_eq!(image.pixels().iter().filter(|pixel| **pixel == [255, 0, 0, 255]).count(), 7 * 60 * 40);
     }
 
     #[test]
@@ -152,7 +151,7 @@ mod tests {
         let long = "a very long reason ".repeat(60);
         for message in ["s.lua:3: no", &long] {
             let image = sheet(&layout, Background::Clear, [("seed 1", Err(message))]);
-            assert!(image.pixels().any(|pixel| pixel.0[0] > 190 && pixel.0[3] > 200));
+            assert!(image.pixels().iter().any(|pixel| pixel[0] > 190 && pixel[3] > 200));
         }
     }
 }

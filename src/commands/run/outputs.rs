@@ -20,6 +20,7 @@ const STANDARD: &str = "-";
 impl Run {
     /// Refuses, before any work, files that could not be written when it is done.
     pub(super) fn check_files(&self) -> Result<()> {
+        self.output.iter().try_for_each(|output| Format::of(output)?.check())?;
         self.check_text(self.chain.as_deref(), "chain", "the chains", "chains.txt")?;
         self.check_text(self.report.as_deref(), "report", "the report", "report.json")?;
         self.check_text(self.heights.as_deref(), "heights", "the heights", "heights.tif")?;

@@ -47,7 +47,8 @@ pub enum ErrorKind {
     Syntax,
     /// What the operating system refuses: threads, ports, other programs.
     System,
-    /// Something that is not there at the moment, such as the model of a script that has changed since.
+    /// Something that is not there at the moment, such as the model of a script that has changed since, or that the
+    /// program was built without.
     Unavailable,
     /// The command line.
     Usage,
@@ -95,7 +96,7 @@ impl ErrorKind {
         ("stopped", "work that was stopped, since nobody waits for it any more"),
         ("syntax", "a text that cannot be parsed"),
         ("system", "what the operating system refuses: threads, ports, other programs"),
-        ("unavailable", "something that is not there at the moment"),
+        ("unavailable", "something that is not there at the moment, or not in this program"),
         ("usage", "the command line"),
     ];
 
@@ -208,9 +209,15 @@ impl Error {
         Self::of(ErrorKind::System, message)
     }
 
-    /// Something that is not there at the moment.
+    /// Something that is not there at the moment, or not in this program.
     pub fn unavailable(message: impl fmt::Display) -> Self {
         Self::of(ErrorKind::Unavailable, message)
+    }
+
+    /// What this program was built without, and the cargo feature that brings it: `pictures`, `pictures`.
+    pub fn left_out(what: &str, feature: &str) -> Self {
+        Self::unavailable(format!("this program was built without {what}"))
+            .help(format!("build it with --features {feature}"))
     }
 
     /// A wrong command line.

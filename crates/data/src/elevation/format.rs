@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use super::super::formats::{geotiff, png, zipped};
 use super::raster::Found;
-use super::{Wanted, ascii, geotiff, hgt, png, raw};
+use super::{Wanted, ascii, hgt, raw};
 use burgeon_base::error::{Error, Result};
 
 /// The formats that are read.
@@ -25,7 +26,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Re
     }
     match bytes {
         _ if is_png => png::read(bytes, name, wanted),
-        [b'P', b'K', 3 | 5, ..] => hgt::unzip(bytes, name, wanted),
+        [b'P', b'K', 3 | 5, ..] => zipped::read(bytes, name, wanted),
         [b'I', b'I', 42 | 43, 0, ..] | [b'M', b'M', 0, 42 | 43, ..] => geotiff::read(bytes, name),
         _ if extension == "hgt" => hgt::read(bytes, name, wanted),
         _ if matches!(&*extension, "r32" | "f32") => raw::read::<4>(bytes, name),

@@ -1,10 +1,8 @@
 //! SRTM tiles (`.hgt`): a square of big-endian 16-bit heights of a degree, named after its corner; zipped or not.
 
-use std::io::{Cursor, Read};
-
 use super::super::Crs;
 use super::Wanted;
-use super::raster::{DEFLATED, Found, Grid, can_hold, cannot_hold, check_size, count};
+use super::raster::{Found, Grid, check_size, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -25,58 +23,8 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &Wanted) -> Result<F
     Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
 }
 
-/// Reads the one tile in a zip, and unpacks nothing else.
-///
-/// Fails if it is damaged, holds no tile or several, and as [`read`] does.
-pub(super) fn unzip<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Result<Found<'a>> {
-    let damaged = move || {
-        Error::data(format!("{name} cannot be unpacked"))
-            .help("the file is damaged or cut short; get it again")
-    };
-    let mut archive = zip::ZipArchive::new(Cursor::new(bytes)).map_err(|_| damaged())?;
-    let is_tile = |entry: &&str| entry.to_ascii_lowercase().ends_with(".hgt");
-    let mut tiles = archive.file_names().filter(is_tile).map(str::to_owned).collect::<Vec<_>>().into_iter();
-    let tile = match (tiles.next(), tiles.len()) {
-        (Some(tile), 0) => tile,
-        (None, _) => {
-            return Err(Error::data(format!("{name} holds no .hgt file"))
-                .help("unpack it, and name the file of heights itself"));
-        }
-        (Some(_), more) => {
-            return Err(Error::data(format!("{name} holds {} .hgt files", more + 1))
-                .help("unpack it, and name the one that is meant"));
-        }
-    };
-    let shown = format!("{tile} in {name}");
-    let unpacked = archive.by_name(&tile).map_err(|_| damaged())?.size();
-    let unpacked = usize::try_from(unpacked).unwrap_or(usize::MAX);
-    if unpacked == 0 {
-        return Err(Error::data(format!("{shown} is empty")).help("get it again"));
-    }
-    let [columns, rows] = size(unpacked, &shown, wanted)?;
-    if !can_hold(bytes.len(), DEFLATED, unpacked) {
-        return Err(cannot_hold(name, bytes.len(), columns, rows));
-    }
-    let (grid, crs) = place(&shown, wanted, [columns, rows])?;
-    let heights = move |budget: &Budget| {
-        let mut entry = archive.by_name(&tile).map_err(|_| damaged())?;
-        let mut heights = Vec::new();
-        let mut row = vec![0; columns * 2];
-        for _ in 0..rows {
-            budget.tick()?;
-            entry.read_exact(&mut row).map_err(|_| damaged())?;
-            heights.extend(row.chunks_exact(2).map(height));
-        }
-        // What an entry says of its size need not be true.
-        match entry.read(&mut [0]) {
-            Ok(0) => Ok(heights),
-            _ => Err(damaged()),
-        }
-    };
-    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
-}
-
-fn height(pair: &[u8]) -> f32 {
+/// The height (m) in two bytes.
+pub(crate) fn height(pair: &[u8]) -> f32 {
     match i16::from_be_bytes([pair[0], pair[1]]) {
         MISSING => f32::NAN,
         height => f32::from(height),
@@ -84,7 +32,7 @@ fn height(pair: &[u8]) -> f32 {
 }
 
 /// The columns and rows of so many bytes of heights.
-fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
+pub(crate) fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
     if let Some(size) = SIZES.into_iter().find(|[columns, rows]| columns * rows * 2 == bytes) {
         return Ok(size);
     }
@@ -103,7 +51,7 @@ fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
 }
 
 /// Where a tile lies, whose samples go from degree to degree, and in which coordinates.
-fn place(
+pub(crate) fn place(
     name: &str,
     wanted: &Wanted,
     [columns, rows]: [usize; 2],

@@ -2,22 +2,19 @@
 //!
 //! Comes in: a file, and what it cannot tell ([`Wanted`]). Goes out: a [`Raster`] without holes, in the coordinates of
 //! the file, and a [`Relief`] of it, which knows the height of each place in the metres of a run. Readers (`ascii`,
-//! `geotiff`, `hgt`, `png`, `raw`) only read; holes, bad heights and places are looked after once, in `raster`.
+//! `hgt` and `raw`, and those of other formats, which a program may be built without) only read; holes, bad heights and places are looked after once, in `raster`.
 
 mod ascii;
 mod fill;
 mod format;
-mod geotiff;
-mod hgt;
+pub(crate) mod hgt;
 mod lattice;
-mod meaning;
-mod png;
-mod raster;
-mod raw;
+pub(crate) mod names;
+pub(crate) mod raster;
+pub(crate) mod raw;
 mod relief;
 
-pub use geotiff::keys as tiff_key;
-pub use png::text as png_text;
+pub use names::{png_text, tiff_key};
 pub use raster::{Grid, Raster};
 pub use relief::Relief;
 

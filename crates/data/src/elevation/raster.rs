@@ -59,12 +59,12 @@ impl Grid {
 
 /// A number of samples as a factor.
 #[allow(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-pub(super) fn count(number: usize) -> f64 {
+pub(crate) fn count(number: usize) -> f64 {
     number as f64
 }
 
 /// What a reader found in the beginning of a file, and how to read the rest.
-pub(super) struct Found<'a> {
+pub(crate) struct Found<'a> {
     pub columns: usize,
     pub rows: usize,
     /// Where the heights lie.
@@ -76,10 +76,10 @@ pub(super) struct Found<'a> {
 }
 
 /// Reads all heights of a file, row by row.
-pub(super) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>;
+pub(crate) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>;
 
 /// Refuses sizes that cannot be meant, before room is made for them.
-pub(super) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
+pub(crate) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
     if columns < 2 || rows < 2 {
         return Err(Error::data(format!("{name} has {columns} x {rows} heights"))
             .help("at least 2 x 2 are needed to know what is in between"));
@@ -92,23 +92,6 @@ pub(super) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> 
         .help("cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS"));
     }
     Ok(())
-}
-
-/// Bytes that any packed content may have more than its kind of packing makes of a few.
-const SLACK: usize = 1 << 16;
-
-/// Whether `packed` bytes can become `bytes`, where each becomes `most` at best: what cannot is no reason to make room.
-pub(super) fn can_hold(packed: usize, most: usize, bytes: usize) -> bool {
-    bytes <= packed.saturating_mul(most).saturating_add(SLACK)
-}
-
-/// The most bytes that one of a deflated stream becomes: two bits stand for 258 of them, and blocks begin anew.
-pub(super) const DEFLATED: usize = 1040;
-
-/// The error for a file that says it has more heights than it can hold.
-pub(super) fn cannot_hold(name: &str, bytes: usize, columns: usize, rows: usize) -> Error {
-    Error::data(format!("{name} is cut short: its {bytes} bytes cannot hold {columns} x {rows} heights"))
-        .help("get it again")
 }
 
 impl Raster {

@@ -32,6 +32,6 @@ pub(super) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result
 
 /// A height (m) as rasters hold it: to a millimetre below 16 km.
 #[allow(clippy::cast_possible_truncation, reason = "heights are f32")]
-pub(super) fn narrow(height: f64) -> f32 {
+pub(crate) fn narrow(height: f64) -> f32 {
     height as f32
 }

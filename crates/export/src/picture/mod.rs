@@ -1,109 +1,18 @@
 //! Pictures of a scene, made without a graphics card or a display.
 //!
-//! Comes in: a [`Scene`] and the wishes of a [`Picture`]. Goes out: an image. It never changes the scene and
-//! writes no file. The same scene gives the same bytes for any number of threads.
-//!
-//! In order: the scene is checked and moved to the origin (`stage`), a viewpoint is chosen (`view`) and the
-//! camera fitted (`camera`); depth maps are drawn from the sun (`sun`) and from many directions of the sky
-//! (`sky`), and from them how the ground is lit (`floor`); the camera's samples learn which triangle they see
-//! (`visible`), as far as it is neither translucent nor cut out there (`coverage`); each pixel's triangles become points on a surface (`surface`), are lit (`shade`) and mixed
-//! into a colour (`develop`).
+//! Comes in: a [`Scene`](burgeon_scene::Scene) and the wishes of a [`Picture`]. Goes out: an
+//! [`Image`](burgeon_scene::image::Image). It never changes the scene and writes no file. The same scene gives the same
+//! bytes for any number of threads. Without the feature `pictures` nothing is rendered, and [`render`] says so.
 
 #![allow(
     clippy::cast_possible_truncation,
     reason = "numbers of pixels, texels and triangles are checked against their limits once, at the start"
 )]
 
-mod camera;
-mod coverage;
-mod develop;
-mod extent;
-mod floor;
-mod light_map;
-mod points;
-mod raster;
 mod settings;
-mod shade;
-mod sky;
-mod stage;
-mod sun;
-mod surface;
-mod texture;
-mod tone;
-mod view;
-mod visible;
 
-#[cfg(test)]
-mod samples;
-#[cfg(test)]
-mod tests;
+#[cfg_attr(not(feature = "pictures"), path = "absent.rs")]
+mod renderer;
 
-pub use extent::Extent;
+pub use renderer::{Extent, render, render_within};
 pub use settings::{Background, Look, Picture, Quality};
-
-use burgeon_base::error::Result;
-use burgeon_base::stop::Stop;
-use burgeon_scene::Scene;
-use glam::DVec3;
-use image::RgbaImage;
-
-/// The picture of `scene` as sRGB with straight opacity; opaque unless the background is clear.
-///
-/// Corners with a coordinate that is not finite hide their triangles. Fails if the size is zero or beyond
-/// 16384, a texture cannot be read, or the scene names a mesh, material or corner that it does not have.
-pub fn render(scene: &Scene, picture: &Picture) -> Result<RgbaImage> {
-    render_within(scene, None, picture, &Stop::default())
-}
-
-/// The picture of `scene` by a camera that sees all of `extent`, as large as it stands there, unless `stop` asks for
-/// an end; without an extent the camera is fitted to the scene.
-///
-/// Pictures of several scenes within one extent, with the same `picture`, have the same camera, so that what is
-/// larger looks larger. Where `picture` names no direction, the shape of the extent decides. Fails as [`render`]
-/// does, and with the reason of a stop.
-pub fn render_within(
-    scene: &Scene,
-    extent: Option<&Extent>,
-    picture: &Picture,
-    stop: &Stop,
-) -> Result<RgbaImage> {
-    picture.check()?;
-    let textures = texture::load(&scene.materials)?;
-    let stage = stage::Stage::within(scene, &textures, extent, stop)?;
-    let detail = settings::Detail::of(picture.quality, stage.triangles());
-    let size = [picture.width, picture.height];
-    let (eye, camera) = match (extent, picture.look) {
-        (None, None) => {
-            let eye = view::viewpoint(&stage.hull, picture);
-            (eye, camera::Camera::fit(stage.points(), eye, size))
-        }
-        (None, Some(look)) => {
-            let eye = view::viewpoint(&stage.hull, picture);
-            let axes = [DVec3::X, DVec3::Y, DVec3::Z].into_iter().flat_map(|axis| [axis, -axis]);
-            let points = axes.map(|axis| DVec3::from(look.at) + axis * look.radius);
-            let points = points.map(|point| stage.shrink.transform_point3(point).as_vec3a());
-            (eye, camera::Camera::fit(points, eye, size).inside())
-        }
-        (Some(extent), _) => {
-            let points = extent.points(&stage.shrink);
-            let eye = view::viewpoint(&points, picture);
-            (eye, camera::Camera::fit(points.into_iter(), eye, size))
-        }
-    };
-    let sun = sun::Sun::new(&stage, eye, &detail);
-    let sky = sky::Sky::new(&stage, &sun, &detail, picture.ground);
-    // A little below the model, so that what lies on the ground is not mixed with it.
-    let height = stage.bounds.0.z - 0.0005;
-    let floor = picture.ground.then(|| floor::Floor::new(&stage, &sun, &sky, height));
-    let light = shade::Light {
-        stage: &stage,
-        textures: &textures,
-        camera: &camera,
-        sun: &sun,
-        sky: &sky,
-        floor: floor.as_ref(),
-    };
-    let image = develop::develop(&light, picture, &detail);
-    // What was stopped has left everything out that was still to be done.
-    stop.check().map(|()| image)
-}

@@ -2,8 +2,9 @@
 
 use super::super::check::{Checked, shown_parts, triangles};
 use super::super::color::{fraction, srgb};
-use super::super::texture::Images;
+use super::super::texture::{ImageFile, Images};
 use super::view::View;
+use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Mesh};
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
@@ -185,16 +186,16 @@ fn is_counter_clockwise([a, b, c]: [Point; 3]) -> bool {
 pub(super) struct Palette(Vec<([f32; 3], f32)>);
 
 impl Palette {
-    /// The colour of each material, with the mean of its image.
-    pub(super) fn new(materials: &[Material], images: &Images) -> Self {
-        let means: Vec<_> = images.files.iter().map(super::super::texture::ImageFile::mean_color).collect();
+    /// The colour of each material, with the mean of its image. Fails as [`ImageFile::mean_color`] does.
+    pub(super) fn new(materials: &[Material], images: &Images) -> Result<Self> {
+        let means: Vec<_> = images.files.iter().map(ImageFile::mean_color).collect::<Result<_>>()?;
         let color = |(material, image): (&Material, &Option<usize>)| {
             let mean = image.map_or([1.0; 3], |image| means[image]);
             let light =
                 |i: usize| srgb(material.base_color[i].max(0.0) * mean[i] + material.emissive[i].max(0.0));
             ([light(0), light(1), light(2)], fraction(material.base_color[3]))
         };
-        Self(materials.iter().zip(&images.of_material).map(color).collect())
+        Ok(Self(materials.iter().zip(&images.of_material).map(color).collect()))
     }
 
     /// The colour of `ink` and its opacity.

@@ -41,7 +41,7 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
     stop.check()?;
     let faces = Faces::collect(&checked, view);
     stop.check()?;
-    let palette = Palette::new(&scene.materials, &images);
+    let palette = Palette::new(&scene.materials, &images)?;
     document(&checked, view, &faces, &palette, stop)
 }
 

@@ -10,6 +10,7 @@ use gltf_json::{Index, Root};
 use super::bytes::{Bytes, address};
 use super::{Wanted, broken};
 use burgeon_base::error::Result;
+use burgeon_scene::image::ImageKind;
 use burgeon_scene::{Material, Texture};
 
 /// A material, and which of the texture coordinates it takes.
@@ -110,7 +111,7 @@ fn texture(
                 }
                 (None, None) => return Err(missing()),
             };
-            if !matches!(image::guess_format(&read), Ok(image::ImageFormat::Png | image::ImageFormat::Jpeg)) {
+            if ImageKind::of(&read).is_none() {
                 return Err(broken(wanted.name, format!("image {} is neither PNG nor JPEG", source.value())));
             }
             let content: Arc<[u8]> = read.into();

@@ -5,14 +5,11 @@ use glam::{DAffine3, DVec3, Vec2, Vec3};
 use super::*;
 use burgeon_export::picture::Picture;
 use burgeon_kit::random::Stream;
-use burgeon_scene::{Material, Part, Texture};
+use burgeon_scene::{Material, Part, Texture, image};
 
 /// A box of 2 m by 3 m by 4 m that stands twice, once turned and at half its size, with an image on it.
 fn sample() -> Scene {
-    let mut png = Vec::new();
-    let image = image::RgbImage::from_pixel(4, 2, image::Rgb([200, 80, 40]));
-    let mut cursor = std::io::Cursor::new(&mut png);
-    image.write_to(&mut cursor, image::ImageFormat::Png).unwrap();
+    let png = image::encode_opaque(4, 2, &[200, 80, 40].repeat(8)).unwrap();
     let mut scene = Scene::default();
     let brick = Material {
         name: "brick".into(),

@@ -3,10 +3,9 @@
 use std::sync::Arc;
 
 use glam::DVec2;
-use image::{ExtendedColorType, ImageEncoder};
 use rayon::prelude::*;
 
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::Result;
 use burgeon_kit::{Color, Expected, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 use burgeon_terrain::{Ground, Tile};
@@ -120,16 +119,8 @@ pub(crate) fn material(
     size: f64,
     roughness: f32,
 ) -> Result<Material> {
-    let mut png = Vec::new();
-    let encoder = image::codecs::png::PngEncoder::new_with_quality(
-        &mut png,
-        image::codecs::png::CompressionType::Fast,
-        image::codecs::png::FilterType::Adaptive,
-    );
     let side = u32::try_from(across).unwrap_or(0);
-    encoder
-        .write_image(bytes, side, side, ExtendedColorType::Rgb8)
-        .map_err(|error| Error::internal(format!("an image of the ground cannot be written: {error}")))?;
+    let png = burgeon_scene::image::encode_opaque(side, side, bytes)?;
     #[allow(clippy::cast_precision_loss, reason = "texels are few")]
     let whole = size * across as f64 / (across - 1) as f64;
     let texture =

@@ -1,0 +1,71 @@
+//! What stands in the place of `formats` where a program is built without the feature `data`: it says so.
+
+use std::path::Path;
+
+use super::{Table, Wanted};
+use burgeon_base::error::{Error, Result};
+
+fn left_out<T>() -> Result<T> {
+    Err(Error::left_out("data formats", "data"))
+}
+
+/// A database of layers, of which there is none without the feature `data`.
+pub enum GeoPackage {}
+
+impl GeoPackage {
+    pub(crate) fn open(_path: &Path, name: &str, _wanted: &Wanted) -> Result<Self> {
+        left_out().map_err(|error: Error| error.about(name))
+    }
+
+    pub(crate) fn layers(&self) -> Vec<String> {
+        match *self {}
+    }
+
+    pub(crate) fn read(self, _layer: &str, _wanted: &Wanted) -> Result<Table> {
+        match self {}
+    }
+}
+
+pub(crate) mod projection {
+    use super::{Error, Result, left_out};
+
+    /// A projection, of which there is none.
+    #[derive(Clone)]
+    pub(crate) enum Projection {}
+
+    impl Projection {
+        pub(crate) fn new(_definition: &str, _cannot: impl Fn(String) -> Error) -> Result<Self> {
+            left_out()
+        }
+
+        pub(crate) fn bring(&self, _into: &Self, _point: &mut (f64, f64, f64)) -> Result<(), String> {
+            match *self {}
+        }
+    }
+
+    pub(crate) fn known(_code: u32) -> Result<Option<(u16, &'static str)>> {
+        left_out()
+    }
+}
+
+pub(crate) mod geotiff {
+    use super::{Error, Result, left_out};
+    use crate::elevation::raster::Found;
+
+    pub(crate) fn read<'a>(_bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
+        left_out().map_err(|error: Error| error.about(name))
+    }
+}
+
+pub(crate) mod png {
+    use super::Result;
+    use crate::elevation::{Wanted, raster::Found};
+
+    pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, _wanted: &'a Wanted) -> Result<Found<'a>> {
+        super::geotiff::read(bytes, name)
+    }
+}
+
+pub(crate) mod zipped {
+    pub(crate) use super::png::read;
+}

@@ -1,0 +1,301 @@
+//! GeoTIFF: whole numbers or floats in strips or tiles, and tags that tell where they lie.
+
+use std::io::Cursor;
+
+use tiff::TiffError;
+use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
+use tiff::tags::Tag;
+
+use super::super::Crs;
+use super::super::elevation::names::tiff_key as keys;
+use super::super::elevation::raster::{Found, Grid, check_size, count};
+use super::meaning::Meaning;
+use super::packed::{DEFLATED, can_hold, cannot_hold};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Limit, Result};
+
+/// The most bytes that one becomes which is packed by LZW: a code of 12 bits stands for less than 4,096; and by any
+/// other way.
+const LZW: usize = 2_800;
+const PACKED: usize = 100_000;
+
+/// The most room (bytes) for one strip or tile, and for the values of one tag.
+const LARGEST_PART: usize = 1_000_000_000;
+const LARGEST_TAG: usize = 64_000_000;
+
+/// A TIFF in memory that is being read.
+pub(super) type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// Reads a file called `name`.
+///
+/// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
+    let damaged = |error: TiffError| damaged(name, &error);
+    if !texts_fit(bytes) {
+        return Err(damaged(TiffError::LimitsExceeded));
+    }
+    let mut limits = Limits::default();
+    limits.decoding_buffer_size = LARGEST_PART.max(bytes.len());
+    limits.intermediate_buffer_size = LARGEST_PART;
+    limits.ifd_value_size = LARGEST_TAG;
+    let mut tiff = Decoder::new(Cursor::new(bytes)).map_err(damaged)?.with_limits(limits);
+    let (columns, rows) = tiff.dimensions().map_err(damaged)?;
+    let [columns, rows] = [columns, rows].map(|side| side as usize);
+    check_size(name, columns, rows)?;
+    let color = tiff.colortype().map_err(damaged)?;
+    if color.num_samples() != 1 {
+        return Err(Error::data(format!("{name} has {} bands, where heights are one", color.num_samples()))
+            .help("take out the one of heights: gdal_translate -b 1 IN OUT.tif"));
+    }
+    check_whole(&mut tiff, bytes, name)?;
+    check_parts(&mut tiff, bytes, name, usize::from(color.bit_depth()).div_ceil(8))?;
+    let keys = Keys::read(&mut tiff);
+    let meaning = Meaning::read(&mut tiff, &keys, name)?;
+    let mut grid = grid(&mut tiff, name, keys.get(keys::RASTER) == Some(keys::POINT))?;
+    let from_south = grid.as_ref().is_some_and(|grid| grid.step[1] < 0.0);
+    if let Some(grid) = grid.as_mut().filter(|_| from_south) {
+        grid.first[1] -= grid.step[1] * count(rows - 1);
+        grid.step[1] = -grid.step[1];
+    }
+    let heights = move |budget: &Budget| {
+        let mut heights = samples(&mut tiff, name, [columns, rows], &meaning, budget)?;
+        if from_south {
+            let _held = budget.hold(heights.len() * size_of::<f32>())?;
+            heights = heights.chunks_exact(columns).rev().flatten().copied().collect();
+        }
+        Ok(heights)
+    };
+    Ok(Found { columns, rows, grid, crs: keys.crs(name), heights: Box::new(heights) })
+}
+
+/// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.
+fn texts_fit(bytes: &[u8]) -> bool {
+    const TEXT: usize = 2;
+    let number = |at: usize, size: usize| {
+        let part = bytes.get(at..at.checked_add(size)?)?;
+        let add = |sum: u64, byte: &u8| sum << 8 | u64::from(*byte);
+        let sum = if bytes[0] == b'M' { part.iter().fold(0, add) } else { part.iter().rev().fold(0, add) };
+        usize::try_from(sum).ok()
+    };
+    // Where the directory begins, and the sizes (bytes) of its number of entries, of an entry, and of a count in it.
+    let (begin, [head, entry, count]) = match number(2, 2) {
+        Some(43) => (number(8, 8), [8, 20, 8]),
+        _ => (number(4, 4), [2, 12, 4]),
+    };
+    let Some(begin) = begin else { return true };
+    let entries = number(begin, head).unwrap_or(0).min(bytes.len() / entry);
+    (0..entries).all(|index| {
+        let at = begin + head + index * entry;
+        number(at + 2, 2) != Some(TEXT) || number(at + 4, count).is_some_and(|length| length <= bytes.len())
+    })
+}
+
+/// Refuses a file that ends before its last strip or tile.
+fn check_whole(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str) -> Result<()> {
+    for [offsets, sizes] in
+        [[Tag::StripOffsets, Tag::StripByteCounts], [Tag::TileOffsets, Tag::TileByteCounts]]
+    {
+        let (Ok(offsets), Ok(sizes)) = (tiff.get_tag_u64_vec(offsets), tiff.get_tag_u64_vec(sizes)) else {
+            continue;
+        };
+        let ends = offsets.iter().zip(&sizes).map(|(offset, size)| offset.saturating_add(*size));
+        let (end, length) = (ends.max().unwrap_or(0), bytes.len());
+        if end > length as u64 {
+            return Err(Error::data(format!("{name} is cut short: it has {length} of {end} bytes"))
+                .help("get it again"));
+        }
+    }
+    Ok(())
+}
+
+/// Refuses strips and tiles that say they have more than their bytes can hold.
+fn check_parts(tiff: &mut Tiff<'_>, bytes: &[u8], name: &str, sample: usize) -> Result<()> {
+    let (columns, rows) = tiff.dimensions().map_err(|error| damaged(name, &error))?;
+    let [columns, rows] = [columns, rows].map(|side| side as usize);
+    let (width, height) = tiff.chunk_dimensions();
+    let [width, height] = [width, height].map(|side| side as usize);
+    if width == 0 || height == 0 {
+        return Err(Error::data(format!("{name} has strips or tiles without extent")).help("get it again"));
+    }
+    let tag = match tiff.get_chunk_type() {
+        ChunkType::Strip => Tag::StripByteCounts,
+        ChunkType::Tile => Tag::TileByteCounts,
+    };
+    // Without packing the sizes may be left out.
+    let Ok(sizes) = tiff.get_tag_u64_vec(tag) else { return Ok(()) };
+    let most = match tiff.get_tag_u32(Tag::Compression).unwrap_or(1) {
+        1 => 1,
+        5 => LZW,
+        8 | 32946 => DEFLATED,
+        _ => PACKED,
+    };
+    let is_strip = matches!(tiff.get_chunk_type(), ChunkType::Strip);
+    let parts = columns.div_ceil(width) * rows.div_ceil(height);
+    for (part, size) in sizes.into_iter().enumerate().take(parts) {
+        // The last strip ends with the picture, while tiles are whole.
+        let down = if is_strip { height.min(rows.saturating_sub(part * height)) } else { height };
+        let whole = width.saturating_mul(down).saturating_mul(sample);
+        if !can_hold(usize::try_from(size).unwrap_or(usize::MAX), most, whole) {
+            return Err(cannot_hold(name, bytes.len(), columns, rows));
+        }
+    }
+    Ok(())
+}
+
+/// All heights, strip by strip or tile by tile.
+fn samples(
+    tiff: &mut Tiff<'_>,
+    name: &str,
+    [columns, rows]: [usize; 2],
+    meaning: &Meaning,
+    budget: &Budget,
+) -> Result<Vec<f32>> {
+    let (width, height) = tiff.chunk_dimensions();
+    let [width, height] = [width, height].map(|side| side as usize);
+    let across = columns.div_ceil(width);
+    let mut heights = Vec::new();
+    for top in (0..rows).step_by(height) {
+        // No more room than for what was found.
+        heights.resize(columns * rows.min(top + height), f32::NAN);
+        for column in 0..across {
+            budget.check()?;
+            // The unpacked bytes, and heights of them.
+            let _held = budget.hold(width.saturating_mul(height).saturating_mul(12))?;
+            let number = u32::try_from(top / height * across + column)
+                .map_err(|_| Error::data(format!("{name} has too many strips")))?;
+            let (found_width, _) = tiff.chunk_data_dimensions(number);
+            let values = tiff.read_chunk(number).map_err(|error| damaged(name, &error))?;
+            let values = numbers(values, meaning, name)?;
+            let left = column * width;
+            let stride = (found_width as usize).max(1);
+            for (row, values) in (top..rows.min(top + height)).zip(values.chunks(stride)) {
+                let line = &mut heights[row * columns + left..row * columns + columns.min(left + width)];
+                line.iter_mut().zip(values).for_each(|(height, value)| *height = *value);
+            }
+        }
+    }
+    Ok(heights)
+}
+
+/// Samples as heights (m). Fails on types of which no heights are made.
+fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<f32>> {
+    fn all<T: Copy + Into<f64>>(values: &[T], meaning: &Meaning) -> Vec<f32> {
+        values.iter().map(|value| meaning.height((*value).into())).collect()
+    }
+    Ok(match values {
+        DecodingResult::F32(values) => all(&values, meaning),
+        DecodingResult::F64(values) => all(&values, meaning),
+        DecodingResult::I16(values) => all(&values, meaning),
+        DecodingResult::U16(values) => all(&values, meaning),
+        DecodingResult::I32(values) => all(&values, meaning),
+        DecodingResult::U32(values) => all(&values, meaning),
+        DecodingResult::U8(_) | DecodingResult::I8(_) => {
+            return Err(Error::data(format!(
+                "{name} has samples of 8 bits, whose 256 levels would make steps"
+            ))
+            .help("export it with 16 bits or floats"));
+        }
+        _ => {
+            return Err(Error::data(format!("{name} has samples of a type that is not read"))
+                .help("convert it: gdal_translate -ot Float32 IN OUT.tif"));
+        }
+    })
+}
+
+/// Where the samples lie; `None` if no tag tells. The step to the south is negative where rows come from the south.
+///
+/// Fails if the raster is turned.
+fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>> {
+    let scale = tiff.get_tag_f64_vec(Tag::ModelPixelScaleTag).unwrap_or_default();
+    let tie = tiff.get_tag_f64_vec(Tag::ModelTiepointTag).unwrap_or_default();
+    let matrix = tiff.get_tag_f64_vec(Tag::ModelTransformationTag).unwrap_or_default();
+    // The corner of the first sample's area, or its centre, and the steps.
+    let (corner, step) = match (scale.as_slice(), tie.as_slice(), matrix.as_slice()) {
+        ([dx, dy, ..], [column, row, _, x, y, ..], _) => ([x - column * dx, y + row * dy], [*dx, *dy]),
+        (_, _, [a, b, _, x, c, d, _, y, ..]) => {
+            if *b != 0.0 || *c != 0.0 {
+                return Err(Error::data(format!("{name} is turned: its columns do not run north"))
+                    .help("straighten it: gdalwarp IN OUT.tif"));
+            }
+            ([*x, *y], [*a, -*d])
+        }
+        _ => return Ok(None),
+    };
+    let half = if is_point { 0.0 } else { 0.5 };
+    Ok(Some(Grid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
+}
+
+/// The keys of a GeoTIFF that are numbers.
+pub(super) struct Keys {
+    short: Vec<(u16, u16)>,
+    double: Vec<(u16, f64)>,
+}
+
+impl Keys {
+    /// None where the file is a plain TIFF.
+    fn read(tiff: &mut Tiff<'_>) -> Self {
+        let directory = tiff.get_tag_u16_vec(Tag::GeoKeyDirectoryTag).unwrap_or_default();
+        let doubles = tiff.get_tag_f64_vec(Tag::GeoDoubleParamsTag).unwrap_or_default();
+        let mut keys = Self { short: Vec::new(), double: Vec::new() };
+        // Four numbers of a header, then four for each key: its number, where its value stands, how many, and which.
+        for key in directory.chunks_exact(4).skip(1) {
+            if key[1] == 0 {
+                keys.short.push((key[0], key[3]));
+            } else if key[1] == Tag::GeoDoubleParamsTag.to_u16() {
+                keys.double.extend(doubles.get(usize::from(key[3])).map(|value| (key[0], *value)));
+            }
+        }
+        keys
+    }
+
+    pub(super) fn get(&self, key: u16) -> Option<u16> {
+        self.short.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
+    }
+
+    /// The coordinate system, if the file has one.
+    fn crs(&self, name: &str) -> Result<Option<Crs>> {
+        let code = self.get(keys::PROJECTED).or_else(|| self.get(keys::GEOGRAPHIC)).filter(|code| *code != 0);
+        match (code, self.middle()) {
+            (None, _) if self.get(keys::MODEL).is_none_or(|model| model == 0) => Ok(None),
+            (Some(keys::OWN), Some(middle)) => Ok(Some(Crs::around(middle))),
+            (Some(code), _) if code != keys::OWN => Crs::epsg(code.into())
+                .map(Some)
+                .map_err(|error| Error::data(format!("{name}: {}", error.message())).help(NAME_IT)),
+            _ => {
+                Err(Error::data(format!("{name} has a coordinate system that is none of EPSG's"))
+                    .help(NAME_IT))
+            }
+        }
+    }
+
+    /// The longitude and the latitude (degrees) that a transverse Mercator projection of a run is around.
+    fn middle(&self) -> Option<[f64; 2]> {
+        let double = |key: u16| self.double.iter().find(|(known, _)| *known == key).map(|(_, value)| *value);
+        let [longitude, latitude, x, y, scale] = keys::MIDDLE.map(double);
+        let is_ours = self.get(keys::METHOD) == Some(keys::TRANSVERSE_MERCATOR)
+            && self.get(keys::GEOGRAPHIC) == Some(keys::WGS_84)
+            && self.get(keys::LINEAR_UNIT) == Some(keys::METRE)
+            && [x, y, scale] == [Some(0.0), Some(0.0), Some(1.0)];
+        let middle = [longitude?, latitude?];
+        (is_ours && middle[0].abs() <= 180.0 && middle[1].abs() <= 90.0).then_some(middle)
+    }
+}
+
+/// What to do about a coordinate system that cannot be used.
+const NAME_IT: &str = "name its EPSG code: elevation(file, { crs = 3067 }), or convert the file: \
+                       gdalwarp -t_srs EPSG:4326 IN OUT.tif";
+
+fn damaged(name: &str, error: &TiffError) -> Error {
+    match error {
+        TiffError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            Error::data(format!("{name} is cut short")).help("get it again")
+        }
+        TiffError::LimitsExceeded => {
+            Error::limit(Limit::Size, format!("{name} has a strip or a tag that is too large"))
+                .help("write it with tiles: gdal_translate -co TILED=YES IN OUT.tif")
+        }
+        TiffError::UnsupportedError(_) => Error::data(format!("{name} is a TIFF of a kind that is not read"))
+            .help("convert it: gdal_translate -ot Float32 -co COMPRESS=DEFLATE IN OUT.tif"),
+        _ => Error::data(format!("{name} is a damaged TIFF")).help("get it again"),
+    }
+}

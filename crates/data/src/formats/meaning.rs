@@ -1,0 +1,132 @@
+//! What the samples of a GeoTIFF mean: the height of 0 and of a step, their unit, and what marks missing ones.
+
+use tiff::tags::Tag;
+
+use super::super::elevation::names::tiff_key as keys;
+use super::super::elevation::raw::narrow;
+use super::geotiff::{Keys, Tiff};
+use burgeon_base::error::{Error, Result};
+
+/// What GDAL tells of a file and its bands, as XML.
+const METADATA: Tag = Tag::Unknown(42112);
+
+/// How samples become heights.
+pub(super) struct Meaning {
+    missing: Option<f64>,
+    /// What they are multiplied by, and what is added then (m).
+    scale: f64,
+    offset: f64,
+}
+
+impl Meaning {
+    /// What the tags of a file called `name` tell. Fails if its unit is not known, or if nothing comes of the scale.
+    pub(super) fn read(tiff: &mut Tiff<'_>, keys: &Keys, name: &str) -> Result<Self> {
+        let missing = tiff.get_tag_ascii_string(Tag::GdalNodata).ok();
+        let missing = missing.and_then(|text| text.trim_matches(['\0', ' ']).parse::<f64>().ok());
+        let metadata = tiff.get_tag_ascii_string(METADATA).unwrap_or_default();
+        let told = |role: &str| item(&metadata, role).and_then(|text| text.parse::<f64>().ok());
+        let (scale, offset) = match (told("scale"), told("offset")) {
+            (None, None) => vertical(tiff, keys),
+            (scale, offset) => (scale.unwrap_or(1.0), offset.unwrap_or(0.0)),
+        };
+        if !(scale.is_finite() && scale != 0.0 && offset.is_finite()) {
+            return Err(Error::data(format!(
+                "{name} has heights with the scale {scale} and the offset {offset}"
+            ))
+            .help("write them as metres: gdal_translate -unscale IN OUT.tif"));
+        }
+        let unit = match keys.get(keys::VERTICAL_UNIT) {
+            None => item(&metadata, "unittype").map_or(Ok(1.0), |unit| named(unit, name))?,
+            Some(unit) => coded(unit, name)?,
+        };
+        Ok(Self { missing, scale: scale * unit, offset: offset * unit })
+    }
+
+    /// The height (m) of a sample; NaN for a missing one.
+    #[inline]
+    pub(super) fn height(&self, sample: f64) -> f32 {
+        // Floats mark what is missing with the nearest of theirs.
+        if self.missing.is_some_and(|mark| narrow(sample) == narrow(mark)) {
+            return f32::NAN;
+        }
+        narrow(sample * self.scale + self.offset)
+    }
+}
+
+/// The scale and the offset of heights that place them in space; only where the file says that they are heights there,
+/// since others write what they like.
+fn vertical(tiff: &mut Tiff<'_>, keys: &Keys) -> (f64, f64) {
+    let plain = (1.0, 0.0);
+    if keys.get(keys::VERTICAL).or_else(|| keys.get(keys::VERTICAL_UNIT)).is_none() {
+        return plain;
+    }
+    let scale = tiff.get_tag_f64_vec(Tag::ModelPixelScaleTag).unwrap_or_default();
+    let tie = tiff.get_tag_f64_vec(Tag::ModelTiepointTag).unwrap_or_default();
+    let matrix = tiff.get_tag_f64_vec(Tag::ModelTransformationTag).unwrap_or_default();
+    match (scale.as_slice(), tie.as_slice(), matrix.as_slice()) {
+        ([_, _, dz, ..], [_, _, sample, _, _, z, ..], _) if *dz != 0.0 => (*dz, z - sample * dz),
+        (_, _, [_, _, _, _, _, _, _, _, _, _, dz, z, ..]) if *dz != 0.0 => (*dz, *z),
+        _ => plain,
+    }
+}
+
+/// The text of the item of the first band, or of the file, that has this role.
+fn item<'a>(metadata: &'a str, role: &str) -> Option<&'a str> {
+    metadata.split("<Item").skip(1).find_map(|rest| {
+        let (tag, rest) = rest.split_once('>')?;
+        let (text, _) = rest.split_once('<')?;
+        let is_first = attribute(tag, "sample").is_none_or(|sample| sample == "0");
+        (is_first && attribute(tag, "role") == Some(role)).then_some(text.trim())
+    })
+}
+
+/// The value of an attribute in a tag.
+fn attribute<'a>(tag: &'a str, name: &str) -> Option<&'a str> {
+    tag.split_whitespace().find_map(|part| {
+        let value = part.strip_prefix(name)?.strip_prefix('=')?;
+        Some(value.trim_end_matches('/').trim_matches(['"', '\'']))
+    })
+}
+
+/// How many metres a unit has, by its number among EPSG's.
+fn coded(unit: u16, name: &str) -> Result<f64> {
+    match unit {
+        0 | keys::METRE | keys::OWN => Ok(1.0),
+        9002 => Ok(0.3048),
+        9003 => Ok(1200.0 / 3937.0),
+        unit => Err(unknown(&format!("EPSG:{unit}"), name)),
+    }
+}
+
+/// How many metres a unit has, by what GDAL calls it.
+fn named(unit: &str, name: &str) -> Result<f64> {
+    match unit.to_ascii_lowercase().as_str() {
+        "" | "m" | "metre" | "metres" | "meter" | "meters" => Ok(1.0),
+        "ft" | "foot" | "feet" => Ok(0.3048),
+        "us-ft" | "ftus" | "us survey foot" | "us survey feet" => Ok(1200.0 / 3937.0),
+        "cm" | "centimetre" | "centimeter" => Ok(0.01),
+        "mm" | "millimetre" | "millimeter" => Ok(0.001),
+        _ => Err(unknown(&format!("{unit:?}"), name)),
+    }
+}
+
+fn unknown(unit: &str, name: &str) -> Error {
+    Error::data(format!("{name} has heights in a unit that is not known ({unit})"))
+        .help("convert it to metres")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn items_are_found_by_their_role_in_the_first_band() {
+        let text = "<GDALMetadata>\n  <Item name=\"AREA\">x</Item>\n  <Item name='SCALE' sample='1' role='scale'>7</Item>\n  \
+            <Item name=\"SCALE\" sample=\"0\" role=\"scale\"> 0.1 </Item><Item role=\"offset\" name=\"OFFSET\" sample=\"0\">5</Item>";
+        assert_eq!((item(text, "scale"), item(text, "offset")), (Some("0.1"), Some("5")));
+        assert_eq!(
+            (item(text, "unittype"), item("<Item", "scale"), item("<Item role=scale>", "scale")),
+            (None, None, None)
+        );
+    }
+}

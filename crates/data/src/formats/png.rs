@@ -1,0 +1,161 @@
+//! PNG: grey of 16 bits between two heights, or colours that are heights.
+
+use std::io::Cursor;
+
+use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
+
+use super::super::elevation::names::png_text as text;
+use super::super::elevation::raster::{Found, check_size};
+use super::super::elevation::raw::narrow;
+use super::super::elevation::{MOST, Wanted};
+use super::packed::{DEFLATED, can_hold, cannot_hold};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Limit, Result};
+
+/// A PNG in memory that is being read.
+type Png<'a> = Decoder<Cursor<&'a [u8]>>;
+
+/// Reads a picture called `name`.
+///
+/// Fails on 8 bits of grey, and on colours unless `wanted` says what they mean; if the heights of black and white are
+/// neither in the file nor in `wanted`; if it is damaged or cut short.
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
+    let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MOST * 8 });
+    decoder.set_transformations(Transformations::IDENTITY);
+    let info = decoder.read_header_info().map_err(|error| damaged(name, bytes, &error))?;
+    let [columns, rows] = [info.width, info.height].map(|side| side as usize);
+    let form = (info.color_type, info.bit_depth);
+    check_size(name, columns, rows)?;
+    let parts = parts(name, form, wanted)?;
+    if !can_hold(bytes.len(), DEFLATED, columns * rows * parts) {
+        return Err(cannot_hold(name, bytes.len(), columns, rows));
+    }
+    let heights = move |budget: &Budget| {
+        let samples = Samples { parts, terrain_rgb: wanted.terrain_rgb };
+        let (mut heights, scale) = samples.read(decoder, bytes, (name, wanted), columns * rows, budget)?;
+        if let Some([low, scale]) = scale {
+            heights.iter_mut().for_each(|height| *height = narrow(low + scale * f64::from(*height)));
+        }
+        Ok(heights)
+    };
+    Ok(Found { columns, rows, grid: None, crs: Ok(None), heights: Box::new(heights) })
+}
+
+/// How samples stand in a row.
+struct Samples {
+    /// Bytes of each.
+    parts: usize,
+    terrain_rgb: bool,
+}
+
+impl Samples {
+    /// Those of all rows, and of grey the height (m) of black and that of a step.
+    fn read(
+        &self,
+        decoder: Png<'_>,
+        bytes: &[u8],
+        (name, wanted): (&str, &Wanted),
+        count: usize,
+        budget: &Budget,
+    ) -> Result<(Vec<f32>, Option<[f64; 2]>)> {
+        let failed = |error| damaged(name, bytes, &error);
+        let mut reader = decoder.read_info().map_err(failed)?;
+        let mut heights = Vec::new();
+        if reader.info().interlaced {
+            // Rows come in no order: all of them are unpacked first.
+            let size = count * self.parts;
+            let _held = budget.hold(size)?;
+            let mut content = vec![0; size];
+            reader.next_frame(&mut content).map_err(failed)?;
+            heights.extend(content.chunks_exact(self.parts).map(|sample| self.height(sample)));
+        } else {
+            while let Some(row) = reader.next_row().map_err(failed)? {
+                budget.tick()?;
+                heights.extend(row.data().chunks_exact(self.parts).map(|sample| self.height(sample)));
+            }
+        }
+        if self.terrain_rgb {
+            return Ok((heights, None));
+        }
+        // Texts may stand behind the picture.
+        match reader.finish() {
+            Ok(()) | Err(DecodingError::Parameter(_)) => {}
+            Err(error) => return Err(failed(error)),
+        }
+        let texts = &reader.info().uncompressed_latin1_text;
+        let told = |keyword: &str| {
+            let text = texts.iter().find(|text| text.keyword == keyword)?;
+            text.text.parse::<f64>().ok()
+        };
+        let (low, high) = (wanted.low.or_else(|| told(text::LOW)), wanted.high.or_else(|| told(text::HIGH)));
+        let (Some(low), Some(high)) = (low, high) else {
+            return Err(Error::argument(format!("{name} does not tell the heights of black and white"))
+                .help("name them (m): elevation(file, { low = 0, high = 1200, ... })"));
+        };
+        if !(low.is_finite() && high.is_finite() && low < high) {
+            return Err(Error::argument(format!("{name} cannot lie between low = {low} and high = {high}"))
+                .help("low is the height (m) of black, high the greater one of white"));
+        }
+        Ok((heights, Some([low, (high - low) / 65535.0])))
+    }
+
+    /// The height (m) of a sample; of grey, how many steps above black.
+    fn height(&self, sample: &[u8]) -> f32 {
+        match sample {
+            _ if self.terrain_rgb => rgb(sample),
+            [_, _, 0, 0] => f32::NAN,
+            [a, b, ..] => f32::from(u16::from_be_bytes([*a, *b])),
+            _ => f32::NAN,
+        }
+    }
+}
+
+/// The number of bytes of a sample. Fails if they are not as `wanted` needs them.
+fn parts(name: &str, form: (ColorType, BitDepth), wanted: &Wanted) -> Result<usize> {
+    let colored = matches!(form.0, ColorType::Rgb | ColorType::Rgba | ColorType::Indexed);
+    match (wanted.terrain_rgb, form) {
+        (true, (ColorType::Rgb, BitDepth::Eight)) => Ok(3),
+        (true, (ColorType::Rgba, BitDepth::Eight)) => Ok(4),
+        (true, _) => Err(Error::data(format!("{name} has no colours of 8 bits that could be heights"))
+            .help("leave encoding out, if it is grey; get the tile as .pngraw, if it has a palette")),
+        (false, (ColorType::Grayscale, BitDepth::Sixteen)) => Ok(2),
+        (false, (ColorType::GrayscaleAlpha, BitDepth::Sixteen)) => Ok(4),
+        (false, _) if colored => {
+            Err(Error::data(format!("{name} is a PNG in colours, not in grey of 16 bits"))
+                .help("if its colours are heights as Mapbox encodes them, say encoding = \"terrain-rgb\""))
+        }
+        (false, _) => {
+            Err(Error::data(format!("{name} is a PNG of 8 bits or less, whose 256 levels would make steps"))
+                .help("export it with 16 bits, or as a GeoTIFF"))
+        }
+    }
+}
+
+/// The height (m) of a colour: a tenth of a metre for each step. Method: Mapbox, "Terrain-RGB v1".
+fn rgb(sample: &[u8]) -> f32 {
+    match *sample {
+        [_, _, _, 0] => f32::NAN,
+        [r, g, b, ..] => {
+            let steps = u32::from_be_bytes([0, r, g, b]);
+            narrow(-10_000.0 + f64::from(steps) * 0.1)
+        }
+        _ => f32::NAN,
+    }
+}
+
+fn damaged(name: &str, bytes: &[u8], error: &DecodingError) -> Error {
+    match error {
+        DecodingError::IoError(error) if error.kind() == std::io::ErrorKind::UnexpectedEof => {
+            let length = bytes.len();
+            Error::data(format!(
+                "{name} is cut short: it ends after {length} bytes, where more should follow"
+            ))
+            .help("get it again")
+        }
+        DecodingError::LimitsExceeded => {
+            Error::limit(Limit::Size, format!("{name} takes too much memory to unpack"))
+                .help("cut out a part of it, or write it without texts and profiles")
+        }
+        _ => Error::data(format!("{name} is a damaged PNG")).help("get it again"),
+    }
+}

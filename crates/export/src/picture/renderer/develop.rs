@@ -1,0 +1,182 @@
+//! From samples to pixels: finds what each pixel sees, has it lit, and mixes the colours.
+
+use super::super::settings::{Background, Picture};
+use super::coverage::noise;
+use super::detail::Detail;
+use super::shade::{Fragment, Light};
+use super::sky::smooth;
+use super::surface::Surface;
+use super::tone;
+use super::visible::Visible;
+use burgeon_scene::image::Image;
+use glam::{Vec3, Vec3A, Vec4};
+use rayon::prelude::*;
+
+/// Samples held at a time, which bounds the memory to 8 times as many bytes.
+const HELD: usize = 32_000_000;
+/// Width and height (pixels) of what is lit together.
+const TILE: [usize; 2] = [16, 8];
+/// The distance from the model, in the stage's units, up to which the ground shows its full shadow, and from
+/// which on it shows none.
+const FADE: [f32; 2] = [0.7, 2.4];
+
+/// What a fragment adds to its pixel.
+struct Share {
+    pixel: usize,
+    weight: f32,
+    ground: bool,
+}
+
+/// The picture in `light`.
+pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Image {
+    let (width, height) = (picture.width as usize, picture.height as usize);
+    let mut pixels = vec![[0; 4]; width * height];
+    let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
+    for (index, rows) in pixels.chunks_mut(band * width).enumerate() {
+        // What is seen of a band takes its time and its memory, also where nothing is drawn any more.
+        if light.stage.stop.is_stopped() {
+            break;
+        }
+        let first = index * band;
+        let last = (first + band).min(height);
+        let visible = Visible::new(light.stage, light.camera, detail, width, first..last);
+        rows.par_chunks_mut(TILE[1] * width).enumerate().for_each(|(index, rows)| {
+            let top = first + index * TILE[1];
+            for left in (0..width).step_by(TILE[0]) {
+                if light.stage.stop.is_stopped() {
+                    return;
+                }
+                let size = [TILE[0].min(width - left), rows.len() / width];
+                let tile = tile(light, picture, &visible, [left, top], size);
+                for (y, line) in tile.chunks(size[0]).enumerate() {
+                    rows[y * width + left..][..line.len()].copy_from_slice(line);
+                }
+            }
+        });
+    }
+    Image::from_pixels(picture.width, picture.height, pixels).unwrap_or_else(|| Image::filled(0, 0, [0; 4]))
+}
+
+/// The colours of the pixels from `corner` on.
+fn tile(
+    light: &Light,
+    picture: &Picture,
+    visible: &Visible,
+    corner: [usize; 2],
+    size: [usize; 2],
+) -> Vec<[u8; 4]> {
+    let mut fragments: Vec<Fragment> = Vec::new();
+    let mut shares: Vec<Share> = Vec::new();
+    let mut colors = vec![Vec4::ZERO; size[0] * size[1]];
+    let mut seen: Vec<(Option<u32>, f32, [f32; 2])> = Vec::new();
+    for (pixel, color) in colors.iter_mut().enumerate() {
+        let (x, y) = (corner[0] + pixel % size[0], corner[1] + pixel / size[0]);
+        seen.clear();
+        visible.each_sample(x, y, |number, [px, py]| {
+            match seen.iter_mut().find(|(known, ..)| *known == number) {
+                Some((_, count, sum)) => {
+                    *count += 1.0;
+                    *sum = [sum[0] + px, sum[1] + py];
+                }
+                None => seen.push((number, 1.0, [px, py])),
+            }
+        });
+        let part = 1.0 / seen.iter().map(|(_, count, _)| count).sum::<f32>();
+        let noise = noise(x as u32, y as u32, 1);
+        let first = fragments.len();
+        for (number, count, sum) in &seen {
+            let place = sum.map(|sum| sum / count);
+            let weight = count * part;
+            let surface = match number {
+                Some(number) => Surface::seen(light.stage, light.textures, light.camera, *number, place),
+                None => match ground(light, place) {
+                    Some(surface) => surface,
+                    None => {
+                        *color += backdrop(picture, place) * weight;
+                        continue;
+                    }
+                },
+            };
+            // Triangles of one smooth surface are lit as one.
+            let ground = number.is_none();
+            let alike = (first..fragments.len()).find(|i| fragments[*i].joins(&surface));
+            match alike {
+                Some(i) => shares[i].weight += weight,
+                None => {
+                    fragments.push(Fragment::new(surface, noise));
+                    shares.push(Share { pixel, weight, ground });
+                }
+            }
+        }
+        take_turns(&mut fragments[first..], light.sky.maps.len());
+    }
+    light.gather(&mut fragments);
+    for (fragment, share) in fragments.iter().zip(&shares) {
+        let color = if share.ground {
+            let pixel = share.pixel;
+            let place =
+                [(corner[0] + pixel % size[0]) as f32 + 0.5, (corner[1] + pixel / size[0]) as f32 + 0.5];
+            let fade = fade(light, fragment.surface.position);
+            shadowed(backdrop(picture, place), Vec3::ONE.lerp(light.ground(fragment), fade))
+        } else {
+            tone::compress(light.color(fragment)).extend(1.0)
+        };
+        colors[share.pixel] += color * share.weight;
+    }
+    colors.into_iter().map(encode).collect()
+}
+
+/// Lets the `fragments` of a pixel take turns in lookups if they are many, since their light is mixed anyway.
+/// Of the sky's `maps` each gets enough to tell light from shade.
+fn take_turns(fragments: &mut [Fragment], maps: usize) {
+    let turns = fragments.len().div_ceil(2).min(maps / 12).max(1);
+    for (i, fragment) in fragments.iter_mut().enumerate() {
+        fragment.share = (i % turns, turns);
+    }
+}
+
+/// What is behind the model at pixel coordinates `place`: a linear colour times its opacity, and the opacity.
+fn backdrop(picture: &Picture, place: [f32; 2]) -> Vec4 {
+    let (top, bottom) = match picture.background {
+        Background::Light => (Vec3::new(0.560, 0.590, 0.620), Vec3::new(0.775, 0.765, 0.740)),
+        Background::Dark => (Vec3::new(0.020, 0.022, 0.026), Vec3::new(0.062, 0.064, 0.070)),
+        Background::Clear => return Vec4::ZERO,
+    };
+    top.lerp(bottom, smooth(0.0, 1.0, place[1] / picture.height as f32)).extend(1.0)
+}
+
+/// `backdrop` where the ground in front of it has this part of its light.
+fn shadowed(backdrop: Vec4, part: Vec3) -> Vec4 {
+    if backdrop.w > 0.0 {
+        return (backdrop.truncate() * part).extend(backdrop.w);
+    }
+    // Images are laid over others by their sRGB values, in which half the light is about three quarters.
+    Vec4::new(0.0, 0.0, 0.0, 1.0 - (part.element_sum() / 3.0).powf(1.0 / 2.2))
+}
+
+/// The ground at pixel coordinates `place`, if it is seen there and near enough to show a shadow.
+fn ground(light: &Light, place: [f32; 2]) -> Option<Surface> {
+    let floor = light.floor?.height;
+    let ray = light.camera.ray(place[0], place[1]);
+    let height = light.camera.eye.z - floor;
+    if height <= 0.0 || ray.z >= -1e-6 {
+        return None;
+    }
+    let position = light.camera.eye + ray * (height / -ray.z);
+    (fade(light, position) > 0.0).then(|| Surface::ground(position, light.camera))
+}
+
+/// How strongly, 0 to 1, the ground at `position` shows its shadow.
+fn fade(light: &Light, position: Vec3A) -> f32 {
+    let (low, high) = light.stage.bounds;
+    let outside = (position - position.clamp(low, high)).with_z(0.0).length();
+    1.0 - smooth(FADE[0], FADE[1], outside)
+}
+
+/// The sRGB pixel of a linear colour times its opacity, and the opacity.
+fn encode(color: Vec4) -> [u8; 4] {
+    let opacity = color.w.clamp(0.0, 1.0);
+    let straight = color.truncate() / opacity.max(1e-6);
+    let [red, green, blue] = straight.to_array().map(tone::encode);
+    [red, green, blue, (opacity * 255.0 + 0.5) as u8]
+}

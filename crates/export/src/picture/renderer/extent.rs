@@ -1,0 +1,99 @@
+//! The room that scenes take, so that several pictures can share a camera.
+
+use super::points::spread;
+use super::stage::{Stage, sphere};
+use burgeon_base::error::Result;
+use burgeon_scene::Scene;
+use glam::{DAffine3, DVec3, Vec3A};
+
+/// Directions in which the farthest point is kept. The camera's margin is larger than what lies between them.
+const DIRECTIONS: usize = 512;
+
+/// The room that one or more scenes take.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Extent {
+    /// Points of the scenes (m), the farthest in each of many directions.
+    points: Vec<DVec3>,
+}
+
+impl Extent {
+    /// The room that `scene` takes; none if it shows nothing. Fails as [`render`](super::render) does.
+    pub fn of(scene: &Scene) -> Result<Self> {
+        let stage = Stage::new(scene)?;
+        let back = stage.shrink.inverse();
+        let hull: Vec<DVec3> = stage.hull.iter().map(|point| point.as_dvec3()).collect();
+        let mut farthest: Vec<usize> = (0..DIRECTIONS)
+            .filter_map(|i| {
+                let direction = spread(i, DIRECTIONS);
+                (0..hull.len()).max_by(|a, b| hull[*a].dot(direction).total_cmp(&hull[*b].dot(direction)))
+            })
+            .collect();
+        farthest.sort_unstable();
+        farthest.dedup();
+        Ok(Self { points: farthest.into_iter().map(|i| back.transform_point3(hull[i])).collect() })
+    }
+
+    /// Makes room for `other`, too.
+    pub fn join(&mut self, other: &Self) {
+        self.points.extend_from_slice(&other.points);
+    }
+
+    /// The middle and the radius (m) of a sphere around it.
+    pub(super) fn sphere(&self) -> (DVec3, f64) {
+        let (low, high) = super::points::bounds(self.points.iter().copied());
+        sphere(low, high)
+    }
+
+    /// Its points after `shrink`.
+    pub(super) fn points(&self, shrink: &DAffine3) -> Vec<Vec3A> {
+        self.points.iter().map(|point| shrink.transform_point3(*point).as_vec3a()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{render, render_within, samples};
+    use super::*;
+    use crate::picture::{Picture, Quality};
+    use burgeon_base::stop::Stop;
+
+    fn picture() -> Picture {
+        let (azimuth, elevation) = (Some(150.0), Some(15.0));
+        let quality = Quality::Draft;
+        Picture { width: 96, height: 96, azimuth, elevation, ground: false, quality, ..Picture::default() }
+    }
+
+    /// Pixels that differ from an empty picture.
+    fn seen(image: &burgeon_scene::image::Image) -> usize {
+        let empty = render(&Scene::default(), &picture()).unwrap();
+        image.pixels().iter().zip(empty.pixels()).filter(|(a, b)| a != b).count()
+    }
+
+    #[test]
+    fn a_scene_within_its_own_extent_looks_as_it_does_alone() {
+        let scene = samples::twisted_tower(12);
+        let alone = seen(&render(&scene, &picture()).unwrap());
+        let within = seen(
+            &render_within(&scene, Some(&Extent::of(&scene).unwrap()), &picture(), &Stop::new()).unwrap(),
+        );
+        assert!(alone.abs_diff(within) * 50 < alone, "{alone} {within}");
+    }
+
+    #[test]
+    fn what_is_larger_looks_larger_within_one_extent() {
+        let (small, large) = (samples::twisted_tower(6), samples::twisted_tower(12));
+        let mut extent = Extent::of(&small).unwrap();
+        extent.join(&Extent::of(&large).unwrap());
+        let [few, many] = [small, large]
+            .map(|scene| seen(&render_within(&scene, Some(&extent), &picture(), &Stop::new()).unwrap()));
+        assert!(few * 3 < many * 2 && few * 5 > many * 2, "{few} {many}");
+    }
+
+    #[test]
+    fn an_empty_scene_has_a_picture_within_any_extent() {
+        let empty = Scene::default();
+        for extent in [Extent::default(), Extent::of(&samples::twisted_tower(2)).unwrap()] {
+            render_within(&empty, Some(&extent), &picture(), &Stop::new()).unwrap();
+        }
+    }
+}

@@ -1,0 +1,231 @@
+//! Light from all around: the sky above, the sunlit ground below, and which of it reaches a point.
+//!
+//! Depth maps are drawn from directions spread over the sphere. A point sees the light of a direction if it
+//! is not behind what the map shows there; the sum over the maps is the light with its soft shadows.
+
+use super::coverage::Coverage;
+use super::detail::Detail;
+use super::light_map::Frame;
+use super::raster::Grid;
+use super::stage::Stage;
+use super::sun::Sun;
+use glam::{Vec2, Vec3, Vec3A};
+use rayon::prelude::*;
+
+/// Irradiance of a plane that faces the sun.
+pub(super) const SUN: Vec3 = Vec3::new(2.90, 2.74, 2.48);
+/// Radiance of the sky at the zenith.
+const ZENITH: Vec3 = Vec3::new(0.31, 0.36, 0.45);
+/// Radiance of the sky just above the horizon.
+const HORIZON: Vec3 = Vec3::new(0.45, 0.47, 0.49);
+/// The part of light that the ground sends back.
+const GROUND: Vec3 = Vec3::new(0.46, 0.44, 0.41);
+/// The largest distance in a map, whose texels are whole numbers.
+const FARTHEST: f32 = 65_000.0;
+/// Half the angle (rad) between neighbouring directions, about.
+const SPREAD: f32 = 0.165;
+/// The part of directions that point below the horizon.
+const BELOW: f32 = 0.26;
+
+/// The sky with its maps.
+pub(super) struct Sky {
+    /// One for each direction.
+    pub maps: Vec<Map>,
+    /// How far to lift a point off its surface before looking it up, in the stage's units.
+    pub lift: f32,
+    /// Unshadowed irradiance of planes that face along +x, -x, +y, -y, +z, -z.
+    open: [Vec3; 6],
+    sun: Vec3A,
+}
+
+/// What one direction shows and shines.
+pub(super) struct Map {
+    /// The unit vector towards the light.
+    pub direction: Vec3A,
+    /// Radiance times the solid angle that the direction stands for.
+    pub light: Vec3A,
+    /// A point in the unit disc towards which to move lookups, turned from pixel to pixel.
+    jitter: Vec2,
+    /// What a surface may lie behind itself, in units of depth.
+    bias: f32,
+    /// Texels aside for each unit of depth.
+    spread: f32,
+    frame: Frame,
+    depths: Vec<u16>,
+}
+
+impl Sky {
+    /// Draws the maps.
+    pub(super) fn new(stage: &Stage, sun: &Sun, detail: &Detail, ground: bool) -> Self {
+        let count = detail.sky_maps;
+        // Without a ground the light from below is that of a white studio, even and weak.
+        let below = if ground {
+            GROUND * (SUN * sun.direction.z + Vec3::splat(1.1)) / std::f32::consts::PI
+        } else {
+            HORIZON
+        };
+        let light =
+            |direction: Vec3A| if direction.z > 0.0 { sky_light(direction, sun.direction) } else { below };
+        let maps: Vec<Map> = (0..count)
+            .into_par_iter()
+            .map(|i| {
+                let (direction, angle) = direction(i, count);
+                let jitter =
+                    Vec2::from_angle(i as f32 * 2.399_963) * (i as f32 * 0.754_877_7 + 0.5).fract().sqrt();
+                Map::new(stage, direction, jitter, (light(direction) * angle).into(), detail.sky_side)
+            })
+            .collect();
+        let lift = maps.iter().map(|map| map.frame.texel).fold(0.0, f32::max) * 1.6;
+        let open = [Vec3A::X, Vec3A::NEG_X, Vec3A::Y, Vec3A::NEG_Y, Vec3A::Z, Vec3A::NEG_Z].map(|normal| {
+            (0..4096)
+                .map(|i| direction(i, 4096))
+                .map(|(toward, angle)| light(toward) * angle * toward.dot(normal).max(0.0))
+                .sum()
+        });
+        Self { maps, lift, open, sun: sun.direction }
+    }
+
+    /// Irradiance of a plane with unit `normal` that nothing shades, from the six of the axes.
+    ///
+    /// Method: McTaggart, "Half-Life 2 / Valve source shading", 2004 (the ambient cube).
+    pub(super) fn open(&self, normal: Vec3A) -> Vec3 {
+        let side =
+            |axis: usize| self.open[2 * axis + usize::from(normal[axis] < 0.0)] * normal[axis] * normal[axis];
+        side(0) + side(1) + side(2)
+    }
+
+    /// The part of the sky's light, 0 to 1, that reaches level ground at `point`.
+    pub(super) fn openness(&self, point: Vec3A) -> f32 {
+        let above = self.maps.iter().filter(|map| map.direction.z > 0.0);
+        let (seen, all) = above.fold((0.0, 0.0), |(seen, all), map| {
+            let light = map.light.element_sum() * map.direction.z;
+            (if map.reaches(point, Vec2::X) { seen + light } else { seen }, all + light)
+        });
+        seen / f32::max(all, 1e-6)
+    }
+
+    /// What a surface of this `roughness` reflects from `direction` if nothing is in the way.
+    pub(super) fn reflection(&self, direction: Vec3A, roughness: f32) -> Vec3 {
+        let blur = 0.04 + 0.8 * roughness;
+        let above = smooth(-blur, blur, direction.z);
+        let sky = sky_light(direction.with_z(direction.z.max(0.0)), self.sun);
+        let floor = GROUND * (SUN * self.sun.z + Vec3::splat(1.1)) / std::f32::consts::PI;
+        // A bright strip high on the side away from the sun, as photographers put behind what shines.
+        let across = Vec3A::new(-self.sun.x, -self.sun.y, 0.35).normalize().dot(direction);
+        let strip = 0.55 * smooth(0.88 - 0.5 * blur, 0.94 + 0.3 * blur, across) / (1.0 + 2.0 * roughness);
+        floor.lerp(sky + strip, above)
+    }
+}
+
+impl Map {
+    fn new(stage: &Stage, direction: Vec3A, jitter: Vec2, light: Vec3A, side: f32) -> Self {
+        let mut frame = Frame::fit(&stage.hull, direction, side);
+        let scale = FARTHEST / frame.depth;
+        let stretch = Vec3::new(1.0, 1.0, scale);
+        frame.to_texels = glam::Affine3A::from_scale(stretch) * frame.to_texels;
+        let width = frame.width;
+        let mut depths = vec![u16::MAX; frame.texels()];
+        let grid = Grid { width, rows: 0..frame.height, shifts: &[128.0] };
+        let all = 0..stage.triangles() as u32;
+        stage.each_triangle(
+            all,
+            &frame.to_texels,
+            |p| p,
+            |number, draw, triangle| {
+                let coverage = Coverage::of(draw, number, &triangle, [4, 4], false);
+                grid.cover(triangle, |y, xs, z, growth| {
+                    let texels = &mut depths[y * width + xs.start..y * width + xs.end];
+                    let depth = |i: usize| (z + growth * (i as i32 as f32)) as i32 as u16;
+                    if coverage.is_full() {
+                        texels.iter_mut().enumerate().for_each(|(i, texel)| *texel = depth(i).min(*texel));
+                    } else {
+                        for (i, texel) in texels.iter_mut().enumerate() {
+                            if coverage.covers(xs.start + i, y, 128.0) {
+                                *texel = depth(i).min(*texel);
+                            }
+                        }
+                    }
+                });
+            },
+        );
+        let bias = 0.5 * frame.texel * scale + 1.0;
+        let spread = SPREAD / (scale * frame.texel);
+        Self { direction, light, jitter, bias, spread, frame, depths }
+    }
+
+    /// Whether the direction's light reaches `point`, which is lifted off its surface.
+    ///
+    /// `spin` is a unit vector that turns the jitter. A direction stands for the part of the sky around it,
+    /// so a point far behind what blocks it looks again a little aside, which softens the shadow's edge.
+    #[inline]
+    pub(super) fn reaches(&self, point: Vec3A, spin: Vec2) -> bool {
+        let at = self.frame.to_texels.transform_point3a(point);
+        let aside = spin.rotate(self.jitter);
+        let gap = at.z - self.bias - self.depth(at.truncate() + aside * 0.7);
+        gap <= 0.0 || at.z - self.bias <= self.depth(at.truncate() + aside * (gap * self.spread))
+    }
+
+    /// The distance of what the light falls on at `texel`; infinite if that is nothing.
+    #[inline]
+    fn depth(&self, texel: Vec2) -> f32 {
+        let (x, y) = (texel.x, texel.y);
+        if x < 0.0 || y < 0.0 || x >= self.frame.width as f32 || y >= self.frame.height as f32 {
+            return f32::INFINITY;
+        }
+        match self.depths[y as usize * self.frame.width + x as usize] {
+            u16::MAX => f32::INFINITY,
+            depth => f32::from(depth),
+        }
+    }
+}
+
+/// Radiance of the sky in `direction`: bluish overhead, whiter at the horizon, brighter towards the sun.
+fn sky_light(direction: Vec3A, sun: Vec3A) -> Vec3 {
+    let height = direction.z.clamp(0.0, 1.0);
+    let glow = direction.dot(sun).max(0.0).powi(3) * 0.35;
+    HORIZON.lerp(ZENITH, height.powf(0.6)) * (1.0 + glow) + Vec3::new(0.10, 0.07, 0.03) * glow
+}
+
+/// Direction `i` of `count` and the solid angle it stands for. Any run of successive ones is spread over the
+/// sphere; above the horizon they are denser towards the zenith, whose light falls on most.
+///
+/// Method: Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018.
+fn direction(i: usize, count: usize) -> (Vec3A, f32) {
+    let fraction = |factor: f64| (0.5 + factor * (i + 1) as f64).fract() as f32;
+    let (u, turn) = (fraction(0.754_877_666_246_692_7), fraction(0.569_840_290_998_053_2));
+    let tau = std::f32::consts::TAU;
+    let (z, angle) = if u < BELOW {
+        (-(u / BELOW).clamp(0.02, 1.0), tau / BELOW)
+    } else {
+        // z = v^0.75 has the density z^(1/3) * 4/3.
+        let z = ((u - BELOW) / (1.0 - BELOW)).max(1e-4).powf(0.75);
+        (z, tau / (1.0 - BELOW) / (z.cbrt() * 4.0 / 3.0))
+    };
+    let r = (1.0 - z * z).sqrt();
+    let (sin, cos) = (turn * tau).sin_cos();
+    (Vec3A::new(r * cos, r * sin, z), angle / count as f32)
+}
+
+/// 0 below `low`, 1 above `high`, smooth between.
+pub(super) fn smooth(low: f32, high: f32, x: f32) -> f32 {
+    let t = ((x - low) / (high - low)).clamp(0.0, 1.0);
+    t * t * (3.0 - 2.0 * t)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_directions_stand_for_the_whole_sphere() {
+        for count in [16, 40, 144] {
+            let total: f32 = (0..count).map(|i| direction(i, count).1).sum();
+            assert!(
+                (total / (2.0 * std::f32::consts::TAU) - 1.0).abs() < 0.15,
+                "{count} directions: {total}"
+            );
+        }
+        let up: f32 = (0..4096).map(|i| direction(i, 4096)).map(|(d, angle)| d.z.max(0.0) * angle).sum();
+        assert!((up - std::f32::consts::PI).abs() < 0.02);
+    }
+}

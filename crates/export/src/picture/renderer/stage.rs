@@ -1,0 +1,288 @@
+//! The scene made ready to be rendered: checked, moved to the origin and shrunk to unit size.
+//!
+//! Instances are not unfolded: a triangle is known by its number in the order of instances, parts and
+//! triangles, and found again by searching the draws.
+
+use super::extent::Extent;
+use super::points;
+use super::texture::Texture;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::stop::Stop;
+use burgeon_scene::{Material, Part, Scene};
+use glam::{Affine3A, DAffine3, DMat3, DVec3, Mat3A, Vec3A};
+use std::ops::Range;
+
+/// A scene around the origin, in units of the radius of the sphere around its box.
+pub(super) struct Stage<'a> {
+    /// The parts of all instances in order; their triangles are numbered without gaps.
+    pub draws: Vec<Draw<'a>>,
+    /// The scene's materials.
+    pub materials: &'a [Material],
+    /// The lowest and the highest corner of the box around the model.
+    pub bounds: (Vec3A, Vec3A),
+    /// Points whose convex hull holds the model, hardly larger than the model.
+    pub hull: Vec<Vec3A>,
+    /// From the world to the stage.
+    pub shrink: DAffine3,
+    count: u32,
+    outlines: Vec<Vec<glam::Vec3>>,
+    places: Vec<(usize, Affine3A)>,
+    /// Asks for an end: from then on nothing is drawn any more.
+    pub stop: &'a Stop,
+}
+
+/// One part of one instance.
+pub(super) struct Draw<'a> {
+    /// Its triangles.
+    pub part: &'a Part,
+    /// From the mesh's coordinates to the stage's.
+    pub place: Affine3A,
+    /// The same, exactly: corners that meshes share stay one point, wherever their origins are.
+    exact: DAffine3,
+    /// The number of its first triangle.
+    pub first: u32,
+    /// Whether the placement turns counter-clockwise into clockwise.
+    pub mirrored: bool,
+    /// The material's opacity, 0 to 1.
+    pub opacity: f32,
+    /// The material's texture, if it does not cover all of a surface.
+    pub cutout: Option<&'a Texture>,
+    /// Whether both sides are seen.
+    pub double_sided: bool,
+}
+
+impl<'a> Stage<'a> {
+    /// Checks `scene` and finds its size. Fails if an index is out of range or triangles are too many to number.
+    pub(super) fn new(scene: &'a Scene) -> Result<Self> {
+        static NEVER: Stop = Stop::new();
+        Self::within(scene, &[], None, &NEVER)
+    }
+
+    /// As [`new`](Self::new), with the `textures` of the materials, and around the middle of `extent` and in units of
+    /// its radius.
+    pub(super) fn within(
+        scene: &'a Scene,
+        textures: &'a [Option<Texture>],
+        extent: Option<&Extent>,
+        stop: &'a Stop,
+    ) -> Result<Self> {
+        check(scene)?;
+        stop.check()?;
+        let outlines = points::outlines(scene);
+        let corners = |instance: &'a burgeon_scene::Instance| {
+            let transform = instance.transform;
+            outlines[instance.mesh].iter().map(move |point| transform.transform_point3(point.as_dvec3()))
+        };
+        let (low, high) = points::bounds(scene.instances.iter().flat_map(corners));
+        let (center, radius) = extent.map_or_else(|| sphere(low, high), Extent::sphere);
+        let shrink = DAffine3::from_mat3_translation(
+            DMat3::from_diagonal(DVec3::splat(1.0 / radius)),
+            -center / radius,
+        );
+
+        let mut draws = Vec::new();
+        let mut places = Vec::new();
+        let mut count = 0_u32;
+        for instance in &scene.instances {
+            let exact = shrink * instance.transform;
+            if !exact.is_finite() {
+                continue;
+            }
+            let place = to_single(&exact);
+            places.push((instance.mesh, place));
+            let mirrored = place.matrix3.determinant() < 0.0;
+            for part in &scene.meshes[instance.mesh].parts {
+                let material = &scene.materials[part.material];
+                let (opacity, double_sided) = (material.base_color[3], material.double_sided);
+                let texture = textures.get(part.material).and_then(Option::as_ref);
+                let cutout = texture.filter(|texture| texture.has_holes());
+                draws.push(Draw {
+                    part,
+                    place,
+                    exact,
+                    first: count,
+                    mirrored,
+                    opacity,
+                    cutout,
+                    double_sided,
+                });
+                let length = u32::try_from(part.triangles.len()).ok();
+                count = length
+                    .and_then(|length| count.checked_add(length))
+                    .filter(|count| *count < u32::MAX)
+                    .ok_or_else(|| {
+                        Error::limit(Limit::Size, "the scene has more than 4294 million triangles")
+                            .help("draw a part of it, or simplify the meshes")
+                    })?;
+            }
+        }
+        draws.retain(|draw| !draw.part.triangles.is_empty());
+        let bounds = (((low - center) / radius).as_vec3a(), ((high - center) / radius).as_vec3a());
+        let materials = &scene.materials;
+        let mut stage =
+            Self { draws, materials, bounds, hull: Vec::new(), shrink, count, outlines, places, stop };
+        stage.hull = points::hull(stage.points(), bounds);
+        Ok(stage)
+    }
+
+    /// The number of triangles, instances counted each.
+    pub(super) fn triangles(&self) -> usize {
+        self.count as usize
+    }
+
+    /// Points of the model that reach as far as the model does in every direction, within a percent.
+    pub(super) fn points(&self) -> impl Iterator<Item = Vec3A> {
+        self.places
+            .iter()
+            .flat_map(|(mesh, place)| {
+                self.outlines[*mesh].iter().map(|point| place.transform_point3a(Vec3A::from(*point)))
+            })
+            .filter(|point| point.is_finite())
+    }
+
+    /// The numbers of all triangles, cut into ranges of work for one thread.
+    pub(super) fn batches(&self) -> Vec<Range<u32>> {
+        let size = 8192;
+        (0..self.count.div_ceil(size)).map(|i| i * size..((i + 1) * size).min(self.count)).collect()
+    }
+
+    /// The draw that triangle `number` belongs to, and the triangle's index in its part.
+    pub(super) fn find(&self, number: u32) -> (&Draw<'a>, usize) {
+        let index = self.draws.partition_point(|draw| draw.first <= number) - 1;
+        let draw = &self.draws[index];
+        (draw, (number - draw.first) as usize)
+    }
+
+    /// Calls `emit` with the number, draw and corners of each triangle in `numbers`, the corners taken
+    /// through `view` and `project`. Triangles with a corner that is not finite are left out.
+    pub(super) fn each_triangle(
+        &self,
+        numbers: Range<u32>,
+        view: &Affine3A,
+        project: impl Fn(Vec3A) -> Vec3A,
+        mut emit: impl FnMut(u32, &Draw<'a>, [Vec3A; 3]),
+    ) {
+        if numbers.is_empty() {
+            return;
+        }
+        let mut corners: Vec<Vec3A> = Vec::new();
+        let start = self.draws.partition_point(|draw| draw.first <= numbers.start) - 1;
+        for draw in &self.draws[start..] {
+            if draw.first >= numbers.end || self.stop.is_stopped() {
+                break;
+            }
+            let from = (numbers.start.max(draw.first) - draw.first) as usize;
+            let to = ((numbers.end - draw.first) as usize).min(draw.part.triangles.len());
+            let triangles = draw.part.triangles.range(from..to);
+            let matrix = to_double(view) * draw.exact;
+            let turn = |point: &glam::Vec3| project(matrix.transform_point3(point.as_dvec3()).as_vec3a());
+            let (least, most) =
+                triangles.clone().flatten().fold((u32::MAX, 0), |(a, b), i| (a.min(i), b.max(i)));
+            let (least, most) = (least as usize, most as usize);
+            let positions = &draw.part.positions;
+            // Neighbours share corners, so moving the whole range is cheaper unless the range is sparse.
+            let dense = most - least < 3 * triangles.len();
+            if dense {
+                corners.clear();
+                corners.extend(positions[least..=most].iter().map(turn));
+            }
+            let first = draw.first + from as u32;
+            for (number, triangle) in (first..).zip(triangles) {
+                let triangle = if dense {
+                    triangle.map(|i| corners[i as usize - least])
+                } else {
+                    triangle.map(|i| turn(&positions[i as usize]))
+                };
+                if triangle.iter().all(|corner| corner.is_finite()) {
+                    emit(number, draw, triangle);
+                }
+            }
+        }
+    }
+}
+
+/// The middle and the radius of the sphere around the box from `low` to `high`.
+pub(super) fn sphere(low: DVec3, high: DVec3) -> (DVec3, f64) {
+    let half = (high - low).length() / 2.0;
+    // A model without size, such as a point, is shown as if it measured a metre.
+    ((low + high) / 2.0, if half > 1e-9 { half } else { 1.0 })
+}
+
+/// `place` at double precision.
+fn to_double(place: &Affine3A) -> DAffine3 {
+    DAffine3 { matrix3: place.matrix3.as_dmat3(), translation: place.translation.as_dvec3() }
+}
+
+/// `place` at single precision.
+fn to_single(place: &DAffine3) -> Affine3A {
+    let matrix = place.matrix3.as_mat3();
+    Affine3A { matrix3: Mat3A::from(matrix), translation: place.translation.as_vec3a() }
+}
+
+/// Refuses indices that point at nothing.
+fn check(scene: &Scene) -> Result<()> {
+    for (number, instance) in scene.instances.iter().enumerate() {
+        if instance.mesh >= scene.meshes.len() {
+            return Err(broken(format!(
+                "instance {number} names mesh {} of {}",
+                instance.mesh,
+                scene.meshes.len()
+            )));
+        }
+    }
+    for (number, mesh) in scene.meshes.iter().enumerate() {
+        for part in &mesh.parts {
+            if part.material >= scene.materials.len() {
+                let message =
+                    format!("mesh {number} names material {} of {}", part.material, scene.materials.len());
+                return Err(broken(message));
+            }
+            let corners = part.positions.len();
+            if let Some(corner) = part.triangles.iter().flatten().find(|corner| *corner as usize >= corners) {
+                return Err(broken(format!("mesh {number} names corner {corner} of {corners}")));
+            }
+        }
+    }
+    Ok(())
+}
+
+fn broken(message: String) -> Error {
+    Error::internal(message)
+        .help("count indices from 0 and add meshes, materials and corners before naming them")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples;
+    use super::*;
+
+    #[test]
+    fn a_triangle_is_found_by_its_number() {
+        let mut scene = samples::boxes(&[DVec3::ZERO, DVec3::new(5.0, 0.0, 0.0)]);
+        scene.instances.push(scene.instances[0].clone());
+        let stage = Stage::new(&scene).unwrap();
+        assert_eq!(stage.triangles(), 36);
+        let mut seen = 0;
+        stage.each_triangle(
+            5..30,
+            &Affine3A::IDENTITY,
+            |p| p,
+            |number, draw, _| {
+                let (found, index) = stage.find(number);
+                assert_eq!((found.first, index), (draw.first, (number - draw.first) as usize));
+                seen += 1;
+            },
+        );
+        assert_eq!(seen, 25);
+    }
+
+    #[test]
+    fn an_index_out_of_range_is_refused() {
+        let mut scene = samples::boxes(&[DVec3::ZERO]);
+        scene.instances[0].mesh = 7;
+        assert!(Stage::new(&scene).err().unwrap().to_string().contains("mesh 7 of 1"));
+        let mut scene = samples::boxes(&[DVec3::ZERO]);
+        scene.meshes[0].parts[0].triangles.push([0, 1, 99]);
+        assert!(Stage::new(&scene).err().unwrap().to_string().contains("corner 99 of 24"));
+    }
+}

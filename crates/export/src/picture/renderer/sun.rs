@@ -1,0 +1,158 @@
+//! The sun: where it stands, and how much of it is seen from a point.
+
+use super::coverage::Coverage;
+use super::detail::Detail;
+use super::light_map::Frame;
+use super::raster::Grid;
+use super::stage::Stage;
+use super::view::Viewpoint;
+use glam::{Vec2, Vec3A};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+/// How far the sun stands to the left of the viewer (degrees).
+const ASIDE: f64 = 58.0;
+/// Its height above the horizon (degrees).
+const HEIGHT: f64 = 43.0;
+/// Growth of the half-shadow's radius with the distance from what throws it. The real sun's is 0.005; a
+/// larger one looks like thin haze.
+const SOFTNESS: f32 = 0.018;
+/// Largest radius of the half-shadow, in the stage's units.
+const WIDEST: f32 = 0.02;
+
+/// The sun and its depth map.
+pub(super) struct Sun {
+    /// The unit vector towards it.
+    pub direction: Vec3A,
+    frame: Frame,
+    depths: Vec<f32>,
+    /// Where lookups go for a full pixel, within the unit disc; every part of it in order is spread over the
+    /// disc.
+    disc: Vec<Vec2>,
+}
+
+impl Sun {
+    /// The sun behind the left shoulder of a viewer at `eye`, so that every picture has a light and a dark
+    /// side.
+    pub(super) fn new(stage: &Stage, eye: Viewpoint, detail: &Detail) -> Self {
+        let place = Viewpoint { azimuth: eye.azimuth + ASIDE.to_radians(), elevation: HEIGHT.to_radians() };
+        let direction = place.direction().as_vec3a();
+        let frame = Frame::fit(&stage.hull, direction, detail.sun_side);
+        let mut texels = Vec::new();
+        texels.resize_with(frame.texels(), || AtomicU32::new(f32::INFINITY.to_bits()));
+        let width = frame.width;
+        let grid = Grid { width, rows: 0..frame.height, shifts: &[128.0] };
+        stage.batches().into_par_iter().for_each(|numbers| {
+            stage.each_triangle(
+                numbers,
+                &frame.to_texels,
+                |p| p,
+                |number, draw, triangle| {
+                    let coverage = Coverage::of(draw, number, &triangle, [4, 4], false);
+                    grid.cover(triangle, |y, xs, z, growth| {
+                        for (i, x) in xs.enumerate() {
+                            // The bits of numbers that are not negative are ordered as they are.
+                            let depth = (z + growth * i as f32).max(0.0).to_bits();
+                            let texel = &texels[y * width + x];
+                            if depth < texel.load(Ordering::Relaxed) && coverage.covers(x, y, 128.0) {
+                                texel.fetch_min(depth, Ordering::Relaxed);
+                            }
+                        }
+                    });
+                },
+            );
+        });
+        let depths = texels.into_iter().map(|texel| f32::from_bits(texel.into_inner())).collect();
+        Self { direction, frame, depths, disc: disc(detail.sun_taps) }
+    }
+
+    /// The depth of what the sun lights at texel `x`, `y`; infinite where that is nothing.
+    fn depth(&self, x: f32, y: f32) -> f32 {
+        let inside = x >= 0.0 && y >= 0.0 && x < self.frame.width as f32 && y < self.frame.height as f32;
+        if inside { self.depths[y as usize * self.frame.width + x as usize] } else { f32::INFINITY }
+    }
+
+    /// Whether the sun reaches `point`, not on a surface, as far as a single lookup tells.
+    pub(super) fn reaches(&self, point: Vec3A) -> bool {
+        let at = self.frame.to_texels.transform_point3a(point);
+        self.depth(at.x, at.y) > at.z - 2.0 * self.frame.texel
+    }
+
+    /// The part of the sun, 0 to 1, seen from `point` on a surface with the unit normal `normal` towards the
+    /// sun.
+    ///
+    /// `turn` (rad) turns the pattern of lookups; vary it from pixel to pixel. `share` is the point's turn
+    /// among those that share a pixel and how many these are; each then gets fewer lookups. Method:
+    /// percentage-closer soft shadows (Fernando, 2005) with each lookup compared with the surface's own
+    /// plane, so that wide patterns do not shade it.
+    pub(super) fn visibility(&self, point: Vec3A, normal: Vec3A, turn: f32, share: (usize, usize)) -> f32 {
+        let (place, share) = share;
+        let texel = self.frame.texel;
+        let lifted = point + normal * (1.5 * texel);
+        let at = self.frame.to_texels.transform_point3a(lifted);
+        let tilt = self.frame.to_texels.matrix3 * normal;
+        let facing = (tilt.z).min(-0.08);
+        // Rows of the matrix are stretched by 1 / texel, so the slope per texel takes that out twice.
+        let slope = [-tilt.x * texel * texel / facing, -tilt.y * texel * texel / facing];
+        let steepest = 6.0 * texel;
+        let slope = slope.map(|s| s.clamp(-steepest, steepest));
+        let widest = WIDEST / texel;
+        let compare = |offset: Vec2| {
+            let expected = at.z + slope[0] * offset.x + slope[1] * offset.y - 0.6 * texel;
+            let found = self.depth(at.x + offset.x, at.y + offset.y);
+            (found < expected).then_some(expected - found)
+        };
+
+        let turn = Vec2::from_angle(turn);
+        let searches = (self.disc.len() / 2 / share).max(4);
+        let (mut blocked, mut distance) = (0.0_f32, 0.0_f32);
+        for offset in self.disc.iter().cycle().skip(7 * place).take(searches) {
+            if let Some(gap) = compare(turn.rotate(*offset) * widest) {
+                blocked += 1.0;
+                distance += gap;
+            }
+        }
+        if blocked < 0.5 {
+            return 1.0;
+        }
+        let radius = (SOFTNESS * distance / blocked / texel).clamp(1.3, widest);
+        let taps = (self.disc.len() / share).max(6);
+        let offsets = self.disc.iter().cycle().skip(taps * place).take(taps);
+        let lit = offsets.filter(|offset| compare(turn.rotate(**offset) * radius).is_none()).count();
+        lit as f32 / taps as f32
+    }
+}
+
+/// Points spread evenly over the unit disc, and so is any run of them.
+fn disc(count: usize) -> Vec<Vec2> {
+    let fraction = |i: usize, factor: f64| (0.5 + factor * i as f64).fract() as f32;
+    (0..count)
+        .map(|i| {
+            let turn = fraction(i, 0.569_840_290_998_053_2) * std::f32::consts::TAU;
+            Vec2::from_angle(turn) * fraction(i, 0.754_877_666_246_692_7).sqrt()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::samples;
+    use super::*;
+    use crate::picture::Quality;
+    use glam::DVec3;
+
+    #[test]
+    fn a_point_behind_a_box_is_in_its_shadow_and_the_lit_face_is_not() {
+        let scene = samples::boxes(&[DVec3::ZERO]);
+        let stage = Stage::new(&scene).unwrap();
+        let sun =
+            Sun::new(&stage, Viewpoint { azimuth: 0.0, elevation: 0.3 }, &Detail::of(Quality::Draft, 12));
+        let behind = stage.bounds.0.with_x(0.0).with_y(0.0) - sun.direction.with_z(0.0) * 0.7;
+        assert!(sun.visibility(behind, Vec3A::Z, 0.0, (0, 1)) < 0.01);
+        let top = stage.bounds.1.z;
+        for i in 0..100 {
+            let point = Vec3A::new((i % 10) as f32 * 0.1 - 0.45, (i / 10) as f32 * 0.1 - 0.45, top);
+            assert!(sun.visibility(point, Vec3A::Z, i as f32, (0, 1)) > 0.99, "acne at {point}");
+        }
+    }
+}

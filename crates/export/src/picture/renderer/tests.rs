@@ -1,0 +1,277 @@
+//! What a picture must show, checked on small ones.
+
+use super::samples::{boxes, instance, prism, quad, ring, scene_of, twisted_tower};
+use super::{render, render_within};
+use crate::picture::{Background, Picture, Quality};
+use burgeon_base::stop::Stop;
+use burgeon_scene::image::Image;
+use burgeon_scene::{Material, Part, Scene, Texture};
+use glam::{DAffine3, DVec3, Vec3};
+
+/// A small picture from the south-east on a transparent background, without a ground.
+fn small() -> Picture {
+    Picture {
+        width: 96,
+        height: 96,
+        azimuth: Some(135.0),
+        elevation: Some(20.0),
+        look: None,
+        background: Background::Clear,
+        ground: false,
+        quality: Quality::Draft,
+    }
+}
+
+/// The mean brightness, 0 to 255, of the opaque pixels in columns `xs` and rows `ys`.
+fn brightness(image: &Image, xs: std::ops::Range<u32>, ys: std::ops::Range<u32>) -> f64 {
+    let pixels = ys.flat_map(|y| xs.clone().map(move |x| image.pixel(x, y)));
+    let opaque: Vec<[u8; 4]> = pixels.filter(|pixel| pixel[3] == 255).collect();
+    assert!(!opaque.is_empty(), "nothing is seen there");
+    let sum: f64 = opaque.iter().map(|pixel| pixel[..3].iter().map(|c| f64::from(*c)).sum::<f64>()).sum();
+    sum / (3.0 * opaque.len() as f64)
+}
+
+/// Each pixel with its column and row.
+fn places(image: &Image) -> impl Iterator<Item = (u32, u32, [u8; 4])> {
+    let rows = 0..image.height();
+    rows.flat_map(move |y| (0..image.width()).map(move |x| (x, y, image.pixel(x, y))))
+}
+
+fn covered(image: &Image) -> usize {
+    image.pixels().iter().filter(|pixel| pixel[3] > 0).count()
+}
+
+/// A square of 4 m standing on the x axis, its front to the south.
+fn wall(material: Material) -> Scene {
+    let mut part = Part::default();
+    let corners = [[-2.0, 0.0], [2.0, 0.0], [2.0, 4.0], [-2.0, 4.0]];
+    quad(&mut part, corners.map(|[x, z]| Vec3::new(x, 0.0, z)));
+    scene_of(part, material)
+}
+
+#[test]
+fn the_model_fills_the_picture_up_to_the_margin() {
+    let image = render(&twisted_tower(12), &Picture { height: 200, ..small() }).unwrap();
+    let seen: Vec<(u32, u32)> =
+        places(&image).filter(|(_, _, pixel)| pixel[3] > 0).map(|(x, y, _)| (x, y)).collect();
+    let (top, bottom) = (seen.iter().map(|p| p.1).min().unwrap(), seen.iter().map(|p| p.1).max().unwrap());
+    assert!((11..=13).contains(&top) && (186..=188).contains(&bottom), "rows {top} to {bottom} of 200");
+    assert!(seen.iter().all(|(x, _)| (5..91).contains(x)));
+}
+
+#[test]
+fn the_side_away_from_the_sun_is_darker() {
+    let image = render(&boxes(&[DVec3::ZERO]), &small()).unwrap();
+    let (lit, dark) = (brightness(&image, 15..40, 45..70), brightness(&image, 56..81, 45..70));
+    assert!(lit > 1.4 * dark, "lit {lit}, dark {dark}");
+    assert!(dark > 30.0, "the dark side still gets light from the sky: {dark}");
+}
+
+#[test]
+fn a_crease_is_darker_than_the_open_floor() {
+    let mut part = Part::default();
+    quad(&mut part, [[-2.0, -4.0], [2.0, -4.0], [2.0, 0.0], [-2.0, 0.0]].map(|[x, y]| Vec3::new(x, y, 0.0)));
+    quad(&mut part, [[-2.0, 0.0], [2.0, 0.0], [2.0, 2.0], [-2.0, 2.0]].map(|[x, z]| Vec3::new(x, 0.0, z)));
+    // From the south the sun stands in the south-west and lights all of the floor.
+    let picture = Picture { azimuth: Some(180.0), elevation: Some(60.0), ..small() };
+    let image = render(&scene_of(part, Material::default()), &picture).unwrap();
+    let floor = |y: u32| brightness(&image, 40..56, y..y + 2);
+    let crease = (20..60).map(floor).fold(f64::MAX, f64::min);
+    assert!(crease < 0.93 * floor(78), "crease {crease}, open floor {}", floor(78));
+}
+
+#[test]
+fn the_number_of_threads_does_not_change_a_byte() {
+    let mut scene = twisted_tower(6);
+    let glass = Material { base_color: [0.3, 0.5, 0.6, 0.4], double_sided: true, ..Material::default() };
+    let material = scene.material(&glass);
+    let mut part = Part { material, ..Part::default() };
+    prism(&mut part, &ring(5, 11.0, 0.0, 0.0), &ring(5, 11.0, 0.5, 14.0));
+    // The same again: of two surfaces in one place always the same is seen.
+    scene.meshes[0].parts.extend([part.clone(), part]);
+    scene
+        .instances
+        .extend((1..9).map(|i| instance(DVec3::new(f64::from(i) * 9.0, f64::from(i % 3) * 8.0, 0.0))));
+    let picture = Picture { background: Background::Light, ground: true, ..small() };
+    let with = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| render(&scene, &picture)).unwrap()
+    };
+    assert!(with(1) == with(3));
+}
+
+#[test]
+fn an_edge_is_smooth() {
+    let image = render(&boxes(&[DVec3::ZERO]), &Picture { quality: Quality::Fine, ..small() }).unwrap();
+    let mut values: Vec<u8> = image.pixels().iter().map(|pixel| pixel[3]).collect();
+    values.sort_unstable();
+    values.dedup();
+    assert!(values.len() > 12, "{} steps between nothing and the model", values.len());
+}
+
+#[test]
+fn a_texture_repeats_at_its_size_in_metres() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("stripes.png");
+    image::RgbImage::from_fn(64, 4, |x, _| image::Rgb([if x < 32 { 20 } else { 235 }; 3]))
+        .save(&path)
+        .unwrap();
+    let stripes = |width: f64| {
+        let texture = Some(Texture { path: path.clone(), size: [width, 1.0], content: None });
+        let scene = wall(Material { base_color: [1.0; 4], texture, ..Material::default() });
+        let picture = Picture { width: 200, azimuth: Some(180.0), elevation: Some(0.0), ..small() };
+        let image = render(&scene, &picture).unwrap();
+        let row: Vec<u8> =
+            (0..200).map(|x| image.pixel(x, 50)).filter(|p| p[3] == 255).map(|p| p[0]).collect();
+        row.windows(2).filter(|pair| (pair[0] > 128) != (pair[1] > 128)).count()
+    };
+    assert_eq!((stripes(1.0), stripes(2.0), stripes(8.0)), (7, 3, 0));
+}
+
+#[test]
+fn the_back_of_a_face_is_seen_only_if_the_material_has_two_sides() {
+    let from = |scene: &Scene, azimuth: f64| {
+        covered(&render(scene, &Picture { azimuth: Some(azimuth), ..small() }).unwrap())
+    };
+    let mut scene = wall(Material::default());
+    assert!(from(&scene, 180.0) > 1000);
+    assert_eq!(from(&scene, 0.0), 0);
+    scene.materials[0].double_sided = true;
+    assert!(from(&scene, 0.0) > 1000);
+    scene.materials[0].double_sided = false;
+    scene.instances[0].transform = DAffine3::from_scale(DVec3::new(-1.0, 1.0, 1.0));
+    assert!(from(&scene, 180.0) > 1000, "a mirrored face still looks the same way");
+    assert_eq!(from(&scene, 0.0), 0);
+}
+
+#[test]
+fn half_opacity_lets_half_of_the_background_through() {
+    let scene = wall(Material { base_color: [0.5, 0.5, 0.5, 0.5], ..Material::default() });
+    let image = render(&scene, &Picture { azimuth: Some(180.0), quality: Quality::Fine, ..small() }).unwrap();
+    let mean = (30..66).flat_map(|y| (30..66).map(move |x| (x, y)));
+    let mean = mean.map(|(x, y)| f64::from(image.pixel(x, y)[3])).sum::<f64>() / 1296.0;
+    assert!((mean - 127.5).abs() < 3.0, "{mean}");
+}
+
+#[test]
+fn the_ground_shows_a_shadow_and_fades_out() {
+    let scene = boxes(&[DVec3::ZERO]);
+    let picture = Picture { width: 192, elevation: Some(35.0), ..small() };
+    let without = covered(&render(&scene, &picture).unwrap());
+    let image = render(&scene, &Picture { ground: true, ..picture }).unwrap();
+    assert!(covered(&image) > without + 500);
+    let darkest = (150..192).map(|x| image.pixel(x, 60)[3]).max().unwrap();
+    assert!((60..255).contains(&darkest), "shadow of {darkest}");
+    assert!(image.pixel(1, 1)[3] < 6);
+}
+
+#[test]
+fn what_has_no_size_or_is_not_finite_gives_a_picture_all_the_same() {
+    let picture = Picture { width: 32, height: 24, quality: Quality::Draft, ..Picture::default() };
+    let plain = render(&Scene::default(), &picture).unwrap();
+    assert_eq!((plain.width(), plain.height()), (32, 24));
+    let mut part = Part::default();
+    quad(&mut part, [Vec3::ONE; 4]);
+    let point = render(&scene_of(part, Material::default()), &picture).unwrap();
+    assert!(point.bytes().iter().zip(plain.bytes()).all(|(a, b)| a.abs_diff(*b) <= 1));
+
+    let mut scene = wall(Material::default());
+    let expected = render(&scene, &picture).unwrap();
+    let part = &mut scene.meshes[0].parts[0];
+    let first = part.positions.len() as u32;
+    part.positions.push(Vec3::new(f32::NAN, 1.0, f32::INFINITY));
+    part.triangles.push([0, 1, first]);
+    scene.instances.push(instance(DVec3::new(f64::NAN, 0.0, 0.0)));
+    assert!(render(&scene, &picture).unwrap() == expected);
+}
+
+#[test]
+fn a_line_and_a_view_straight_down_or_up_are_no_trouble() {
+    let mut part = Part::default();
+    let corners = [[-50.0, 0.0], [50.0, 0.0], [50.0, 1e-3], [-50.0, 1e-3]];
+    quad(&mut part, corners.map(|[x, y]| Vec3::new(x, y, 0.0)));
+    let scene = scene_of(part, Material { double_sided: true, ..Material::default() });
+    for elevation in [90.0, 0.0, -90.0] {
+        let picture = Picture { height: 7, elevation: Some(elevation), ground: true, ..small() };
+        let image = render(&scene, &picture).unwrap();
+        assert_eq!((image.width(), image.height()), (96, 7));
+    }
+}
+
+#[test]
+fn a_missing_texture_is_an_error_that_names_the_file() {
+    let texture = Some(Texture { path: "no/such/brick.png".into(), size: [1.0, 1.0], content: None });
+    let error = render(&wall(Material { texture, ..Material::default() }), &small()).unwrap_err();
+    assert!(error.to_string().contains("no/such/brick.png"), "{error}");
+}
+
+/// From in front.
+fn front() -> Picture {
+    Picture { azimuth: Some(180.0), elevation: Some(0.0), ..small() }
+}
+
+/// A picture of the wall with a texture of one repetition over all of it.
+fn papered(pixel: impl Fn(u32, u32) -> [u8; 4], base_color: [f32; 4], picture: &Picture) -> Image {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("leaf.png");
+    image::RgbaImage::from_fn(64, 64, |x, y| image::Rgba(pixel(x, y))).save(&path).unwrap();
+    let texture = Some(Texture { path, size: [4.0, 2.0], content: None });
+    let scene = wall(Material { base_color, texture, ..Material::default() });
+    render(&scene, picture).unwrap()
+}
+
+#[test]
+fn what_a_texture_leaves_out_is_not_there() {
+    // The left half is there; what is not seen is black, as programs for painting leave it.
+    let half = |x: u32, _| if x < 32 { [230, 230, 230, 255] } else { [0; 4] };
+    let image = papered(half, [1.0; 4], &front());
+    let whole = papered(|_, _| [230, 230, 230, 255], [1.0; 4], &front());
+    let (some, all) = (covered(&image), covered(&whole));
+    assert!((some * 2).abs_diff(all) < all / 20, "{some} of {all}");
+    // No dark seam where it ends.
+    let row = |image: &Image| {
+        let middle = image.height() / 2;
+        let row = (0..image.width()).map(|x| image.pixel(x, middle));
+        row.filter(|pixel| pixel[3] > 250).map(|pixel| pixel[0]).collect::<Vec<_>>()
+    };
+    let (least, lit) = (*row(&image).iter().min().unwrap(), *row(&whole).iter().min().unwrap());
+    assert!(least + 12 > lit, "{least} where a whole wall has {lit}");
+}
+
+#[test]
+fn fine_holes_let_through_as_much_as_they_are() {
+    let dots = |x: u32, y: u32| if (x / 2 + y / 2).is_multiple_of(4) { [90, 140, 60, 255] } else { [0; 4] };
+    let picture = front();
+    let (image, whole) =
+        (papered(dots, [1.0; 4], &picture), papered(|_, _| [90, 140, 60, 255], [1.0; 4], &picture));
+    let opacity = |image: &Image| image.pixels().iter().map(|pixel| f64::from(pixel[3])).sum::<f64>();
+    let part = opacity(&image) / opacity(&whole);
+    assert!((0.2..0.3).contains(&part), "{part}");
+    // A translucent material with holes lets through more.
+    let part = opacity(&papered(dots, [1.0, 1.0, 1.0, 0.5], &picture)) / opacity(&whole);
+    assert!((0.09..0.16).contains(&part), "{part}");
+}
+
+#[test]
+fn the_shadow_of_what_is_cut_out_has_its_holes() {
+    let picture = Picture { ground: true, elevation: Some(30.0), ..front() };
+    let bars = |x: u32, _| if (x / 8).is_multiple_of(2) { [200, 200, 200, 255] } else { [0; 4] };
+    let (barred, whole) =
+        (papered(bars, [1.0; 4], &picture), papered(|_, _| [200, 200, 200, 255], [1.0; 4], &picture));
+    // The sun stands on the left, so the shadow goes on to the right of the wall.
+    let edge = places(&whole).filter(|(_, _, pixel)| pixel[3] == 255).map(|(x, ..)| x).max().unwrap();
+    let shadow = |image: &Image| {
+        let beside = places(image).filter(|(x, ..)| *x > edge + 2);
+        beside.map(|(_, _, pixel)| f64::from(pixel[3])).sum::<f64>()
+    };
+    let part = shadow(&barred) / shadow(&whole);
+    assert!((0.3..0.75).contains(&part), "{part}");
+}
+
+#[test]
+fn a_picture_that_nobody_waits_for_is_given_up() {
+    let stop = Stop::default();
+    stop.stop(burgeon_base::error::Error::stopped("the page has gone"));
+    let error = render_within(&boxes(&[DVec3::ZERO]), None, &small(), &stop).unwrap_err();
+    assert_eq!(error.message(), "the page has gone");
+}

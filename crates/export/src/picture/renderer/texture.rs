@@ -1,0 +1,202 @@
+//! Image files laid over surfaces.
+
+use super::tone;
+use burgeon_base::error::{Error, Result};
+use burgeon_scene::Material;
+use burgeon_scene::image::{self, Image};
+use glam::{Vec2, Vec3, Vec4};
+use std::io::Read;
+
+/// Lookups along a stretched footprint, at most.
+const STRETCH: f32 = 8.0;
+
+/// An image in several sizes.
+#[derive(Debug)]
+pub(super) struct Texture {
+    /// Each half as large as the one before, the last a single pixel; sRGB and opacity, from the top row down.
+    levels: Vec<Level>,
+    /// Width and height (m) of one repetition.
+    size: Vec2,
+    /// Whether it does not cover all of a surface.
+    holes: bool,
+}
+
+#[derive(Debug)]
+struct Level {
+    width: usize,
+    height: usize,
+    pixels: Vec<[u8; 4]>,
+}
+
+/// The texture of each material. Fails if a file cannot be read or a size is not positive.
+pub(super) fn load(materials: &[Material]) -> Result<Vec<Option<Texture>>> {
+    materials.iter().map(|material| material.texture.as_ref().map(Texture::read).transpose()).collect()
+}
+
+impl Texture {
+    fn read(texture: &burgeon_scene::Texture) -> Result<Self> {
+        let name = texture.path.display();
+        if !texture.size.iter().all(|side| side.is_finite() && *side > 0.0) {
+            let [width, height] = texture.size;
+            return Err(Error::argument(format!("the texture {name} measures {width} m by {height} m"))
+                .help("give the width and height of one repetition in metres"));
+        }
+        let image = open(texture).map_err(|error| {
+            Error::data(format!("the texture {name} cannot be read: {}", error.message()))
+                .help("check the path; a texture is a PNG or JPEG file")
+        })?;
+        let pixels = image.pixels().to_vec();
+        let holes = pixels.iter().any(|pixel| pixel[3] < 255);
+        let mut levels =
+            vec![Level { width: image.width() as usize, height: image.height() as usize, pixels }];
+        while let Some(next) = levels.last().and_then(Level::half) {
+            levels.push(next);
+        }
+        Ok(Self { levels, size: Vec2::new(texture.size[0] as f32, texture.size[1] as f32), holes })
+    }
+
+    /// Whether it does not cover all of a surface.
+    pub(super) fn has_holes(&self) -> bool {
+        self.holes
+    }
+
+    /// Which size of the image has pixels as large as samples that are so far (m) from one another.
+    pub(super) fn level_of(&self, beside: [Vec2; 2]) -> usize {
+        let pixels = Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
+        let [across, along] = beside.map(|side| (side / self.size * pixels).length_squared());
+        let level = 0.5 * across.min(along).max(1.0).log2();
+        (level as usize).min(self.levels.len() - 1)
+    }
+
+    /// The opacity at `uv` (m) in an image of this size, by number.
+    pub(super) fn alpha(&self, uv: Vec2, level: usize) -> f32 {
+        self.levels[level].mix(uv / self.size, |pixel| Vec4::splat(f32::from(pixel[3]) / 255.0)).w
+    }
+
+    /// The linear colour at `uv` (m), averaged over the footprint with the sides `across` and `along` (m), as far as
+    /// there is something.
+    ///
+    /// The size of the image that is looked up follows the shorter side; several lookups follow the longer.
+    pub(super) fn color(&self, uv: Vec2, across: Vec2, along: Vec2) -> Vec3 {
+        let pixels = Vec2::new(self.levels[0].width as f32, self.levels[0].height as f32);
+        let (mut long, mut short) = (across / self.size, along / self.size);
+        if (long * pixels).length_squared() < (short * pixels).length_squared() {
+            (long, short) = (short, long);
+        }
+        let (length, breadth) = ((long * pixels).length(), (short * pixels).length());
+        let lookups = (length / breadth.max(1.0)).ceil().clamp(1.0, STRETCH);
+        let level = (length / lookups).max(breadth).max(1.0).log2().min(self.levels.len() as f32 - 1.0);
+        let (near, part) = (level.floor() as usize, level.fract());
+        let count = lookups as usize;
+        let sum: Vec4 = (0..count)
+            .map(|i| {
+                let at = uv / self.size + long * ((i as f32 + 0.5) / lookups - 0.5);
+                let fine = self.levels[near].color(at);
+                if part > 0.0 {
+                    fine.lerp(self.levels[(near + 1).min(self.levels.len() - 1)].color(at), part)
+                } else {
+                    fine
+                }
+            })
+            .sum();
+        let sum = if sum.w > 0.0 { sum } else { self.levels[self.levels.len() - 1].color(uv) };
+        sum.truncate() / sum.w.max(f32::MIN_POSITIVE)
+    }
+}
+
+/// The image of a texture, from its file unless it has none.
+fn open(texture: &burgeon_scene::Texture) -> Result<Image> {
+    match &texture.content {
+        Some(content) => image::decode(content),
+        None => image::decode(&read(texture).map_err(Error::data)?),
+    }
+}
+
+fn read(texture: &burgeon_scene::Texture) -> std::io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    burgeon_base::files::open(&texture.path)?.0.read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+/// The linear colour of a pixel times its opacity, and the opacity.
+fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
+    let color = [red, green, blue].map(|byte| tone::decode(f32::from(byte) / 255.0));
+    let alpha = f32::from(alpha) / 255.0;
+    (Vec3::from_array(color) * alpha).extend(alpha)
+}
+
+impl Level {
+    /// The linear colour of a pixel times its opacity, and the opacity.
+    fn linear(&self, x: usize, y: usize) -> Vec4 {
+        linear(self.pixels[y * self.width + x])
+    }
+
+    /// The colour at `at`, in repetitions to the right and upwards, mixed from the four nearest pixels, times its
+    /// opacity, and the opacity.
+    fn color(&self, at: Vec2) -> Vec4 {
+        self.mix(at, linear)
+    }
+
+    /// What `value` makes of the four pixels nearest to `at`, mixed.
+    #[inline]
+    fn mix(&self, at: Vec2, value: impl Fn([u8; 4]) -> Vec4) -> Vec4 {
+        let x = (at.x - at.x.floor()) * self.width as f32 - 0.5;
+        let y = (1.0 - (at.y - at.y.floor())) * self.height as f32 - 0.5;
+        let wrap = |i: f32, count: usize| (i as i64).rem_euclid(count as i64) as usize;
+        let (left, right) = (wrap(x.floor(), self.width), wrap(x.floor() + 1.0, self.width));
+        let (top, bottom) = (wrap(y.floor(), self.height), wrap(y.floor() + 1.0, self.height));
+        let (tx, ty) = (x - x.floor(), y - y.floor());
+        let pixel = |x: usize, y: usize| value(self.pixels[y * self.width + x]);
+        let upper = pixel(left, top).lerp(pixel(right, top), tx);
+        let lower = pixel(left, bottom).lerp(pixel(right, bottom), tx);
+        upper.lerp(lower, ty)
+    }
+
+    /// The image at half the size; `None` for a single pixel.
+    fn half(&self) -> Option<Self> {
+        if self.width <= 1 && self.height <= 1 {
+            return None;
+        }
+        let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
+        let pixel = |i: usize| {
+            let (x, y) = (i % width * 2, i / width * 2);
+            let (right, bottom) = ((x + 1).min(self.width - 1), (y + 1).min(self.height - 1));
+            let sum = self.linear(x, y)
+                + self.linear(right, y)
+                + self.linear(x, bottom)
+                + self.linear(right, bottom);
+            // What is not seen has no part in the colour.
+            let [red, green, blue] =
+                (sum.truncate() / sum.w.max(f32::MIN_POSITIVE)).to_array().map(tone::encode);
+            [red, green, blue, (sum.w / 4.0 * 255.0 + 0.5) as u8]
+        };
+        Some(Self { width, height, pixels: (0..width * height).map(pixel).collect() })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::PathBuf;
+
+    #[test]
+    fn a_missing_file_is_an_error_that_names_it() {
+        let texture = Some(burgeon_scene::Texture {
+            path: PathBuf::from("brick/no such.png"),
+            size: [1.0, 1.0],
+            content: None,
+        });
+        let error = load(&[Material { texture, ..Material::default() }]).unwrap_err();
+        assert!(error.to_string().contains("brick/no such.png"), "{error}");
+    }
+
+    #[test]
+    fn v_points_up_and_an_image_repeats() {
+        let pixels = vec![[255, 0, 0, 255], [255, 0, 0, 255], [0, 0, 255, 255], [0, 0, 255, 255]];
+        let levels = vec![Level { width: 2, height: 2, pixels }];
+        let texture = Texture { levels, size: Vec2::new(2.0, 4.0), holes: false };
+        let color = |u, v| texture.color(Vec2::new(u, v), Vec2::ZERO, Vec2::ZERO);
+        assert!(color(0.5, 3.0).x > 0.99 && color(0.5, 1.0).z > 0.99);
+        assert!(color(-7.5, 7.0).x > 0.99 && color(4.5, -3.0).z > 0.99);
+    }
+}

@@ -1,0 +1,23 @@
+//! `burgeon live` where the program is built without it: it says so.
+
+use burgeon::{Error, Result};
+use clap::Args;
+
+/// Shows what a script makes in the browser (this program was built without it)
+#[derive(Args)]
+pub(crate) struct Serve {
+    /// Whatever it would take.
+    #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
+    given: Vec<String>,
+}
+
+impl Serve {
+    pub(crate) fn json(&self) -> bool {
+        self.given.iter().any(|given| given == "--json")
+    }
+
+    #[allow(clippy::unused_self, reason = "every command has the same methods")]
+    pub(crate) fn run(&self) -> Result<()> {
+        Err(Error::left_out("the live page", "live"))
+    }
+}
