@@ -265,7 +265,7 @@ fn help_reads_well() {
       run          Runs a script and writes what it makes
       live         Shows what a script makes in the browser, and shows it anew on every save
       check        Loads a script and everything it requires, compiles every rule, and reports all problems at once
-      api          Tells what scripts can use: types of objects with their fields and methods
+      api          Tells what scripts can use: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       fit          Searches for a rule table whose terrain is like a height map
       new          Makes a script to start from

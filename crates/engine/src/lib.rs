@@ -13,7 +13,8 @@ pub mod trace;
 /// What a run is told, what its script declares, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
-        Control, Limits, Param, Preset, Print, Progress, RunOptions, Session, Setting, Traced,
+        Control, Limits, Name, Param, Part, Preset, Print, Progress, RunOptions, Session, Setting, Sort,
+        Traced, names,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
 }

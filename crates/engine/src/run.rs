@@ -269,3 +269,46 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declare::names::LOCKED;
+    use crate::declare::{RunOptions, Sort, names};
+
+    #[test]
+    fn scripts_have_the_names_that_are_declared_and_no_others() {
+        let script = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scripts/herb.lua");
+        let registry = burgeon_objects::registry();
+        let session =
+            Session::new(&script, RunOptions { registry: registry.clone(), ..RunOptions::default() })
+                .unwrap();
+        let (machine, _threads) = leading_machine(&session).unwrap();
+        let there = machine.library.globals().names;
+        let declared: Vec<String> = names()
+            .into_iter()
+            .filter(|name| name.sort != Sort::Given)
+            .map(|name| name.name.to_string())
+            .chain(registry.kinds().map(|kind| kind.name.to_string()))
+            .collect();
+        let missing: Vec<&String> = declared.iter().filter(|name| !there.contains(name)).collect();
+        assert!(missing.is_empty(), "declared, but not there: {missing:?}");
+        let unknown: Vec<&String> = there.iter().filter(|name| !declared.contains(name)).collect();
+        assert!(unknown.is_empty(), "there, but not declared: {unknown:?}");
+        assert!(there.len() > 70, "{}", there.len());
+        // What is locked is away, and so is no name of these.
+        assert!(!LOCKED.iter().any(|locked| there.iter().any(|name| name == locked)));
+    }
+
+    #[test]
+    fn modules_of_the_library_call_the_methods_that_are_declared() {
+        let registry = burgeon_objects::registry();
+        let mut modules = 0;
+        for name in names() {
+            let Sort::Module { kind, method } = name.sort else { continue };
+            modules += 1;
+            assert!(registry.get(kind).and_then(|kind| kind.method(method)).is_some(), "{}", name.name);
+        }
+        assert!(modules > 20, "{modules}");
+    }
+}

@@ -90,6 +90,11 @@ pub trait Parameter: Sized {
 
     /// The value for the script.
     fn into_value(self) -> Value;
+
+    /// The value as one would write it in a script.
+    fn written(self) -> String {
+        self.into_value().to_string()
+    }
 }
 
 /// A type that a method may return.
@@ -389,6 +394,10 @@ impl Parameter for Vector {
         let entries = [("x", self.0.x), ("y", self.0.y), ("z", self.0.z)];
         let entries = entries.map(|(name, part)| (Key::Name(name.into()), Value::Number(part))).to_vec();
         Value::Table(Arc::new(Table { class: Some("vec".into()), entries }))
+    }
+
+    fn written(self) -> String {
+        format!("vec({}, {}, {})", self.0.x, self.0.y, self.0.z)
     }
 }
 

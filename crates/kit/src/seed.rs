@@ -31,4 +31,9 @@ impl Parameter for Seed {
     fn into_value(self) -> Value {
         Value::Text(format!("{:016x}", self.0).into())
     }
+
+    fn written(self) -> String {
+        // As a number where that is exact.
+        if self.0 < 1 << 53 { self.0.to_string() } else { self.into_value().to_string() }
+    }
 }

@@ -161,7 +161,7 @@ impl<'a> Declaration<'a> {
                 unit: #unit,
                 default: {
                     let value: #of = #default;
-                    #kit::Parameter::into_value(value).to_string()
+                    #kit::Parameter::written(value)
                 },
             }
         }

@@ -1,11 +1,13 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Call, Construct, Field, Kind, Method};
+use burgeon::kit::{Call, Construct, Field, Kind, Method, Registry};
+use burgeon::script::{Name, Part, Sort};
 use serde_json::{Value, json};
 
 /// A name that scripts can use.
 pub(super) struct Entry {
     pub name: String,
+    pub group: Group,
     /// How it is written; empty where scripts cannot make it.
     pub usage: String,
     pub doc: String,
@@ -13,6 +15,21 @@ pub(super) struct Entry {
     pub members: Vec<Member>,
     /// A script that uses it.
     pub example: String,
+}
+
+/// What a name is, in the order in which people are told.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Group {
+    /// A type of object.
+    Type,
+    /// A function or a value.
+    Global,
+    /// The constructor of modules.
+    Module,
+    /// What others give.
+    Given,
+    /// A function or a library of Luau itself.
+    Luau,
 }
 
 /// A field or a method.
@@ -37,6 +54,8 @@ pub(super) enum What {
     Reads,
     /// A method that changes its owner.
     Changes,
+    /// A method of what is no object, for the top level of a script.
+    Declares,
 }
 
 /// An argument of a method.
@@ -59,7 +78,30 @@ impl Entry {
         let fields = kind.fields.iter().map(Member::of_field);
         let members = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
         let (name, doc) = (kind.name.to_string(), kind.doc.to_string());
-        Self { name, usage, doc, members, example: kind.example.to_string() }
+        Self { name, group: Group::Type, usage, doc, members, example: kind.example.to_string() }
+    }
+
+    /// A name that every script has; a module does what the method of a type of object does.
+    pub(super) fn of_name(name: &Name, registry: &Registry) -> Self {
+        let group = match name.sort {
+            Sort::Global => Group::Global,
+            Sort::Module { .. } => Group::Module,
+            Sort::Given => Group::Given,
+            Sort::Luau => Group::Luau,
+        };
+        let usage = match &*name.luau {
+            _ if group == Group::Given => String::new(),
+            call if call.starts_with('(') => format!("{}{call}", name.name),
+            luau => format!("{}: {luau}", name.name),
+        };
+        let mut doc = name.doc.to_string();
+        if let Sort::Module { kind, method } = name.sort
+            && let Some(method) = registry.get(kind).and_then(|kind| kind.method(method))
+        {
+            doc = format!("{} {doc}", method.doc);
+        }
+        let members = name.parts.iter().map(Member::of_part).collect();
+        Self { name: name.name.to_string(), group, usage, doc, members, example: String::new() }
     }
 
     /// Those of its members that are `what`.
@@ -71,8 +113,16 @@ impl Entry {
         let fields: Vec<_> = self.members(What::Field).map(|field| field.to_json(self)).collect();
         let methods: Vec<_> = self.members.iter().filter(|member| member.what != What::Field).collect();
         let methods: Vec<_> = methods.into_iter().map(|method| method.to_json(self)).collect();
+        let what = match self.group {
+            Group::Type => "type",
+            Group::Global if self.usage.contains('(') => "function",
+            Group::Global => "value",
+            Group::Module => "module",
+            Group::Given => "given",
+            Group::Luau => "luau",
+        };
         json!({
-            "name": self.name, "what": "type", "usage": self.usage, "doc": self.doc,
+            "name": self.name, "what": what, "usage": self.usage, "doc": self.doc,
             "fields": fields, "methods": methods, "example": self.example,
         })
     }
@@ -88,6 +138,18 @@ impl Member {
             default: field.default.clone(),
             unit: field.unit.as_ref().map(ToString::to_string),
             doc: field.doc.to_string(),
+        }
+    }
+
+    fn of_part(part: &Part) -> Self {
+        Self {
+            name: part.name.to_owned(),
+            what: if part.is_method { What::Declares } else { What::Field },
+            luau: part.luau.to_owned(),
+            arguments: Vec::new(),
+            default: part.default.to_owned(),
+            unit: part.unit.map(str::to_owned),
+            doc: part.doc.to_owned(),
         }
     }
 
@@ -120,10 +182,11 @@ impl Member {
         match self.what {
             What::Field if default == "nil" || default.is_empty() => format!("{name}: {luau}"),
             What::Field => format!("{name}: {luau} = {default}"),
+            What::Declares => format!("{name}{luau}"),
             What::Reads | What::Changes => {
                 let arguments: Vec<String> =
                     self.arguments.iter().map(|it| format!("{}: {}", it.name, it.luau)).collect();
-                let returns = if luau.is_empty() { String::new() } else { format!(": {luau}") };
+                let returns = if luau.is_empty() { String::new() } else { format!(" -> {luau}") };
                 format!("{name}({}){returns}", arguments.join(", "))
             }
         }
@@ -134,6 +197,11 @@ impl Member {
             return json!({
                 "name": self.name, "what": "field", "of": owner.name, "type": self.luau, "unit": self.unit,
                 "default": self.default, "doc": self.doc,
+            });
+        }
+        if self.what == What::Declares {
+            return json!({
+                "name": self.name, "what": "method", "of": owner.name, "type": self.luau, "doc": self.doc,
             });
         }
         let arguments: Vec<_> = self

@@ -4,14 +4,14 @@ mod entry;
 mod text;
 
 use burgeon::kit::Registry;
-use burgeon::{Error, Result};
+use burgeon::{Error, Result, script};
 use clap::Args;
 use serde_json::json;
 
 use super::report;
 use entry::{Entry, Member};
 
-/// Tells what scripts can use: types of objects with their fields and methods
+/// Tells what scripts can use: types of objects with their fields and methods, functions and modules
 #[derive(Args)]
 pub(crate) struct Api {
     /// One of them, such as extruder, extruder:extrude or extruder.sides; a list of all if left out
@@ -54,8 +54,11 @@ impl Api {
 
 /// All that scripts can use, by name.
 fn entries(registry: &Registry) -> Vec<Entry> {
-    let mut entries: Vec<Entry> = registry.kinds().map(|kind| Entry::of_kind(kind)).collect();
-    entries.sort_by(|a, b| a.name.cmp(&b.name));
+    let types = registry.kinds().map(|kind| Entry::of_kind(kind));
+    let names = script::names();
+    let mut entries: Vec<Entry> =
+        types.chain(names.iter().map(|name| Entry::of_name(name, registry))).collect();
+    entries.sort_by_cached_key(|entry| (entry.group, entry.name.to_lowercase()));
     entries
 }
 
@@ -68,10 +71,14 @@ fn find<'a>(entries: &'a [Entry], name: &str) -> Result<(&'a Entry, Option<&'a M
         && let Some(entry) = entries.iter().find(|entry| entry.name == owner)
     {
         let known = || entry.members.iter().map(|member| member.name.as_str());
-        let found = entry.members.iter().find(|member| member.name == inner);
+        let mut called = entry.members.iter().filter(|member| member.name == inner);
+        // A field and a method may have one name; one of them alone is meant, whatever stands before it.
+        let found = called.clone().find(|member| member.full_name(entry) == name).or_else(|| called.next());
         return found.map(|member| (entry, Some(member))).ok_or_else(|| {
             let message = format!("{owner} has no field or method called {inner}");
-            let names: Vec<&str> = known().collect();
+            let mut names: Vec<&str> = known().collect();
+            names.sort_unstable();
+            names.dedup();
             let help = if names.is_empty() {
                 "it has none".to_owned()
             } else {
@@ -106,16 +113,19 @@ mod tests {
     #[test]
     fn every_name_that_is_told_of_has_a_doc() {
         let entries = entries(&burgeon::objects::registry());
-        assert!(entries.len() > 15, "{}", entries.len());
+        assert!(entries.len() > 80, "{}", entries.len());
         let mut members = 0;
         for entry in &entries {
+            let has_example = entry.usage.is_empty() || !entry.example.is_empty();
+            assert!(has_example || entry.group != entry::Group::Type, "{}", entry.name);
             assert!(entry.doc.ends_with('.') && entry.doc.len() > 15, "{}: {}", entry.name, entry.doc);
             for member in &entry.members {
                 members += 1;
                 let name = member.full_name(entry);
                 assert!(member.doc.ends_with('.') && member.doc.len() > 8, "{name}: {}", member.doc);
                 assert!(!member.arguments.iter().any(|argument| argument.luau.is_empty()), "{name}");
-                assert!(find(&entries, &name).is_ok_and(|(_, found)| found.is_some()), "{name}");
+                let found = find(&entries, &name).unwrap().1.unwrap();
+                assert!(std::ptr::eq(found, member), "{name}");
             }
         }
         assert!(members > 200, "{members}");

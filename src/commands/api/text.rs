@@ -2,20 +2,31 @@
 
 use std::fmt::Write as _;
 
-use super::entry::{Entry, Member, What};
+use super::entry::{Entry, Group, Member, What};
 
 /// The longest line of a doc.
 const WIDTH: usize = 100;
 
 /// All names, each with the first sentence of its doc.
 pub(super) fn list(entries: &[&Entry]) -> String {
-    let mut text = String::from("Types of objects\n");
-    let widest = entries.iter().map(|entry| entry.name.chars().count()).max().unwrap_or(0);
-    for entry in entries {
+    let mut text = String::new();
+    for (group, title) in [
+        (Group::Type, "Types of objects"),
+        (Group::Global, "Functions and values"),
+        (Group::Module, "Modules that come with a meaning"),
+        (Group::Given, "What these give and take"),
+        (Group::Luau, "Luau itself"),
+    ] {
+        let of_group = || entries.iter().filter(|entry| entry.group == group);
+        let widest = of_group().map(|entry| entry.name.chars().count()).max().unwrap_or(0);
         // Writing into a string cannot fail.
-        let _ = writeln!(text, "  {:widest$}  {}", entry.name, summary(&entry.doc));
+        let _ = writeln!(text, "{title}");
+        for entry in of_group() {
+            let _ = writeln!(text, "  {:widest$}  {}", entry.name, summary(&entry.doc));
+        }
+        text.push('\n');
     }
-    text.push_str("\nburgeon api NAME tells more of one, such as extruder or extruder:extrude\n");
+    text.push_str("burgeon api NAME tells more of one, such as extruder or extruder:extrude\n");
     text
 }
 
@@ -26,6 +37,7 @@ pub(super) fn entry(entry: &Entry) -> String {
     wrap(&mut text, &entry.doc, 2);
     for (what, title) in [
         (What::Field, "Fields"),
+        (What::Declares, "Methods"),
         (What::Reads, "Methods that read: rules and interpretations may call them"),
         (What::Changes, "Methods that change it: only interpretations may call them"),
     ] {
@@ -52,7 +64,7 @@ pub(super) fn member(owner: &Entry, member: &Member) -> String {
     let mut text = format!("{}{separator}{}\n", owner.name, member.usage());
     wrap(&mut text, &member.doc, 2);
     let may = match member.what {
-        What::Field => return text,
+        What::Field | What::Declares => return text,
         What::Reads => "It only reads: rules and interpretations may call it.",
         What::Changes => "It changes the object: only interpretations may call it.",
     };

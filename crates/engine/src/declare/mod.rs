@@ -5,6 +5,7 @@
 
 pub(crate) mod analysis;
 mod data;
+pub(crate) mod names;
 mod options;
 mod param;
 pub(crate) mod paths;
@@ -12,6 +13,7 @@ mod positions;
 mod preset;
 mod session;
 
+pub use names::{Name, Part, Sort, names};
 pub use options::{Limits, Print, RunOptions, Traced};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;

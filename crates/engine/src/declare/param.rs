@@ -1,5 +1,6 @@
 //! `param`: the values of a script that a person may change without editing it.
 
+use super::names::PARAM;
 use super::preset::Preset;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Color, Parameter, Table, Value};
@@ -84,8 +85,6 @@ impl Setting {
     }
 }
 
-const FIELDS: [&str; 7] = ["default", "min", "max", "step", "choices", "unit", "text"];
-
 impl Param {
     /// Reads `param(name, { default = ..., ... })`; its value is the default.
     pub fn declare(name: &str, options: &Table) -> Result<Self> {
@@ -94,10 +93,11 @@ impl Param {
                 burgeon_kit::Key::Name(name) => name.to_string(),
                 burgeon_kit::Key::Index(index) => index.to_string(),
             };
-            if !FIELDS.contains(&key.as_str()) {
+            let known = PARAM.part_names();
+            if !known.contains(&key.as_str()) {
                 let message = format!("param {name} has no field called {key}");
-                return Err(Error::not_found("field", &key, FIELDS, message)
-                    .help(format!("it has {}", FIELDS.join(", "))));
+                return Err(Error::not_found("field", &key, known.iter().copied(), message)
+                    .help(format!("it has {}", known.join(", "))));
             }
         }
         let number = |field: &str| -> Result<Option<f64>> {

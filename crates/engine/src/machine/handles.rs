@@ -5,6 +5,7 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
+use crate::declare::names::DERIVED;
 use crate::results::Derived;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Object;
@@ -122,8 +123,6 @@ impl DerivedHandle {
     }
 }
 
-const FIELDS: [&str; 4] = ["objects", "chains", "steps", "modules"];
-
 impl UserData for DerivedHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
         methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
@@ -172,8 +171,9 @@ impl DerivedHandle {
             }
             _ => {
                 let message = format!("a derived system has no field called {name}");
-                let error = Error::not_found("field", name, FIELDS, message);
-                Err(mlua::Error::external(error.help(format!("it has {}", FIELDS.join(", ")))))
+                let known = DERIVED.part_names();
+                let error = Error::not_found("field", name, known.iter().copied(), message);
+                Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))
             }
         }
     }

@@ -15,6 +15,7 @@ use super::{Machine, compile, native};
 use crate::declare::Param;
 use crate::declare::Print;
 use crate::declare::analysis::Globals;
+use crate::declare::names::LOCKED;
 use burgeon_base::error::{Error, Place, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Construct;
@@ -23,24 +24,6 @@ use burgeon_kit::rules::{Signature, Symbol, Symbols};
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
     LazyLock::new(|| compile(include_str!("../../../../stdlib.lua")));
-
-/// Names that would make a script's meaning depend on more than itself, or would slow it down.
-const LOCKED: [&str; 14] = [
-    "getfenv",
-    "setfenv",
-    "loadstring",
-    "load",
-    "newproxy",
-    "collectgarbage",
-    "os",
-    "debug",
-    "vector",
-    "_G",
-    "gcinfo",
-    "io",
-    "dofile",
-    "loadfile",
-];
 
 /// An interpretation that the standard library gives to modules of every system with a type of object.
 pub(crate) struct Standard {

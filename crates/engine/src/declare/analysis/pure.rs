@@ -11,15 +11,8 @@ use full_moon::tokenizer::TokenReference;
 
 use super::syntax::text_of;
 use super::walk::Walk;
+use crate::declare::names::{is_pure_function, is_pure_library};
 
-/// Functions that remember nothing but which random numbers are drawn, and call no function that they are given.
-const FUNCTIONS: [&str; 22] = [
-    "assert", "error", "hsv", "ipairs", "lerp", "mix", "next", "noise", "pairs", "print", "random",
-    "rawequal", "rawlen", "remap", "rgb", "select", "tonumber", "tostring", "type", "typeof", "unpack",
-    "vec",
-];
-/// Libraries of such functions.
-const LIBRARIES: [&str; 5] = ["bit32", "ease", "math", "string", "utf8"];
 /// Those of `table`; of the second list those that change the table that they are given first.
 const OF_TABLES: [&str; 7] = ["concat", "create", "find", "isfrozen", "maxn", "pack", "unpack"];
 const CHANGES: [&str; 5] = ["clear", "freeze", "insert", "move", "remove"];
@@ -80,7 +73,7 @@ impl Walk<'_> {
                 (pure || variable.module.is_some()) && !self.fact(variable.id).assigned
             }
             None => {
-                FUNCTIONS.contains(&text.as_str())
+                is_pure_function(&text)
                     || self.globals.modules.contains_key(&text)
                     || self.globals.kinds.contains(&text)
             }
@@ -88,7 +81,7 @@ impl Walk<'_> {
     }
 
     fn library_called(&mut self, library: &str, function: &str, arguments: &FunctionArgs) {
-        if LIBRARIES.contains(&library) && function != "gsub"
+        if is_pure_library(library) && function != "gsub"
             || library == "table" && OF_TABLES.contains(&function)
         {
             return;

@@ -4,6 +4,7 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
 use crate::declare::analysis::{analyse, unmarked};
+use crate::declare::names::RULE;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
@@ -180,8 +181,8 @@ fn rule_options(options: &Table) -> Result<(Option<f64>, Option<Function>)> {
             }
             (other, _) => {
                 let message = format!("a rule has no option called {other}");
-                return Err(Error::not_found("option", other, ["weight", "when"], message)
-                    .help("it has weight and when"));
+                return Err(Error::not_found("option", other, RULE.part_names(), message)
+                    .help(format!("it has {}", RULE.part_names().join(" and "))));
             }
         }
     }

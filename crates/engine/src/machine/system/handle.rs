@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
+use crate::declare::names::{LSYSTEM, SYSTEM};
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::handles::{DerivedHandle, ObjectHandle};
@@ -15,8 +16,6 @@ use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
 
 use super::System;
-
-const METHODS: [&str; 6] = ["axiom", "rule", "interpret", "ignore", "consider", "derive"];
 
 /// A system as a script holds it.
 pub(crate) struct SystemHandle {
@@ -71,9 +70,9 @@ impl SystemHandle {
                     _ => return Err(Error::argument("lsystem: seed must be a whole number from 0")),
                 },
                 (other, _) => {
-                    let known = ["object", "interpret", "seed"];
+                    let known = LSYSTEM.part_names();
                     let message = format!("lsystem has no field called {other}");
-                    return Err(Error::not_found("field", other, known, message)
+                    return Err(Error::not_found("field", other, known.iter().copied(), message)
                         .help(format!("it has {}", known.join(", "))));
                 }
             }
@@ -221,8 +220,9 @@ impl UserData for SystemHandle {
         });
         methods.add_meta_function("__index", |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
             let message = format!("a system has no method called {name}");
-            let error = Error::not_found("method", &name, METHODS, message);
-            Err(mlua::Error::external(error.help(format!("it has {}", METHODS.join(", ")))))
+            let known = SYSTEM.part_names();
+            let error = Error::not_found("method", &name, known.iter().copied(), message);
+            Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))
         });
     }
 }

@@ -6,13 +6,11 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::lazy;
+use crate::declare::names::{LAYER, SOURCE};
 use crate::machine::{Machine, native, write_column};
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
 use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
-
-const FIELDS: [&str; 5] = ["features", "bounds", "layer", "crs", "origin"];
-const OPTIONS: [&str; 6] = ["where", "limit", "id", "kind", "crs", "layer"];
 
 /// The features of a data source as a script holds them.
 pub(crate) enum SourceHandle {
@@ -68,7 +66,7 @@ impl SourceHandle {
         };
         match (self, name) {
             (Self::List(features), "features") => Ok(LuaValue::Table(features.clone())),
-            (Self::List(_), name) if FIELDS.contains(&name) => Ok(LuaValue::Nil),
+            (Self::List(_), name) if LAYER.parts.iter().any(|part| part.name == name) => Ok(LuaValue::Nil),
             (Self::Layer(layer), "features") => {
                 let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
                 let names = Names::new(lua, layer, None)?;
@@ -97,8 +95,9 @@ impl SourceHandle {
             (Self::Layer(layer), "origin") => frozen(lua.create_sequence_from(layer.origin)?),
             _ => {
                 let message = format!("a source has no field called {name}");
-                let error = Error::not_found("field", name, FIELDS, message);
-                Err(mlua::Error::external(error.help(format!("it has {}", FIELDS.join(", ")))))
+                let known = LAYER.part_names();
+                let error = Error::not_found("field", name, known.iter().copied(), message);
+                Err(mlua::Error::external(error.help(format!("it has {}", known.join(", ")))))
             }
         }
     }
@@ -376,8 +375,9 @@ fn wanted(options: &ValueTable) -> Result<Wanted> {
             }
             other => {
                 let message = format!("source has no option called {other}");
-                return Err(Error::not_found("option", other, OPTIONS, message)
-                    .help(format!("it has {}", OPTIONS.join(", "))));
+                let known = SOURCE.part_names();
+                return Err(Error::not_found("option", other, known.iter().copied(), message)
+                    .help(format!("it has {}", known.join(", "))));
             }
         }
     }

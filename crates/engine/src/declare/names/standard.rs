@@ -1,0 +1,116 @@
+//! The names of the standard library, read from its own file: what stands above each in `---` is its doc.
+
+use super::{Name, Sort};
+
+/// The text of the standard library.
+const TEXT: &str = include_str!("../../../../../stdlib.lua");
+
+/// The names that it gives, in the order of the file.
+pub(super) fn names() -> Vec<Name> {
+    let lines: Vec<&'static str> = TEXT.lines().collect();
+    let mut names = Vec::new();
+    for (at, line) in lines.iter().enumerate() {
+        if let Some(module) = module(line) {
+            names.push(module);
+        } else if let Some((name, luau)) = function(line)
+            && is_given(name)
+        {
+            names.push(
+                Name {
+                    luau: luau.into(),
+                    doc: doc(&lines[..at]).into(),
+                    ..Name::new(name, Sort::Global, "", "")
+                }
+                .pure(),
+            );
+        } else if let Some(name) = line.strip_prefix("local ").and_then(|rest| rest.strip_suffix(" = {"))
+            && is_given(name)
+        {
+            let doc = doc(&lines[..at]).into();
+            names.push(Name { doc, ..Name::new(name, Sort::Global, "{ ... }", "") }.pure());
+        }
+    }
+    names
+}
+
+/// The doc in the lines that a declaration follows.
+fn doc(before: &[&str]) -> String {
+    let lines = before.iter().rev().map_while(|line| line.strip_prefix("---"));
+    let mut lines: Vec<&str> = lines.map(str::trim).collect();
+    lines.reverse();
+    lines.join(" ")
+}
+
+/// The name of a local function and its type.
+fn function(line: &'static str) -> Option<(&'static str, String)> {
+    let (name, rest) = line.strip_prefix("local function ")?.split_once('(')?;
+    let (parameters, returns) = rest.rsplit_once(')')?;
+    let returns = returns.strip_prefix(": ").unwrap_or("any");
+    Some((name, format!("({}) -> {returns}", parameters.replace("...: any", "...any"))))
+}
+
+/// Whether the library gives a value of this name to scripts.
+fn is_given(name: &str) -> bool {
+    TEXT.lines()
+        .any(|line| line.strip_prefix("names.").and_then(|rest| rest.split_once(" = ")) == Some((name, name)))
+}
+
+/// A module that a method of a type of object interprets.
+fn module(line: &'static str) -> Option<Name> {
+    let mut texts = line.split('"').skip(1).step_by(2);
+    let (name, kind, method, parameters) = if line.starts_with("turtle_module(") {
+        let (name, method) = (texts.next()?, texts.next()?);
+        (name, "turtle", method, texts.next())
+    } else if line.starts_with("__interpretation(") {
+        let (kind, name, method) = (texts.next()?, texts.next()?, texts.next()?);
+        (name, kind, method, None)
+    } else {
+        return None;
+    };
+    // A module with more than one parameter is declared in a line of its own.
+    let declared =
+        TEXT.lines().find_map(|line| line.strip_prefix(&format!("names.{name} = module(\"{name}\", ")));
+    let parameters: Vec<&str> = match declared {
+        Some(declared) => declared.split('"').skip(1).step_by(2).collect(),
+        None => parameters.into_iter().collect(),
+    };
+    let parameters: Vec<String> = parameters.into_iter().map(typed).collect();
+    let luau = format!("({}) -> Module", parameters.join(", "));
+    let doc = format!("Calls {kind}:{method} where it is interpreted.");
+    let name = Name::new(name, Sort::Module { kind, method }, "", "");
+    Some(Name { luau: luau.into(), doc: doc.into(), ..name })
+}
+
+/// A module's parameter with its type.
+fn typed(parameter: &str) -> String {
+    match parameter.strip_suffix('?') {
+        Some(name) => format!("{name}: any?"),
+        None => format!("{parameter}: any"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_library_says_what_its_names_are() {
+        let told = |name: &str| {
+            let names = names();
+            let found = names.iter().find(|known| known.name == name);
+            found.map(|name| format!("{}: {}", name.luau, name.doc))
+        };
+        let expected = "(hue: number, saturation: number, value: number) -> { number }: A colour from hue (degrees), \
+                        saturation and value (0 to 1).";
+        assert_eq!(told("hsv").as_deref(), Some(expected));
+        let expected = "(...any) -> any: A vector of three numbers, or of a list of them; what is left out at the end is 0.";
+        assert_eq!(told("vec").as_deref(), Some(expected));
+        let expected = "(length: any?) -> Module: Calls turtle:forward where it is interpreted.";
+        assert_eq!(told("F").as_deref(), Some(expected));
+        let expected = "(model: any, scale: any?) -> Module: Calls turtle:place where it is interpreted.";
+        assert_eq!(told("Place").as_deref(), Some(expected));
+        for inner in ["made", "vectors", "smooth", "curve", "hash", "turtle_module", "names"] {
+            assert_eq!(told(inner), None);
+        }
+    }
+}

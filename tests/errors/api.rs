@@ -1,0 +1,175 @@
+//! `burgeon api`: what it tells of the names that scripts have.
+
+use std::path::Path;
+
+use insta::assert_snapshot;
+
+use super::support::Folder;
+
+fn api(arguments: &[&str]) -> String {
+    let arguments: Vec<&str> = ["api"].into_iter().chain(arguments.iter().copied()).collect();
+    Folder::new().burgeon(&arguments).done().stdout
+}
+
+#[test]
+fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
+    assert_snapshot!(api(&["universe"]), @r"
+    universe { ... }
+      Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of
+      it the same.
+
+    Fields
+      seed: number | string = 0
+          What all of it comes from: a number or a string.
+
+    Methods that read: rules and interpretations may call them
+      galaxy(x: number, y: number, z: number) -> any
+          The galaxy in a cube of space, by its column, row and layer: a table with `position` and
+          `radius` (light years), `kind`, `color`, `seed`, and `stars`, how many it has.
+      star(galaxy: { kind: string, seed: string, radius: number, stars: number }, index: number) -> any
+          Star number `index` of a galaxy, from 1: a table with `position` (light years from the
+          galaxy's middle), `radius` (m), `kind`, `color`, `seed`, and `planets`, how many it has.
+      planet(star: { kind: string, seed: string, radius: number, planets: number }, index: number) -> any
+          Planet number `index` of a star, from 1, the nearest first: a table with `position` (m from
+          the star), `radius` (m), `kind`, `color`, `seed`, and `light`, of which the Earth gets 1. A
+          planet takes its radius and seed.
+
+    Example
+      local all = universe({ seed = 7 })
+      local galaxy = all:galaxy(0, 0, 0)
+      local star = all:star(galaxy, 1)
+      print(galaxy.kind, star.kind, star.planets)
+    ");
+    assert_snapshot!(api(&["system"]), @r"
+    system
+      A system of rules, as lsystem gives it.
+
+    Methods
+      axiom(...Module | source, (feature) -> (...Module)) -> System
+          Sets what the chain begins as, or the function that makes the chain of each feature of a
+          source.
+      rule(pattern: string, options: { ... }?, successor: (this, ...any) -> (...Module) | string) -> System
+          Adds a rule: what replaces a module that the pattern describes. What its options are is told
+          of under rule.
+      interpret(pattern: string, (this, ...any) -> ()) -> System
+          Adds an interpretation: what is drawn for a module.
+      ignore(...string) -> System
+          Names modules that matching of contexts passes over.
+      consider(...string) -> System
+          Names the only modules that matching of contexts sees.
+      derive(steps: number?) -> Derived
+          Applies the rules step by step, to the end where no number of steps is given.
+    ");
+    assert_snapshot!(api(&["source"]), @r#"
+    source(what: string | { any }, options: { ... }?) -> Layer
+      The features of a data file, or of a list; what it has is told of under layer.
+
+    Fields
+      where: string?
+          An SQL condition, for GeoPackages.
+      limit: number?
+          At most as many features.
+      id: string?
+          The attribute that tells features apart.
+      kind: string?
+          Only features with a "point", a "line" or a "polygon".
+      crs: number?
+          The EPSG code of the coordinates, in place of the file's.
+      layer: string?
+          The layer, if its name does not stand behind a colon.
+    "#);
+}
+
+#[test]
+fn a_field_or_a_method_is_told_by_itself() {
+    assert_snapshot!(api(&["extruder:bend"]), @r"
+    extruder:bend(angle: number, toward: number?)
+      Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees): 0 is
+      left.
+      It changes the object: only interpretations may call it.
+    ");
+    assert_snapshot!(api(&["footprint:area"]), @r"
+    footprint:area() -> number
+      Its area (m²) without the holes.
+      It only reads: rules and interpretations may call it.
+    ");
+    assert_snapshot!(api(&["extruder.heading"]), @r"
+    extruder.heading: Vector = vec(0, 0, 1)
+      The direction of extruding at first.
+    ");
+    assert_snapshot!(api(&["lerp"]), @r"
+    lerp(a: number, b: number, t: number) -> number
+      From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
+    ");
+    assert_snapshot!(api(&["F"]), @r"
+    F(length: any?) -> Module
+      Goes forward by `length` (m) and draws a branch; within a polygon it only moves. Calls
+      turtle:forward where it is interpreted.
+    ");
+}
+
+#[test]
+fn a_name_that_there_is_not_is_likely_another() {
+    let failed = |name: &str| Folder::new().burgeon(&["api", name]).failed();
+    assert_snapshot!(failed("extuder"), @r"
+    error: scripts have nothing called extuder
+      help: did you mean extruder?
+    ");
+    assert_snapshot!(failed("extruder:extrud"), @r"
+    error: extruder has no field or method called extrud
+      help: did you mean extrude?
+    ");
+    assert_snapshot!(failed("extruder:window"), @r"
+    error: extruder has no field or method called window
+      help: it has advance, along, around, bend, caps, color, direction, distance, extrude, heading, jump, material, metallic, open_edges, pitch, polygon, position, rectangle, regular, resolution, roll, roughness, scale, shape, shift, sides, smooth, star, taper, turn, twist
+    ");
+    assert_snapshot!(failed("roof"), @r"
+    error: scripts have nothing called roof
+      help: there is footprint:roof
+    ");
+    assert_snapshot!(failed("window"), @r"
+    error: scripts have nothing called window
+      help: burgeon api lists all names
+    ");
+}
+
+#[test]
+fn all_names_are_listed() {
+    let text = api(&[]);
+    for name in ["extruder", "lsystem", "lerp", "F", "feature", "math"] {
+        assert!(text.lines().any(|line| line.starts_with(&format!("  {name} "))), "{name}: {text}");
+    }
+    assert!(text.lines().all(|line| line.trim_end() == line), "{text}");
+}
+
+#[test]
+fn machines_get_the_same_as_people() {
+    let said = Folder::new().burgeon(&["api", "extruder", "--json"]).done().json();
+    let extruder = &said["entries"][0];
+    assert_eq!(extruder["what"], "type");
+    let fields = extruder["fields"].as_array().unwrap();
+    let position = fields.iter().find(|field| field["name"] == "position").unwrap();
+    assert_eq!((&position["unit"], &position["default"]), (&"m".into(), &"vec(0, 0, 0)".into()));
+    let methods = extruder["methods"].as_array().unwrap();
+    let bend = methods.iter().find(|method| method["name"] == "bend").unwrap();
+    assert_eq!(bend["changes"], true);
+    assert_eq!(bend["arguments"][0]["unit"], "degrees");
+    let all = Folder::new().burgeon(&["api", "--json"]).done().json();
+    assert!(all["entries"].as_array().unwrap().len() > 80);
+    let said = Folder::new().burgeon(&["api", "extuder", "--json"]);
+    assert_eq!((said.status, &said.json()["errors"][0]["help"]), (1, &"did you mean extruder?".into()));
+}
+
+#[test]
+fn every_example_runs() {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("crates/objects/scripts");
+    let mut count = 0;
+    for file in std::fs::read_dir(folder).unwrap() {
+        let path = file.unwrap().path();
+        let script = std::fs::read_to_string(&path).unwrap();
+        let said = Folder::new().with("example.lua", script).burgeon(&["run", "example.lua", "--strict"]);
+        assert_eq!(said.status, 0, "{}: {}", path.display(), said.stderr);
+        count += 1;
+    }
+    assert_eq!(count, 14);
+}
