@@ -164,6 +164,7 @@ fn wkb(bytes: &[u8], folder: &Path) -> bool {
     let made = || -> rusqlite::Result<()> {
         let is_new = !path.exists();
         let connection = Connection::open(&path)?;
+        connection.execute_batch("PRAGMA synchronous = OFF; PRAGMA journal_mode = MEMORY;")?;
         if is_new {
             connection.execute_batch(
                 "CREATE TABLE gpkg_contents(table_name TEXT PRIMARY KEY, data_type TEXT);

@@ -207,7 +207,7 @@ fn the_engine_knows_no_type_of_object_by_name() {
         .flat_map(words)
         .filter(|word| word.starts_with(char::is_uppercase))
         .collect();
-    for name in ["Extruder", "Turtle", "Footprint", "Facade", "Terrain", "Planet", "Elevation", "Streets"] {
+    for name in ["Extruder", "Turtle", "Footprint", "Facade", "Terrain", "Planet", "Elevation", "Universe"] {
         assert!(structs.contains(name) && kinds.contains(&*name.to_lowercase()), "{name} is found");
     }
     let mut prelude = Vec::new();
@@ -267,6 +267,50 @@ fn the_oldest_rust_is_the_same_wherever_it_is_stated() {
             ["rust-version.workspace = true", "license.workspace = true", "[lints]\nworkspace = true"]
         {
             assert!(manifest.contains(inherited), "{member}/Cargo.toml has not {inherited:?}");
+        }
+    }
+}
+
+/// What stands between backquotes in a page, without its blocks of code.
+fn quoted(page: &str) -> Vec<String> {
+    let plain: String = page.split("```").step_by(2).collect();
+    plain.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+}
+
+#[test]
+fn the_page_for_those_who_change_burgeon_names_what_is_there() {
+    let page = text("CONTRIBUTING.md");
+    let (order, drawn) = drawn();
+    let rows = page.lines().filter_map(|line| line.strip_prefix("| `")?.split_once("` | "));
+    let rows: Vec<(&str, BTreeSet<String>)> = rows
+        .map(|(name, rest)| {
+            let uses = rest.split(" | ").next().unwrap_or_default().split(", ").map(str::to_owned);
+            (name, uses.filter(|name| name != "nothing").collect())
+        })
+        .collect();
+    let expected = order.iter().filter(|name| *name != "burgeon");
+    assert_eq!(rows, expected.map(|name| (name.as_str(), drawn[name].clone())).collect::<Vec<_>>());
+
+    let mut files = Vec::new();
+    for folder in ["src", "crates", "tests", "benches", "examples", "fuzz"] {
+        sources::collect(&root().join(folder), "rs", &mut files);
+    }
+    let code: String = files.iter().map(|file| text(file)).collect();
+    let known: BTreeSet<&str> = words(&code).collect();
+    for name in quoted(&page) {
+        if name.contains(['"', ' ', '=']) || name.contains("NAME") {
+            continue;
+        }
+        if name.contains('/') {
+            // Long paths are from the root; short ones end as a file of a member does.
+            let ends = |file: &PathBuf| {
+                file.ends_with(&name) || file.to_string_lossy().contains(&format!("/{name}/"))
+            };
+            assert!(root().join(&name).exists() || files.iter().any(ends), "there is no {name}");
+        } else if !name.contains('.') && name.contains(|c: char| c.is_ascii_uppercase() || "_:".contains(c)) {
+            for word in words(&name) {
+                assert!(known.contains(word), "{name} is nowhere in the code");
+            }
         }
     }
 }
