@@ -9,9 +9,14 @@ fn plan(rings: &[&[(f64, f64)]]) -> Rings {
     Rings(rings.iter().map(|ring| ring.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()).collect())
 }
 
-fn table<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
+fn table(entries: &[(&str, Value)]) -> Arc<Table> {
     let entries = entries.iter().map(|(name, value)| (burgeon_kit::Key::Name((*name).into()), value.clone()));
-    Some(Arc::new(Table { class: None, entries: entries.collect() }).into())
+    Arc::new(Table { class: None, entries: entries.collect() })
+}
+
+/// The same as a method takes it.
+fn options<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
+    Some(table(entries).into())
 }
 
 /// The volume (m³) of a building with walls of 3 m and this roof, after having checked that it is a solid.
@@ -20,8 +25,8 @@ fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
         .expect("a clean footprint");
     house.begin();
     house.groundwork("extruded".into(), None).expect("groundwork");
-    house.walls(table(&[("height", Value::Number(3.0))])).expect("walls");
-    house.roof(table(roof)).expect("a roof");
+    house.walls(options(&[("height", Value::Number(3.0))])).expect("walls");
+    house.roof(options(roof)).expect("a roof");
     let check = solid::check(house.drawing.parts());
     assert!(
         check.is_solid(),
@@ -132,7 +137,7 @@ fn every_roof_closes_every_plan() {
 fn with_facades(detail: u8) -> Footprint {
     use crate::facade;
     let object = |made: Result<Box<dyn Object>>| Value::Object(Arc::from(made.expect("a wall")));
-    let make = |kind: &Kind, entries: &[(&str, Value)]| object(kind.make(&table(entries).expect("a table")));
+    let make = |kind: &Kind, entries: &[(&str, Value)]| object(kind.make(&table(entries)));
     let size = |low: f64, high: f64| vec![low, high].into_value();
     let glass = make(facade::panel::kind(), &[("width", size(1.0, 1.0)), ("height", size(1.5, 1.5))]);
     let niche = make(facade::extruded::kind(), &[("wall", glass), ("depth", Value::Number(-0.2))]);
@@ -148,9 +153,9 @@ fn with_facades(detail: u8) -> Footprint {
     house.groundwork("z_min".into(), None).expect("groundwork");
     for _ in 0..2 {
         let walls = [("height", Value::Number(3.0)), ("templates", template.clone())];
-        house.walls(table(&walls)).expect("walls");
+        house.walls(options(&walls)).expect("walls");
     }
-    house.roof(table(&kind("hip"))).expect("a roof");
+    house.roof(options(&kind("hip"))).expect("a roof");
     house.end().expect("an end");
     house
 }
@@ -251,8 +256,8 @@ fn a_photo_covers_each_frontage_once() {
     let mut house = Footprint::new(FootprintOptions { geometry, ..FootprintOptions::default() })
         .expect("a clean footprint");
     house.begin();
-    let photo = Value::Table(photo.expect("a table"));
-    house.walls(table(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");
+    let photo = Value::Table(photo);
+    house.walls(options(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");
     let textured = |part: &&Part| house.drawing.material_of(part.material).texture.is_some();
     let part = house.drawing.parts().iter().find(textured).expect("walls with the photo");
     assert_eq!((part.positions.len(), part.triangles.len()), (16, 8));
