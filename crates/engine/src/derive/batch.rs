@@ -4,11 +4,11 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::Plan;
+use super::functions::{Applications, Failure, RuleFunctions};
 use super::group::{Arranged, Group};
 use super::output::Output;
-use crate::machine::{Declared, Machine, read_column, write_column};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Around, Bindings, Chain, Links, Mark, module_brief};
+use burgeon_kit::rules::{Around, Bindings, Chain, Key, Links, Mark, Values, module_brief};
 
 /// No rule.
 pub(super) const NONE: u16 = burgeon_kit::RewriteOutcome::NONE;
@@ -27,8 +27,8 @@ pub(crate) struct Scratch {
     pub(super) groups: Vec<Group>,
     arguments: Vec<f64>,
     pub(super) bindings: Bindings,
-    /// The most random numbers that each rule has drawn for one module.
-    draws: Vec<usize>,
+    chains: Vec<u32>,
+    keys: Vec<Key>,
     pub(super) arranged: Arranged,
 }
 
@@ -43,9 +43,10 @@ pub(super) struct Active {
 
 /// The step at hand, for one thread.
 pub(crate) struct Batch<'a> {
-    pub machine: &'a Machine,
+    pub functions: &'a dyn RuleFunctions,
     pub plan: &'a Arc<Plan>,
-    pub declared: &'a Declared,
+    /// The parameters that are not numbers.
+    pub values: &'a Values,
     pub chain: &'a Chain,
     pub links: &'a Links,
     pub step: usize,
@@ -56,7 +57,6 @@ impl Batch<'_> {
     pub(crate) fn rewrite(&self, piece: Piece, scratch: &mut Scratch, spare: Output) -> Result<Output> {
         let rules = self.plan.grammar.rules().len();
         scratch.groups.resize_with(rules, Group::default);
-        scratch.draws.resize(rules, 0);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
         let applied = if self.plan.traced { self.applied(piece, scratch) } else { Vec::new() };
@@ -69,29 +69,42 @@ impl Batch<'_> {
         Around { chain: self.chain, links: self.links, grammar: &self.plan.grammar }
     }
 
-    /// Writes the arguments of `rule` for `members` into the machine's input column.
-    pub(super) fn fill(&self, rule: u16, members: &[u32], scratch: &mut Scratch) -> Result<()> {
+    /// Gathers what the functions of `rule` are run for: the applications `members`.
+    pub(super) fn gather<'s>(
+        &self,
+        rule: u16,
+        members: &[u32],
+        scratch: &'s mut Scratch,
+    ) -> Applications<'s> {
         let grammar = &self.plan.grammar;
         let declared = &grammar.rules()[usize::from(rule)];
         let arity = declared.arguments();
-        let current = &self.machine.current;
+        scratch.chains.clear();
         if self.plan.chains > 1 {
-            let mut chains = current.chains.borrow_mut();
-            chains.clear();
-            chains.extend(members.iter().map(|index| scratch.active[*index as usize].chain));
+            scratch.chains.extend(members.iter().map(|index| scratch.active[*index as usize].chain));
         }
+        scratch.keys.clear();
         if grammar.draws_random() {
-            let mut keys = current.keys.borrow_mut();
-            keys.clear();
-            keys.extend(
-                members.iter().map(|index| self.chain.keys[scratch.active[*index as usize].module as usize]),
-            );
-            current.used.set(usize::from(declared.weight.is_some()));
-        }
-        if arity == 0 {
-            return Ok(());
+            let key = |index: &u32| self.chain.keys[scratch.active[*index as usize].module as usize];
+            scratch.keys.extend(members.iter().map(key));
         }
         scratch.arguments.clear();
+        if arity > 0 {
+            self.gather_arguments(rule, members, scratch);
+        }
+        Applications {
+            rule,
+            count: members.len(),
+            arguments: &scratch.arguments,
+            chains: &scratch.chains,
+            keys: &scratch.keys,
+            weighted: declared.weight.is_some(),
+        }
+    }
+
+    fn gather_arguments(&self, rule: u16, members: &[u32], scratch: &mut Scratch) {
+        let declared = &self.plan.grammar.rules()[usize::from(rule)];
+        let arity = declared.arguments();
         scratch.arguments.reserve(members.len() * arity);
         let own = declared.pattern.predecessor.bound;
         if declared.contexts().is_empty() {
@@ -119,12 +132,6 @@ impl Batch<'_> {
                 }
             }
         }
-        let input = self
-            .machine
-            .prelude()
-            .input(scratch.arguments.len() * 8)
-            .map_err(|error| self.machine.translate(error))?;
-        write_column(input, &scratch.arguments)
     }
 
     /// Runs every chosen rule over its modules. Of several errors the one that comes first in the chain is told.
@@ -151,32 +158,10 @@ impl Batch<'_> {
     }
 
     fn run(&self, rule: u16, members: &[u32], scratch: &mut Scratch) -> Result<(), (u32, Error)> {
-        let begin = members[0];
-        let plain = |error: Error| (begin, error);
-        let lua = |error: mlua::Error| (begin, self.machine.translate(error));
-        let prelude = self.machine.prelude();
-        self.fill(rule, members, scratch).map_err(plain)?;
-        let counts = prelude.counts(members.len() * 4).map_err(lua)?;
-        let draws = scratch.draws[usize::from(rule)];
-        if draws > 0 {
-            self.prepare_random(members.len(), draws).map_err(plain)?;
-        }
-        let current = &self.machine.current;
-        current.drawn.set(0);
-        let (modules, bytes): (usize, usize) =
-            match self.machine.call(&self.declared.drivers[usize::from(rule)], members.len()) {
-                Ok(made) => made,
-                Err(error) => return Err(self.blame(error, rule, members, scratch)),
-            };
-        scratch.draws[usize::from(rule)] = draws.max(current.drawn.get());
-        let (symbols, params, order, items) = prelude.outputs().map_err(lua)?;
-        let group = &mut scratch.groups[usize::from(rule)];
-        read_column(symbols, modules, &mut group.symbols).map_err(plain)?;
-        read_column(params, bytes / 8, &mut group.params).map_err(plain)?;
-        read_column(counts, members.len(), &mut group.ends).map_err(plain)?;
-        read_column(order, items, &mut group.order).map_err(plain)?;
-        group.rewind();
-        Ok(())
+        let mut group = std::mem::take(&mut scratch.groups[usize::from(rule)]);
+        let applied = self.functions.apply(&self.gather(rule, members, scratch), &mut group);
+        scratch.groups[usize::from(rule)] = group;
+        applied.map_err(|failure| self.blame(failure, rule, members, scratch))
     }
 
     /// Leaves the chain of application `index` out, whose data is at fault: its modules stay as they are, and it is no
@@ -201,52 +186,24 @@ impl Batch<'_> {
         Ok(())
     }
 
-    /// Draws the first numbers of every module's stream ahead, as many as the rule has wanted so far.
-    fn prepare_random(&self, count: usize, draws: usize) -> Result<()> {
-        let current = &self.machine.current;
-        let mut column = Vec::with_capacity(count * draws);
-        for key in current.keys.borrow().iter() {
-            let mut stream = key.stream();
-            for _ in 0..current.used.get() {
-                stream.uniform();
-            }
-            column.extend((0..draws).map(|_| stream.uniform()));
-        }
-        let buffer = self
-            .machine
-            .prelude()
-            .randoms(column.len() * 8, draws)
-            .map_err(|error| self.machine.translate(error))?;
-        write_column(buffer, &column)
-    }
-
     /// An error of a rule, with all that is known of where it happened.
     pub(super) fn blame(
         &self,
-        error: mlua::Error,
+        failure: Failure,
         rule: u16,
         members: &[u32],
         scratch: &Scratch,
     ) -> (u32, Error) {
-        let prelude = self.machine.prelude();
-        let at: usize = prelude.at.call(()).unwrap_or(0);
-        // A machine that cannot even end the batch is thrown away with the run.
-        let _ = prelude.finish.call::<()>(());
-        let index = members.get(at).copied().unwrap_or(members[0]);
+        let index = members.get(failure.at).copied().unwrap_or(members[0]);
         let active = scratch.active[index as usize];
         let grammar = &self.plan.grammar;
         let declared = &grammar.rules()[usize::from(rule)];
         let symbol = self.chain.symbols[active.module as usize];
         let arity = usize::from(grammar.arities()[usize::from(symbol)]);
         let params = &self.chain.params[active.param as usize..][..arity];
-        let module = module_brief(grammar.symbols(), &self.machine.session.values, symbol, params);
-        let error = self
-            .machine
-            .translate(error)
-            .at(declared.place.clone())
-            .rule(&declared.pattern.text)
-            .module(module, self.step);
-        (index, error)
+        let module = module_brief(grammar.symbols(), self.values, symbol, params);
+        let error = failure.error.at(declared.place.clone()).rule(&declared.pattern.text);
+        (index, error.module(module, self.step))
     }
 }
 

@@ -1,7 +1,6 @@
 //! Chooses the rule of each module: by its contexts, its guard and its weight.
 
 use super::batch::{Active, Batch, NONE, Piece, Scratch, narrow};
-use crate::machine::read_column;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Candidates, Choice, END, Symbol};
 
@@ -115,18 +114,16 @@ impl Batch<'_> {
     /// Leaves those among `asked` for which the guard of `rule` holds. Where it fails, only those before that module,
     /// which is returned with the error.
     fn ask(&self, rule: u16, asked: &mut Vec<u32>, scratch: &mut Scratch) -> Result<Option<(u32, Error)>> {
-        let Some(guard) = &self.declared.guards[usize::from(rule)] else { return Ok(None) };
         if asked.is_empty() {
             return Ok(None);
         }
-        let prelude = self.machine.prelude();
-        let (counts, failed) = loop {
-            self.fill(rule, asked, scratch)?;
-            let counts = prelude.counts(asked.len() * 4).map_err(|error| self.machine.translate(error))?;
-            let Err(error) = self.machine.call::<()>(guard, asked.len()) else { break (counts, None) };
-            let (index, error) = self.blame(error, rule, asked, scratch);
+        let mut holds: Vec<u32> = Vec::new();
+        let failed = loop {
+            let told = self.functions.ask(&self.gather(rule, asked, scratch), &mut holds);
+            let Err(failure) = told else { break None };
+            let (index, error) = self.blame(failure, rule, asked, scratch);
             match self.forgive(index, error, asked, scratch) {
-                Err(error) => break (counts, Some((index, error))),
+                Err(error) => break Some((index, error)),
                 Ok(()) if asked.is_empty() => return Ok(None),
                 Ok(()) => {}
             }
@@ -134,8 +131,6 @@ impl Batch<'_> {
         if let Some((index, _)) = &failed {
             asked.retain(|asked| asked < index);
         }
-        let mut holds: Vec<u32> = Vec::new();
-        read_column(counts, asked.len(), &mut holds)?;
         let mut holds = holds.into_iter();
         asked.retain(|_| holds.next().is_some_and(|holds| holds != 0));
         Ok(failed)

@@ -54,6 +54,8 @@ pub(super) struct Group {
     pub param_at: usize,
     order_at: usize,
     pub made: usize,
+    /// The most random numbers that the rule has drawn for one module.
+    pub draws: usize,
     pub time: Duration,
 }
 

@@ -11,7 +11,7 @@ impl Batch<'_> {
     pub(super) fn splice(&self, piece: Piece, scratch: &mut Scratch, mut output: Output) -> Output {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();
-        let shapes = self.machine.current.shapes.borrow();
+        let shapes = self.functions.shapes();
         let out = &mut output.chain;
         out.symbols.reserve(2 * (piece.end - piece.begin.module));
         out.params.reserve(2 * (piece.end - piece.begin.module));
@@ -97,7 +97,7 @@ impl Batch<'_> {
 
     /// For each symbol of `piece`, the rule that ran and how many symbols come of it.
     pub(super) fn applied(&self, piece: Piece, scratch: &Scratch) -> Vec<(u16, u32)> {
-        let shapes = self.machine.current.shapes.borrow();
+        let shapes = self.functions.shapes();
         let mut applied = vec![(NONE, 1); piece.end - piece.begin.module];
         let mut read = vec![(0, 0, 0); scratch.groups.len()];
         for active in scratch.active.iter().filter(|active| active.rule != NONE) {

@@ -5,6 +5,7 @@ use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
 use super::Plan;
 use super::batch::{Batch, Piece, Scratch};
+use super::functions::LuaFunctions;
 use super::output::Output;
 use super::threads::{Job, ThreadPool};
 use crate::machine::{Declared, Machine};
@@ -39,9 +40,9 @@ impl RewritingStep {
             return false;
         }
         let batch = Batch {
-            machine,
+            functions: &LuaFunctions { machine, declared },
             plan: &self.plan,
-            declared,
+            values: &machine.session.values,
             chain: &self.chain,
             links: &self.links,
             step: self.step,

@@ -28,7 +28,7 @@ pub(crate) trait Flusher: std::any::Any {
 
 /// What a prepared return makes: the symbols of its modules and brackets.
 #[derive(Default)]
-pub(crate) struct Shape {
+pub(crate) struct ReturnShape {
     pub symbols: Vec<Symbol>,
     /// The number of all parameters.
     pub params: usize,
@@ -55,7 +55,7 @@ pub(crate) struct Current {
     /// The methods of `this`, as their numbers in Lua.
     pub methods: RefCell<Vec<Method>>,
     /// The shapes of prepared returns, by number.
-    pub shapes: RefCell<Vec<Shape>>,
+    pub shapes: RefCell<Vec<ReturnShape>>,
     /// Applies recorded calls while interpreting.
     pub flusher: RefCell<Option<Box<dyn Flusher>>>,
     /// The stream of the top level of the script.
@@ -85,9 +85,9 @@ impl Current {
         let params = symbols.iter().map(|symbol| usize::from(arities[usize::from(*symbol)])).sum();
         let mut shapes = self.shapes.borrow_mut();
         if shapes.len() <= number {
-            shapes.resize_with(number + 1, Shape::default);
+            shapes.resize_with(number + 1, ReturnShape::default);
         }
-        shapes[number] = Shape { symbols, params };
+        shapes[number] = ReturnShape { symbols, params };
     }
 
     /// Draws number `index` of an application's stream.

@@ -16,7 +16,7 @@ mod system;
 mod watchdog;
 
 pub use blank::make_ready;
-pub(crate) use current::{Current, Flusher};
+pub(crate) use current::{Current, Flusher, ReturnShape};
 pub(crate) use driver::Driver;
 pub(crate) use handles::Objects;
 pub(crate) use host::native;
