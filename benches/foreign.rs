@@ -8,7 +8,7 @@ use std::path::Path;
 use std::time::{Duration, Instant};
 
 use burgeon::Budget;
-use burgeon::geometry::Plan;
+use burgeon::geometry::{Plan, Rings};
 use burgeon::kit::random::Stream;
 use burgeon::picture::Picture;
 use burgeon::script::{Limits, RunOptions};
@@ -103,7 +103,7 @@ fn main() {
         let place = |at: f64| DVec3::new((at * 78.233).sin() * 50.0, (at * 12.9898).cos() * 50.0, 0.0);
         let scribble: Vec<DVec3> = (0..count).map(|at| place(f64::from(at))).collect();
         let begin = Instant::now();
-        let plan = Plan::new(&[scribble]);
+        let plan = Plan::new(&Rings(vec![scribble]));
         println!(
             "a scribble of {count} points: {:.1} ms, {}",
             begin.elapsed().as_secs_f64() * 1e3,

@@ -10,19 +10,17 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
-use burgeon::geometry::{Plan, solid};
-use burgeon::kit::{Call, Key, Parameter, Table, Value};
+use burgeon::geometry::{Plan, Polygon, Rings, solid};
+use burgeon::kit::{Call, Key, Parameter, Table, Value, rings};
 use burgeon::objects::Footprint;
-use burgeon::sources::{Geometry, Layer, Source, Wanted};
-use glam::{DVec2, DVec3, Vec3};
+use burgeon::sources::{Layer, Source, Wanted};
+use glam::{DVec2, Vec3};
 
 #[allow(dead_code, reason = "the tests use the rest")]
 #[path = "../crates/geometry/src/skeleton/samples.rs"]
 mod samples;
 
 use samples::{FAMILIES, Family, Random};
-
-type Rings = Vec<Vec<DVec2>>;
 
 fn main() {
     // Cargo adds `--bench`.
@@ -36,14 +34,14 @@ fn main() {
     }
     let comb = best(&comb(400), 10);
     println!("a comb of 400 teeth: {:.1} ms (asked: less than 50 ms)", comb * 1e3);
-    for (name, make) in [("combs", comb_of as fn(u32) -> Rings), ("stars", star)] {
+    for (name, make) in [("combs", comb_of as fn(u32) -> Polygon), ("stars", star)] {
         let sizes = [10, 30, 100, 300, 1000, 2000, 4000];
         let times: Vec<(f64, f64)> = sizes
             .iter()
             .map(|&size| {
-                let rings = make(size);
-                let edges = rings[0].len();
-                let time = best(&rings, if edges < 1000 { 50 } else { 5 });
+                let plan = make(size);
+                let edges = plan.size();
+                let time = best(&plan, if edges < 1000 { 50 } else { 5 });
                 println!("{name}: {edges} edges {:.3} ms", time * 1e3);
                 (f64::from(size), time)
             })
@@ -57,27 +55,22 @@ fn main() {
 }
 
 /// The buildings of a real town, if its file is beside the repository.
-fn town() -> Option<Vec<Rings>> {
+fn town() -> Option<Vec<Polygon>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/france_buildings.gpkg");
     let wanted = Wanted { layer: Some("buildings".into()), ..Wanted::default() };
     let table = Source::open(&path, "france").ok()?.read("france", &wanted).ok()?;
     let layer = Layer::new(table, &mut None).ok()?;
-    let plan = |feature: &burgeon::sources::Feature| {
-        let Geometry::Polygon(rings) = &feature.geometry else { return None };
-        let rings: Vec<Vec<DVec3>> =
-            rings.iter().map(|ring| ring.iter().map(|&at| DVec3::from(at)).collect()).collect();
-        Some(Plan::new(&rings).ok()?.flat())
-    };
+    let plan = |feature: &burgeon::sources::Feature| Some(Plan::new(&rings(&feature.geometry)?).ok()?.flat());
     Some(layer.features.iter().filter_map(plan).collect())
 }
 
-fn each(plans: &[Rings]) {
+fn each(plans: &[Polygon]) {
     let mut times = Vec::with_capacity(plans.len());
     let mut failed = 0;
-    for rings in plans {
-        let paces = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
+    for plan in plans {
+        let paces = vec![Pace::default(); plan.size()];
         let begin = Instant::now();
-        let found = Skeleton::new(rings, &paces);
+        let found = Skeleton::new(plan, &paces);
         times.push(begin.elapsed().as_secs_f64() * 1e6);
         failed += u32::from(found.is_err());
     }
@@ -103,9 +96,9 @@ fn regular(family: &Family, count: usize) {
             let scale = [1.0, 1.0 / size, 1000.0 / size, 1.0][variant];
             let offset = if variant == 3 { far } else { DVec2::ZERO };
             let place = |at: &DVec2| (*at * scale + offset).extend(0.0);
-            let rings: Vec<Vec<DVec3>> = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
+            let rings: Rings = rings.iter().map(|ring| ring.iter().map(place).collect()).collect();
             let Ok(plan) = Plan::new(&rings) else { continue };
-            let (walls, paces) = (plan.flat(), vec![Pace::default(); plan.edges()]);
+            let (walls, paces) = (plan.flat(), vec![Pace::default(); plan.polygon().size()]);
             let begin = Instant::now();
             let found = Skeleton::new(&walls, &paces);
             if variant == 0 {
@@ -129,12 +122,12 @@ fn regular(family: &Family, count: usize) {
 }
 
 /// Whether walls and a hip roof over a footprint are a closed solid, in which no edge has more than two faces.
-fn is_closed(rings: &[Vec<DVec3>]) -> bool {
+fn is_closed(rings: &Rings) -> bool {
     let table = |entries: &[(&str, Value)]| Table {
         class: None,
         entries: entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone())).collect(),
     };
-    let geometry = burgeon::objects::Rings(rings.to_vec()).into_value();
+    let geometry = rings.clone().into_value();
     let Ok(mut house) = Footprint::kind().make(&table(&[("geometry", geometry)])) else { return false };
     house.begin();
     // A ring that crosses itself has been untangled; what is asked is whether it gets its roof then.
@@ -168,17 +161,17 @@ fn is_closed(rings: &[Vec<DVec3>]) -> bool {
 }
 
 /// The shortest of several times (s).
-fn best(rings: &Rings, rounds: u32) -> f64 {
-    let paces = vec![Pace::default(); rings[0].len()];
+fn best(plan: &Polygon, rounds: u32) -> f64 {
+    let paces = vec![Pace::default(); plan.size()];
     let time = |_| {
         let begin = Instant::now();
-        assert!(Skeleton::new(rings, &paces).is_ok());
+        assert!(Skeleton::new(plan, &paces).is_ok());
         begin.elapsed().as_secs_f64()
     };
     (0..rounds).map(time).fold(f64::INFINITY, f64::min)
 }
 
-fn comb(teeth: u32) -> Rings {
+fn comb(teeth: u32) -> Polygon {
     let mut ring = Vec::new();
     for tooth in 0..teeth {
         let x = 2.0 * f64::from(tooth);
@@ -188,21 +181,25 @@ fn comb(teeth: u32) -> Rings {
     // The first and the last tooth go on into the back.
     ring.remove(ring.len() - 3);
     ring.remove(0);
-    vec![ring.into_iter().map(DVec2::from).collect()]
+    around(ring.into_iter().map(DVec2::from).collect())
 }
 
 /// A comb of about so many edges.
-fn comb_of(edges: u32) -> Rings {
+fn comb_of(edges: u32) -> Polygon {
     comb(edges / 4)
 }
 
 /// A star whose corners are anywhere.
-fn star(edges: u32) -> Rings {
+fn star(edges: u32) -> Polygon {
     let mut stream = burgeon::kit::random::Stream::new(7);
     let mut corner = |index: u32| {
         let random = stream.uniform();
         let angle = std::f64::consts::TAU * f64::from(index) / f64::from(edges);
         DVec2::from_angle(angle) * (10.0 + 0.05 * f64::from(edges)) * (0.6 + 0.4 * random)
     };
-    vec![(0..edges).map(&mut corner).collect()]
+    around((0..edges).map(&mut corner).collect())
+}
+
+fn around(ring: Vec<DVec2>) -> Polygon {
+    Polygon::turned(vec![ring]).expect("a polygon")
 }

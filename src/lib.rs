@@ -19,8 +19,8 @@
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
 //! data       uses ──► base
-//! kit        uses ──► base, data, macros, scene
-//! terrain    uses ──► base, kit, scene
+//! kit        uses ──► base, data, geometry, macros, scene
+//! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
 //! engine     uses ──► base, data, kit, scene
 //! export     uses ──► base, data, scene
@@ -35,7 +35,8 @@
 //!   something hardly can be meant. [`Stop`] ends work that nobody waits for; a [`Budget`] is what reading foreign bytes
 //!   may take.
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
-//! - [`geometry`]: frames, cross-sections, sweeps, straight skeletons and roofs, without rules or scripts.
+//! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, without rules
+//!   or scripts.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an

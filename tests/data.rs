@@ -11,7 +11,7 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use burgeon::geometry::Plan;
+use burgeon::geometry::{Plan, Rings};
 use burgeon::objects::Elevation;
 use burgeon::sources::elevation::{Raster, Relief};
 use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
@@ -170,7 +170,7 @@ fn the_village_has_what_its_script_draws() {
 }
 
 /// The rings of one of the polygons that triangulators are tested with.
-fn rings(text: &str) -> Vec<Vec<DVec3>> {
+fn rings(text: &str) -> Rings {
     let rings: Vec<Vec<Vec<f64>>> = serde_json::from_str(text).unwrap();
     let point = |at: &Vec<f64>| DVec3::new(at[0], at[1], 0.0);
     rings.iter().map(|ring| ring.iter().map(point).collect()).collect()
@@ -191,9 +191,9 @@ fn bad_polygons_become_valid_plans_or_are_refused_with_a_reason() {
     for name in &names {
         match Plan::new(&rings(&std::fs::read_to_string(folder.join(name)).unwrap())) {
             Ok(plan) => {
-                let again = Plan::new(plan.rings()).unwrap();
-                assert!(again.repairs().0.is_empty() && plan.area() > 0.0, "{name}");
-                assert_eq!(plan.given_edges().len(), plan.edges(), "{name}");
+                let again = Plan::new(&plan.polygon().into()).unwrap();
+                assert!(again.repairs().0.is_empty() && plan.polygon().area() > 0.0, "{name}");
+                assert_eq!(plan.given_edges().len(), plan.polygon().size(), "{name}");
                 if plan.repairs().0.is_empty() {
                     clean += 1;
                 } else {

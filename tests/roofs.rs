@@ -6,10 +6,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
-use burgeon::geometry::{Plan, solid};
-use burgeon::kit::{Call, Key, Object, Parameter, Table, Value};
-use burgeon::objects::{Footprint, Rings};
-use burgeon::sources::{Geometry, Layer, Source, Wanted};
+use burgeon::geometry::{Plan, Rings, solid};
+use burgeon::kit::{Call, Key, Object, Parameter, Table, Value, rings};
+use burgeon::objects::Footprint;
+use burgeon::sources::{Layer, Source, Wanted};
 use glam::DVec3;
 
 const KINDS: [&str; 10] =
@@ -27,17 +27,11 @@ fn shared(name: &str) -> Option<PathBuf> {
 }
 
 /// The rings of all buildings in a file.
-fn buildings(name: &str) -> Option<Vec<Vec<Vec<DVec3>>>> {
+fn buildings(name: &str) -> Option<Vec<Rings>> {
     let wanted = Wanted { layer: Some("buildings".into()), ..Wanted::default() };
     let table = Source::open(&shared(name)?, "file").unwrap().read("file", &wanted).unwrap();
     let layer = Layer::new(table, &mut None).unwrap();
-    let rings = layer.features.into_iter().filter_map(|feature| match feature.geometry {
-        Geometry::Polygon(rings) => {
-            Some(rings.into_iter().map(|ring| ring.into_iter().map(DVec3::from).collect()).collect())
-        }
-        _ => None,
-    });
-    Some(rings.collect())
+    Some(layer.features.iter().filter_map(|feature| rings(&feature.geometry)).collect())
 }
 
 fn table(entries: &[(&str, Value)]) -> Table {
@@ -53,13 +47,13 @@ fn call(object: &mut dyn Object, method: &str, argument: Value) {
 }
 
 /// A building that has not been built yet.
-fn footprint(rings: &[Vec<DVec3>]) -> burgeon::error::Result<Box<dyn Object>> {
-    let geometry = Rings(rings.to_vec()).into_value();
+fn footprint(rings: &Rings) -> burgeon::error::Result<Box<dyn Object>> {
+    let geometry = rings.clone().into_value();
     Footprint::kind().make(&table(&[("geometry", geometry)]))
 }
 
 /// The notes of a building with walls of 3 m, once it has been checked to be a closed solid.
-fn build(rings: &[Vec<DVec3>], kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
+fn build(rings: &Rings, kind: &str, eaves: &str, overhang: f64) -> Vec<String> {
     let mut house = footprint(rings).unwrap();
     raise(&mut *house, kind, eaves, overhang);
     let check = solid::check(house.drawing_mut().unwrap().parts());
@@ -89,7 +83,7 @@ fn check(name: &str, least: usize) {
         // Some cross themselves; they are refused with the place.
         let Ok(plan) = Plan::new(rings) else { continue };
         plans += 1;
-        let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.edges()]);
+        let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.polygon().size()]);
         failed += usize::from(skeleton.is_err());
         let (kind, eaves) = (KINDS[number % 10], EAVES[number / 10 % 3]);
         let notes = build(rings, kind, eaves, [0.0, 0.4, 0.8][number / 30 % 3]);
@@ -153,12 +147,12 @@ fn every_plan_that_is_made_to_be_bad_is_refused_or_roofed() {
         let text = std::fs::read_to_string(path).unwrap();
         let Ok(rings) = serde_json::from_str::<Vec<Vec<Vec<f64>>>>(&text) else { continue };
         let point = |at: &Vec<f64>| DVec3::new(at[0], at[1], 0.0);
-        let rings: Vec<Vec<DVec3>> = rings.iter().map(|ring| ring.iter().map(point).collect()).collect();
+        let rings: Rings = rings.iter().map(|ring| ring.iter().map(point).collect()).collect();
         let Ok(plan) = Plan::new(&rings) else { continue };
-        let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.edges()]);
+        let skeleton = Skeleton::new(&plan.flat(), &vec![Pace::default(); plan.polygon().size()]);
         assert!(skeleton.is_ok(), "{}", path.display());
         // Meshes have no millimetres so far away.
-        let near = plan.rings().iter().flatten().all(|point| point.abs().max_element() < 10_000.0);
+        let near = plan.polygon().points().all(|point| point.abs().max_element() < 10_000.0);
         for kind in KINDS.iter().filter(|_| near) {
             build(&rings, kind, "closed", 0.0);
         }

@@ -207,7 +207,7 @@ fn the_engine_knows_no_type_of_object_by_name() {
         .flat_map(words)
         .filter(|word| word.starts_with(char::is_uppercase))
         .collect();
-    for name in ["Extruder", "Turtle", "Footprint", "Facade", "Terrain", "Planet", "Elevation", "Streets"] {
+    for name in ["Extruder", "Turtle", "Footprint", "Facade", "Terrain", "Planet", "Elevation", "Universe"] {
         assert!(structs.contains(name) && kinds.contains(&*name.to_lowercase()), "{name} is found");
     }
     let mut prelude = Vec::new();

@@ -1,10 +1,11 @@
 //! Triangles that fill the end of a sweep, without T-junctions and slivers.
 
-use geo::{Coord, LineString, Polygon, TriangulateEarcut};
+use geo::TriangulateEarcut;
 use glam::DVec2;
 use rustc_hash::FxHashSet;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
+use super::planar::{geo_polygon, twice_area};
 use super::sides::Sides;
 use burgeon_base::error::{Error, Result};
 
@@ -18,11 +19,11 @@ use burgeon_base::error::{Error, Result};
 /// "Software for C1 surface interpolation", 1977), which removes slivers. Where points lie on a line but for rounding,
 /// as those of many holes in turned rows, clipping may choose wrongly: then all points are triangulated with exact
 /// predicates, which is slower.
-pub(super) fn triangulate(rings: &[Vec<DVec2>]) -> Result<Vec<[usize; 3]>> {
-    let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
+pub(super) fn triangulate(rings: &[impl AsRef<[DVec2]>]) -> Result<Vec<[usize; 3]>> {
+    let points: Vec<DVec2> = rings.iter().flat_map(AsRef::as_ref).copied().collect();
     let border = border(rings);
     let is_sound = |triangles: &Vec<[usize; 3]>| {
-        triangles.iter().all(|&[a, b, c]| twice_area(points[a], points[b], points[c]) > 0.0)
+        triangles.iter().all(|&[a, b, c]| twice_area([points[a], points[b], points[c]]) > 0.0)
             && unmatched(triangles, &Sides::of(triangles, points.len()), &border).is_empty()
     };
     Some(clipped(rings, &points, &border))
@@ -37,7 +38,7 @@ pub(super) fn triangulate(rings: &[Vec<DVec2>]) -> Result<Vec<[usize; 3]>> {
 }
 
 /// The triangles of ear clipping without T-junctions and slivers, where it succeeds.
-fn clipped(rings: &[Vec<DVec2>], points: &[DVec2], border: &[usize]) -> Vec<[usize; 3]> {
+fn clipped(rings: &[impl AsRef<[DVec2]>], points: &[DVec2], border: &[usize]) -> Vec<[usize; 3]> {
     let mut triangles = earcut(rings, points);
     let mut sides = Sides::of(&triangles, points.len());
     for _ in 0..points.len() {
@@ -85,17 +86,12 @@ fn delaunay(points: &[DVec2], border: &[usize]) -> Option<Vec<[usize; 3]>> {
 }
 
 /// The ear-clipping result, counter-clockwise as a whole.
-fn earcut(rings: &[Vec<DVec2>], points: &[DVec2]) -> Vec<[usize; 3]> {
-    let line = |ring: &Vec<DVec2>| -> LineString {
-        ring.iter().map(|point| Coord { x: point.x, y: point.y }).collect()
-    };
-    let mut lines = rings.iter().map(line);
-    let Some(outer) = lines.next() else { return Vec::new() };
-    let raw = Polygon::new(outer, lines.collect()).earcut_triangles_raw();
+fn earcut(rings: &[impl AsRef<[DVec2]>], points: &[DVec2]) -> Vec<[usize; 3]> {
+    let raw = geo_polygon(rings).earcut_triangles_raw();
     let mut triangles: Vec<[usize; 3]> =
         raw.triangle_indices.chunks_exact(3).map(|corner| [corner[0], corner[1], corner[2]]).collect();
     // One triangle alone may be so thin that its sign is rounding.
-    let sum: f64 = triangles.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c])).sum();
+    let sum: f64 = triangles.iter().map(|&[a, b, c]| twice_area([points[a], points[b], points[c]])).sum();
     if sum < 0.0 {
         triangles.iter_mut().for_each(|triangle| triangle.reverse());
     }
@@ -103,10 +99,10 @@ fn earcut(rings: &[Vec<DVec2>], points: &[DVec2]) -> Vec<[usize; 3]> {
 }
 
 /// The directed edges of the rings: for each point the next one of its ring.
-fn border(rings: &[Vec<DVec2>]) -> Vec<usize> {
+fn border(rings: &[impl AsRef<[DVec2]>]) -> Vec<usize> {
     let mut first = 0;
-    let mut next = Vec::with_capacity(rings.iter().map(Vec::len).sum());
-    for ring in rings {
+    let mut next = Vec::with_capacity(rings.iter().map(|ring| ring.as_ref().len()).sum());
+    for ring in rings.iter().map(AsRef::as_ref) {
         next.extend((0..ring.len()).map(|i| first + (i + 1) % ring.len()));
         first += ring.len();
     }
@@ -172,7 +168,7 @@ fn flip(triangles: &mut [[usize; 3]], sides: &mut Sides, points: &[DVec2]) {
         let (Some(one), Some(two)) = (sides.owner(a, b), sides.owner(b, a)) else { continue };
         let (c, d) = (opposite(triangles[one], a, b), opposite(triangles[two], a, b));
         let [pa, pb, pc, pd] = [a, b, c, d].map(|index| points[index]);
-        let convex = twice_area(pa, pd, pc) > 0.0 && twice_area(pd, pb, pc) > 0.0;
+        let convex = twice_area([pa, pd, pc]) > 0.0 && twice_area([pd, pb, pc]) > 0.0;
         // Two angles of at most a quarter turn need not be measured.
         let small = (pa - pc).dot(pb - pc) >= 0.0 && (pb - pd).dot(pa - pd) >= 0.0;
         if !convex || small || !is_wide([pa - pc, pb - pc], [pb - pd, pa - pd]) || left == 0 {
@@ -205,10 +201,6 @@ fn is_wide([u, v]: [DVec2; 2], [w, z]: [DVec2; 2]) -> bool {
     sine < if cosine < 0.0 { -1e-9 * lengths } else { 0.0 }
 }
 
-fn twice_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
-    (b - a).perp_dot(c - a)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -217,17 +209,17 @@ mod tests {
         points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
     }
 
-    fn area(rings: &[Vec<DVec2>]) -> f64 {
+    fn filled(rings: &[Vec<DVec2>]) -> f64 {
         let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
         let triangles = triangulate(rings).expect("a sound polygon");
         assert!(unmatched(&triangles, &Sides::of(&triangles, points.len()), &border(rings)).is_empty());
-        triangles.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c]) / 2.0).sum()
+        triangles.iter().map(|&[a, b, c]| twice_area([points[a], points[b], points[c]]) / 2.0).sum()
     }
 
     #[test]
     fn points_on_straight_edges_keep_their_edges() {
         let square = ring(&[(0., 0.), (1., 0.), (2., 0.), (2., 1.), (2., 2.), (1., 2.), (0., 2.), (0., 1.)]);
-        assert!((area(&[square]) - 4.0).abs() < 1e-12);
+        assert!((filled(&[square]) - 4.0).abs() < 1e-12);
     }
 
     #[test]
@@ -238,7 +230,7 @@ mod tests {
         {
             rings.push(ring(&[(x, y), (x, y + 1.), (x + 1., y + 1.), (x + 1., y)]));
         }
-        assert!((area(&rings) - 72.0).abs() < 1e-12);
+        assert!((filled(&rings) - 72.0).abs() < 1e-12);
     }
 
     #[test]
@@ -253,10 +245,10 @@ mod tests {
         let triangles = triangulate(std::slice::from_ref(&turned)).expect("a sound polygon");
         let thinnest = triangles
             .iter()
-            .map(|&[a, b, c]| twice_area(turned[a], turned[b], turned[c]))
+            .map(|&[a, b, c]| twice_area([turned[a], turned[b], turned[c]]))
             .fold(f64::INFINITY, f64::min);
         assert!(thinnest > 0.5, "{thinnest}");
-        assert!((area(&[turned]) - 17.0).abs() < 1e-12);
+        assert!((filled(&[turned]) - 17.0).abs() < 1e-12);
     }
 
     /// A turned rectangle with rows of equal holes, whose corners lie in lines but for rounding.
@@ -282,12 +274,12 @@ mod tests {
     fn turned_rows_of_holes_are_filled_by_clipping_and_by_exact_predicates() {
         for seed in 0..600 {
             let (rings, expected) = turned_grid(seed);
-            assert!((area(&rings) - expected).abs() < 1e-6 * expected, "{seed}");
+            assert!((filled(&rings) - expected).abs() < 1e-6 * expected, "{seed}");
             let points: Vec<DVec2> = rings.iter().flatten().copied().collect();
             let border = border(&rings);
             let exact = delaunay(&points, &border).expect("rings that do not meet");
             let sum: f64 =
-                exact.iter().map(|&[a, b, c]| twice_area(points[a], points[b], points[c]) / 2.0).sum();
+                exact.iter().map(|&[a, b, c]| twice_area([points[a], points[b], points[c]]) / 2.0).sum();
             assert!((sum - expected).abs() < 1e-6 * expected, "{seed}");
         }
     }

@@ -1,10 +1,11 @@
 //! Single faces and balls, for drawing objects.
 
+use geo::TriangulateEarcut;
 use glam::{DVec2, DVec3};
 
+use super::planar::geo_polygon;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::Part;
-use geo::{Coord, LineString, Polygon, TriangulateEarcut};
 
 /// Adds a flat polygon with `corners` (m) in order, at least three; its normal follows the right hand.
 ///
@@ -43,8 +44,7 @@ pub fn face(part: &mut Part, corners: &[DVec3]) -> Result<()> {
         .iter()
         .map(|point| DVec2::new((*point - points[0]).dot(right), (*point - points[0]).dot(up)))
         .collect();
-    let ring: LineString = flat.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
-    let raw = Polygon::new(ring, Vec::new()).earcut_triangles_raw();
+    let raw = geo_polygon(std::slice::from_ref(&flat)).earcut_triangles_raw();
     let base = u32::try_from(part.positions.len())
         .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
     for (point, flat) in points.iter().zip(&flat) {

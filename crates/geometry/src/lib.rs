@@ -9,6 +9,7 @@ mod frame;
 mod outline;
 mod path;
 mod plan;
+pub mod planar;
 mod quad;
 mod repair;
 mod ring;
@@ -32,9 +33,15 @@ pub use face::{face, sphere};
 pub use frame::Frame;
 pub use path::{Segment, Station};
 pub use plan::Plan;
+pub use planar::{Line, Point, Polygon, Ring, Rings, hull};
 pub use roof::fill;
 pub use section::{MOST_POINTS, Section, SectionPoint};
 pub use sizes::{SAME, Share, Sizes, Split};
 pub use strand::{MOST_SIDES, Strand, tube};
 pub use sweep::{Lengthwise, SweepOptions, Swept, sweep};
 pub use union::{Cell, Crossing, Union};
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

@@ -1,22 +1,29 @@
 //! The rings of a cross-section: what a user gave, made clean or refused.
 
 use geo::line_intersection::{LineIntersection, line_intersection};
-use geo::{Coord, Kernel, Line, Orientation, kernels::RobustKernel};
+use geo::{Coord, Orientation};
 use glam::DVec2;
 
+use super::planar::{Point, contains, coord, orientation, twice_area};
 use super::ring::MOST;
 use super::section::SectionPoint;
 use burgeon_base::error::{Error, Result};
 
 /// A point with its place, counted from 1, in the list that the user gave.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Numbered {
     pub point: SectionPoint,
     pub number: usize,
 }
 
+impl Point for Numbered {
+    fn flat(self) -> DVec2 {
+        self.point.at
+    }
+}
+
 /// A ring with the name that errors give it.
-struct Ring {
+struct NamedRing {
     name: String,
     points: Vec<Numbered>,
 }
@@ -59,7 +66,7 @@ pub(super) fn numbered_rings(
     refuse_misplaced_holes(&rings, manner)?;
     let turned = rings.into_iter().enumerate().map(|(index, ring)| {
         let mut points = ring.points;
-        if (twice_area(&points) > 0.0) != (index == 0) {
+        if (twice_area(points.iter().map(|point| point.flat())) > 0.0) != (index == 0) {
             // The first point stays first, since texture coordinates begin there.
             points[1..].reverse();
         }
@@ -78,7 +85,7 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
             .help("give at least 2 points that differ"));
     }
     drop_straight(&mut points, false, &SECTION);
-    let line = Ring { name, points };
+    let line = NamedRing { name, points };
     refuse_crossings(std::slice::from_ref(&line), false, &SECTION)?;
     Ok(line.points.into_iter().map(|point| point.point).collect())
 }
@@ -88,7 +95,7 @@ pub(super) fn is_ring(points: &[SectionPoint], manner: &Manner) -> bool {
     ring(String::new(), points, manner).is_ok()
 }
 
-fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<Ring> {
+fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<NamedRing> {
     let owner = manner.owner;
     let mut points = numbered(&name, points, manner)?;
     drop_repeated(&mut points, manner);
@@ -119,7 +126,7 @@ fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<Ring> 
         ))
         .help("leave it out"));
     }
-    Ok(Ring { name, points })
+    Ok(NamedRing { name, points })
 }
 
 fn numbered(name: &str, points: &[SectionPoint], manner: &Manner) -> Result<Vec<Numbered>> {
@@ -182,17 +189,17 @@ fn is_straight(before: DVec2, here: DVec2, after: DVec2, manner: &Manner) -> boo
 struct Edge {
     ring: usize,
     index: usize,
-    line: Line,
+    line: geo::Line,
 }
 
 /// Fails if two edges have a point in common other than the one where they follow each other.
-fn refuse_crossings(rings: &[Ring], closed: bool, manner: &Manner) -> Result<()> {
+fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &Manner) -> Result<()> {
     let owner = manner.owner;
     let mut edges = Vec::new();
-    for (ring, Ring { points, .. }) in rings.iter().enumerate() {
+    for (ring, NamedRing { points, .. }) in rings.iter().enumerate() {
         for index in 0..points.len() - usize::from(!closed) {
             let [start, end] = [points[index], points[(index + 1) % points.len()]].map(|p| coord(p.point.at));
-            edges.push(Edge { ring, index, line: Line::new(start, end) });
+            edges.push(Edge { ring, index, line: geo::Line::new(start, end) });
         }
     }
     // From left to right, so that each edge meets only those that begin before it ends.
@@ -239,19 +246,19 @@ fn meeting(a: &Edge, b: &Edge, count: usize, closed: bool) -> Option<DVec2> {
 }
 
 /// Whether two lines certainly run different ways: by more than rounding could feign.
-fn turns(a: Line, b: Line) -> bool {
+fn turns(a: geo::Line, b: geo::Line) -> bool {
     let [u, v] = [a, b].map(|line| vector(line.end) - vector(line.start));
     let cross = u.perp_dot(v);
     cross * cross > 1e-18 * u.length_squared() * v.length_squared()
 }
 
-fn edge_name(edge: &Edge, rings: &[Ring]) -> String {
+fn edge_name(edge: &Edge, rings: &[NamedRing]) -> String {
     let points = &rings[edge.ring].points;
     format!("{}-{}", points[edge.index].number, points[(edge.index + 1) % points.len()].number)
 }
 
 /// Fails if a hole is not inside the first ring or is inside another hole; no rings meet.
-fn refuse_misplaced_holes(rings: &[Ring], manner: &Manner) -> Result<()> {
+fn refuse_misplaced_holes(rings: &[NamedRing], manner: &Manner) -> Result<()> {
     for (index, hole) in rings.iter().enumerate().skip(1) {
         let DVec2 { x, y } = hole.points[0].point.at;
         for (other, around) in rings.iter().enumerate().filter(|&(other, _)| other != index) {
@@ -265,33 +272,6 @@ fn refuse_misplaced_holes(rings: &[Ring], manner: &Manner) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// Whether `point`, which is not on the ring, is inside it: whether a ray to the right meets it an odd number
-/// of times.
-fn contains(ring: &[Numbered], point: DVec2) -> bool {
-    let crossed = (0..ring.len()).filter(|&index| {
-        let [a, b] = [ring[index], ring[(index + 1) % ring.len()]].map(|p| p.point.at);
-        let upwards = a.y <= point.y && point.y < b.y;
-        let downwards = b.y <= point.y && point.y < a.y;
-        let side = orientation(a, b, point);
-        (upwards && side == Orientation::CounterClockwise) || (downwards && side == Orientation::Clockwise)
-    });
-    crossed.count() % 2 == 1
-}
-
-/// Twice the area (m²) inside a ring; negative if it is clockwise.
-fn twice_area(ring: &[Numbered]) -> f64 {
-    let from = ring[0].point.at;
-    ring.windows(2).map(|edge| (edge[0].point.at - from).perp_dot(edge[1].point.at - from)).sum()
-}
-
-fn orientation(a: DVec2, b: DVec2, c: DVec2) -> Orientation {
-    RobustKernel::orient2d(coord(a), coord(b), coord(c))
-}
-
-fn coord(point: DVec2) -> Coord {
-    Coord { x: point.x, y: point.y }
 }
 
 fn vector(coord: Coord) -> DVec2 {

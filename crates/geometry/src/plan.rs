@@ -1,22 +1,20 @@
 //! Plans: the outline of a building on the ground, made clean, repaired or refused.
 
-use geo::{ConvexHull, Coord, LineString};
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::outline::{Manner, numbered_rings};
+use super::planar::{Polygon, Rings};
 use super::repair::{Repaired, repair};
 use super::section::{MOST_POINTS, SectionPoint};
 use burgeon_base::error::{Error, Limit, Result};
 
 const PLAN: Manner = Manner { owner: "footprint", near: 0.01, straight: 2e-3 };
 
-/// The outline of a building: an outer ring and holes whose points have heights.
-///
-/// The outer ring is counter-clockwise, the holes are clockwise, seen from above.
+/// The outline of a building: a polygon whose points have heights and whose rings do not meet.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
-    rings: Vec<Vec<DVec3>>,
+    polygon: Polygon<DVec3>,
     given: Given,
     /// How many points the rings had that were given.
     sizes: Vec<usize>,
@@ -46,7 +44,19 @@ impl Plan {
     /// their neighbours and the tips of spikes. Where rings cross or touch themselves or each other, or a hole is
     /// not inside the outer ring, the greatest part of what they enclose is the plan, and [`Plan::repairs`] tells
     /// what was done. Fails, with the place, if nothing is enclosed.
-    pub fn new(rings: &[Vec<DVec3>]) -> Result<Self> {
+    ///
+    /// ```
+    /// use burgeon_geometry::{Plan, Rings};
+    /// use glam::DVec3;
+    ///
+    /// // It crosses itself where x is 6: what is on the right of that is a loop of its own.
+    /// let ring = [(0.0, 0.0), (8.0, 4.0), (8.0, 2.0), (0.0, 6.0)].map(|(x, y)| DVec3::new(x, y, 0.0));
+    /// let plan = Plan::new(&Rings(vec![ring.to_vec()]))?;
+    /// assert_eq!(plan.repairs().0, ["loops of the outer ring left out"]);
+    /// assert!((plan.polygon().area() - 18.0).abs() < 1e-6);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn new(rings: &Rings) -> Result<Self> {
         let count: usize = rings.iter().map(Vec::len).sum();
         if count > MOST_POINTS {
             return Err(Error::limit(Limit::Size, format!("the footprint has {count} points"))
@@ -73,22 +83,26 @@ impl Plan {
         let clean = match numbered_rings(&sharp(outer), &holes, &PLAN) {
             Ok(clean) => clean,
             Err(error) => {
-                let Some(Repaired { rings, given, notes }) = repair(rings, &PLAN) else { return Err(error) };
+                let Some(Repaired { polygon, given, notes }) = repair(rings, &PLAN) else {
+                    return Err(error);
+                };
                 let trouble = error.message().to_owned();
-                return Ok(Self { rings, given: Given::Edges(given), sizes, repairs: notes, trouble });
+                return Ok(Self { polygon, given: Given::Edges(given), sizes, repairs: notes, trouble });
             }
         };
         let places: Vec<Vec<usize>> =
             clean.iter().map(|ring| ring.iter().map(|point| point.number - 1).collect()).collect();
-        let rings =
-            places.iter().zip(rings).map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
-        let rings = rings.collect();
-        Ok(Self { rings, given: Given::Places(places), sizes, ..Self::default() })
+        let rings = places
+            .iter()
+            .zip(&**rings)
+            .map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
+        let polygon = Polygon::new(rings.collect::<Rings>())?;
+        Ok(Self { polygon, given: Given::Places(places), sizes, ..Self::default() })
     }
 
-    /// The rings (m), with the heights of the ground.
-    pub fn rings(&self) -> &[Vec<DVec3>] {
-        &self.rings
+    /// The polygon (m), with the heights of the ground.
+    pub fn polygon(&self) -> &Polygon<DVec3> {
+        &self.polygon
     }
 
     /// For each edge of all rings, the edges that it stands for: those of the rings that were given, counted from 0
@@ -98,7 +112,7 @@ impl Plan {
             Given::Places(places) => places,
             Given::Edges(edges) => return edges.iter().map(|edges| SmallVec::from_slice(edges)).collect(),
         };
-        let mut given = Vec::with_capacity(self.edges());
+        let mut given = Vec::with_capacity(self.polygon.size());
         let mut first = 0;
         for (places, &size) in places.iter().zip(&self.sizes) {
             let next = |index: usize| places[(index + 1) % places.len()];
@@ -126,56 +140,24 @@ impl Plan {
 
     /// The plan moved by `offset` (m).
     pub fn moved(mut self, offset: DVec3) -> Self {
-        self.rings.iter_mut().flatten().for_each(|point| *point += offset);
+        self.polygon = self.polygon.moved(offset);
         self
     }
 
-    /// The rings as seen from above (m).
-    pub fn flat(&self) -> Vec<Vec<DVec2>> {
-        self.rings.iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect()
-    }
-
-    /// The number of edges.
-    pub fn edges(&self) -> usize {
-        self.rings.iter().map(Vec::len).sum()
-    }
-
-    /// The area (m²) without the holes.
-    pub fn area(&self) -> f64 {
-        self.flat().iter().map(|ring| twice_area(ring)).sum::<f64>() / 2.0
-    }
-
-    /// The length (m) of all edges, seen from above.
-    pub fn perimeter(&self) -> f64 {
-        let length = |ring: &Vec<DVec2>| -> f64 {
-            (0..ring.len()).map(|index| ring[index].distance(ring[(index + 1) % ring.len()])).sum()
-        };
-        self.flat().iter().map(length).sum()
+    /// The polygon as seen from above (m).
+    pub fn flat(&self) -> Polygon {
+        self.polygon.flat()
     }
 
     /// The area as a part of its convex hull's: 1 if it is convex and has no holes.
     pub fn convexity(&self) -> f64 {
-        let points = self.flat().into_iter().next().unwrap_or_default();
-        let line: LineString = points.iter().map(|point| Coord { x: point.x, y: point.y }).collect();
-        let hull = line.convex_hull();
-        let mut hull: Vec<DVec2> = hull.exterior().0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
-        hull.pop();
-        // From its westernmost corner on, so that the sum does not depend on where the outline begins.
-        let west = |a: &DVec2, b: &DVec2| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y));
-        let first = (0..hull.len()).min_by(|&a, &b| west(&hull[a], &hull[b])).unwrap_or(0);
-        hull.rotate_left(first);
-        let whole = twice_area(&hull) / 2.0;
-        if whole > 0.0 { self.area() / whole } else { 0.0 }
+        let whole = self.polygon.hull().map_or(0.0, |hull| hull.area());
+        if whole > 0.0 { self.polygon.area() / whole } else { 0.0 }
     }
 
     /// The lowest and the highest ground (m).
     pub fn ground(&self) -> (f64, f64) {
-        let heights = self.rings.iter().flatten().map(|point| point.z);
+        let heights = self.polygon.points().map(|point| point.z);
         heights.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), z| (low.min(z), high.max(z)))
     }
-}
-
-fn twice_area(ring: &[DVec2]) -> f64 {
-    let Some(&from) = ring.first() else { return 0.0 };
-    ring.windows(2).map(|edge| (edge[0] - from).perp_dot(edge[1] - from)).sum()
 }

@@ -4,12 +4,13 @@
 //! enclose still touches itself, a notch as wide as a hand is cut out there.
 
 use geo::bool_ops::{BooleanOps, FillRule, unary_union};
-use geo::{Area, Coord, LineString, MultiPolygon, Polygon};
+use geo::{Area, MultiPolygon};
 use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
 use super::outline::{Manner, is_ring, numbered_rings};
+use super::planar::{Polygon, Rings, edges, geo_polygon};
 use super::ring::MOST;
 use super::section::SectionPoint;
 
@@ -31,8 +32,7 @@ const LOOPS: &str = "loops of the outer ring left out";
 
 /// Rings that became a plan.
 pub(super) struct Repaired {
-    /// The outer ring counter-clockwise, the holes clockwise.
-    pub rings: Vec<Vec<DVec3>>,
+    pub polygon: Polygon<DVec3>,
     /// For each edge of all rings, the edges that were given and that it stands for.
     pub given: Vec<Vec<usize>>,
     /// What was done.
@@ -41,7 +41,7 @@ pub(super) struct Repaired {
 
 /// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan, or
 /// if the rings meet so often that they are none.
-pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> {
+pub(super) fn repair(given: &Rings, manner: &Manner) -> Option<Repaired> {
     let known = |point: &DVec3| point.is_finite() && point.truncate().abs().max_element() <= MOST;
     if !given.iter().flatten().all(known) {
         return None;
@@ -50,7 +50,7 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
     let first = points.next()?;
     let [low, high] = points.fold([first; 2], |[low, high], point| [low.min(point), high.max(point)]);
     let middle = low.midpoint(high);
-    let local: Vec<Vec<DVec2>> =
+    let local: Rings<DVec2> =
         given.iter().map(|ring| ring.iter().map(|point| point.truncate() - middle).collect()).collect();
     if meets_too_often(&local) {
         return None;
@@ -63,14 +63,13 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
         if let Some(clean) = cleaned(&rings, manner) {
             let done = finish(&clean, &local, given, middle);
             // What touches itself but for rounding may do so again where it was given.
-            let flat: Vec<Vec<DVec2>> =
-                done.0.iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect();
-            if cleaned(&flat, manner).is_some() {
+            if let Some((polygon, given)) = done
+                && cleaned(&Rings::from(&polygon.flat()), manner).is_some()
+            {
                 if notes.is_empty() {
                     notes.push("edges that cross or touch untangled");
                 }
-                let (rings, given) = done;
-                return Some(Repaired { rings, given, notes });
+                return Some(Repaired { polygon, given, notes });
             }
         }
         let notches = notches(&rings);
@@ -87,11 +86,8 @@ pub(super) fn repair(given: &[Vec<DVec3>], manner: &Manner) -> Option<Repaired> 
 /// would be many times as much as was given.
 ///
 /// Edges are looked at from one side to the other, and not beyond the meetings that are allowed.
-fn meets_too_often(rings: &[Vec<DVec2>]) -> bool {
-    let mut edges: Vec<[DVec2; 2]> = rings
-        .iter()
-        .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
-        .collect();
+fn meets_too_often(rings: &Rings<DVec2>) -> bool {
+    let mut edges: Vec<[DVec2; 2]> = rings.iter().flat_map(|ring| edges(ring)).collect();
     let length = edges.iter().fold(DVec2::ZERO, |sum, [a, b]| sum + (*b - *a).abs());
     if length.x > length.y {
         // Along the axis on which they cover each other less.
@@ -122,12 +118,13 @@ fn meets_too_often(rings: &[Vec<DVec2>]) -> bool {
 }
 
 /// The points of sound rings that are needed; `None` if the rings meet.
-fn cleaned(rings: &[Vec<DVec2>], manner: &Manner) -> Option<Vec<Vec<DVec2>>> {
+fn cleaned(rings: &Rings<DVec2>, manner: &Manner) -> Option<Polygon> {
     let sharp: Vec<Vec<SectionPoint>> =
         rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
     let (outer, holes) = sharp.split_first()?;
     let clean = numbered_rings(outer, holes, manner).ok()?;
-    Some(clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect()).collect())
+    let places = clean.iter().map(|ring| ring.iter().map(|point| point.point.at).collect());
+    Polygon::new(places.collect::<Rings<DVec2>>()).ok()
 }
 
 fn note(notes: &mut Vec<&'static str>, what: &'static str) {
@@ -137,10 +134,14 @@ fn note(notes: &mut Vec<&'static str>, what: &'static str) {
 }
 
 /// What the first ring encloses without what the others enclose.
-fn enclosed(rings: &[Vec<DVec2>], notes: &mut Vec<&'static str>) -> MultiPolygon {
+fn enclosed(rings: &Rings<DVec2>, notes: &mut Vec<&'static str>) -> MultiPolygon {
     let nothing = MultiPolygon::new(Vec::new());
     let whole = |ring: &Vec<DVec2>| {
-        polygon(ring).boolean_op_with_fill_rule(&nothing, geo::OpType::Union, FillRule::NonZero)
+        geo_polygon(std::slice::from_ref(ring)).boolean_op_with_fill_rule(
+            &nothing,
+            geo::OpType::Union,
+            FillRule::NonZero,
+        )
     };
     let Some((outer, holes)) = rings.split_first() else { return nothing };
     let outer = whole(outer);
@@ -174,8 +175,8 @@ fn enclosed(rings: &[Vec<DVec2>], notes: &mut Vec<&'static str>) -> MultiPolygon
 }
 
 /// The greatest of several areas.
-fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<Polygon> {
-    let sized: Vec<(f64, Polygon)> = areas
+fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<geo::Polygon> {
+    let sized: Vec<(f64, geo::Polygon)> = areas
         .0
         .into_iter()
         .map(|part| (part.unsigned_area(), part))
@@ -190,32 +191,20 @@ fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<Polygo
 }
 
 /// The rings of a polygon, without holes that are none.
-fn rings_of(polygon: &Polygon, manner: &Manner) -> Vec<Vec<DVec2>> {
-    let points = |ring: &LineString| -> Vec<DVec2> {
-        let mut points: Vec<DVec2> = ring.coords().map(|at| DVec2::new(at.x, at.y)).collect();
-        points.pop();
-        points
+fn rings_of(polygon: &geo::Polygon, manner: &Manner) -> Rings<DVec2> {
+    let is_sound = |ring: &Vec<DVec2>| {
+        let sharp: Vec<SectionPoint> = ring.iter().copied().map(SectionPoint::sharp).collect();
+        is_ring(&sharp, manner)
     };
-    let mut rings = vec![points(polygon.exterior())];
-    for hole in polygon.interiors().iter().map(points) {
-        let sharp: Vec<SectionPoint> = hole.iter().copied().map(SectionPoint::sharp).collect();
-        if is_ring(&sharp, manner) {
-            rings.push(hole);
-        }
-    }
-    rings
-}
-
-fn polygon(ring: &[DVec2]) -> Polygon {
-    Polygon::new(LineString::new(ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect()), Vec::new())
+    let rings = Rings::from(polygon).0.into_iter().enumerate();
+    rings.filter(|(number, ring)| *number == 0 || is_sound(ring)).map(|(_, ring)| ring).collect()
 }
 
 type Edge = GeomWithData<Line<[f64; 2]>, usize>;
 
 /// The edges of rings that have a length, by place, each with its number over all rings.
-fn edges(rings: &[Vec<DVec2>]) -> RTree<Edge> {
-    let ends =
-        rings.iter().flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]));
+fn edge_tree(rings: &Rings<DVec2>) -> RTree<Edge> {
+    let ends = rings.iter().flat_map(|ring| edges(ring));
     let lines = ends.enumerate().filter(|(_, [from, to])| from.distance_squared(*to) > 0.0);
     RTree::bulk_load(
         lines
@@ -225,12 +214,12 @@ fn edges(rings: &[Vec<DVec2>]) -> RTree<Edge> {
 }
 
 /// Squares around the points that lie on an edge which does not begin or end there.
-fn notches(rings: &[Vec<DVec2>]) -> Vec<Polygon> {
-    let tree = edges(rings);
+fn notches(rings: &Rings<DVec2>) -> Vec<geo::Polygon> {
+    let tree = edge_tree(rings);
     for near in [1e-6, 0.012] {
         let mut found = Vec::new();
         let mut number = 0;
-        for ring in rings {
+        for ring in &**rings {
             for index in 0..ring.len() {
                 let own = [number + index, number + (index + ring.len() - 1) % ring.len()];
                 let at = ring[index];
@@ -240,7 +229,7 @@ fn notches(rings: &[Vec<DVec2>]) -> Vec<Polygon> {
                 });
                 if touches {
                     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
-                    found.push(polygon(&corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH)));
+                    found.push(geo_polygon(&[corners.map(|(x, y)| at + DVec2::new(x, y) * NOTCH)]));
                 }
             }
             number += ring.len();
@@ -252,18 +241,15 @@ fn notches(rings: &[Vec<DVec2>]) -> Vec<Polygon> {
     Vec::new()
 }
 
-/// The rings with the heights of the ground, and for each edge those that were given.
+/// The polygon with the heights of the ground, and for each edge those that were given; `None` if it is none there.
 fn finish(
-    clean: &[Vec<DVec2>],
-    local: &[Vec<DVec2>],
-    rings: &[Vec<DVec3>],
+    clean: &Polygon,
+    local: &Rings<DVec2>,
+    rings: &Rings,
     middle: DVec2,
-) -> (Vec<Vec<DVec3>>, Vec<Vec<usize>>) {
-    let tree = edges(local);
-    let ends: Vec<[DVec3; 2]> = rings
-        .iter()
-        .flat_map(|ring| (0..ring.len()).map(|at| [ring[at], ring[(at + 1) % ring.len()]]))
-        .collect();
+) -> Option<(Polygon<DVec3>, Vec<Vec<usize>>)> {
+    let tree = edge_tree(local);
+    let ends: Vec<[DVec3; 2]> = rings.iter().flat_map(|ring| edges(ring)).collect();
     let on_ground = |at: DVec2| {
         let Some(edge) = tree.nearest_neighbor(&at.to_array()) else { return at.extend(0.0) };
         let [from, to] = ends[edge.data];
@@ -279,8 +265,7 @@ fn finish(
     };
     let mut given = Vec::new();
     for ring in clean {
-        for index in 0..ring.len() {
-            let (a, b) = (ring[index], ring[(index + 1) % ring.len()]);
+        for [a, b] in ring.edges() {
             let low = (a.min(b) - ALONG).to_array();
             let around = AABB::from_corners(low, (a.max(b) + ALONG).to_array());
             let along = (b - a).normalize_or_zero();
@@ -304,7 +289,7 @@ fn finish(
         }
     }
     let rings = clean.iter().map(|ring| ring.iter().map(|at| on_ground(*at) + middle.extend(0.0)).collect());
-    (rings.collect(), given)
+    Some((Polygon::new(rings.collect::<Rings>()).ok()?, given))
 }
 
 #[cfg(test)]
@@ -312,23 +297,23 @@ mod tests {
     use glam::{DVec2, DVec3};
     use proptest::prelude::*;
 
-    use super::super::Plan;
+    use super::super::{Plan, Rings};
 
     fn ring(points: &[[f64; 2]]) -> Vec<DVec3> {
         points.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect()
     }
 
     fn made(rings: &[&[[f64; 2]]]) -> Plan {
-        Plan::new(&rings.iter().map(|points| ring(points)).collect::<Vec<_>>()).unwrap()
+        Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap()
     }
 
     /// Whether a plan is one: nothing is left to be repaired, and areas and directions are right.
     fn assert_valid(plan: &Plan) {
-        let again = Plan::new(plan.rings()).unwrap();
+        let again = Plan::new(&Rings::from(plan.polygon())).unwrap();
         assert_eq!(again.repairs().0, [""; 0]);
-        assert!(plan.area() > 0.0 && plan.given_edges().len() == plan.edges());
+        assert!(plan.polygon().area() > 0.0 && plan.given_edges().len() == plan.polygon().size());
         assert!(plan.given_edges().iter().flatten().all(|&edge| edge < plan.given()));
-        assert!(plan.rings().iter().flatten().all(|point| point.is_finite()));
+        assert!(plan.polygon().points().all(|point| point.is_finite()));
     }
 
     const SQUARE: [[f64; 2]; 4] = [[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]];
@@ -339,7 +324,7 @@ mod tests {
         assert_valid(&plan);
         assert!(plan.repairs().0.contains(&"loops of the outer ring left out"), "{:?}", plan.repairs());
         // The lower triangle has 2 m along y = 0, the upper one 6 m along y = 6: they meet at y = 1.5.
-        assert!((plan.area() - 13.5).abs() < 1e-6, "{}", plan.area());
+        assert!((plan.polygon().area() - 13.5).abs() < 1e-6, "{}", plan.polygon().area());
         let mut given: Vec<Vec<usize>> =
             plan.given_edges().into_iter().map(smallvec::SmallVec::into_vec).collect();
         given.sort();
@@ -351,15 +336,15 @@ mod tests {
         let hole = |x: f64, y: f64| [[x, y], [x + 2.0, y], [x + 2.0, y + 2.0], [x, y + 2.0]];
         let outside = made(&[&SQUARE, &hole(20.0, 1.0)]);
         assert_eq!(outside.repairs().0, ["a hole outside the outer ring left out"]);
-        assert_eq!((outside.area(), outside.edges()), (100.0, 4));
+        assert_eq!((outside.polygon().area(), outside.polygon().size()), (100.0, 4));
         let merged = made(&[&SQUARE, &hole(2.0, 2.0), &hole(3.0, 3.0)]);
         assert_eq!(merged.repairs().0, ["holes that touch merged"]);
-        assert!((merged.area() - 93.0).abs() < 1e-6 && merged.rings().len() == 2);
+        assert!((merged.polygon().area() - 93.0).abs() < 1e-6 && merged.polygon().len() == 2);
         let beside = made(&[&SQUARE, &hole(2.0, 2.0), &hole(4.0, 2.0)]);
-        assert!((beside.area() - 92.0).abs() < 1e-6 && beside.rings().len() == 2);
+        assert!((beside.polygon().area() - 92.0).abs() < 1e-6 && beside.polygon().len() == 2);
         let across = made(&[&SQUARE, &hole(-1.0, 2.0)]);
         assert_eq!(across.repairs().0, ["a hole at the outer ring cut out"]);
-        assert!((across.area() - 98.0).abs() < 1e-6 && across.rings().len() == 1);
+        assert!((across.polygon().area() - 98.0).abs() < 1e-6 && across.polygon().len() == 1);
         [outside, merged, beside, across].iter().for_each(assert_valid);
     }
 
@@ -367,20 +352,28 @@ mod tests {
     fn where_a_plan_touches_itself_at_a_point_a_notch_is_cut() {
         let tip = made(&[&SQUARE, &[[0.0, 5.0], [3.0, 4.0], [3.0, 6.0]]]);
         assert_valid(&tip);
-        assert!((tip.area() - 97.0).abs() < 0.02 && tip.rings().len() == 1, "{}", tip.area());
+        assert!(
+            (tip.polygon().area() - 97.0).abs() < 0.02 && tip.polygon().len() == 1,
+            "{}",
+            tip.polygon().area()
+        );
         let corners =
             made(&[&SQUARE, &[[2.0, 2.0], [4.0, 4.0], [2.0, 4.0]], &[[4.0, 4.0], [6.0, 4.0], [6.0, 6.0]]]);
         assert_valid(&corners);
-        assert!((corners.area() - 96.0).abs() < 0.03 && corners.rings().len() == 2, "{}", corners.area());
+        assert!(
+            (corners.polygon().area() - 96.0).abs() < 0.03 && corners.polygon().len() == 2,
+            "{}",
+            corners.polygon().area()
+        );
     }
 
     #[test]
     fn heights_of_the_ground_are_kept_and_found_between() {
         let points = [[0.0, 0.0, 1.0], [6.0, 6.0, 7.0], [0.0, 6.0, 3.0], [2.0, 0.0, 1.0]];
-        let plan = Plan::new(&[points.map(DVec3::from).to_vec()]).unwrap();
+        let plan = Plan::new(&Rings(vec![points.map(DVec3::from).to_vec()])).unwrap();
         let at = |x: f64, y: f64| {
             let near = |point: &&DVec3| point.truncate().distance(DVec2::new(x, y)) < 1e-3;
-            plan.rings()[0].iter().find(near).map(|point| point.z)
+            plan.polygon()[0].iter().find(near).map(|point| point.z)
         };
         assert_eq!((at(6.0, 6.0), at(0.0, 6.0)), (Some(7.0), Some(3.0)));
         assert!((at(1.5, 1.5).unwrap() - 2.5).abs() < 1e-6 || (at(1.5, 1.5).unwrap() - 1.5).abs() < 1e-6);
@@ -389,7 +382,7 @@ mod tests {
     #[test]
     fn what_encloses_nothing_is_refused() {
         let refused = |rings: &[&[[f64; 2]]]| {
-            Plan::new(&rings.iter().map(|points| ring(points)).collect::<Vec<_>>()).unwrap_err()
+            Plan::new(&rings.iter().map(|points| ring(points)).collect()).unwrap_err()
         };
         assert!(refused(&[&[[0.0, 0.0], [5.0, 5.0]]]).message().contains("2 distinct points"));
         assert!(refused(&[&[[0.0, 0.0], [4.0, 0.0], [8.0, 0.0]]]).message().contains("no area"));
@@ -431,7 +424,7 @@ mod tests {
         let mut made = 0;
         for shape in &shapes {
             let begin = std::time::Instant::now();
-            let plan = Plan::new(std::slice::from_ref(shape));
+            let plan = Plan::new(&Rings(vec![shape.clone()]));
             assert!(begin.elapsed().as_secs_f64() < 10.0, "{} points: {:?}", shape.len(), begin.elapsed());
             if let Ok(plan) = plan {
                 assert_valid(&plan);
@@ -453,12 +446,12 @@ mod tests {
             let point = |&(x, y): &(i32, i32)| {
                 DVec3::new(f64::from(x) * scale + far, f64::from(y) * scale, f64::from(x + y))
             };
-            let rings: Vec<Vec<DVec3>> =
+            let rings: Rings =
                 rings.iter().map(|ring| ring.iter().map(point).collect()).collect();
             if let Ok(plan) = Plan::new(&rings) {
-                let again = Plan::new(plan.rings());
+                let again = Plan::new(&plan.polygon().into());
                 prop_assert!(again.as_ref().is_ok_and(|again| again.repairs().0.is_empty()), "{again:?}");
-                prop_assert!(plan.area() > 0.0);
+                prop_assert!(plan.polygon().area() > 0.0);
                 prop_assert!(plan.given_edges().iter().flatten().all(|&edge| edge < plan.given()));
             }
         }

@@ -4,6 +4,7 @@ use std::sync::OnceLock;
 
 use glam::DVec2;
 
+use super::planar::Rings;
 use super::skin::Skin;
 use super::{cap, outline};
 use burgeon_base::error::{Error, Limit, Result};
@@ -79,10 +80,22 @@ impl Section {
         Self { rings: vec![knots(&points)], open: false, cap, skins: Default::default() }
     }
 
-    /// A ring of sharp points (m) with holes, otherwise like [`Section::new`].
-    pub fn polygon(outer: &[DVec2], holes: &[Vec<DVec2>]) -> Result<Self> {
-        let sharp = |ring: &[DVec2]| ring.iter().copied().map(SectionPoint::sharp).collect::<Vec<_>>();
-        Self::new(&sharp(outer), &holes.iter().map(|hole| sharp(hole)).collect::<Vec<_>>())
+    /// Rings of sharp points (m), otherwise like [`Section::new`].
+    ///
+    /// ```
+    /// use burgeon_geometry::{Rings, Section};
+    /// use glam::DVec2;
+    ///
+    /// let square = |half: f64| [(-half, -half), (half, -half), (half, half), (-half, half)].map(DVec2::from);
+    /// let tube = Section::polygon(&Rings(vec![square(2.0).to_vec(), square(1.0).to_vec()]))?;
+    /// assert_eq!((tube.area(), tube.perimeter(), tube.cap().len()), (12.0, 24.0, 8));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn polygon(rings: &Rings<DVec2>) -> Result<Self> {
+        let sharp = |ring: &Vec<DVec2>| ring.iter().copied().map(SectionPoint::sharp).collect::<Vec<_>>();
+        let (outer, holes) =
+            rings.split_first().map_or((Vec::new(), &[][..]), |(outer, holes)| (sharp(outer), holes));
+        Self::new(&outer, &holes.iter().map(sharp).collect::<Vec<_>>())
     }
 
     /// An open line, which gives a ribbon; fails if it has fewer than 2 distinct points or meets itself.
@@ -258,8 +271,9 @@ mod tests {
     }
 
     fn message(outer: &[(f64, f64)], holes: &[&[(f64, f64)]]) -> String {
-        let holes: Vec<_> = holes.iter().map(|hole| vectors(hole)).collect();
-        Section::polygon(&vectors(outer), &holes).expect_err("a section that is refused").to_string()
+        let holes = holes.iter().map(|hole| vectors(hole));
+        let rings = std::iter::once(vectors(outer)).chain(holes).collect();
+        Section::polygon(&rings).expect_err("a section that is refused").to_string()
     }
 
     const SQUARE: [(f64, f64); 4] = [(0., 0.), (4., 0.), (4., 4.), (0., 4.)];
@@ -268,7 +282,7 @@ mod tests {
     fn rings_are_turned_and_useless_points_dropped() {
         let outer = [(0., 4.), (4., 4.), (4., 4.), (4., 0.), (2., 0.), (0., 0.), (0., 4.)];
         let hole = vectors(&[(1., 1.), (2., 1.), (2., 2.), (1., 2.)]);
-        let section = Section::polygon(&vectors(&outer), &[hole]).expect("a section");
+        let section = Section::polygon(&vec![vectors(&outer), hole].into()).expect("a section");
         let points: Vec<_> = section.points().map(|p| (p.x, p.y)).collect();
         assert_eq!(points[..4], [(0., 4.), (0., 0.), (4., 0.), (4., 4.)]);
         assert_eq!(points[4..], [(1., 1.), (1., 2.), (2., 2.), (2., 1.)]);
@@ -290,7 +304,7 @@ mod tests {
         assert_eq!(finer.points().count(), 32);
         assert!((finer.area() - section.area()).abs() < 1e-12);
         let hole = vectors(&[(1., 1.), (1., 3.), (3., 3.), (3., 1.)]);
-        let frame = Section::polygon(&vectors(&SQUARE), &[hole]).expect("a frame");
+        let frame = Section::polygon(&vec![vectors(&SQUARE), hole].into()).expect("a frame");
         assert_eq!(frame.resampled(16).expect("a finer frame").points().count(), 16 + 8);
     }
 

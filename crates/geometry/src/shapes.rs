@@ -5,6 +5,7 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_2};
 
 use glam::DVec2;
 
+use super::planar::Rings;
 use super::section::refuse_too_many;
 use super::{Section, SectionPoint};
 use burgeon_base::error::{Error, Result};
@@ -35,7 +36,7 @@ impl Section {
         }
         refuse_too_many(points.saturating_mul(2))?;
         let corner = |i: usize| on_circle(i, 2 * points) * if i.is_multiple_of(2) { 1.0 } else { inner };
-        Self::polygon(&(0..2 * points).map(corner).collect::<Vec<_>>(), &[])
+        Self::polygon(&Rings(vec![(0..2 * points).map(corner).collect()]))
     }
 
     /// A rectangle of `width` by `height` (m) about the centre, its first point at the lower left.
@@ -47,7 +48,7 @@ impl Section {
         let corners = [-half, DVec2::new(half.x, -half.y), half, DVec2::new(-half.x, half.y)];
         // As thin as a line to the checks of other polygons.
         if width.min(height) < 1e-6 * width.max(height).max(1.0) {
-            return Self::polygon(&corners, &[]);
+            return Self::polygon(&Rings(vec![corners.to_vec()]));
         }
         Ok(Self::convex(corners.map(SectionPoint::sharp)))
     }

@@ -1,5 +1,9 @@
 //! Unions of rectangles that lie in one plane, as triangles.
 
+use glam::DVec2;
+
+use super::planar::twice_area;
+
 /// A rectangle between lines, which go by their numbers in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Cell {
@@ -16,6 +20,23 @@ pub type Crossing = [u32; 2];
 ///
 /// The vertices are the corners of the union's outline and other places on it that are asked for; each is there once.
 /// Whatever meets the outline at those places has no T-junction with it, and there is none inside.
+///
+/// ```
+/// use burgeon_geometry::{Cell, Union};
+///
+/// // A storey of three panes with a window in the middle: lines 0 to 3 across, 0 to 3 up.
+/// let mut cells = vec![
+///     Cell { y: [0, 1], x: [0, 3] },
+///     Cell { y: [1, 2], x: [0, 1] },
+///     Cell { y: [1, 2], x: [2, 3] },
+///     Cell { y: [2, 3], x: [0, 3] },
+/// ];
+/// cells.sort_unstable();
+/// let mut union = Union::default();
+/// union.triangulate(&cells, &[], [&[0.0, 1.0, 2.0, 3.0], &[0.0, 0.9, 2.1, 3.0]]);
+/// // The corners of the wall and of the window, and no others.
+/// assert_eq!((union.vertices.len(), union.triangles.len()), (8, 8));
+/// ```
 #[derive(Debug, Default)]
 pub struct Union {
     /// The vertices.
@@ -149,7 +170,7 @@ impl Union {
             while let Some((point, &(x, _, above_left))) = points.next_if(|(_, (x, ..))| *x <= right) {
                 let corner = |vertex: u32| {
                     let [x, y] = vertices[vertex as usize];
-                    [places[0][x as usize], places[1][y as usize]]
+                    DVec2::new(places[0][x as usize], places[1][y as usize])
                 };
                 if x > left {
                     let passed = chain.partition_point(|vertex| x_of(vertices, *vertex) <= x);
@@ -197,7 +218,7 @@ impl Union {
 }
 
 /// Makes triangles of all that is below the straight line from the vertex at `from` in `chain` to its last one.
-fn close(chain: &mut Vec<u32>, from: usize, triangles: &mut Vec<[u32; 3]>, corner: impl Fn(u32) -> [f64; 2]) {
+fn close(chain: &mut Vec<u32>, from: usize, triangles: &mut Vec<[u32; 3]>, corner: impl Fn(u32) -> DVec2) {
     while chain.len() > from + 2 {
         let widest = (from + 1..chain.len() - 1).max_by(|a, b| {
             let area = |at: &usize| twice_area([chain[at - 1], chain[*at], chain[at + 1]].map(&corner));
@@ -209,17 +230,10 @@ fn close(chain: &mut Vec<u32>, from: usize, triangles: &mut Vec<[u32; 3]>, corne
     }
 }
 
-/// Twice the area of a triangle; below 0 if it is clockwise.
-fn twice_area([[ax, ay], [bx, by], [cx, cy]]: [[f64; 2]; 3]) -> f64 {
-    (bx - ax) * (cy - ay) - (by - ay) * (cx - ax)
-}
-
 /// Whether a triangle is counter-clockwise, and not thin.
-fn is_wide(corners: [[f64; 2]; 3]) -> bool {
-    let [[ax, ay], [bx, by], [cx, cy]] = corners;
-    let square = |x: f64, y: f64| x * x + y * y;
-    let longest = square(bx - ax, by - ay).max(square(cx - bx, cy - by)).max(square(ax - cx, ay - cy));
-    twice_area(corners) > THIN * longest
+fn is_wide([a, b, c]: [DVec2; 3]) -> bool {
+    let longest = a.distance_squared(b).max(b.distance_squared(c)).max(c.distance_squared(a));
+    twice_area([a, b, c]) > THIN * longest
 }
 
 #[cfg(test)]
@@ -302,7 +316,7 @@ mod tests {
             let expected = crossings().filter(|at| is_corner(at) || (others.contains(at) && is_on(at)));
             prop_assert_eq!(&union.vertices, &expected.collect::<Vec<_>>());
 
-            let place = |[x, y]: Crossing| [xs[x as usize], ys[y as usize]];
+            let place = |[x, y]: Crossing| DVec2::new(xs[x as usize], ys[y as usize]);
             let mut area = 0.0;
             let mut sides = HashSet::new();
             for triangle in &union.triangles {
@@ -314,8 +328,7 @@ mod tests {
                 }
             }
             let size = |cell: &Cell| {
-                let ([a, b], [c, d]) = (place([cell.x[0], cell.y[0]]), place([cell.x[1], cell.y[1]]));
-                (c - a) * (d - b)
+                (place([cell.x[1], cell.y[1]]) - place([cell.x[0], cell.y[0]])).element_product()
             };
             let whole: f64 = cells.iter().map(size).sum();
             prop_assert!((area - whole).abs() < 1e-9 * whole.max(1.0), "{area} m², not {whole} m²");

@@ -10,8 +10,8 @@ mod extruder;
 pub mod facade;
 mod footprint;
 mod import;
+mod line_index;
 pub mod planet;
-mod streets;
 mod surface;
 pub mod terrain;
 mod turtle;
@@ -20,9 +20,9 @@ mod universe;
 pub use elevation::{Elevation, ElevationOptions};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
-pub use footprint::{Detail, EdgeKeywords, Footprint, Rings, Roof, Walls};
+pub use footprint::{Detail, EdgeKeywords, Footprint, Roof, Walls};
+pub use line_index::LineIndex;
 pub use planet::Planet;
-pub use streets::{Lines, Streets};
 pub use surface::Surface;
 pub use terrain::{EditFile, Terrain};
 pub use turtle::Turtle;
@@ -39,7 +39,7 @@ pub fn registry() -> Registry {
         Extruder::kind(),
         Footprint::kind(),
         Planet::kind(),
-        Streets::kind(),
+        LineIndex::kind(),
         Terrain::kind(),
         Turtle::kind(),
         Universe::kind(),

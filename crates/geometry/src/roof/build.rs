@@ -9,7 +9,8 @@ use super::patches::{leveled, patches};
 use super::plate::at_walls;
 use super::shape::Profile;
 use super::shed::Fall;
-use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Support, Surface, edges};
+use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Support, Surface};
+use crate::planar::{Polygon, Ring};
 use burgeon_base::error::Result;
 
 /// A finished roof.
@@ -45,8 +46,25 @@ const BELOW_HIP: f64 = 0.5;
 impl Shape {
     /// The roof over walls with this outline, which end at height `base` (m).
     ///
-    /// The first ring is counter-clockwise, the holes are clockwise. Fails if there is no skeleton for it.
-    pub fn cover(&self, walls: &[Vec<DVec2>], base: f64) -> Result<Cover> {
+    /// Fails if there is no skeleton for it.
+    ///
+    /// ```
+    /// use burgeon_geometry::roof::{Eaves, Ends, PatchKind, Rise, Shape, Surface};
+    /// use burgeon_geometry::{Polygon, Rings};
+    /// use glam::DVec2;
+    ///
+    /// let walls = [(0.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0)].map(DVec2::from);
+    /// let walls = Polygon::new(Rings(vec![walls.to_vec()]))?;
+    /// let surface = Surface::Sloped(Ends::Gables, &[]);
+    /// let roof = Shape { surface, rise: Rise::Height(4.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
+    /// let cover = roof.cover(&walls, 3.0)?;
+    /// let count = |kind: PatchKind| cover.patches.iter().filter(|patch| patch.kind == kind).count();
+    /// assert_eq!((count(PatchKind::Slope), count(PatchKind::Gable)), (2, 2));
+    /// let heights = cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|at| at.z);
+    /// assert_eq!(heights.fold(0.0, f64::max), 7.0);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn cover(&self, walls: &Polygon, base: f64) -> Result<Cover> {
         self.cover_on(&Support::new(walls, base))
     }
 
@@ -56,7 +74,7 @@ impl Shape {
         let pairs = support.within_reach(f64::INFINITY).into_iter().zip(&outermost.distances);
         let reach: Vec<f64> = pairs.map(|(reach, jut)| reach - jut).collect();
         let mut cover =
-            self.cover_walls(&Support { walls: &outermost.rings, juts: &[], reach: &reach, ..*support })?;
+            self.cover_walls(&Support { walls: &outermost.polygon, juts: &[], reach: &reach, ..*support })?;
         support.add_soffit(&outermost, &mut cover.patches);
         Ok(cover)
     }
@@ -96,13 +114,12 @@ impl Shape {
         let &Support { walls, base, .. } = support;
         let over = vec![Over::Slope; support.edges()];
         let outset = Outset::new(walls, support.within_reach(self.overhang), |_| false);
-        let high = |ring: &Vec<DVec2>| ring.iter().map(|at| at.extend(base + self.slab)).collect();
         let top = Patch {
             kind: PatchKind::Slope,
             edge: 0,
             flap: 0,
             along: DVec2::X,
-            rings: outset.rings.iter().map(high).collect(),
+            rings: outset.polygon.at_height(base + self.slab).to_vec(),
         };
         let mut patches = vec![top];
         let profile = Profile::new(self, 1.0, outset.most());
@@ -113,7 +130,7 @@ impl Shape {
     fn rim<'a>(&self, support: &Support<'a>, outset: &'a Outset, profile: &'a Profile) -> Rim<'a> {
         Rim {
             walls: support.walls,
-            outer: &outset.rings,
+            outer: &outset.polygon,
             profile,
             base: support.base,
             overhang: outset.most(),
@@ -141,7 +158,7 @@ impl Shape {
             let hips = overhang == 0.0 && over.iter().all(|over| *over == Over::Slope);
             // Without a gable and an overhang, the roof is the one that the gables were looked for in.
             let known = if hips { hip.take() } else { None };
-            let skeleton = match known.map_or_else(|| Skeleton::new(&outset.rings, &paces), Ok) {
+            let skeleton = match known.map_or_else(|| Skeleton::new(&outset.polygon, &paces), Ok) {
                 Ok(skeleton) => skeleton,
                 Err(_) if !party.is_empty() => {
                     party.clear();
@@ -182,7 +199,7 @@ impl Shape {
             let is_plate = profile.beyond() > 0.0;
             let mut rings = skeleton.faces;
             if is_plate {
-                let ends: Vec<[DVec2; 2]> = walls.iter().flat_map(|ring| edges(ring)).collect();
+                let ends: Vec<[DVec2; 2]> = walls.edges().collect();
                 let raked: Vec<bool> = over.iter().map(|over| *over == Over::Raked).collect();
                 let rest = |pace: &Pace| if pace.speed > 0.0 { pace.rest } else { f64::INFINITY };
                 let rests: Vec<f64> = paces.iter().map(rest).collect();
@@ -215,8 +232,8 @@ impl Shape {
     }
 
     /// What is to stand over each edge: `hip`, the hip roof, shows where gables may.
-    fn over(&self, walls: &[Vec<DVec2>], hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<Over> {
-        let mut over = vec![Over::Slope; walls.iter().map(Vec::len).sum()];
+    fn over(&self, walls: &Polygon, hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<Over> {
+        let mut over = vec![Over::Slope; walls.size()];
         for edge in party {
             over[*edge] = Over::Flush;
         }
@@ -229,11 +246,11 @@ impl Shape {
     }
 
     /// How the edges of the outline move.
-    fn paces(&self, walls: &[Vec<DVec2>], outset: &Outset, over: &[Over], ends: Ends) -> Vec<Pace> {
+    fn paces(&self, walls: &Polygon, outset: &Outset, over: &[Over], ends: Ends) -> Vec<Pace> {
         let mut paces = Vec::with_capacity(over.len());
         let is_plate = self.eaves == Eaves::Open && matches!(self.surface, Surface::Sloped(..));
         let beyond = if is_plate { outset.most() } else { 0.0 };
-        for ring in if is_plate { walls } else { &outset.rings } {
+        for ring in if is_plate { walls } else { &outset.polygon } {
             let count = ring.len();
             for index in 0..count {
                 let at = |offset: usize| ring[(index + count + offset - 1) % count];
@@ -278,16 +295,16 @@ impl Shape {
                 slope * hip.map_or(half, |hip| hip.duration()).min(half)
             }
         };
-        let patches = super::shed::patches(self, &fall, walls, &outset.rings, base, outset.most(), high);
+        let patches = super::shed::patches(self, &fall, walls, &outset.polygon, base, outset.most(), high);
         self.finished(patches, support, &over, outset, false)
     }
 }
 
 /// Lets the roof jut out less over edges that go `astray`, and over those beside them; at last nowhere.
-fn give_way(astray: &[usize], walls: &[Vec<DVec2>], distances: &[f64], most: &mut [f64]) {
+fn give_way(astray: &[usize], walls: &Polygon, distances: &[f64], most: &mut [f64]) {
     let mut changed = false;
     let mut first = 0;
-    for count in walls.iter().map(Vec::len) {
+    for count in walls.iter().map(|ring| ring.len()) {
         for index in
             astray.iter().filter(|edge| (first..first + count).contains(*edge)).map(|edge| edge - first)
         {
@@ -322,10 +339,10 @@ fn strays(skeleton: &Skeleton, edge: usize, pace: Pace) -> bool {
 
 /// The edges for gables, in place of the triangles of a hip roof: the shortest first, and no two neighbours, nor
 /// neighbours of those that have gables `already`.
-fn gables(rings: &[Vec<DVec2>], hip: &Skeleton, already: &[usize]) -> Vec<usize> {
+fn gables(walls: &Polygon, hip: &Skeleton, already: &[usize]) -> Vec<usize> {
     let mut candidates: Vec<(f64, usize, [usize; 2])> = Vec::new();
     let mut first = 0;
-    for ring in rings {
+    for ring in walls {
         let count = ring.len();
         for index in 0..count {
             let at = |offset: usize| ring[(index + offset) % count];
@@ -349,6 +366,6 @@ fn gables(rings: &[Vec<DVec2>], hip: &Skeleton, already: &[usize]) -> Vec<usize>
 }
 
 /// The lowest face of a roof that stands by itself: its outline at height `base` (m), seen from below.
-pub fn floor(rings: &[Vec<DVec2>], base: f64) -> Vec<Vec<DVec3>> {
-    rings.iter().map(|ring| ring.iter().rev().map(|at| at.extend(base)).collect()).collect()
+pub fn floor(outline: &Polygon, base: f64) -> Vec<Ring<DVec3>> {
+    outline.at_height(base).from_below()
 }

@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 use smallvec::SmallVec;
 
 use super::super::cap;
+use crate::planar::Ring;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::Part;
 
@@ -23,7 +24,20 @@ type Corners = SmallVec<[[usize; 3]; 16]>;
 ///
 /// Texture coordinates are metres: u along `right`, v across, from `origin` on. Every edge of a ring is the edge
 /// of one triangle.
-pub fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
+///
+/// ```
+/// use burgeon_geometry::{Ring, fill};
+/// use burgeon_scene::Part;
+/// use glam::DVec3;
+///
+/// // A wall, 4 m wide and 3 m high, that faces south.
+/// let wall = [(0.0, 0.0), (4.0, 0.0), (4.0, 3.0), (0.0, 3.0)].map(|(x, z)| DVec3::new(x, 0.0, z));
+/// let mut part = Part::default();
+/// fill(&mut part, &[Ring::new(wall.to_vec())?], DVec3::X, DVec3::ZERO)?;
+/// assert_eq!((part.positions.len(), part.triangles.len()), (4, 2));
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
     let normal = rings.iter().fold(DVec3::ZERO, |sum, ring| sum + newell(ring)).normalize_or_zero();
     let right = (right - normal * normal.dot(right)).normalize_or_zero();
     let up = normal.cross(right);
@@ -32,7 +46,7 @@ pub fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: DVec3) 
     let triangles: Corners = match rings {
         [_] => match star(&flats) {
             Some(apex) => fan(flats.len(), apex).collect(),
-            None => match cap::triangulate(&[flats.to_vec()]) {
+            None => match cap::triangulate(&[flats.as_slice()]) {
                 Ok(triangles) => without_slivers(&flats, triangles.into()),
                 // It almost touches itself.
                 Err(_) => fan(flats.len(), widest(&flats)).collect(),
@@ -43,7 +57,7 @@ pub fn fill(part: &mut Part, rings: &[Vec<DVec3>], right: DVec3, origin: DVec3) 
             let nested = rings.iter().map(|ring| {
                 let (own, others) = rest.split_at(ring.len());
                 rest = others;
-                own.to_vec()
+                own
             });
             cap::triangulate(&nested.collect::<Vec<_>>())?.into()
         }
@@ -156,7 +170,7 @@ mod tests {
         {
             let flat: Vec<DVec2> = corners.iter().copied().map(DVec2::from).collect();
             assert_eq!(star(&flat).is_some(), sees_all, "{corners:?}");
-            let ring: Vec<DVec3> = flat.iter().map(|at| at.extend(1.0)).collect();
+            let ring = Ring::new(flat.iter().map(|at| at.extend(1.0)).collect()).expect("a ring");
             let mut part = Part::default();
             fill(&mut part, &[ring], DVec3::X, DVec3::ZERO).expect("a flat ring");
             let area = |corners: [u32; 3]| {

@@ -3,7 +3,8 @@
 use glam::{DVec2, DVec3};
 use rustc_hash::FxHashMap;
 
-use super::{Patch, PatchKind, edges};
+use super::{Patch, PatchKind};
+use crate::planar::Ring;
 
 /// What a line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -20,7 +21,7 @@ pub enum LineKind {
 
 /// A line of a roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Line {
+pub struct RoofLine {
     /// What it is.
     pub kind: LineKind,
     /// Its ends (m); eaves run to the right as seen from outside, hips and valleys upwards.
@@ -33,12 +34,12 @@ pub struct Line {
 const LEVEL: f64 = 0.2;
 
 /// The lines of a roof, in the order of its patches.
-pub fn lines(patches: &[Patch]) -> Vec<Line> {
+pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
     let key = |at: DVec3| at.as_vec3().to_array().map(f32::to_bits);
     let mut owner = FxHashMap::default();
     let slopes = || patches.iter().enumerate().filter(|(_, patch)| patch.kind == PatchKind::Slope);
     for (number, patch) in slopes() {
-        for [a, b] in patch.rings.iter().flat_map(|ring| edges(ring)) {
+        for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
             owner.insert((key(a), key(b)), number);
         }
     }
@@ -47,7 +48,7 @@ pub fn lines(patches: &[Patch]) -> Vec<Line> {
         let normal = normal(patch);
         // Every edge of a level roof is the lowest one.
         let is_level = normal.z > 1.0 - 1e-9;
-        for [a, b] in patch.rings.iter().flat_map(|ring| edges(ring)) {
+        for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
             match owner.get(&(key(b), key(a))) {
                 Some(&other) if other > number && patches[other].edge != patch.edge => {
                     let away = normal.cross((b - a).normalize_or_zero());
@@ -67,11 +68,11 @@ pub fn lines(patches: &[Patch]) -> Vec<Line> {
                         ([a, b], [normal, across])
                     };
                     if bend.abs() > 1e-3 {
-                        lines.push(Line { kind, ends, normals });
+                        lines.push(RoofLine { kind, ends, normals });
                     }
                 }
                 None if patch.flap == 0 && (is_level || along(a, b).dot(patch.along) > 0.99) => {
-                    lines.push(Line { kind: LineKind::Eaves, ends: [a, b], normals: [normal; 2] });
+                    lines.push(RoofLine { kind: LineKind::Eaves, ends: [a, b], normals: [normal; 2] });
                 }
                 _ => {}
             }

@@ -22,10 +22,12 @@ mod tests;
 
 use glam::{DVec2, DVec3};
 
+use crate::planar::Ring;
+
 pub use build::Cover;
 pub use build::floor;
 pub use fill::fill;
-pub use lines::{Line, LineKind, lines, normal};
+pub use lines::{LineKind, RoofLine, lines, normal};
 pub use shape::{Border, Eaves, Ends, Rise, STEEPEST_EAVES, Shape, Surface};
 pub use support::Support;
 
@@ -54,10 +56,13 @@ pub struct Patch {
     /// The direction of its edge on the plan.
     pub along: DVec2,
     /// Its rings (m): the first counter-clockwise as seen from outside, holes clockwise.
-    pub rings: Vec<Vec<DVec3>>,
+    pub rings: Vec<Ring<DVec3>>,
 }
 
-/// The edges of a ring, each with its two points.
-fn edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = [T; 2]> + '_ {
-    (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
+impl Patch {
+    /// The patch of one ring, without corners that repeat the one before; `None` if fewer than three are left.
+    fn new(kind: PatchKind, edge: usize, flap: usize, along: DVec2, ring: Vec<DVec3>) -> Option<Self> {
+        let ring = Ring::without_repeats(ring)?;
+        Some(Self { kind, edge, flap, along, rings: vec![ring] })
+    }
 }

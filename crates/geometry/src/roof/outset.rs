@@ -1,13 +1,14 @@
 //! The outline of a roof: that of the walls, moved outwards over each edge as far as there is room.
 
 use geo::line_intersection::line_intersection;
-use geo::{Coord, Line};
 use glam::DVec2;
+
+use crate::planar::{Polygon, Rings, coord};
 
 /// An outline, and how far (m) it is from the walls over each edge.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Outset {
-    pub rings: Vec<Vec<DVec2>>,
+    pub polygon: Polygon,
     pub distances: Vec<f64>,
 }
 
@@ -30,9 +31,9 @@ impl Outset {
     /// The rings with each edge moved outwards by the distance (m) that is `wanted`, or by less where there is no room:
     /// only the edges give way that would vanish or meet others, and those that go with them.
     ///
-    /// The first ring is counter-clockwise, the holes are clockwise. Edges that meet in a reflex corner are as far out
+    /// Edges that meet in a reflex corner are as far out
     /// as one another, so that neither ends at the other's wall, unless one is a gable `apart`; so are edges in one line.
-    pub(super) fn new(walls: &[Vec<DVec2>], wanted: Vec<f64>, apart: impl Fn(usize) -> bool) -> Self {
+    pub(super) fn new(walls: &Polygon, wanted: Vec<f64>, apart: impl Fn(usize) -> bool) -> Self {
         let mut corners = Corner::all(walls, apart);
         let mut distances = wanted;
         for round in 0..ROUNDS {
@@ -48,7 +49,8 @@ impl Outset {
                 factors = crossing(&corners, &distances);
             }
             if factors.is_empty() {
-                return Self { rings: rings(walls, &corners), distances };
+                let Some(polygon) = moved(walls, &corners) else { break };
+                return Self { polygon, distances };
             }
             // What comes near to a limit ever more slowly reaches it.
             let most = if round < 8 { 1.0 } else { 0.75 };
@@ -59,7 +61,7 @@ impl Outset {
                 distances[edge] = distances[edge].min(if whole < LEAST { 0.0 } else { whole });
             }
         }
-        Self { rings: walls.to_vec(), distances: vec![0.0; corners.len()] }
+        Self { polygon: walls.clone(), distances: vec![0.0; corners.len()] }
     }
 
     /// The greatest distance (m).
@@ -82,8 +84,8 @@ struct Corner {
 }
 
 impl Corner {
-    fn all(walls: &[Vec<DVec2>], apart: impl Fn(usize) -> bool) -> Vec<Self> {
-        let mut corners = Vec::with_capacity(walls.iter().map(Vec::len).sum());
+    fn all(walls: &Polygon, apart: impl Fn(usize) -> bool) -> Vec<Self> {
+        let mut corners = Vec::with_capacity(walls.size());
         for ring in walls {
             let (first, count) = (corners.len(), ring.len());
             let way = |index: usize| (ring[(index + 1) % count] - ring[index % count]).normalize_or_zero();
@@ -222,13 +224,14 @@ fn gap([a, b]: [[DVec2; 2]; 2]) -> f64 {
     b.map(|at| to(a, at)).into_iter().chain(a.map(|at| to(b, at))).fold(f64::INFINITY, f64::min)
 }
 
-fn line(ends: [DVec2; 2]) -> Line {
-    let [start, end] = ends.map(|at| Coord { x: at.x, y: at.y });
-    Line::new(start, end)
+fn line(ends: [DVec2; 2]) -> geo::Line {
+    let [start, end] = ends.map(coord);
+    geo::Line::new(start, end)
 }
 
-/// The corners as rings of the same sizes as those of the walls.
-fn rings(walls: &[Vec<DVec2>], corners: &[Corner]) -> Vec<Vec<DVec2>> {
+/// The corners where they have moved, in rings of the same sizes as those of the walls, if these are a polygon.
+fn moved(walls: &Polygon, corners: &[Corner]) -> Option<Polygon> {
     let mut rest = corners.iter().map(|corner| corner.moved);
-    walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect()).collect()
+    let rings = walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect());
+    Polygon::new(rings.collect::<Rings<DVec2>>()).ok()
 }

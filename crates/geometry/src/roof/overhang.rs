@@ -5,18 +5,18 @@ use glam::{DVec2, DVec3};
 use super::patches::at_level;
 use super::plate::{border, part};
 use super::shape::Profile;
-use super::shed::without_repeats;
 use super::support::divide_feet;
 use super::{Patch, PatchKind};
+use crate::planar::{Polygon, Ring};
 
 /// Places of a roof nearer than this (m) to the wall are not beyond it.
 const CLEAR: f64 = 5e-3;
 
 /// The outline of a roof, beside that of the walls below.
 pub(super) struct Rim<'a> {
-    pub walls: &'a [Vec<DVec2>],
+    pub walls: &'a Polygon,
     /// As many edges as the walls have.
-    pub outer: &'a [Vec<DVec2>],
+    pub outer: &'a Polygon,
     pub profile: &'a Profile,
     /// Where the walls end (m).
     pub base: f64,
@@ -66,8 +66,9 @@ impl Place {
         self.first + (self.index + 1) % self.count
     }
 
-    fn ends(&self, rings: &[Vec<DVec2>]) -> [DVec2; 2] {
-        [rings[self.ring][self.index], rings[self.ring][(self.index + 1) % self.count]]
+    fn ends(&self, polygon: &Polygon) -> [DVec2; 2] {
+        let ring = &polygon[self.ring];
+        [ring[self.index], ring[(self.index + 1) % self.count]]
     }
 }
 
@@ -171,7 +172,9 @@ impl Rim<'_> {
                 continue;
             }
             if let Some(faces) = plate {
-                patch.rings[0] = self.strip(patch.edge, self.overhang, faces, []);
+                if let Some(strip) = Ring::without_repeats(self.strip(patch.edge, self.overhang, faces, [])) {
+                    patch.rings[0] = strip;
+                }
                 continue;
             }
             let place = self.place(patch.edge);
@@ -181,7 +184,9 @@ impl Rim<'_> {
             let low = self.under(0.0);
             let below = [a.with_z(low), left.extend(self.base), right.extend(self.base), b.with_z(low)];
             let above = ring[1..].iter().copied().chain([a]);
-            *ring = without_repeats(below.into_iter().chain(above).collect());
+            if let Some(whole) = Ring::without_repeats(below.into_iter().chain(above).collect()) {
+                *ring = whole;
+            }
         }
         for edge in 0..rakes.len() {
             let place = self.place(edge);
@@ -218,17 +223,14 @@ impl Rim<'_> {
             ring.splice(last..last, corners);
         }
         ring.extend(border.iter().map(top));
-        without_repeats(ring)
+        ring
     }
 
     fn add_eaves(&self, patches: &mut Vec<Patch>, edge: usize, place: &Place) {
         let ([a, b], [left, right]) = (place.ends(self.outer), place.ends(self.walls));
         let along = (right - left).normalize_or_zero();
         let mut push = |kind, ring: Vec<DVec3>| {
-            let ring = without_repeats(ring);
-            if ring.len() > 2 {
-                patches.push(Patch { kind, edge, flap: 0, along, rings: vec![ring] });
-            }
+            patches.extend(Patch::new(kind, edge, 0, along, ring));
         };
         let (low, high) = (self.under(0.0), self.base + self.profile.corners[0].y);
         push(PatchKind::Fascia, vec![a.extend(low), b.extend(low), b.extend(high), a.extend(high)]);
@@ -249,16 +251,13 @@ impl Rim<'_> {
     ) {
         let [left, right] = place.ends(self.walls);
         let along = (right - left).normalize_or_zero();
-        let patch = |kind, ring| Patch { kind, edge, flap: 0, along, rings: vec![ring] };
+        let patch = |kind, ring| Patch::new(kind, edge, 0, along, ring);
         let from = self.overhang - self.distances[edge];
         let beside = |edge: usize| rakes[edge].is_some();
         // Beside a gable that the roof juts out over, the top of the wall ends before the roof does.
         let corners = [(left, beside(place.before())), (right, beside(place.after()))];
         let corners = corners.into_iter().filter(|(_, beside)| *beside).map(|(at, _)| at.extend(self.base));
-        let rim = self.strip(edge, from, faces, corners.clone());
-        if rim.len() > 2 {
-            patches.push(patch(PatchKind::Fascia, rim));
-        }
+        patches.extend(patch(PatchKind::Fascia, self.strip(edge, from, faces, corners.clone())));
         if self.distances[edge] > 0.0 {
             let mut ring = part(&faces.rings[edge], faces.points, [from, self.overhang]);
             ring.reverse();
@@ -267,7 +266,7 @@ impl Rim<'_> {
             let under = |point: DVec3| point.truncate().extend(self.under(point.z));
             let mut ring: Vec<DVec3> = ring.into_iter().map(under).collect();
             ring.splice(last..last, corners);
-            patches.push(patch(PatchKind::Underside, ring));
+            patches.extend(patch(PatchKind::Underside, ring));
         }
     }
 
@@ -280,7 +279,7 @@ impl Rim<'_> {
         let [left, right] = place.ends(self.walls);
         let along = (right - left).normalize_or_zero();
         let mut push = |kind, flap, along, ring: Vec<DVec3>| {
-            patches.push(Patch { kind, edge, flap, along, rings: vec![ring] });
+            patches.extend(Patch::new(kind, edge, flap, along, ring));
         };
         // Not with_z: rustc 1.95 lets it change the caller's point where it is not inlined.
         let under = |point: DVec3| point.truncate().extend(self.under(point.z));

@@ -10,7 +10,8 @@ use super::overhang::Rake;
 use super::plate::is_at;
 use super::shape::{Profile, between};
 use super::subdivision::{Corners, Piece};
-use super::{Patch, PatchKind, edges};
+use super::{Patch, PatchKind};
+use crate::planar::edges;
 
 /// Corners that are as near to a level of the profile as this (m) are on it.
 pub(super) const ON_LEVEL: f64 = 2e-3;
@@ -64,7 +65,7 @@ pub(super) fn patches(
         let lowest = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
         for (number, &Span { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
             let flap = number.saturating_sub(lowest);
-            let patch = |kind, ring| Patch { kind, edge, flap, along, rings: vec![ring] };
+            let patch = |kind, ring| Patch::new(kind, edge, flap, along, ring);
             let is_step = spans[edge][number].is_step();
             let count = rest
                 .partition_point(|piece| (piece.edge, piece.number) <= (edge, number + usize::from(is_step)));
@@ -76,7 +77,7 @@ pub(super) fn patches(
                         let ([a, b], [low, high]) =
                             ([a.truncate(), b.truncate()], [base + from.y, base + to.y]);
                         let ring = vec![a.extend(low), b.extend(low), b.extend(high), a.extend(high)];
-                        patches.push(patch(PatchKind::Fascia, ring));
+                        patches.extend(patch(PatchKind::Fascia, ring));
                     }
                 }
                 continue;
@@ -95,7 +96,7 @@ pub(super) fn patches(
             let is_left_out =
                 kind == PatchKind::Gable && (pace.moves_at(profile.beyond()) || rakes[edge].is_some());
             for piece in rest[..count].iter().filter(|_| !is_left_out) {
-                patches.push(patch(kind, piece.ring.iter().map(raise).collect()));
+                patches.extend(patch(kind, piece.ring.iter().map(raise).collect()));
             }
             rest = &rest[count..];
         }

@@ -1,10 +1,10 @@
 //! Tests of roofs beside neighbours, in rows whose walls bend slightly or step, and of those over what stands out.
 
-use super::super::Plan;
 use super::super::skeleton::samples::{Random, mixed};
 use super::super::skeleton::tests::plan;
 use super::super::solid;
-use super::tests::{HEIGHT, area, building};
+use super::super::{Plan, Polygon, Rings};
+use super::tests::{HEIGHT, around, building};
 use super::*;
 
 const SURFACES: [Surface; 5] = [
@@ -24,7 +24,7 @@ fn rounds(least: usize) -> std::ops::Range<usize> {
 
 /// A plan beside others, and which of its edges are along them.
 struct Adjoining {
-    walls: Vec<Vec<DVec2>>,
+    walls: Polygon,
     party: Vec<usize>,
     reach: Vec<f64>,
 }
@@ -64,7 +64,7 @@ fn house(random: &mut Random) -> Option<Adjoining> {
     let given: Vec<usize> = (0..right.len() - 1).chain(right.len()..ring.len() - 1).collect();
     // A piece of a wall in some, so that the rest of it is free.
     let free = if random.next() < 0.3 { (random.next() * given.len() as f64) as usize } else { usize::MAX };
-    let plan = Plan::new(&[ring.iter().map(|at| at.extend(0.0)).collect()]).ok()?;
+    let plan = Plan::new(&Rings(vec![ring.iter().map(|at| at.extend(0.0)).collect()])).ok()?;
     let stands = plan.given_edges();
     let is_party = |edges: &[usize]| {
         edges.iter().any(|edge| given.iter().enumerate().any(|(index, known)| known == edge && index != free))
@@ -76,7 +76,7 @@ fn house(random: &mut Random) -> Option<Adjoining> {
 }
 
 /// What is wrong with a building that is to be one closed solid which nowhere meets itself.
-fn fault(cover: &Cover, walls: &[Vec<DVec2>]) -> Option<String> {
+fn fault(cover: &Cover, walls: &Polygon) -> Option<String> {
     let part = building(walls, cover);
     let (check, clashes) = (solid::check([&part]), solid::clashes([&part], 2e-3));
     let sound = check.is_solid() && clashes.is_empty();
@@ -87,7 +87,7 @@ fn fault(cover: &Cover, walls: &[Vec<DVec2>]) -> Option<String> {
 fn covered(cover: &Cover) -> f64 {
     let rings =
         cover.patches.iter().filter(|patch| patch.kind == PatchKind::Slope).flat_map(|patch| &patch.rings);
-    rings.map(|ring| area(&[ring.iter().map(|at| at.truncate()).collect()])).sum()
+    rings.map(Ring::area).sum()
 }
 
 #[test]
@@ -111,7 +111,7 @@ fn roofs_in_rows_with_bent_and_stepped_party_walls_never_meet_themselves() {
         gabled += usize::from(cover.patches.iter().any(|patch| patch.kind == PatchKind::Gable));
         // Nothing over neighbours.
         assert!(cover.overhangs.iter().zip(&reach).all(|(overhang, reach)| overhang <= reach), "{round}");
-        let least = area(&walls);
+        let least = walls.area();
         assert!(covered(&cover) > least * (1.0 - 1e-4), "{round}: {} of {least} m²", covered(&cover));
     }
     assert!(faults.is_empty(), "{} of {count}: {:#?}", faults.len(), &faults[..faults.len().min(4)]);
@@ -127,7 +127,7 @@ fn roofs_over_random_plans_between_neighbours_never_meet_themselves() {
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let overhang = [0.3, 0.5, 0.8][round / 15 % 3];
         let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
-        let edges = walls.iter().map(Vec::len).sum();
+        let edges = walls.size();
         let near = |random: &mut Random| match (random.next() * 6.0) as u32 {
             0 => 0.0,
             1 => 0.4 * random.next(),
@@ -177,7 +177,7 @@ fn a_narrow_notch_takes_the_overhang_of_its_own_edges_only() {
     for round in rounds(600) {
         let overhang = [0.2, 0.4, 0.6, 0.9][round % 4];
         let (ring, full, taken) = notched(&mut random, overhang);
-        let walls = vec![ring];
+        let walls = Polygon::new(vec![ring]).expect("a polygon");
         let (surface, (eaves, slab)) = (surfaces[round / 4 % 3], EAVES[round / 12 % 3]);
         let slab = if round / 4 % 3 == 2 { 0.15 } else { slab };
         let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
@@ -202,7 +202,7 @@ fn a_roof_begins_where_the_outermost_storey_ends() {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let shape = Shape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
-        let edges: usize = walls.iter().map(Vec::len).sum();
+        let edges: usize = walls.size();
         let even = round % 2 == 0;
         let juts: Vec<f64> = (0..edges)
             .map(|_| if even { 0.5 } else { [0.0, 0.3, 0.5][(random.next() * 3.0) as usize] })
@@ -213,7 +213,7 @@ fn a_roof_begins_where_the_outermost_storey_ends() {
         count += 1;
     }
     assert!(faults.is_empty(), "{} of {count}: {:#?}", faults.len(), &faults[..faults.len().min(4)]);
-    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    let walls = around(&[(0., 0.), (10., 0.), (10., 6.), (0., 6.)]);
     for (surface, (eaves, slab)) in
         SURFACES.into_iter().flat_map(|surface| EAVES.map(|eaves| (surface, eaves)))
     {

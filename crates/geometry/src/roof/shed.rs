@@ -3,7 +3,8 @@
 use glam::{DVec2, DVec3};
 
 use super::shape::{Eaves, Rise, Shape};
-use super::{Patch, PatchKind, edges};
+use super::{Patch, PatchKind};
+use crate::planar::{Polygon, Ring};
 
 /// Heights (m) below this are none.
 const LOWEST: f64 = 2e-3;
@@ -22,15 +23,15 @@ pub(super) struct Fall {
 }
 
 impl Fall {
-    pub(super) fn new(walls: &[Vec<DVec2>]) -> Self {
-        let longest =
-            walls.first().into_iter().flat_map(|ring| edges(ring)).fold([DVec2::ZERO; 2], |best, edge| {
-                let [a, b] = [best, edge].map(|[from, to]| from.distance(to));
-                if b > a + 1e-6 { edge } else { best }
-            });
+    pub(super) fn new(walls: &Polygon) -> Self {
+        let outer = walls.outer().into_iter().flat_map(Ring::edges);
+        let longest = outer.fold([DVec2::ZERO; 2], |best, edge| {
+            let [a, b] = [best, edge].map(|[from, to]| from.distance(to));
+            if b > a + 1e-6 { edge } else { best }
+        });
         let (from, way) = (longest[0], (longest[1] - longest[0]).normalize_or_zero().perp());
         let mut fall = Self { from, way, near: f64::INFINITY, far: f64::NEG_INFINITY };
-        for &at in walls.iter().flatten() {
+        for at in walls.points() {
             let depth = fall.depth(at);
             (fall.near, fall.far) = (fall.near.min(depth), fall.far.max(depth));
         }
@@ -47,10 +48,10 @@ impl Fall {
     }
 
     /// Whether each edge is one of the eaves, where level undersides begin; over the others gables are flush.
-    pub(super) fn eaves(&self, walls: &[Vec<DVec2>]) -> Vec<bool> {
+    pub(super) fn eaves(&self, walls: &Polygon) -> Vec<bool> {
         let mut eaves = Vec::new();
         for ring in walls {
-            let ways: Vec<DVec2> = edges(ring).map(|[a, b]| (b - a).normalize_or_zero()).collect();
+            let ways: Vec<DVec2> = ring.edges().map(|[a, b]| (b - a).normalize_or_zero()).collect();
             let mut down: Vec<bool> =
                 ways.iter().map(|along| -along.perp().dot(self.way) > DOWNWARDS).collect();
             let count = ring.len();
@@ -72,8 +73,8 @@ impl Fall {
 pub(super) fn patches(
     shape: &Shape,
     fall: &Fall,
-    walls: &[Vec<DVec2>],
-    outer: &[Vec<DVec2>],
+    walls: &Polygon,
+    outer: &Polygon,
     base: f64,
     overhang: f64,
     high: f64,
@@ -92,16 +93,12 @@ pub(super) fn patches(
     let under = |at: DVec2| raised(at, slope * beyond);
     let top = |at: DVec2| raised(at, slope * beyond + shape.slab);
 
-    let rings = outer.iter().map(|ring| ring.iter().map(|&at| top(at)).collect()).collect();
+    let rings = outer.iter().map(|ring| ring.raised(|at| top(at).z)).collect();
     let mut patches = vec![Patch { kind: PatchKind::Slope, edge: 0, flap: 0, along: fall.way.perp(), rings }];
-    let pairs = walls.iter().flat_map(|ring| edges(ring)).zip(outer.iter().flat_map(|ring| edges(ring)));
-    for (edge, ([a, b], [c, d])) in pairs.enumerate() {
+    for (edge, ([a, b], [c, d])) in walls.edges().zip(outer.edges()).enumerate() {
         let along = (b - a).normalize_or_zero();
         let mut push = |kind, corners: Vec<DVec3>| {
-            let ring = without_repeats(corners);
-            if ring.len() > 2 {
-                patches.push(Patch { kind, edge, flap: 0, along, rings: vec![ring] });
-            }
+            patches.extend(Patch::new(kind, edge, 0, along, corners));
         };
         let mut wall = vec![a.extend(base), b.extend(base)];
         if along.perp_dot(c - a).abs().max(along.perp_dot(d - a).abs()) < LOWEST {
@@ -119,13 +116,4 @@ pub(super) fn patches(
         push(PatchKind::Gable, wall);
     }
     patches
-}
-
-/// The ring without corners that repeat the one before.
-pub(super) fn without_repeats(mut ring: Vec<DVec3>) -> Vec<DVec3> {
-    ring.dedup();
-    if ring.len() > 1 && ring.first() == ring.last() {
-        ring.pop();
-    }
-    ring
 }

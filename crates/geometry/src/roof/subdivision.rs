@@ -5,6 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::patches::ON_LEVEL;
+use crate::planar::edges;
 
 /// Corners nearer than this (m) to a border are on it, and those as near to each other are one.
 const NEAR: f64 = 2.5e-4;
@@ -26,10 +27,6 @@ pub(super) struct Piece {
 
 /// The ends of a border, the lesser one first.
 type Border = [usize; 2];
-
-fn borders(ring: &[usize]) -> impl Iterator<Item = [usize; 2]> + '_ {
-    (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
-}
 
 fn border([a, b]: [usize; 2]) -> Border {
     [a.min(b), a.max(b)]
@@ -79,7 +76,7 @@ impl Corners<'_> {
     fn touches(&self, pieces: &[Piece]) -> Touches {
         let mut found = Touches::default();
         for piece in pieces.iter().filter(|piece| !piece.is_fixed) {
-            for [a, b] in borders(&piece.ring).map(border) {
+            for [a, b] in edges(&piece.ring).map(border) {
                 let (from, way) = (self.points[a], self.points[b] - self.points[a]);
                 let square = way.length_squared();
                 let is_level = way.z == 0.0 && self.levels.contains(&from.z);
@@ -112,7 +109,7 @@ impl Corners<'_> {
             // Along both sides of a border there has to be one piece that may be divided.
             let mut sides: FxHashMap<Border, [usize; 2]> = FxHashMap::default();
             for piece in pieces {
-                for ends in borders(&piece.ring) {
+                for ends in edges(&piece.ring) {
                     if found.between.contains_key(&border(ends)) {
                         let side = usize::from(ends[0] > ends[1]);
                         sides.entry(border(ends)).or_default()[side] += if piece.is_fixed { 2 } else { 1 };
@@ -165,7 +162,7 @@ impl Corners<'_> {
 fn divided(pieces: &[Piece], between: &FxHashMap<Border, SmallVec<[(f64, usize); 2]>>) -> Vec<Piece> {
     let parts = |piece: &Piece| {
         let mut ring = Vec::with_capacity(piece.ring.len() + 2);
-        for ends in borders(&piece.ring) {
+        for ends in edges(&piece.ring) {
             ring.push(ends[0]);
             let more = between.get(&border(ends)).into_iter().flatten().map(|&(_, corner)| corner);
             if ends[0] < ends[1] {

@@ -1,16 +1,16 @@
 //! What a roof stands on.
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::outset::Outset;
-use super::shed::without_repeats;
-use super::{Patch, PatchKind, edges};
+use super::{Patch, PatchKind};
+use crate::planar::{Polygon, Ring};
 
 /// The walls below a roof, and what stands beside them.
 #[derive(Debug, Clone, Copy)]
 pub struct Support<'a> {
-    /// Their outline: the first ring is counter-clockwise, the holes are clockwise.
-    pub walls: &'a [Vec<DVec2>],
+    /// Their outline.
+    pub walls: &'a Polygon,
     /// Where they end (m).
     pub base: f64,
     /// The edges along neighbours, which get gables where possible.
@@ -23,13 +23,13 @@ pub struct Support<'a> {
 
 impl<'a> Support<'a> {
     /// Walls that end at `base` (m), with nothing around them.
-    pub fn new(walls: &'a [Vec<DVec2>], base: f64) -> Self {
+    pub fn new(walls: &'a Polygon, base: f64) -> Self {
         Self { walls, base, party: &[], juts: &[], reach: &[] }
     }
 
     /// The number of edges of all rings.
     pub(super) fn edges(&self) -> usize {
-        self.walls.iter().map(Vec::len).sum()
+        self.walls.size()
     }
 
     /// How far (m) over each edge a roof may go that is to go so far everywhere; in whole centimetres where that is
@@ -70,32 +70,27 @@ impl<'a> Support<'a> {
 
     /// Adds what looks down between the walls and the outline of what stands out below, where the roof begins.
     pub(super) fn add_soffit(&self, outer: &Outset, patches: &mut Vec<Patch>) {
-        divide_feet(patches, self.walls, &outer.rings, self.base);
-        for (edge, [[left, right], [a, b]]) in feet(self.walls, &outer.rings, self.base).enumerate() {
+        divide_feet(patches, self.walls, &outer.polygon, self.base);
+        for (edge, [[left, right], [a, b]]) in feet(self.walls, &outer.polygon, self.base).enumerate() {
             if in_line([left, right], a) {
                 continue;
             }
             let along = (right - left).truncate().normalize_or_zero();
-            let rings = vec![without_repeats(vec![b, a, left, right])];
-            patches.push(Patch { kind: PatchKind::Underside, edge, flap: 0, along, rings });
+            patches.extend(Patch::new(PatchKind::Underside, edge, 0, along, vec![b, a, left, right]));
         }
     }
 }
 
 /// Each edge of the walls, and of the outline around them, at height `base` (m).
-fn feet<'a>(
-    walls: &'a [Vec<DVec2>],
-    outer: &'a [Vec<DVec2>],
-    base: f64,
-) -> impl Iterator<Item = [[DVec3; 2]; 2]> + 'a {
-    let pairs = walls.iter().flat_map(|ring| edges(ring)).zip(outer.iter().flat_map(|ring| edges(ring)));
+fn feet<'a>(walls: &'a Polygon, outer: &'a Polygon, base: f64) -> impl Iterator<Item = [[DVec3; 2]; 2]> + 'a {
+    let pairs = walls.edges().zip(outer.edges());
     pairs.map(move |(inner, outer)| [inner, outer].map(|ends| ends.map(|at| at.extend(base))))
 }
 
 /// Gives the lower edge of a face that begins on a wall and beside it the corners of the wall.
 ///
 /// So it is where an edge of the outline stays in its line, and becomes longer as those beside it do not.
-pub(super) fn divide_feet(patches: &mut [Patch], walls: &[Vec<DVec2>], outer: &[Vec<DVec2>], base: f64) {
+pub(super) fn divide_feet(patches: &mut [Patch], walls: &Polygon, outer: &Polygon, base: f64) {
     let longer = feet(walls, outer, base).map(|[inner, outer]| {
         let between = inner.into_iter().filter(|at| !outer.contains(at)).collect::<Vec<_>>();
         (in_line(inner, outer[0]) && in_line(inner, outer[1]) && !between.is_empty())
@@ -105,9 +100,13 @@ pub(super) fn divide_feet(patches: &mut [Patch], walls: &[Vec<DVec2>], outer: &[
     for patch in patches {
         let Some((outer, between)) = &longer[patch.edge] else { continue };
         for ring in &mut patch.rings {
-            let mut ends = (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]]);
-            if let Some(begin) = ends.position(|ends| ends == *outer) {
-                ring.splice(begin + 1..begin + 1, between.iter().copied());
+            let begin = ring.edges().position(|ends| ends == *outer);
+            if let Some(begin) = begin {
+                let (before, after) = ring.split_at(begin + 1);
+                let points = [before, between, after].concat();
+                if let Some(longer) = Ring::without_repeats(points) {
+                    *ring = longer;
+                }
             }
         }
     }

@@ -6,21 +6,23 @@ use super::super::skeleton::{Pace, Skeleton};
 use super::super::solid;
 use super::shape::Profile;
 use super::*;
+use crate::planar::Polygon;
 use burgeon_scene::Part;
 
 pub(super) const HEIGHT: f64 = 3.0;
 pub(super) const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];
 
 /// Walls of 3 m over a floor, and `cover` on them.
-pub(super) fn building(walls: &[Vec<DVec2>], cover: &Cover) -> Part {
+pub(super) fn building(walls: &Polygon, cover: &Cover) -> Part {
     let mut part = Part::default();
-    let mut add = |rings: &[Vec<DVec3>]| {
+    let mut add = |rings: &[Ring<DVec3>]| {
         let right = rings[0][1] - rings[0][0];
         fill(&mut part, rings, right, rings[0][0]).expect("a flat face");
     };
     add(&floor(walls, 0.0));
-    for [a, b] in walls.iter().flat_map(|ring| edges(ring)) {
-        add(&[vec![a.extend(0.0), b.extend(0.0), b.extend(HEIGHT), a.extend(HEIGHT)]]);
+    for [a, b] in walls.edges() {
+        let wall = vec![a.extend(0.0), b.extend(0.0), b.extend(HEIGHT), a.extend(HEIGHT)];
+        add(&[Ring::new(wall).expect("a wall")]);
     }
     for patch in &cover.patches {
         add(&patch.rings);
@@ -28,16 +30,15 @@ pub(super) fn building(walls: &[Vec<DVec2>], cover: &Cover) -> Part {
     part
 }
 
-pub(super) fn area(rings: &[Vec<DVec2>]) -> f64 {
-    let twice =
-        |ring: &Vec<DVec2>| edges(ring).map(|[a, b]| (a - ring[0]).perp_dot(b - ring[0])).sum::<f64>();
-    rings.iter().map(twice).sum::<f64>() / 2.0
+/// The walls with this outline.
+pub(super) fn around(corners: &[(f64, f64)]) -> Polygon {
+    Polygon::new(vec![corners.iter().copied().map(DVec2::from).collect()]).expect("a polygon")
 }
 
 /// The volume (m³) below the faces of a hip roof, by clipping them at the bends of the profile.
-fn volume_below(rings: &[Vec<DVec2>], shape: &Shape) -> f64 {
-    let paces = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
-    let skeleton = Skeleton::new(rings, &paces).expect("a skeleton");
+fn volume_below(walls: &Polygon, shape: &Shape) -> f64 {
+    let paces = vec![Pace::default(); walls.size()];
+    let skeleton = Skeleton::new(walls, &paces).expect("a skeleton");
     let profile = Profile::new(shape, skeleton.duration(), 0.0);
     let mut volume = 0.0;
     for face in &skeleton.faces {
@@ -99,7 +100,7 @@ fn greatest(cover: &Cover) -> f64 {
     cover.overhangs.iter().copied().fold(0.0, f64::max)
 }
 
-fn in_row<'a>(walls: &'a [Vec<DVec2>], party: &'a [usize]) -> Support<'a> {
+fn in_row<'a>(walls: &'a Polygon, party: &'a [usize]) -> Support<'a> {
     Support { party, ..Support::new(walls, HEIGHT) }
 }
 
@@ -134,13 +135,13 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         let check = solid::check([&part]);
         assert!(check.is_solid(), "{round}: {shape:?} {check:?} {walls:?}");
         let volume = solid::volume([&part]);
-        let plain = area(&walls) * HEIGHT;
+        let plain = walls.area() * HEIGHT;
         assert!(volume > plain - 1e-3, "{round}: {volume} m³ of {plain} m³");
         if greatest(&cover) == 0.0 {
             // What the walls enclose up to the roof is what lies below its surface.
             let (below, covered) = integral(&cover);
             // Corners where faces meet at nearly one point may be a millimetre off.
-            let whole = area(&walls);
+            let whole = walls.area();
             assert!((covered - whole).abs() < 1e-5 * whole.max(1.0), "{round}: {covered} of {whole} m²");
             assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
             flush += 1;
@@ -215,7 +216,8 @@ fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
         for step in 0..12 {
             let turn = DVec2::from_angle(0.31 * f64::from(step));
             let walls =
-                vec![corners.iter().map(|&corner| turn.rotate(DVec2::from(corner))).collect::<Vec<_>>()];
+                Polygon::new(vec![corners.iter().map(|&corner| turn.rotate(DVec2::from(corner))).collect()]);
+            let walls = walls.expect("a polygon");
             for eaves in [Eaves::Closed, Eaves::Open] {
                 let shape = shape(Surface::Sloped(Ends::Gables, &[]), eaves, 0.5, 0.1);
                 let shape = if eaves == Eaves::Closed { Shape { slab: 0.0, ..shape } } else { shape };
@@ -235,7 +237,7 @@ fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
 
 #[test]
 fn open_eaves_of_a_gable_roof_have_the_volume_of_a_plate_beyond_the_walls() {
-    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    let walls = around(&[(0., 0.), (10., 0.), (10., 6.), (0., 6.)]);
     let open =
         Shape { rise: Rise::Height(3.0), ..shape(Surface::Sloped(Ends::Gables, &[]), Eaves::Open, 0.5, 0.2) };
     let cover = open.cover(&walls, HEIGHT).expect("a roof");
@@ -247,7 +249,7 @@ fn open_eaves_of_a_gable_roof_have_the_volume_of_a_plate_beyond_the_walls() {
 
 #[test]
 fn a_roof_of_one_slope_is_as_high_as_a_gable_roof_of_the_same_slope() {
-    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    let walls = around(&[(0., 0.), (10., 0.), (10., 6.), (0., 6.)]);
     let highest = |surface| {
         let cover = shape(surface, Eaves::Closed, 0.0, 0.0).cover(&walls, 0.0).expect("a roof");
         cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|point| point.z).fold(0.0, f64::max)
@@ -260,7 +262,7 @@ fn a_roof_of_one_slope_is_as_high_as_a_gable_roof_of_the_same_slope() {
 fn a_house_in_a_row_has_gables_along_its_neighbours() {
     // Wider than deep, so that without neighbours a gable roof would have its gables there, too; and deeper than wide.
     for (width, depth) in [(10.0, 6.0), (6.0, 10.0)] {
-        let walls = vec![[(0., 0.), (width, 0.), (width, depth), (0., depth)].map(DVec2::from).to_vec()];
+        let walls = around(&[(0., 0.), (width, 0.), (width, depth), (0., depth)]);
         for surface in [
             Surface::Sloped(Ends::Gables, &[]),
             Surface::Sloped(Ends::Hips, &[]),
@@ -287,7 +289,7 @@ fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
     };
     // Over the wall at the top left the slopes would meet beyond its end, as the wall beside it is short.
     let corners = [(1.7, -5.5), (5.9, 0.8), (5.0, 1.4), (-1.6, 6.0), (-6.0, -0.4)];
-    let walls = vec![corners.map(DVec2::from).to_vec()];
+    let walls = around(&corners);
     let roof = shape(Surface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
     let cover = roof.cover_on(&in_row(&walls, &[2, 4])).expect("a roof");
     assert!(solid::check([&building(&walls, &cover)]).is_solid());
@@ -296,7 +298,7 @@ fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
 
 #[test]
 fn a_roof_of_one_slope_juts_out_over_its_eaves_as_it_is_asked_to() {
-    let walls = vec![[(0., 0.), (10., 0.), (10., 6.), (0., 6.)].map(DVec2::from).to_vec()];
+    let walls = around(&[(0., 0.), (10., 0.), (10., 6.), (0., 6.)]);
     for (eaves, slab, overhang, wedge, lowest) in [
         // From the outline of the eaves up to 2 m over the longest edge, beside flush gables.
         (Eaves::Closed, 0.0, 0.5, 10.0 * 6.5 * 2.0 / 2.0, HEIGHT),
@@ -324,7 +326,7 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
     let (mut count, mut gables) = (0, 0);
     for round in 0..2000 {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
-        let ends: Vec<[DVec2; 2]> = walls.iter().flat_map(|ring| edges(ring)).collect();
+        let ends: Vec<[DVec2; 2]> = walls.edges().collect();
         let party: Vec<usize> = (0..ends.len()).filter(|_| random.next() < 0.25).collect();
         let kind = [Ends::Hips, Ends::Gables][round / 2 % 2];
         let roof = shape(Surface::Sloped(kind, &[]), Eaves::Closed, 0.0, 0.0);
@@ -333,7 +335,7 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
         let check = solid::check([&part]);
         assert!(check.is_solid(), "{round}: {party:?} {check:?} {walls:?}");
         let (below, covered) = integral(&cover);
-        let (volume, whole) = (solid::volume([&part]), area(&walls));
+        let (volume, whole) = (solid::volume([&part]), walls.area());
         // Short borders of its skeleton are left out.
         let slack = 1e-3 * ends.iter().map(|[a, b]| a.distance(*b)).sum::<f64>();
         assert!((covered - whole).abs() < slack, "{round}: {covered} of {whole} m²");
@@ -354,7 +356,7 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
 #[test]
 fn only_the_edges_of_a_narrow_recess_give_way() {
     let corners = [(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)];
-    let walls = vec![corners.map(DVec2::from).to_vec()];
+    let walls = around(&corners);
     for eaves in [Eaves::Closed, Eaves::Slab, Eaves::Open] {
         let cover =
             shape(Surface::Sloped(Ends::Hips, &[]), eaves, 0.5, 0.1).cover(&walls, HEIGHT).expect("a roof");

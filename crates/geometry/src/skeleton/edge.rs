@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use glam::{DVec2, I64Vec2};
 
 use super::Pace;
+use crate::planar::Polygon;
 use burgeon_base::error::{Error, Limit, Result};
 
 /// Cells of the lattice to a metre: corners move by less than 2e-10 m.
@@ -13,17 +14,15 @@ pub(super) const CELLS: f64 = (1u64 << 32) as f64;
 const MOST: f64 = (1u64 << 61) as f64;
 
 /// The rings on the lattice (cells), and the middle (m) of their box, from which they are measured.
-pub(super) fn snapped(rings: &[Vec<DVec2>]) -> Result<(Vec<Vec<I64Vec2>>, DVec2)> {
-    let points = || rings.iter().flatten();
-    let low = points().fold(DVec2::INFINITY, |low, point| low.min(*point));
-    let high = points().fold(DVec2::NEG_INFINITY, |high, point| high.max(*point));
+pub(super) fn snapped(polygon: &Polygon) -> Result<(Vec<Vec<I64Vec2>>, DVec2)> {
+    let [low, high] = polygon.bounds().unwrap_or_default();
     let middle = low.midpoint(high).round();
     let reach = (high - low).max_element() * CELLS;
-    if !points().all(|point| point.is_finite()) || reach > MOST {
+    if reach > MOST {
         return Err(Error::limit(Limit::Size, "the outline is too large for a roof"));
     }
     let snap = |point: &DVec2| ((*point - middle) * CELLS).round().as_i64vec2();
-    Ok((rings.iter().map(|ring| ring.iter().map(snap).collect()).collect(), middle))
+    Ok((polygon.iter().map(|ring| ring.iter().map(snap).collect()).collect(), middle))
 }
 
 /// A point of the lattice (m).
@@ -118,7 +117,8 @@ mod tests {
     #[test]
     fn corners_are_moved_by_less_than_a_thousandth_of_a_micrometre() {
         let ring = vec![DVec2::new(1000.1, 2000.2), DVec2::new(1010.3, 2000.7), DVec2::new(1003.3, 2011.1)];
-        let (snapped, middle) = snapped(std::slice::from_ref(&ring)).expect("a small ring");
+        let polygon = Polygon::new(vec![ring.clone()]).expect("a small ring");
+        let (snapped, middle) = snapped(&polygon).expect("a small ring");
         assert_eq!(middle, DVec2::new(1005.0, 2006.0));
         for (&from, &to) in ring.iter().zip(&snapped[0]) {
             assert!((from - middle).distance(metres(to)) < 1e-9);

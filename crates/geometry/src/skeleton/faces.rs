@@ -7,6 +7,7 @@ use super::coarse::{coarsen, widen};
 use super::edge::{Edge, metres};
 use super::wavefront::Traced;
 use super::{Peak, Skeleton};
+use crate::planar::twice_area;
 use burgeon_base::error::{Error, Result};
 
 /// How far (m) borders may be off each other.
@@ -145,11 +146,4 @@ fn crosses_itself(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
         let [a, b] = pair.map(border);
         parted(a, b) && parted(b, a)
     })
-}
-
-/// Twice the area of a ring, negative if it is clockwise.
-pub(super) fn twice_area(ring: impl Iterator<Item = DVec2> + Clone) -> f64 {
-    let Some(first) = ring.clone().next() else { return 0.0 };
-    let shifted = ring.clone().skip(1).chain([first]);
-    ring.zip(shifted).map(|(a, b)| (a - first).perp_dot(b - first)).sum()
 }

@@ -17,6 +17,7 @@ mod wavefront;
 
 use glam::DVec2;
 
+use crate::planar::Polygon;
 use burgeon_base::error::Result;
 
 /// A place where faces meet: on the plan (m), and when the wavefront reached it.
@@ -77,10 +78,29 @@ pub struct Skeleton {
 }
 
 impl Skeleton {
-    /// The weighted straight skeleton of the area inside the first of `rings` and outside the others.
+    /// The weighted straight skeleton of a polygon whose rings neither cross nor touch; `paces` says of each edge of all
+    /// rings how it moves.
     ///
-    /// The first ring is counter-clockwise, the holes are clockwise; none crosses or touches another. `paces` says
-    /// of each edge of all rings how it moves.
+    /// ```
+    /// use burgeon_geometry::skeleton::{Pace, Skeleton};
+    /// use burgeon_geometry::{Polygon, Rings};
+    /// use glam::DVec2;
+    ///
+    /// let plan = [(0.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0)].map(DVec2::from);
+    /// let plan = Polygon::new(Rings(vec![plan.to_vec()]))?;
+    /// let hip = Skeleton::new(&plan, &[Pace::default(); 4])?;
+    /// // After its four corners those of the ridge, half the width of the house above its eaves.
+    /// assert_eq!((hip.peaks.len(), hip.duration()), (6, 4.0));
+    /// assert_eq!(hip.faces.iter().map(Vec::len).collect::<Vec<_>>(), [4, 3, 4, 3]);
+    ///
+    /// // Where the short edges stand still, the ridge goes from gable to gable.
+    /// let gables = [Pace::default(), Pace::STILL, Pace::default(), Pace::STILL];
+    /// let gabled = Skeleton::new(&plan, &gables)?;
+    /// let mut ridge: Vec<f64> = gabled.peaks[4..].iter().map(|peak| peak.at.x).collect();
+    /// ridge.sort_by(f64::total_cmp);
+    /// assert_eq!(ridge, [0.0, 12.0]);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
     ///
     /// Method: wavefront propagation (O. Aichholzer and F. Aurenhammer, "Straight skeletons for general
     /// polygonal figures in the plane", 1996) of the polygon on a lattice of 2^-32 m. All decisions are exact: its
@@ -96,14 +116,14 @@ impl Skeleton {
     /// the result does not pass the checks: one closed face for each edge, every corner in the plane of its faces, no
     /// negative area, areas that add up to the polygon's (to 1e-6), faces that are monotone along their edges, or do
     /// not cross themselves where paces differ.
-    pub fn new(rings: &[Vec<DVec2>], paces: &[Pace]) -> Result<Self> {
-        let (lattice, middle) = edge::snapped(rings)?;
+    pub fn new(polygon: &Polygon, paces: &[Pace]) -> Result<Self> {
+        let (lattice, middle) = edge::snapped(polygon)?;
         let traced = wavefront::propagate(&lattice, paces)?;
         let mut skeleton = faces::assemble(&lattice, traced)?;
         for peak in &mut skeleton.peaks {
             peak.at += middle;
         }
-        for (peak, &at) in skeleton.peaks.iter_mut().zip(rings.iter().flatten()) {
+        for (peak, at) in skeleton.peaks.iter_mut().zip(polygon.points()) {
             peak.at = at;
         }
         Ok(skeleton)

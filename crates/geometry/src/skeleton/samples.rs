@@ -24,10 +24,10 @@ impl Random {
     }
 }
 
-type Ring = Vec<DVec2>;
+type Points = Vec<DVec2>;
 
 /// A row of houses of several depths on both sides of a line, on whole metres: many ties.
-fn row(random: &mut Random) -> Ring {
+fn row(random: &mut Random) -> Points {
     let (mut x, mut low, mut high) = (0.0, Vec::new(), Vec::new());
     for _ in 0..random.whole(1, 6) as usize {
         let width = random.whole(1, 6);
@@ -40,14 +40,14 @@ fn row(random: &mut Random) -> Ring {
     low
 }
 
-fn star(random: &mut Random) -> Ring {
+fn star(random: &mut Random) -> Points {
     let count = random.whole(3, 24) as u32;
     let at = |index: u32, radius: f64| DVec2::from_angle(TAU * f64::from(index) / f64::from(count)) * radius;
     (0..count).map(|index| at(index, random.between(3.0, 12.0))).collect()
 }
 
 /// A wheel whose spokes are equal: everything meets at once.
-fn wheel(random: &mut Random) -> Ring {
+fn wheel(random: &mut Random) -> Points {
     let spokes = random.whole(2, 9) as u32;
     let (long, short) = (random.between(6.0, 12.0), random.between(2.0, 5.0));
     let count = 2 * spokes;
@@ -57,7 +57,7 @@ fn wheel(random: &mut Random) -> Ring {
 }
 
 /// A comb; with narrow gaps its slots are thin.
-fn comb(random: &mut Random) -> Ring {
+fn comb(random: &mut Random) -> Points {
     let gap = [0.03, 0.3, 1.0][random.whole(0, 2) as usize];
     let (teeth, width) = (random.whole(2, 12) as u32, random.whole(1, 3));
     let mut ring = Vec::new();
@@ -72,7 +72,7 @@ fn comb(random: &mut Random) -> Ring {
 }
 
 /// The ring with points that are almost on its edges, or with tiny steps in them.
-fn worn(ring: &Ring, random: &mut Random) -> Ring {
+fn worn(ring: &Points, random: &mut Random) -> Points {
     let mut worn = Vec::new();
     for (index, &a) in ring.iter().enumerate() {
         let b = ring[(index + 1) % ring.len()];
@@ -93,7 +93,7 @@ fn worn(ring: &Ring, random: &mut Random) -> Ring {
 }
 
 /// Rings of the sort that `round` asks for; chance makes some that cross themselves.
-pub(crate) fn mixed(round: usize, random: &mut Random) -> Vec<Ring> {
+pub(crate) fn mixed(round: usize, random: &mut Random) -> Vec<Points> {
     let mut outer = match round % 5 {
         0 | 1 => row(random),
         2 => star(random),
@@ -117,7 +117,7 @@ pub(crate) struct Family {
     /// What they are.
     pub name: &'static str,
     /// Makes one of them.
-    pub make: fn(&mut Random) -> Vec<Ring>,
+    pub make: fn(&mut Random) -> Vec<Points>,
 }
 
 /// All sorts of regular plans.
@@ -145,39 +145,39 @@ pub(crate) const FAMILIES: [Family; 17] = [
 ];
 
 /// The rings as they might come: as they are, turned, or with noise of up to 20 mm.
-fn anyhow(rings: Vec<Ring>, random: &mut Random) -> Vec<Ring> {
+fn anyhow(rings: Vec<Points>, random: &mut Random) -> Vec<Points> {
     let noise = [0.0, 0.0, 1e-9, 1e-6, 1e-5, 1e-4, 1e-3, 2e-2][random.whole(0, 7) as usize];
     let rings = noisy(rings, noise, random);
     let turn = [0.0, PI / 4.0, random.between(0.0, TAU)][random.whole(0, 2) as usize];
     if turn == 0.0 { rings } else { turned(&rings, turn) }
 }
 
-fn turned(rings: &[Ring], angle: f64) -> Vec<Ring> {
+fn turned(rings: &[Points], angle: f64) -> Vec<Points> {
     let turn = DVec2::from_angle(angle);
     rings.iter().map(|ring| ring.iter().map(|&at| turn.rotate(at)).collect()).collect()
 }
 
 /// The rings with every coordinate off by up to `most` (m).
-pub(crate) fn noisy(mut rings: Vec<Ring>, most: f64, random: &mut Random) -> Vec<Ring> {
+pub(crate) fn noisy(mut rings: Vec<Points>, most: f64, random: &mut Random) -> Vec<Points> {
     for at in rings.iter_mut().flatten() {
         *at += DVec2::new(random.between(-most, most), random.between(-most, most));
     }
     rings
 }
 
-fn rectangle(low: DVec2, high: DVec2) -> Ring {
+fn rectangle(low: DVec2, high: DVec2) -> Points {
     vec![low, DVec2::new(high.x, low.y), high, DVec2::new(low.x, high.y)]
 }
 
 /// Equal pavilions on both sides of a corridor.
-fn double_comb(random: &mut Random) -> Vec<Ring> {
+fn double_comb(random: &mut Random) -> Vec<Points> {
     let half = |random: &mut Random, from: u32, to: u32| random.whole(2 * from, 2 * to) / 2.0;
     let (count, width, gap) = (random.whole(2, 10) as u32, half(random, 4, 10), half(random, 3, 10));
     let (deep, corridor) = (half(random, 4, 14), half(random, 2, 6));
     let (up, down) = (deep, if random.next() < 0.7 { deep } else { half(random, 4, 14) });
     let shift = if random.next() < 0.7 { 0.0 } else { random.whole(0, 3) / 2.0 };
     let right = (width + gap) * f64::from(count) - gap;
-    let (mut low, mut high) = (Ring::new(), Ring::new());
+    let (mut low, mut high) = (Points::new(), Points::new());
     for tooth in 0..count {
         let x = (width + gap) * f64::from(tooth);
         low.extend([(x, 0.0), (x, -down), (x + width, -down), (x + width, 0.0)].map(DVec2::from));
@@ -200,7 +200,7 @@ fn double_comb(random: &mut Random) -> Vec<Ring> {
 }
 
 /// From 1 to 20 equal courtyards with wings of 6 to 8 m around and between them.
-fn courtyards(random: &mut Random) -> Vec<Ring> {
+fn courtyards(random: &mut Random) -> Vec<Points> {
     let count = random.whole(1, 20) as u32;
     let columns = random.whole(1, count.min(7)) as u32;
     let (wing, wide, deep) =
@@ -209,14 +209,14 @@ fn courtyards(random: &mut Random) -> Vec<Ring> {
 }
 
 /// A grid of equal courtyards on whole metres, many of them square.
-fn grid(random: &mut Random) -> Vec<Ring> {
+fn grid(random: &mut Random) -> Vec<Points> {
     let (rows, columns) = (random.whole(1, 5) as u32, random.whole(1, 5) as u32);
     let (wing, wide) = (random.whole(4, 10), random.whole(4, 12));
     let deep = if random.next() < 0.5 { wide } else { random.whole(4, 12) };
     yards(rows, columns, wing, DVec2::new(wide, deep))
 }
 
-fn yards(rows: u32, columns: u32, wing: f64, yard: DVec2) -> Vec<Ring> {
+fn yards(rows: u32, columns: u32, wing: f64, yard: DVec2) -> Vec<Points> {
     let step = yard + DVec2::splat(wing);
     let size = step * DVec2::new(f64::from(columns), f64::from(rows)) + DVec2::splat(wing);
     let mut rings = vec![rectangle(DVec2::ZERO, size)];
@@ -228,7 +228,7 @@ fn yards(rows: u32, columns: u32, wing: f64, yard: DVec2) -> Vec<Ring> {
 }
 
 /// Random plans on whole metres, with holes: unions of squares of a lattice, some with their corners cut off.
-fn lattice(random: &mut Random) -> Vec<Ring> {
+fn lattice(random: &mut Random) -> Vec<Points> {
     const SIZE: usize = 9;
     let mut filled = [[false; SIZE + 2]; SIZE + 2];
     let (wide, deep) = (random.whole(2, SIZE as u32) as usize, random.whole(2, SIZE as u32) as usize);
@@ -273,7 +273,7 @@ fn lattice(random: &mut Random) -> Vec<Ring> {
 }
 
 /// The corners of the rings around squares; the outer ring is the first one.
-fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Ring> {
+fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Points> {
     let mut ways: Vec<[(usize, usize); 2]> = Vec::new();
     for (x, y) in (1..size).flat_map(|y| (1..size).map(move |x| (x, y))) {
         let here = filled(x, y);
@@ -284,7 +284,7 @@ fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Ring> {
             ways.push(if here { [(x, y + 1), (x, y)] } else { [(x, y), (x, y + 1)] });
         }
     }
-    let mut rings: Vec<Ring> = Vec::new();
+    let mut rings: Vec<Points> = Vec::new();
     while let Some([first, mut at]) = ways.pop() {
         let mut ring = vec![first];
         while at != first {
@@ -293,7 +293,7 @@ fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Ring> {
             at = ways.swap_remove(next)[1];
         }
         #[allow(clippy::cast_precision_loss, reason = "they are few")]
-        let ring: Ring = ring.into_iter().map(|(x, y)| DVec2::new(x as f64, y as f64)).collect();
+        let ring: Points = ring.into_iter().map(|(x, y)| DVec2::new(x as f64, y as f64)).collect();
         let count = ring.len();
         let turns = |index: usize| {
             let (before, at) = (ring[(index + count - 1) % count], ring[index]);
@@ -301,15 +301,15 @@ fn outlines(filled: impl Fn(usize, usize) -> bool, size: usize) -> Vec<Ring> {
         };
         rings.push((0..count).filter(|&index| turns(index)).map(|index| ring[index]).collect());
     }
-    let left = |ring: &Ring| ring.iter().map(|at| at.x).fold(f64::INFINITY, f64::min);
+    let left = |ring: &Points| ring.iter().map(|at| at.x).fold(f64::INFINITY, f64::min);
     rings.sort_by(|a, b| left(a).total_cmp(&left(b)));
     rings
 }
 
 /// A regular polygon of 3 to 60 corners, some with a courtyard of the same shape.
-fn regular(random: &mut Random) -> Vec<Ring> {
+fn regular(random: &mut Random) -> Vec<Points> {
     let count = random.whole(3, 60) as u32;
-    let ring = |radius: f64| -> Ring {
+    let ring = |radius: f64| -> Points {
         (0..count)
             .map(|index| DVec2::from_angle(TAU * f64::from(index) / f64::from(count)) * radius)
             .collect()

@@ -1,31 +1,32 @@
 //! Tests of straight skeletons.
 
-use super::super::Plan;
+use super::super::{Plan, Polygon, Rings};
 use super::samples::{FAMILIES, Random, mixed};
 use super::*;
+use crate::planar::twice_area;
 
 /// The plan of rings; none where chance has made them cross.
-pub(crate) fn plan(rings: &[Vec<DVec2>]) -> Option<Vec<Vec<DVec2>>> {
-    let rings: Vec<Vec<_>> =
-        rings.iter().map(|ring| ring.iter().map(|at| at.extend(0.0)).collect()).collect();
+pub(crate) fn plan(rings: &[Vec<DVec2>]) -> Option<Polygon> {
+    let rings: Rings = rings.iter().map(|ring| ring.iter().map(|at| at.extend(0.0)).collect()).collect();
     Plan::new(&rings).ok().map(|plan| plan.flat())
 }
 
-fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
-    points.iter().map(|&(x, y)| DVec2::new(x, y)).collect()
+fn polygon(rings: &[&[(f64, f64)]]) -> Polygon {
+    let ring = |points: &&[(f64, f64)]| points.iter().copied().map(DVec2::from).collect();
+    Polygon::new(rings.iter().map(ring).collect::<Rings<DVec2>>()).expect("a polygon")
 }
 
-fn hip(rings: &[Vec<DVec2>]) -> Skeleton {
-    let paces = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
-    Skeleton::new(rings, &paces).expect("a skeleton")
+fn hip(rings: &[&[(f64, f64)]]) -> Skeleton {
+    let polygon = polygon(rings);
+    Skeleton::new(&polygon, &vec![Pace::default(); polygon.size()]).expect("a skeleton")
 }
 
 /// Checks the even skeletons of plans, and those with some edges that stand still, rest or are slow; how many plans
 /// there were.
-fn all_are_sound(plans: impl Iterator<Item = Vec<Vec<DVec2>>>, random: &mut Random) -> usize {
+fn all_are_sound(plans: impl Iterator<Item = Polygon>, random: &mut Random) -> usize {
     let (mut count, mut failed, mut stuck) = (0, Vec::new(), Vec::new());
     for rings in plans {
-        let mut paces = vec![Pace::default(); rings.iter().map(Vec::len).sum()];
+        let mut paces = vec![Pace::default(); rings.size()];
         if let Err(error) = Skeleton::new(&rings, &paces) {
             failed.push(format!("{error}: {rings:?}"));
         }
@@ -89,36 +90,33 @@ fn a_comb_of_400_teeth_is_roofed() {
     }
     comb.truncate(comb.len() - 2);
     comb.extend([(799.0, 5.0), (0.0, 5.0)]);
-    let found = hip(&[ring(&comb)]);
+    let found = hip(&[&comb]);
     assert_eq!(found.faces.len(), comb.len());
 }
 
 #[test]
 fn a_square_an_l_and_a_courtyard_have_their_ridges() {
-    let square = hip(&[ring(&[(0., 0.), (2., 0.), (2., 2.), (0., 2.)])]);
+    let square = hip(&[&[(0., 0.), (2., 0.), (2., 2.), (0., 2.)]]);
     assert_eq!((square.peaks.len(), square.duration()), (5, 1.0));
-    let l = hip(&[ring(&[(0., 0.), (6., 0.), (6., 2.), (2., 2.), (2., 6.), (0., 6.)])]);
+    let l = hip(&[&[(0., 0.), (6., 0.), (6., 2.), (2., 2.), (2., 6.), (0., 6.)]]);
     assert_eq!(l.duration(), 1.0);
-    let u = hip(&[
-        ring(&[(0., 0.), (9., 0.), (9., 9.), (0., 9.)]),
-        ring(&[(3., 3.), (3., 6.), (6., 6.), (6., 3.)]),
-    ]);
+    let u = hip(&[&[(0., 0.), (9., 0.), (9., 9.), (0., 9.)], &[(3., 3.), (3., 6.), (6., 6.), (6., 3.)]]);
     assert_eq!(u.duration(), 1.5);
 }
 
 #[test]
 fn an_edge_that_stands_still_has_a_face_without_area_until_it_begins_to_move() {
-    let rectangle = ring(&[(0., 0.), (8., 0.), (8., 4.), (0., 4.)]);
+    let rectangle = polygon(&[&[(0., 0.), (8., 0.), (8., 4.), (0., 4.)]]);
     let area = |skeleton: &Skeleton, edge: usize| {
-        faces::twice_area(skeleton.faces[edge].iter().map(|&peak| skeleton.peaks[peak].at)) / 2.0
+        twice_area(skeleton.faces[edge].iter().map(|&peak| skeleton.peaks[peak].at)) / 2.0
     };
     let mut paces = [Pace::default(); 4];
     paces[1] = Pace::STILL;
-    let gable = Skeleton::new(std::slice::from_ref(&rectangle), &paces).expect("a skeleton");
+    let gable = Skeleton::new(&rectangle, &paces).expect("a skeleton");
     assert_eq!((gable.faces[1].len(), gable.duration()), (3, 2.0));
     assert!(area(&gable, 1).abs() < 1e-9 && (area(&gable, 0) - 14.0).abs() < 1e-6);
     paces[1] = Pace { speed: 1.0, rest: 1.0 };
-    let half = Skeleton::new(std::slice::from_ref(&rectangle), &paces).expect("a skeleton");
+    let half = Skeleton::new(&rectangle, &paces).expect("a skeleton");
     // A triangle 2 m wide and 1 m deep.
     assert!((area(&half, 1) - 1.0).abs() < 1e-6, "{}", area(&half, 1));
 }
@@ -130,7 +128,7 @@ fn edges_around_an_area_that_nothing_else_sweeps_begin_to_move_at_last() {
     let still = |edges: &[usize]| {
         let mut paces = [Pace::default(); 8];
         edges.iter().for_each(|&edge| paces[edge] = Pace::STILL);
-        let found = Skeleton::new(&[ring(&corners)], &paces).expect("a skeleton");
+        let found = Skeleton::new(&polygon(&[&corners]), &paces).expect("a skeleton");
         let late: Vec<usize> = (0..8).filter(|&edge| found.paces[edge] != paces[edge]).collect();
         (late, found)
     };
@@ -145,17 +143,16 @@ fn a_face_may_go_around_the_end_of_an_edge_that_stands_still() {
     let corners = [(6.9, 0.1), (0.5, 6.7), (-6.5, -0.2), (-1.0, -6.0), (-0.5, -6.8)];
     let mut paces = [Pace::default(); 5];
     paces[2] = Pace::STILL;
-    let found = Skeleton::new(&[ring(&corners)], &paces).expect("a skeleton");
+    let found = Skeleton::new(&polygon(&[&corners]), &paces).expect("a skeleton");
     assert!(found.faces[2].len() > 3);
 }
 
 #[test]
 fn edges_in_one_line_have_a_straight_border_from_where_they_meet() {
     // A square with points on its edges, and a notch that closes before the ridge is reached.
-    let square = hip(&[ring(&[(0., 0.), (1., 0.), (4., 0.), (4., 4.), (2., 4.), (0., 4.), (0., 3.)])]);
+    let square = hip(&[&[(0., 0.), (1., 0.), (4., 0.), (4., 4.), (2., 4.), (0., 4.), (0., 3.)]]);
     assert!(square.duration() == 2.0 && square.faces.iter().all(|face| face.len() >= 3));
-    let notched =
-        hip(&[ring(&[(0., 0.), (4., 0.), (4., -1.), (5., -1.), (5., 0.), (9., 0.), (9., 6.), (0., 6.)])]);
+    let notched = hip(&[&[(0., 0.), (4., 0.), (4., -1.), (5., -1.), (5., 0.), (9., 0.), (9., 6.), (0., 6.)]]);
     // The border between the two parts of the front ends on the ridge.
     let [left, right] = [&notched.faces[0], &notched.faces[4]];
     let mut shared = left.iter().filter(|peak| right.contains(peak)).map(|&peak| notched.peaks[peak]);
@@ -165,20 +162,16 @@ fn edges_in_one_line_have_a_straight_border_from_where_they_meet() {
 #[test]
 fn the_faster_of_two_edges_in_one_line_sweeps_what_the_slower_one_has_left() {
     // A step of 1 m closes when its lower edge has reached the line of the upper one, which stands still.
-    let step = ring(&[(0., 0.), (5., 0.), (5., 1.), (9., 1.), (9., 7.), (0., 7.)]);
+    let step = polygon(&[&[(0., 0.), (5., 0.), (5., 1.), (9., 1.), (9., 7.), (0., 7.)]]);
     let mut paces = [Pace::default(); 6];
     (paces[1], paces[2]) = (Pace::STILL, Pace::STILL);
-    let found = Skeleton::new(&[step], &paces).expect("a skeleton");
+    let found = Skeleton::new(&step, &paces).expect("a skeleton");
     let upper: Vec<DVec2> = found.faces[2].iter().map(|&peak| found.peaks[peak].at).collect();
     assert!(upper.iter().all(|at| at.y == 1.0), "{upper:?}");
 }
 
 #[test]
 fn an_outline_that_turns_back_on_itself_is_refused() {
-    let spike = ring(&[(0., 0.), (4., 0.), (4., 4.), (4., 2.), (0., 2.)]);
-    let paces = [Pace::default(); 5];
-    assert!(Skeleton::new(std::slice::from_ref(&spike), &paces).is_err());
-    let twice = ring(&[(0., 0.), (4., 0.), (4., 0.), (4., 4.), (0., 2.)]);
-    assert!(Skeleton::new(&[twice], &paces).is_err());
-    assert!(Skeleton::new(&[ring(&[(0., 0.), (f64::NAN, 0.), (4., 4.)])], &paces).is_err());
+    let spike = polygon(&[&[(0., 0.), (4., 0.), (4., 4.), (4., 2.), (0., 2.)]]);
+    assert!(Skeleton::new(&spike, &[Pace::default(); 5]).is_err());
 }

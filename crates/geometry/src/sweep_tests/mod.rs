@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec2, DVec3, Vec3};
 
 use super::solid::{area, check, volume};
-use super::{Frame, Lengthwise, Section, SectionPoint, Segment, Station, SweepOptions, Swept, sweep};
+use super::{Frame, Lengthwise, Rings, Section, SectionPoint, Segment, Station, SweepOptions, Swept, sweep};
 use burgeon_scene::{Normal, Part};
 
 const FLAT: SweepOptions = SweepOptions {
@@ -73,7 +73,7 @@ fn near(value: f64, expected: f64, relative: f64) -> bool {
 fn frame_section() -> Section {
     let square =
         |half: f64| [(-1., -1.), (1., -1.), (1., 1.), (-1., 1.)].map(|(x, y)| DVec2::new(x, y) * half);
-    Section::polygon(&square(1.0), &[square(0.5).to_vec()]).expect("a frame")
+    Section::polygon(&Rings(vec![square(1.0).to_vec(), square(0.5).to_vec()])).expect("a frame")
 }
 
 #[test]
@@ -403,7 +403,7 @@ fn what_cannot_be_swept_is_refused_and_leaves_the_part_as_it_was() {
       help: leave some length between the stations, or end the run there and begin a new one
     ");
     let aside = [(1., 0.), (2., 0.), (2., 1.), (1., 1.)].map(|(x, y)| DVec2::new(x, y));
-    let aside = Section::polygon(&aside, &[]).expect("a square");
+    let aside = Section::polygon(&Rings(vec![aside.to_vec()])).expect("a square");
     let grown = tower(&[(0., 1., 1., 0.), (1., 1., 1., 0.), (1., 1.5, 1.5, 0.), (2., 1.5, 1.5, 0.)]);
     let error = sweep(&mut Part::default(), &aside, &grown, &SweepOptions::default()).expect_err("refused");
     insta::assert_snapshot!(error, @r"
@@ -423,7 +423,7 @@ fn what_cannot_be_swept_is_refused_and_leaves_the_part_as_it_was() {
 #[test]
 fn a_section_far_from_the_way_turns_with_it() {
     let square = [(9., 0.), (10., 0.), (10., 1.), (9., 1.)].map(|(x, y)| DVec2::new(x, y));
-    let section = Section::polygon(&square, &[]).expect("a square");
+    let section = Section::polygon(&Rings(vec![square.to_vec()])).expect("a square");
     let mut stations = Vec::new();
     let screw = Segment { length: 200.0, twist: 3.0 * TAU, steps: 200, ..Segment::default() };
     screw.stations(Frame::default(), &mut stations).expect("a screw");

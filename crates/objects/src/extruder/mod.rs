@@ -11,7 +11,7 @@ use smallvec::{SmallVec, smallvec};
 use super::Surface;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Frame, Section, Segment, Station, SweepOptions, sweep};
+use burgeon_geometry::{Frame, Rings, Section, Segment, Station, SweepOptions, sweep};
 use burgeon_kit::{Color, Kind, Object, Vector, fields, methods};
 use burgeon_kit::{Draw, Drawing};
 use burgeon_scene::Material;
@@ -135,9 +135,8 @@ impl Extruder {
 
     /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
     pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
-        let flat = |ring: &[Vector]| ring.iter().map(|point| point.0.truncate()).collect::<Vec<DVec2>>();
-        let holes: Vec<Vec<DVec2>> = holes.unwrap_or_default().iter().map(|ring| flat(ring)).collect();
-        self.state.section = Arc::new(shaded(Section::polygon(&flat(&outer), &holes)?, self.state.smooth));
+        let section = Section::polygon(&flat(std::iter::once(outer).chain(holes.unwrap_or_default())))?;
+        self.state.section = Arc::new(shaded(section, self.state.smooth));
         Ok(())
     }
 
@@ -259,6 +258,11 @@ impl Extruder {
     }
 }
 
+/// Rings of points, of which a section has x and y.
+fn flat(rings: impl IntoIterator<Item = Vec<Vector>>) -> Rings<DVec2> {
+    rings.into_iter().map(|ring| ring.iter().map(|point| point.0.truncate()).collect()).collect()
+}
+
 /// The section with its corners marked for shading.
 fn shaded(section: Section, smooth: bool) -> Section {
     if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
@@ -303,8 +307,7 @@ impl Extruder {
         let section = if options.shape.is_empty() {
             Section::regular(options.sides as usize)?
         } else {
-            let points: Vec<DVec2> = options.shape.iter().map(|point| point.0.truncate()).collect();
-            shaded(Section::polygon(&points, &[])?, options.smooth)
+            shaded(Section::polygon(&flat([options.shape.clone()]))?, options.smooth)
         };
         let section = Arc::new(section);
         let state = State::begin(&options, &section);

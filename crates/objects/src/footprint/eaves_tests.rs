@@ -35,15 +35,14 @@ fn template(depth: f64, color: &str) -> Value {
     make(facade::Template::kind(), &[("wall", wall), ("material", material(color))])
 }
 
-fn on(rings: Vec<Vec<DVec3>>, height: f64) -> Footprint {
+fn on(geometry: Rings, height: f64) -> Footprint {
     let height = (height > 0.0).then_some(Height(height));
-    Footprint::new(FootprintOptions { geometry: Rings(rings), height, ..FootprintOptions::default() })
-        .expect("a footprint")
+    Footprint::new(FootprintOptions { geometry, height, ..FootprintOptions::default() }).expect("a footprint")
 }
 
-fn rectangle(low: DVec2, size: DVec2, turn: DVec2) -> Vec<Vec<DVec3>> {
+fn rectangle(low: DVec2, size: DVec2, turn: DVec2) -> Rings {
     let corners = [(0., 0.), (1., 0.), (1., 1.), (0., 1.)].map(DVec2::from);
-    vec![corners.map(|corner| turn.rotate(low + corner * size).extend(0.0)).to_vec()]
+    Rings(vec![corners.map(|corner| turn.rotate(low + corner * size).extend(0.0)).to_vec()])
 }
 
 /// A house of 10 m by 6 m with these walls, one above the other, and this roof.
@@ -117,7 +116,7 @@ fn a_gable_goes_on_as_the_wall_below_it_unless_it_is_given_a_material() {
 }
 
 /// Houses beside one another, each with its height (m).
-fn row(random: &mut Stream) -> Vec<(Vec<Vec<DVec3>>, f64)> {
+fn row(random: &mut Stream) -> Vec<(Rings, f64)> {
     let turn = DVec2::from_angle(6.3 * random.uniform());
     let mut x = 0.0;
     let mut houses = Vec::new();
@@ -184,19 +183,20 @@ fn eaves_do_not_cut_into_neighbours_that_are_as_high_or_higher() {
 
 /// How deep (m) a place is inside a convex ring; less than 0 beside it.
 fn depth(ring: &[DVec3], at: DVec2) -> f64 {
-    edges(ring)
+    burgeon_geometry::planar::edges(ring)
         .map(|[a, b]| (b - a).truncate().normalize_or_zero().perp_dot(at - a.truncate()))
         .fold(f64::INFINITY, f64::min)
 }
 
 #[test]
 fn an_overhang_that_gives_way_tells_whether_a_neighbour_is_the_cause() {
-    let ring = |corners: &[(f64, f64)]| vec![corners.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()];
-    let angle: Vec<Vec<DVec3>> = ring(&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]);
+    let ring =
+        |corners: &[(f64, f64)]| Rings(vec![corners.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()]);
+    let angle = ring(&[(0., 0.), (12., 0.), (12., 5.), (5., 5.), (5., 12.), (0., 12.)]);
     let recess = ring(&[(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)]);
     // It touches one of the two walls of the inner corner, which are as far out as one another.
     let beside = ring(&[(5.05, 7.), (12., 7.), (12., 12.), (5.05, 12.)]);
-    let notes = |rings: &[&Vec<Vec<DVec3>>]| {
+    let notes = |rings: &[&Rings]| {
         let objects = rings.iter().map(|rings| Box::new(on((*rings).clone(), 6.0)) as Box<dyn Object>);
         let mut objects: Vec<_> = objects.collect();
         neighbors::gather(&mut objects);

@@ -3,12 +3,13 @@
 use std::borrow::Cow;
 use std::collections::BTreeMap;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
+use super::Footprint;
 use super::neighbors::Touch;
-use super::{Footprint, edges};
 use crate::facade::template::BLIND;
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::planar::edges;
 use burgeon_kit::Expected;
 use burgeon_kit::{Key, Parameter, Table, Value};
 
@@ -65,7 +66,7 @@ impl Edges {
     fn new(footprint: &Footprint) -> Self {
         let plan = &footprint.plan;
         let mut stands_for = vec![None; plan.given()];
-        let mut keywords = vec![Vec::new(); plan.edges()];
+        let mut keywords = vec![Vec::new(); plan.polygon().size()];
         for (edge, given) in plan.given_edges().into_iter().enumerate() {
             for number in given {
                 stands_for[number] = Some(edge);
@@ -76,7 +77,7 @@ impl Edges {
         }
         let touch = match &footprint.place {
             Some((all, own)) => all.touch(*own),
-            None => Touch { shared: vec![0.0; plan.edges()], neighbors: 0 },
+            None => Touch { shared: vec![0.0; plan.polygon().size()], neighbors: 0 },
         };
         for (keywords, shared) in keywords.iter_mut().zip(&touch.shared) {
             if *shared >= 0.5 {
@@ -104,7 +105,7 @@ fn add(words: &mut Vec<Cow<'static, str>>, word: impl Into<Cow<'static, str>>) {
 /// The outer edge on the street: the nearest to a street that it faces, or else the longest, if it is no party wall.
 fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
     let flat = footprint.plan.flat();
-    let outer: Vec<[DVec2; 2]> = edges(flat.first()?).collect();
+    let outer: Vec<[DVec2; 2]> = flat.outer()?.edges().collect();
     let length = |edge: usize| outer[edge][0].distance(outer[edge][1]);
     let free: Vec<usize> = (0..outer.len()).filter(|&edge| touch.shared[edge] < 0.5).collect();
     let longest = |among: &[usize]| {
@@ -143,8 +144,7 @@ impl Footprint {
     /// The "blind" edges of the plan that run away from its street rather than along it.
     pub(super) fn party_walls(&self) -> Vec<usize> {
         let flat = self.plan.flat();
-        let all: Vec<DVec2> =
-            flat.iter().flat_map(|ring| edges(ring)).map(|[a, b]| (b - a).normalize_or_zero()).collect();
+        let all: Vec<DVec2> = flat.edges().map(|[a, b]| (b - a).normalize_or_zero()).collect();
         let Some(street) = self.known_edges().street.map(|street| all[street]) else { return Vec::new() };
         let blind = |edge: &usize| self.edge_keywords(*edge).iter().any(|word| word == BLIND);
         (0..all.len()).filter(blind).filter(|edge| all[*edge].dot(street).abs() < ALONG_STREET).collect()
@@ -175,14 +175,9 @@ impl Footprint {
 
     /// The two ends (m) of an edge that was given.
     pub(super) fn ends(&self, method: &str, number: u32) -> Result<[DVec2; 2]> {
-        let mut index = self.given_edge(method, number)?;
-        for ring in &self.options.geometry.0 {
-            if index < ring.len() {
-                return Ok([ring[index], ring[(index + 1) % ring.len()]].map(|point| point.truncate()));
-            }
-            index -= ring.len();
-        }
-        Ok([DVec2::ZERO; 2])
+        let index = self.given_edge(method, number)?;
+        let given = self.options.geometry.iter().flat_map(|ring| edges(ring)).nth(index);
+        Ok(given.map_or([DVec2::ZERO; 2], |edge| edge.map(DVec3::truncate)))
     }
 
     /// The edge of the plan that stands for an edge that was given, if there is one.
@@ -194,7 +189,7 @@ impl Footprint {
     pub(super) fn facing(&self, number: u32) -> Result<f64> {
         let Some(edge) = self.standing("edge_facing", number)? else { return Ok(0.0) };
         let flat = self.plan.flat();
-        let found = flat.iter().flat_map(|ring| edges(ring)).nth(edge);
+        let found = flat.edges().nth(edge);
         Ok(found.map_or(0.0, |[a, b]| {
             let out = -(b - a).perp();
             out.y.atan2(out.x).to_degrees().rem_euclid(360.0)
@@ -237,11 +232,10 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
-    use glam::DVec3;
-
-    use super::super::{FootprintOptions, Rings};
+    use super::super::FootprintOptions;
     use super::*;
-    use crate::Streets;
+    use crate::LineIndex;
+    use burgeon_geometry::{Line, Rings};
 
     fn ring(points: &[[f64; 2]]) -> Vec<DVec3> {
         points.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect()
@@ -263,7 +257,7 @@ mod tests {
             ..FootprintOptions::default()
         })
         .unwrap();
-        assert_eq!((footprint.edges(), footprint.plan.edges()), (5, 4));
+        assert_eq!((footprint.edges(), footprint.plan.polygon().size()), (5, 4));
         let has = |edge, word: &str| footprint.edge_has(edge, word.into()).unwrap();
         assert!(has(1, "a") && has(1, "b") && has(2, "a") && !has(2, "c") && has(4, "c") && !has(3, "c"));
         assert_eq!((footprint.edge_length(2).unwrap(), footprint.edge_length(3).unwrap()), (3.0, 10.0));
@@ -290,7 +284,7 @@ mod tests {
 
     #[test]
     fn the_street_edge_is_the_longest_or_the_one_that_faces_the_nearest_street() {
-        let make = |streets: Option<Streets>, keywords| {
+        let make = |streets: Option<LineIndex>, keywords| {
             Footprint::new(FootprintOptions {
                 geometry: Rings(vec![ring(&RECTANGLE)]),
                 edge_keywords: keywords,
@@ -302,7 +296,7 @@ mod tests {
         let plain = make(None, EdgeKeywords::default());
         assert_eq!(plain.street_edge(), 1);
         assert!(plain.edge_has(1, "entry door".into()).unwrap());
-        let street = |points: &[[f64; 2]]| Streets::over(&[ring(points)]);
+        let street = |points: &[[f64; 2]]| LineIndex::over(&[Line::new(ring(points)).unwrap()]);
         // The street to the right runs past the corner, nearer to edge 1 than to the front that faces it.
         let right = street(&[[13.0, -40.0], [13.0, 40.0]]);
         let facing = make(Some(right), words(&[(3, "entry door")]));

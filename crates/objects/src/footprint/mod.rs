@@ -16,10 +16,9 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::{DVec2, DVec3};
 
-use super::{Streets, Surface, Terrain};
+use super::{LineIndex, Surface, Terrain};
 use burgeon_base::error::{Error, Result};
-use burgeon_data::Geometry;
-use burgeon_geometry::Plan;
+use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{
     Color, Draw, Drawing, Expected, Kind, LevelOfDetail, Note, Object, Parameter, Report, Shape, Table,
     Value, Vector, fields, methods,
@@ -34,66 +33,6 @@ use shell::Shell;
 use sides::Side;
 use walls::Plain;
 pub use walls::Walls;
-
-/// The rings of a geometry: the outer one, then the holes.
-#[derive(Debug, Clone, Default)]
-pub struct Rings(pub Vec<Vec<DVec3>>);
-
-impl Rings {
-    /// Those of a geometry of a source, if it is a polygon.
-    fn of(geometry: &Geometry) -> Option<Self> {
-        let Geometry::Polygon(rings) = geometry else { return None };
-        let ring = |ring: &Vec<[f64; 3]>| ring.iter().copied().map(DVec3::from).collect();
-        Some(Self(rings.iter().map(ring).collect()))
-    }
-}
-
-impl Parameter for Rings {
-    fn luau() -> String {
-        "Geometry".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || {
-            Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
-        };
-        let not_this =
-            |kind: &str| Expected::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
-        let table = match &value {
-            Value::Table(table) => table,
-            Value::Object(object) => {
-                let any: &dyn std::any::Any = &**object;
-                let geometry = any.downcast_ref::<Shape>().map(Shape::geometry).ok_or_else(what)?;
-                return Self::of(geometry).ok_or_else(|| not_this(geometry.kind().name()));
-            }
-            _ => return Err(what()),
-        };
-        let rings = match (table.get("rings"), table.get("kind")) {
-            (Some(rings), _) => rings.clone(),
-            (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
-            _ => value.clone(),
-        };
-        let first = |value: &Value| match value {
-            Value::Table(table) => table.list().into_iter().next(),
-            _ => None,
-        };
-        let is_ring = |value: &Value| {
-            let number = first(value).and_then(|point| first(&point));
-            matches!(number, Some(Value::Number(_)))
-        };
-        let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).or_else(|error| {
-            let ring = Vec::<Vector>::from_value(rings.clone());
-            ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(&rings) { of_ring } else { error })
-        })?;
-        Ok(Self(rings.into_iter().map(|ring| ring.into_iter().map(|point| point.0).collect()).collect()))
-    }
-
-    fn into_value(self) -> Value {
-        let rings: Vec<Vec<Vector>> =
-            self.0.into_iter().map(|ring| ring.into_iter().map(Vector).collect()).collect();
-        rings.into_value()
-    }
-}
 
 /// A height (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,7 +65,7 @@ pub struct FootprintOptions {
     /// What else is known of it, for `attribute` to tell: any table, such as the feature.
     pub attributes: Arc<Table>,
     /// The streets by which it lies, as `streets(source)` made them.
-    pub streets: Option<Streets>,
+    pub streets: Option<LineIndex>,
     /// The terrain on which it stands, which gives its points their heights.
     pub ground: Option<Arc<Terrain>>,
     /// Height of the walls (m), where they are not given one.
@@ -188,12 +127,12 @@ impl Footprint {
 
     /// Its area (m²) without the holes.
     pub fn area(&self) -> f64 {
-        self.plan.area()
+        self.plan.polygon().area()
     }
 
     /// The length (m) of its edges.
     pub fn perimeter(&self) -> f64 {
-        self.plan.perimeter()
+        self.plan.polygon().length()
     }
 
     /// The number of its edges, as they were given: first those of the outer ring, then those of the holes.
@@ -341,7 +280,7 @@ impl Footprint {
 
     /// Fails if nothing can be built, or `what` comes too late.
     fn check_open(&self, what: &str) -> Result<()> {
-        if self.plan.rings().is_empty() {
+        if self.plan.polygon().is_empty() {
             return Err(Error::script(format!("footprint:{what}: the footprint has no geometry"))
                 .help("make it with one: footprint(feature.geometry)"));
         }
@@ -375,11 +314,6 @@ fn check_height(what: &str, height: f64) -> Result<()> {
 fn unknown(what: &str, kind: &str, known: &[&'static str]) -> Error {
     Error::not_found("kind", kind, known.iter().copied(), format!("{what} has no kind called {kind:?}"))
         .help(format!("there are {}", known.join(", ")))
-}
-
-/// The edges of rings, each with its two points.
-fn edges<T: Copy>(ring: &[T]) -> impl Iterator<Item = [T; 2]> + '_ {
-    (0..ring.len()).map(|index| [ring[index], ring[(index + 1) % ring.len()]])
 }
 
 /// The direction of an edge on the ground.

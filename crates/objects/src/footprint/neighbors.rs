@@ -7,7 +7,7 @@ use rstar::primitives::{GeomWithData, Rectangle};
 use rstar::{AABB, RTree};
 use smallvec::SmallVec;
 
-use super::{Footprint, edges};
+use super::Footprint;
 use burgeon_geometry::Plan;
 use burgeon_kit::Object;
 
@@ -41,11 +41,10 @@ struct Map {
 
 impl Map {
     fn new(plans: &[(Arc<Plan>, DVec2)]) -> Self {
-        let mut walls = Vec::with_capacity(plans.iter().map(|(plan, _)| plan.edges()).sum());
+        let mut walls = Vec::with_capacity(plans.iter().map(|(plan, _)| plan.polygon().size()).sum());
         let mut begins = vec![0];
         for (plan, origin) in plans {
-            let all = plan.rings().iter().flat_map(|ring| edges(ring));
-            walls.extend(all.map(|edge| edge.map(|point| point.truncate() + *origin)));
+            walls.extend(plan.polygon().edges().map(|edge| edge.map(|point| point.truncate() + *origin)));
             begins.push(walls.len());
         }
         let mut map = Self { walls, begins, boxes: RTree::default() };
@@ -168,7 +167,9 @@ impl Neighborhood {
                 *reach = 0.0;
             }
         }
-        for (edge, front) in fronts(walls, plan.rings().iter().map(Vec::len), &reach).iter().enumerate() {
+        for (edge, front) in
+            fronts(walls, plan.polygon().iter().map(|ring| ring.len()), &reach).iter().enumerate()
+        {
             let distances = theirs.iter().filter_map(|their| front.distance(*their, search));
             let free = distances.map(|distance| if distance <= APART { 0.0 } else { distance / 2.0 });
             reach[edge] = free.fold(reach[edge], f64::min);
@@ -276,13 +277,14 @@ fn union(parts: &mut [[f64; 2]]) -> f64 {
 mod tests {
     use glam::DVec3;
 
-    use super::super::{FootprintOptions, Rings};
+    use super::super::FootprintOptions;
     use super::*;
+    use burgeon_geometry::Rings;
 
     fn all(rings: &[&[[f64; 2]]]) -> Neighborhood {
         let plan = |ring: &&[[f64; 2]]| {
             let ring = ring.iter().map(|point| DVec3::new(point[0], point[1], 0.0)).collect();
-            (Arc::new(Plan::new(&[ring]).unwrap()), DVec2::ZERO)
+            (Arc::new(Plan::new(&Rings(vec![ring])).unwrap()), DVec2::ZERO)
         };
         let tops = vec![None; rings.len()];
         Neighborhood { plans: rings.iter().map(plan).collect(), tops, map: OnceLock::new() }

@@ -9,11 +9,10 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 
 use glam::DVec3;
 
-use super::Rings;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::Layer;
-use burgeon_geometry::Plan;
-use burgeon_kit::Prefetch;
+use burgeon_geometry::{Plan, Rings};
+use burgeon_kit::{Prefetch, rings};
 
 /// From this many plans on, no more are made until some have been taken.
 const READY: usize = 256;
@@ -31,14 +30,12 @@ pub(super) struct Grounded {
 impl Grounded {
     /// The plan of `rings`; an empty one of no rings.
     pub(super) fn new(rings: &Rings) -> Result<Self> {
-        if rings.0.is_empty() {
+        if rings.is_empty() {
             return Ok(Self { plan: Arc::default(), origin: DVec3::ZERO });
         }
-        let plan = Plan::new(&rings.0).map_err(Error::of_data)?;
-        let points = || plan.rings().iter().flatten();
-        let low = points().fold(DVec3::INFINITY, |low, point| low.min(*point));
-        let high = points().fold(DVec3::NEG_INFINITY, |high, point| high.max(*point));
-        let origin = low.midpoint(high).truncate().extend(low.z).floor();
+        let plan = Plan::new(rings).map_err(Error::of_data)?;
+        let [low, high] = plan.polygon().bounds().unwrap_or_default();
+        let origin = low.midpoint(high).extend(plan.ground().0).floor();
         Ok(Self { plan: Arc::new(plan.moved(-origin)), origin })
     }
 }
@@ -105,7 +102,7 @@ impl Prefetch for PlanPrefetch {
             drop(state);
             let numbers = next..features.len().min(next + BATCH);
             next = numbers.end;
-            let plan = |number: usize| Some((number, Grounded::new(&Rings::of(&features[number].geometry)?)));
+            let plan = |number: usize| Some((number, Grounded::new(&rings(&features[number].geometry)?)));
             let made: Vec<_> = numbers.filter_map(plan).collect();
             state = self.state();
             state.made.extend(made);
@@ -122,6 +119,7 @@ impl Prefetch for PlanPrefetch {
 mod tests {
     use super::*;
     use burgeon_data::{Feature, Geometry};
+    use burgeon_geometry::Polygon;
 
     /// Squares on a line, every seventh of which has no area.
     fn squares(count: u32) -> Arc<Layer> {
@@ -144,8 +142,8 @@ mod tests {
         })
     }
 
-    fn told(plan: Result<Grounded>) -> Result<(Vec<Vec<DVec3>>, DVec3), String> {
-        plan.map(|made| (made.plan.rings().to_vec(), made.origin)).map_err(|error| error.to_string())
+    fn told(plan: Result<Grounded>) -> Result<(Polygon<DVec3>, DVec3), String> {
+        plan.map(|made| (made.plan.polygon().clone(), made.origin)).map_err(|error| error.to_string())
     }
 
     #[test]
@@ -162,7 +160,7 @@ mod tests {
                     continue;
                 };
                 ready += 1;
-                let here = Grounded::new(&Rings::of(&layer.features[number].geometry).unwrap());
+                let here = Grounded::new(&rings(&layer.features[number].geometry).unwrap());
                 assert_eq!(told(plan), told(here), "{number}");
                 assert!(ahead.state().made.len() < READY + BATCH);
             }

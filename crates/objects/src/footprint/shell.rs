@@ -2,9 +2,9 @@
 
 use glam::DVec3;
 
-use super::{Footprint, Surface, along, edges, unknown};
+use super::{Footprint, Surface, along, unknown};
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::{Plan, fill};
+use burgeon_geometry::{Plan, Ring, fill};
 
 /// How far a building has got.
 #[derive(Debug, Clone, Copy)]
@@ -21,7 +21,7 @@ pub(super) struct Shell {
 
 impl Shell {
     pub(super) fn new(plan: &Plan) -> Self {
-        let low = if plan.rings().is_empty() { 0.0 } else { plan.ground().0 };
+        let low = if plan.polygon().is_empty() { 0.0 } else { plan.ground().0 };
         Self { top: low, bottom: low, begun: false, closed: false }
     }
 }
@@ -43,12 +43,7 @@ impl Footprint {
         };
         let part = self.part(None, material.as_ref())?;
         if self.detail == 0 {
-            let plan: Vec<Vec<DVec3>> = self
-                .plan
-                .rings()
-                .iter()
-                .map(|ring| ring.iter().map(|at| at.with_z(base)).collect())
-                .collect();
+            let plan = self.plan.flat().at_height(base);
             self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
             return fill(self.drawing.part(part), &plan, DVec3::X, DVec3::ZERO).map_err(Error::of_data);
         }
@@ -56,24 +51,18 @@ impl Footprint {
         let plan = std::sync::Arc::clone(&self.plan);
         let part = self.drawing.part(part);
         if kind == "extruded" {
-            for [a, b] in plan.rings().iter().flat_map(|ring| edges(ring)) {
-                let mut corners = vec![a, b, b.with_z(base), a.with_z(base)];
-                corners.dedup();
-                if corners.first() == corners.last() {
-                    corners.pop();
-                }
-                if corners.len() > 2 {
-                    fill(part, &[corners], along(a.truncate(), b.truncate()), a.with_z(base))?;
+            for [a, b] in plan.polygon().edges() {
+                let face = Ring::without_repeats(vec![a, b, b.with_z(base), a.with_z(base)]);
+                if let Some(face) = face {
+                    fill(part, &[face], along(a.truncate(), b.truncate()), a.with_z(base))?;
                 }
             }
         }
         // Seen from below, rings run the other way.
-        let floor = plan.rings().iter().map(|ring| {
-            ring.iter()
-                .rev()
-                .map(|point| if kind == "extruded" { *point } else { point.with_z(base) })
-                .collect()
-        });
-        fill(part, &floor.collect::<Vec<Vec<DVec3>>>(), DVec3::X, DVec3::ZERO).map_err(Error::of_data)
+        let floor = match kind {
+            "extruded" => plan.polygon().from_below(),
+            _ => plan.flat().at_height(base).from_below(),
+        };
+        fill(part, &floor, DVec3::X, DVec3::ZERO).map_err(Error::of_data)
     }
 }

@@ -64,7 +64,7 @@ impl Footprint {
     /// Notes that the walls over `edge` are made of what part `part` holds.
     pub(super) fn note_part(&mut self, edge: usize, part: usize) {
         if self.sides.len() <= edge {
-            self.sides.resize(self.plan.edges(), Side::default());
+            self.sides.resize(self.plan.polygon().size(), Side::default());
         }
         self.sides[edge].part = part;
     }

@@ -3,13 +3,13 @@
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
 use super::sides::material_of;
-use super::{Footprint, Height, along, check_height, edges};
+use super::{Footprint, Height, along, check_height};
 use crate::Surface;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;
 use crate::facade::{Face, FaceMesh, Joiner, Laid, Rectangle, Template, Templates};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_geometry::{SAME, fill};
+use burgeon_geometry::{Ring, SAME, fill};
 use burgeon_kit::random::Stream;
 use burgeon_kit::{Color, Note, fields};
 use burgeon_scene::{Material, Part};
@@ -83,7 +83,7 @@ impl Footprint {
             (None, None, Some(template)) => self.drawing.material(template.material()),
             (material, color, _) => self.part(color, material.as_ref())?,
         };
-        (0..self.plan.edges()).for_each(|edge| self.note_part(edge, plain));
+        (0..self.plan.polygon().size()).for_each(|edge| self.note_part(edge, plain));
         if self.detail < 3 {
             if self.plain.is_none_or(|known| known.part != plain) {
                 self.finish_walls_up_to(from)?;
@@ -244,10 +244,10 @@ impl Footprint {
     }
 
     fn frontages(&self, from: f64, to: f64) -> Vec<Frontage> {
-        let mut frontages = Vec::with_capacity(self.plan.edges());
-        for ring in self.plan.flat() {
+        let mut frontages = Vec::with_capacity(self.plan.polygon().size());
+        for ring in &self.plan.flat() {
             let mut passed = 0.0;
-            for [a, b] in edges(&ring) {
+            for [a, b] in ring.edges() {
                 let right = along(a, b);
                 let length = a.distance(b);
                 frontages.push(Frontage {
@@ -267,7 +267,7 @@ impl Footprint {
     /// Lets what stands out meet at the corners of frontages; nothing reaches over a neighbour's wall.
     fn miter(&self, frontages: &mut [Frontage], keywords: &[Vec<&str>]) {
         let mut first = 0;
-        for count in self.plan.rings().iter().map(Vec::len) {
+        for count in self.plan.polygon().iter().map(|ring| ring.len()) {
             for index in 0..count {
                 let [before, after] = [index, index + 1].map(|index| first + index % count);
                 let turn = frontages[before].axes.x_axis.truncate();
@@ -305,7 +305,8 @@ impl Frontage {
         let up = DVec3::Z * self.size.y;
         let [a, b] = self.ends;
         let origin = a - self.axes.x_axis * self.passed.x - DVec3::Z * self.passed.y;
-        fill(part, &[vec![a, b, b + up, a + up]], self.axes.x_axis, origin)
+        let face = Ring::without_repeats(vec![a, b, b + up, a + up]);
+        face.map_or(Ok(()), |face| fill(part, &[face], self.axes.x_axis, origin))
     }
 
     /// Adds `mesh`, which is like `face`, with its texture coordinates (m).

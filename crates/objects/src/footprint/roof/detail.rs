@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DAffine3, DMat3, DVec3};
 
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::Ring;
 use burgeon_geometry::roof::{LineKind, Patch, PatchKind, lines, normal};
 use burgeon_kit::random::Stream;
 use burgeon_kit::{Expected, fields};
@@ -185,7 +186,7 @@ impl Detail {
             _ => LineKind::Ridge,
         };
         let found = lines(patches).into_iter().filter(|line| line.kind == kind);
-        let track = |line: burgeon_geometry::roof::Line| {
+        let track = |line: burgeon_geometry::roof::RoofLine| {
             let [from, to] = line.ends;
             let up = (line.normals[0] + line.normals[1]).normalize_or(DVec3::Z);
             Track { from, to, up }
@@ -211,7 +212,7 @@ impl Detail {
                     None => low + (high - low) * (row + 0.5) / f64::from(self.rows),
                 };
                 let mut crossings: Vec<DVec3> = Vec::new();
-                for [a, b] in patch.rings.iter().flat_map(|ring| super::super::edges(ring)) {
+                for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
                     let (from, to) = (inward.dot(a) - depth, inward.dot(b) - depth);
                     if (from < 0.0) != (to < 0.0) {
                         crossings.push(a.lerp(b, from / (from - to)));
@@ -247,7 +248,7 @@ impl Detail {
             let (low, high) = extent(patch);
             let height = low + self.offset.unwrap_or((high - low) / 3.0);
             let mut crossings: Vec<DVec3> = Vec::new();
-            for [a, b] in patch.rings.iter().flat_map(|ring| super::super::edges(ring)) {
+            for [a, b] in patch.rings.iter().flat_map(Ring::edges) {
                 if (a.z < height) != (b.z < height) {
                     crossings.push(a.lerp(b, (height - a.z) / (b.z - a.z)));
                 }

@@ -124,8 +124,7 @@ impl Footprint {
     /// Ends the walls level, in place of a roof.
     fn cap(&mut self, options: &Roof) -> Result<()> {
         let base = self.shell.top;
-        let top: Vec<Vec<DVec3>> =
-            self.plan.flat().iter().map(|ring| ring.iter().map(|at| at.extend(base)).collect()).collect();
+        let top = self.plan.flat().at_height(base);
         let part = self.part(options.color, options.material.as_ref())?;
         fill(self.drawing.part(part), &top, DVec3::X, DVec3::ZERO).map_err(Error::of_data)
     }

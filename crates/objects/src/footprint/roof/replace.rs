@@ -1,12 +1,10 @@
 //! What stands on a building whose own roof cannot be made.
 
-use geo::buffer::{BufferStyle, LineJoin};
-use geo::{Area, Buffer, Coord, LineString, Polygon, Simplify};
-use glam::{DVec2, DVec3};
+use glam::DVec2;
 
 use burgeon_base::error::Result;
-use burgeon_geometry::Plan;
 use burgeon_geometry::roof::{Cover, Patch, PatchKind, Shape, Support, Surface, floor};
+use burgeon_geometry::{Plan, Polygon};
 
 /// A roof, and what it is in place of.
 pub(super) struct Made {
@@ -33,16 +31,12 @@ pub(super) fn cover(
         Err(error) => error.message().to_owned(),
     };
     let &Support { walls, base, .. } = support;
-    let level = |walls: &[Vec<DVec2>], upwards: bool| Patch {
+    let level = |walls: &Polygon, upwards: bool| Patch {
         kind: if upwards { PatchKind::Slope } else { PatchKind::Underside },
         edge: 0,
         flap: 0,
         along: DVec2::X,
-        rings: if upwards {
-            walls.iter().map(|ring| ring.iter().map(|at| at.extend(base)).collect()).collect()
-        } else {
-            floor(walls, base)
-        },
+        rings: if upwards { walls.at_height(base).to_vec() } else { floor(walls, base) },
     };
     let flush = Shape { overhang: 0.0, ..*shape };
     for distance in SIMPLER {
@@ -66,36 +60,18 @@ pub(super) fn cover(
     Made { cover, replaced: Some((format!("a flat roof in place of a {kind} roof"), why)) }
 }
 
-fn line(ring: &[DVec2]) -> LineString {
-    ring.iter().map(|at| Coord { x: at.x, y: at.y }).collect()
-}
-
-fn points(line: &LineString) -> Vec<DVec3> {
-    let open = line.0.split_last().map_or(&[][..], |(_, open)| open);
-    open.iter().map(|at| DVec3::new(at.x, at.y, 0.0)).collect()
-}
-
 /// Simpler outlines within that of the walls, none of them nearer to it than the simplification may move them, so that
 /// all courtyards stay open; none if one would not be sound.
-///
-/// Method: D. Douglas and T. Peucker, "Algorithms for the reduction of the number of points required to represent
-/// a digitized line or its caricature", 1973, over the walls moved inwards with mitres.
-fn within(walls: &[Vec<DVec2>], distance: f64) -> Vec<Vec<Vec<DVec2>>> {
-    let Some((outer, holes)) = walls.split_first() else { return Vec::new() };
-    let whole = Polygon::new(line(outer), holes.iter().map(|ring| line(ring)).collect());
-    // Slivers between the walls and where they were moved to are no outlines.
-    let inward = BufferStyle::new(-1.5 * distance).line_join(LineJoin::Miter(1.0));
+fn within(walls: &Polygon, distance: f64) -> Vec<Polygon> {
     let mut outlines = Vec::new();
-    for part in whole.buffer_with_style(inward) {
-        let rings: Vec<Vec<DVec3>> = std::iter::once(part.exterior())
-            .chain(part.interiors())
-            .map(|ring| points(&ring.simplify(distance)))
-            .collect();
-        match Plan::new(&rings) {
-            Ok(plan) if plan.repairs().0.is_empty() && plan.rings().len() == rings.len() => {
+    for part in walls.inset(1.5 * distance) {
+        let rings = part.simplified(distance);
+        match Plan::new(&rings.at_height(0.0)) {
+            Ok(plan) if plan.repairs().0.is_empty() && plan.polygon().len() == rings.len() => {
                 outlines.push(plan.flat());
             }
-            _ if part.unsigned_area() < LEAST => {}
+            // Slivers between the walls and where they were moved to are no outlines.
+            _ if part.area() < LEAST => {}
             _ => return Vec::new(),
         }
     }

@@ -7,15 +7,15 @@ use glam::{DAffine3, DVec2, DVec3};
 use super::*;
 use burgeon_base::error::Error;
 use burgeon_geometry::roof::{Cover, Ends, Rise, Shape, Surface as Faces, fill, floor};
-use burgeon_geometry::solid;
+use burgeon_geometry::{Polygon, Ring, solid};
 use burgeon_kit::random::Stream;
 use burgeon_kit::{Model, Parameter, Value};
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
 
 const RECTANGLE: [(f64, f64); 4] = [(0., 0.), (12., 0.), (12., 8.), (0., 8.)];
 
-fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
-    points.iter().copied().map(DVec2::from).collect()
+fn around(corners: &[(f64, f64)]) -> Polygon {
+    Polygon::new(vec![corners.iter().copied().map(DVec2::from).collect()]).expect("a polygon")
 }
 
 fn hip() -> Shape {
@@ -55,13 +55,13 @@ fn detail(on: &str) -> Detail {
 
 fn patches(ends: Ends) -> Vec<Patch> {
     let shape = Shape { surface: Faces::Sloped(ends, &[]), overhang: 0.0, rise: Rise::Height(4.0), ..hip() };
-    shape.cover(&[ring(&RECTANGLE)], 3.0).expect("a roof").patches
+    shape.cover(&around(&RECTANGLE), 3.0).expect("a roof").patches
 }
 
 #[test]
 fn a_roof_that_fails_is_replaced_over_a_simpler_outline_then_by_a_deck() {
     // An L with a corner that is 10 cm off.
-    let walls = [ring(&[(0., 0.), (12., 0.), (12., 5.), (8.5, 5.1), (5., 5.), (5., 12.), (0., 12.)])];
+    let walls = around(&[(0., 0.), (12., 0.), (12., 5.), (8.5, 5.1), (5., 5.), (5., 12.), (0., 12.)]);
     for (least, what) in [
         (7, None),
         (6, Some("a hip roof over an outline simplified to 0.2 m")),
@@ -98,11 +98,12 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
             let (x, y) = (size(column), size(row));
             walls.push(vec![off(x, y), off(x, y + court), off(x + court, y + court), off(x + court, y)]);
         }
+        let walls = Polygon::new(walls).expect("a polygon");
         // Whatever has as many corners as the plan is too hard; every third time all is.
-        let corners: usize = walls.iter().map(Vec::len).sum();
+        let corners: usize = walls.size();
         let all = random.below(3) == 0;
         let mut make = |shape: &Shape, support: &Support<'_>| {
-            let many = support.walls.iter().map(Vec::len).sum::<usize>() >= corners;
+            let many = support.walls.size() >= corners;
             let refused = (many || all) && matches!(shape.surface, Faces::Sloped(..));
             if refused { Err(Error::other("too hard")) } else { shape.cover_on(support) }
         };
@@ -118,38 +119,35 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
             let middle = court.iter().sum::<DVec2>() / court.len() as f64;
             let above = made.cover.patches.iter().filter(|patch| patch.kind == PatchKind::Slope);
             for patch in above {
-                let rings: Vec<Vec<DVec2>> =
-                    patch.rings.iter().map(|ring| ring.iter().map(|at| at.truncate()).collect()).collect();
-                assert!(!inside(&rings, middle), "{what}: {walls:?}");
+                let rings = patch.rings.iter();
+                let around = rings.filter(|ring| ring.contains(middle)).count();
+                assert!(around % 2 == 0, "{what}: {walls:?}");
             }
         }
     }
     assert!(counts.iter().all(|count| *count > 50), "{counts:?}");
 }
 
-/// Whether a place is inside the first ring and outside the others, or within a millimetre of one.
-fn inside(rings: &[Vec<DVec2>], at: DVec2) -> bool {
-    let mut odd = false;
-    for [a, b] in rings.iter().flat_map(|ring| super::super::edges(ring)) {
+/// Whether a place is inside a polygon, or within a millimetre of its edges.
+fn inside(polygon: &Polygon, at: DVec2) -> bool {
+    let is_near = |[a, b]: [DVec2; 2]| {
         let way = b - a;
         let near = a + way * ((at - a).dot(way) / way.length_squared()).clamp(0.0, 1.0);
-        if near.distance(at) < 1e-3 {
-            return true;
-        }
-        odd ^= (a.y > at.y) != (b.y > at.y) && at.x < a.x + way.x * (at.y - a.y) / way.y;
-    }
-    odd
+        near.distance(at) < 1e-3
+    };
+    polygon.contains(at) || polygon.edges().any(is_near)
 }
 
-fn closed(walls: &[Vec<DVec2>], cover: &Cover) -> Part {
+fn closed(walls: &Polygon, cover: &Cover) -> Part {
     let mut part = Part::default();
-    let mut add = |rings: &[Vec<DVec3>]| {
+    let mut add = |rings: &[Ring<DVec3>]| {
         let right = rings[0][1] - rings[0][0];
         fill(&mut part, rings, right, rings[0][0]).expect("a flat face");
     };
     add(&floor(walls, 0.0));
-    for [a, b] in walls.iter().flat_map(|ring| super::super::edges(ring)) {
-        add(&[vec![a.extend(0.0), b.extend(0.0), b.extend(3.0), a.extend(3.0)]]);
+    for [a, b] in walls.edges() {
+        let wall = vec![a.extend(0.0), b.extend(0.0), b.extend(3.0), a.extend(3.0)];
+        add(&[Ring::new(wall).expect("a wall")]);
     }
     cover.patches.iter().for_each(|patch| add(&patch.rings));
     part

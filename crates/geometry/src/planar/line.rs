@@ -1,0 +1,87 @@
+//! Lines from point to point.
+
+use std::ops::Deref;
+
+use glam::DVec2;
+
+use super::Point;
+use super::measure::bounds;
+use super::ring::check;
+use burgeon_base::error::{Error, Result};
+
+/// A line from point to point: two points or more, all finite, each other than the one before.
+///
+/// ```
+/// use burgeon_geometry::Line;
+/// use glam::DVec2;
+///
+/// let line = Line::new(vec![DVec2::ZERO, DVec2::new(3.0, 0.0), DVec2::new(3.0, 4.0)])?;
+/// assert_eq!((line.length(), line.edges().count()), (7.0, 2));
+/// let error = Line::new(vec![DVec2::X, DVec2::X]).expect_err("a point is no line");
+/// assert_eq!(error.message(), "point 2 of the line repeats point 1, (1, 0)");
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+#[derive(Debug, Clone, PartialEq)]
+pub struct Line<P = DVec2> {
+    points: Vec<P>,
+}
+
+impl<P: Point> Line<P> {
+    /// The line through `points`; fails if a promise is broken, and says by which point.
+    pub fn new(points: Vec<P>) -> Result<Self> {
+        check("the line", &points)?;
+        if points.len() < 2 {
+            let count = points.len();
+            return Err(Error::geometry(format!("the line has too few points: {count}"))
+                .help("give at least 2 points that differ"));
+        }
+        Ok(Self { points })
+    }
+
+    /// The line through `points` but those that repeat the one before; `None` if fewer than two are left, or one is
+    /// not finite.
+    pub fn without_repeats(mut points: Vec<P>) -> Option<Self> {
+        points.dedup();
+        Self::new(points).ok()
+    }
+
+    /// The line through points of which the same is promised already.
+    pub(super) fn trusted(points: Vec<P>) -> Self {
+        Self { points }
+    }
+
+    /// Its points.
+    pub fn into_points(self) -> Vec<P> {
+        self.points
+    }
+
+    /// Its edges, each with its two ends.
+    pub fn edges(&self) -> impl Iterator<Item = [P; 2]> + '_ {
+        self.points.windows(2).map(|pair| [pair[0], pair[1]])
+    }
+
+    /// Its length (m) as seen from above.
+    pub fn length(&self) -> f64 {
+        self.edges().map(|edge| edge.map(Point::flat)).map(|[a, b]| a.distance(b)).sum()
+    }
+
+    /// Its least and its greatest coordinates (m).
+    pub fn bounds(&self) -> [DVec2; 2] {
+        bounds(self.points.iter().map(|point| point.flat())).unwrap_or_default()
+    }
+
+    /// The line from its end to its beginning.
+    #[must_use]
+    pub fn reversed(mut self) -> Self {
+        self.points.reverse();
+        self
+    }
+}
+
+impl<P> Deref for Line<P> {
+    type Target = [P];
+
+    fn deref(&self) -> &[P] {
+        &self.points
+    }
+}

@@ -1,0 +1,249 @@
+//! Shapes of the plane as scripts give them: the one place where tables and features become rings and lines.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::{Expected, Features, Parameter, Shape, Value, Vector};
+use burgeon_data::Geometry;
+use burgeon_geometry::{Line, Rings};
+
+impl Shape {
+    /// The rings of its geometry, if that is a polygon.
+    pub fn rings(&self) -> Option<Rings> {
+        rings(self.geometry())
+    }
+}
+
+/// The rings of a geometry, if it is a polygon.
+pub fn rings(geometry: &Geometry) -> Option<Rings> {
+    let Geometry::Polygon(rings) = geometry else { return None };
+    Some(rings.iter().map(|ring| points(ring)).collect())
+}
+
+fn points(points: &[[f64; 3]]) -> Vec<DVec3> {
+    points.iter().copied().map(DVec3::from).collect()
+}
+
+/// Points as scripts have them.
+fn vectors(points: &[DVec3]) -> Vec<Vector> {
+    points.iter().copied().map(Vector).collect()
+}
+
+fn places(vectors: Vec<Vector>) -> Vec<DVec3> {
+    vectors.into_iter().map(|vector| vector.0).collect()
+}
+
+impl Parameter for Rings {
+    fn luau() -> String {
+        "Geometry".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || {
+            Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
+        };
+        let not_this =
+            |kind: &str| Expected::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
+        let table = match &value {
+            Value::Table(table) => table,
+            Value::Object(object) => {
+                let any: &dyn std::any::Any = &**object;
+                let shape = any.downcast_ref::<Shape>().ok_or_else(what)?;
+                return shape.rings().ok_or_else(|| not_this(shape.geometry().kind().name()));
+            }
+            _ => return Err(what()),
+        };
+        let rings = match (table.get("rings"), table.get("kind")) {
+            (Some(rings), _) => rings.clone(),
+            (None, Some(Value::Text(kind))) => return Err(not_this(kind)),
+            _ => value.clone(),
+        };
+        let first = |value: &Value| match value {
+            Value::Table(table) => table.list().into_iter().next(),
+            _ => None,
+        };
+        let is_ring = |value: &Value| {
+            let number = first(value).and_then(|point| first(&point));
+            matches!(number, Some(Value::Number(_)))
+        };
+        let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).or_else(|error| {
+            let ring = Vec::<Vector>::from_value(rings.clone());
+            ring.map(|ring| vec![ring]).map_err(|of_ring| if is_ring(&rings) { of_ring } else { error })
+        })?;
+        Ok(rings.into_iter().map(places).collect())
+    }
+
+    fn into_value(self) -> Value {
+        self.iter().map(|ring| vectors(ring)).collect::<Vec<_>>().into_value()
+    }
+}
+
+/// Lines (m): of a source, of geometries, or lists of points. What has no length is none.
+#[derive(Debug, Clone, Default)]
+pub struct Lines {
+    /// The lines.
+    pub lines: Vec<Line<DVec3>>,
+    /// How many items of a list were left out, and the first of them.
+    pub refused: Option<(usize, String)>,
+}
+
+impl Parameter for Lines {
+    fn luau() -> String {
+        "any".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let mut lines = Self::default();
+        lines.collect(value, 0)?;
+        Ok(lines)
+    }
+
+    fn into_value(self) -> Value {
+        self.lines.iter().map(|line| vectors(line)).collect::<Vec<_>>().into_value()
+    }
+}
+
+impl Lines {
+    /// Adds the lines of a value: of a source, a feature, a geometry, or a list of these or of points.
+    fn collect(&mut self, value: Value, depth: usize) -> Result<(), Expected> {
+        let what = || Expected::new("a source of lines, a list of lines, or a list of points");
+        match value {
+            Value::Object(object) => {
+                let any: &dyn std::any::Any = &*object;
+                if let Some(shape) = any.downcast_ref::<Shape>() {
+                    self.add(shape.geometry());
+                    return Ok(());
+                }
+                let features = any.downcast_ref::<Features>().ok_or_else(what)?;
+                features.0.features.iter().for_each(|feature| self.add(&feature.geometry));
+            }
+            Value::Table(table) => {
+                if let Some(geometry) = table.get("geometry") {
+                    return self.collect(geometry.clone(), depth + 1);
+                }
+                if let Some(points) = table.get("points") {
+                    return self.collect(points.clone(), depth + 1);
+                }
+                if let Some(rings) = table.get("rings") {
+                    let rings = Vec::<Vec<Vector>>::from_value(rings.clone()).map_err(|_| what())?;
+                    self.lines.extend(rings.into_iter().filter_map(|ring| around(places(ring))));
+                    return Ok(());
+                }
+                if let Ok(points) = Vec::<Vector>::from_value(Value::Table(Arc::clone(&table))) {
+                    self.lines.extend(Line::without_repeats(places(points)));
+                    return Ok(());
+                }
+                let list = table.list();
+                if depth > 4 || list.len() != table.entries.len() {
+                    return Err(what());
+                }
+                // One bad item among others is left out alone.
+                let (mut good, mut bad) = (0, None);
+                for (number, item) in (1..).zip(list) {
+                    let known = self.lines.len();
+                    match self.collect(item, depth + 1) {
+                        Ok(()) => good += 1,
+                        Err(error) => {
+                            self.lines.truncate(known);
+                            let (count, _) = self.refused.get_or_insert_with(|| (0, error.item(number)));
+                            *count += 1;
+                            bad.get_or_insert(error);
+                        }
+                    }
+                }
+                if let (0, Some(error)) = (good, bad) {
+                    return Err(error);
+                }
+            }
+            _ => return Err(what()),
+        }
+        Ok(())
+    }
+
+    fn add(&mut self, geometry: &Geometry) {
+        match geometry {
+            Geometry::Line(line) => self.lines.extend(Line::without_repeats(points(line))),
+            // A square is walked around.
+            Geometry::Polygon(rings) => {
+                self.lines.extend(rings.iter().filter_map(|ring| around(points(ring))));
+            }
+            Geometry::Point(_) => {}
+        }
+    }
+}
+
+/// The line once around a ring that somebody gave; `None` if it has no length.
+fn around(mut ring: Vec<DVec3>) -> Option<Line<DVec3>> {
+    ring.extend(ring.first().copied());
+    Line::without_repeats(ring)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Stream;
+    use crate::{Key, Table};
+
+    fn point(random: &mut Stream) -> DVec3 {
+        // Few places, so that some are repeated, and heights that a pair of numbers has not.
+        DVec3::new(random.below(4) as f64, random.below(4) as f64, random.below(2) as f64 * 0.5)
+    }
+
+    fn ring(random: &mut Stream, most: usize) -> Vec<DVec3> {
+        (0..random.below(most)).map(|_| point(random)).collect()
+    }
+
+    #[test]
+    fn rings_come_back_from_a_script_as_they_were() {
+        let mut random = Stream::new(4);
+        for _ in 0..500 {
+            let rings: Rings = (0..1 + random.below(4)).map(|_| ring(&mut random, 6)).collect();
+            // A list without rings, or whose first ring is empty, is told from a ring by what it holds.
+            let there = Rings::from_value(rings.clone().into_value()).expect("rings");
+            assert_eq!(there, rings);
+            let table = vec![(Key::Name("rings".into()), rings.clone().into_value())];
+            let named = Value::Table(Arc::new(Table { class: None, entries: table }));
+            assert_eq!(Rings::from_value(named).expect("rings"), rings);
+        }
+    }
+
+    #[test]
+    fn one_ring_may_stand_for_a_polygon_without_holes() {
+        let ring = vec![DVec3::ZERO, DVec3::X, DVec3::Y];
+        let found = Rings::from_value(vectors(&ring).into_value()).expect("a ring");
+        assert_eq!(found, Rings(vec![ring]));
+    }
+
+    #[test]
+    fn lines_come_back_from_a_script_without_what_has_no_length() {
+        let mut random = Stream::new(9);
+        let mut kept = 0;
+        for _ in 0..500 {
+            let given: Vec<Vec<DVec3>> = (0..1 + random.below(4)).map(|_| ring(&mut random, 5)).collect();
+            let value = given.iter().map(|line| vectors(line)).collect::<Vec<_>>().into_value();
+            let lines = Lines::from_value(value).expect("lines");
+            let expected: Vec<_> = given.into_iter().filter_map(Line::without_repeats).collect();
+            assert_eq!(lines.lines, expected);
+            assert_eq!(Lines::from_value(lines.clone().into_value()).expect("lines").lines, expected);
+            kept += expected.len();
+        }
+        assert!(kept > 500, "{kept}");
+    }
+
+    #[test]
+    fn what_is_no_polygon_is_refused_by_what_it_is() {
+        let refuse = |value: Value| {
+            let refused = Rings::from_value(value.clone()).map(|rings| rings.0).expect_err("no polygon");
+            refused.refuse("footprint", "geometry", &value).message().to_owned()
+        };
+        let line = vec![(Key::Name("kind".into()), Value::Text("line".into()))];
+        let line = Value::Table(Arc::new(Table { class: None, entries: line }));
+        assert_eq!(refuse(line), "footprint: geometry must be a polygon, not a geometry of kind \"line\"");
+        assert_eq!(
+            refuse(Value::Number(3.0)),
+            "footprint: geometry must be a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }, \
+             not 3"
+        );
+    }
+}
