@@ -20,7 +20,7 @@
 //! geometry   uses ──► base, scene
 //! data       uses ──► base
 //! kit        uses ──► base, data, geometry, macros, scene
-//! terrain    uses ──► base, kit, scene
+//! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
 //! engine     uses ──► base, data, kit, scene
 //! export     uses ──► base, data, scene

@@ -72,7 +72,7 @@ impl fmt::Debug for Wanted {
 /// An open data file.
 pub enum Source {
     /// A GeoJSON file, all of it.
-    GeoJson(Table),
+    GeoJson(Box<Table>),
     /// A GeoPackage, a database of layers.
     GeoPackage(GeoPackage),
 }
@@ -116,7 +116,7 @@ impl Source {
         let mut bytes = Vec::with_capacity(usize::try_from(meta.len()).unwrap_or(0));
         file.rewind().and_then(|()| file.take(meta.len()).read_to_end(&mut bytes)).map_err(cannot)?;
         let read = geojson::read(&bytes, path, name, wanted);
-        Ok(Self::GeoJson(read.map_err(|error| error.about(name))?))
+        Ok(Self::GeoJson(Box::new(read.map_err(|error| error.about(name))?)))
     }
 
     /// `GeoJSON` or `GeoPackage`.
@@ -146,7 +146,7 @@ impl Source {
             }
             Self::GeoJson(mut table) => {
                 table.identify(wanted.id.as_deref())?;
-                table
+                *table
             }
         };
         if let Some(code) = wanted.crs {

@@ -40,3 +40,8 @@ pub use sizes::{SAME, Share, Sizes, Split};
 pub use strand::{MOST_SIDES, Strand, tube};
 pub use sweep::{Lengthwise, SweepOptions, Swept, sweep};
 pub use union::{Cell, Crossing, Union};
+
+/// The examples of the README.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+pub struct Readme;

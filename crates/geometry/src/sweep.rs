@@ -79,6 +79,19 @@ pub struct Swept {
 ///
 /// Fails, and adds nothing, if a value is not finite, if the way turns back at one place, if a scale changes
 /// its sign between two stations, if the outlines of a step cross, or if a face would have no area.
+///
+/// ```
+/// use burgeon_geometry::{Frame, Section, Segment, SweepOptions, solid, sweep};
+/// use burgeon_scene::Part;
+///
+/// let mut way = Vec::new();
+/// Segment { length: 5.0, ..Segment::default() }.stations(Frame::default(), &mut way)?;
+/// let mut beam = Part::default();
+/// sweep(&mut beam, &Section::rectangle(2.0, 1.0)?, &way, &SweepOptions::default())?;
+/// assert!(solid::check([&beam]).is_solid());
+/// assert!((solid::volume([&beam]) - 10.0).abs() < 1e-6);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
 pub fn sweep(
     part: &mut Part,
     section: &Section,

@@ -15,6 +15,7 @@ use super::block::Area;
 use super::view::DEEPEST;
 use super::world::World;
 use burgeon_base::error::{Error, Result};
+use burgeon_geometry::planar::contains;
 
 /// A change of the ground.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -337,17 +338,4 @@ fn to_line(points: &[[f64; 2]], place: DVec2, closed: bool) -> (f64, usize, f64)
         }
     }
     best
-}
-
-/// Whether an outline holds a place: it goes around it an odd number of times.
-fn contains(outline: &[[f64; 2]], place: DVec2) -> bool {
-    let mut inside = false;
-    for (index, from) in outline.iter().enumerate() {
-        let to = outline[(index + 1) % outline.len()];
-        if (from[1] > place.y) != (to[1] > place.y) {
-            let x = from[0] + (to[0] - from[0]) * (place.y - from[1]) / (to[1] - from[1]);
-            inside ^= place.x < x;
-        }
-    }
-    inside
 }

@@ -58,9 +58,12 @@ fn is_given(name: &str) -> bool {
 /// A module that a method of a type of object interprets.
 fn module(line: &'static str) -> Option<Name> {
     let mut texts = line.split('"').skip(1).step_by(2);
-    let (name, kind, method, parameters) = if line.starts_with("turtle_module(") {
+    // Which type's methods these are is the first word of the helper's name.
+    let helper = line.split_once("_module(").map(|(kind, _)| kind);
+    let helper = helper.filter(|kind| kind.bytes().all(|byte| byte.is_ascii_lowercase()));
+    let (name, kind, method, parameters) = if let Some(kind) = helper {
         let (name, method) = (texts.next()?, texts.next()?);
-        (name, "turtle", method, texts.next())
+        (name, kind, method, texts.next())
     } else if line.starts_with("__interpretation(") {
         let (kind, name, method) = (texts.next()?, texts.next()?, texts.next()?);
         (name, kind, method, None)

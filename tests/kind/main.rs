@@ -1,0 +1,159 @@
+//! A type of object that a program brings has the same rights and the same duties as those that come with Burgeon: what
+//! is asked of all of them is asked of it too.
+
+#![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
+#![allow(unreachable_pub, reason = "what scripts can use is public")]
+
+mod orchard;
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::sync::atomic::Ordering;
+
+use burgeon::Run;
+use burgeon::kit::{Call, Construct, Key, Kind, Registry, Table, Value};
+use burgeon::picture::Picture;
+use burgeon::script::RunOptions;
+use burgeon::trace::{Pick, pick};
+use orchard::{EXPANSIONS, LOOKED_FOR, Orchard};
+
+/// All types that come with Burgeon, and one that does not.
+fn registry() -> Registry {
+    let mut registry = burgeon::objects::registry();
+    registry.add(Arc::clone(Orchard::kind())).unwrap();
+    assert!(registry.add(Arc::clone(Orchard::kind())).is_err(), "the name is taken");
+    assert!(registry.kinds().count() > 10);
+    registry
+}
+
+/// The types that are made of a table.
+fn made_of_fields(registry: &Registry) -> Vec<&Arc<Kind>> {
+    registry.kinds().filter(|kind| matches!(kind.construct, Construct::Fields(_))).collect()
+}
+
+#[test]
+fn what_scripts_can_do_with_a_type_is_documented() {
+    for kind in registry().kinds() {
+        assert!(kind.doc.trim().ends_with('.'), "{}: {}", kind.name, kind.doc);
+        for method in &kind.methods {
+            assert!(method.doc.trim().ends_with('.'), "{}:{}", kind.name, method.name);
+            assert!(method.arguments.iter().all(|argument| !argument.luau.is_empty()), "{}", method.name);
+        }
+        for field in &kind.fields {
+            assert!(field.doc.trim().len() > 8 && !field.luau.is_empty(), "{}.{}", kind.name, field.name);
+        }
+    }
+}
+
+#[test]
+fn a_constructor_refuses_an_unknown_field_and_names_the_nearest() {
+    let registry = registry();
+    let mut refused = 0;
+    for kind in made_of_fields(&registry) {
+        let Some(field) = kind.fields.iter().max_by_key(|field| field.name.len()) else { continue };
+        let misspelt = format!("{}x", field.name);
+        let table = Table { class: None, entries: vec![(Key::Name(misspelt.as_str().into()), Value::Nil)] };
+        let Err(error) = kind.make(&table) else { panic!("{} takes {misspelt}", kind.name) };
+        let text = error.to_string();
+        assert!(
+            text.contains(&*kind.name) && text.contains(&format!("did you mean {}", field.name)),
+            "{text}"
+        );
+        refused += 1;
+    }
+    assert!(refused > 5);
+}
+
+#[test]
+fn what_begins_each_pass_empty_has_nothing_left_of_the_pass_before() {
+    let registry = registry();
+    let mut drawn = 0;
+    for kind in made_of_fields(&registry).into_iter().filter(|kind| kind.begins_empty) {
+        let Ok(mut object) = kind.make(&Table::default()) else { continue };
+        object.begin();
+        let fresh = object.triangles();
+        for method in &kind.methods {
+            let Call::Write { numbers: Some(call), .. } = &method.call else { continue };
+            // What it refuses does not matter here.
+            let _ = call(&mut *object, &vec![1.0; method.arguments.len()]);
+        }
+        let _ = object.end();
+        drawn += usize::from(object.triangles() > fresh);
+        object.begin();
+        assert_eq!(object.triangles(), fresh, "{}", kind.name);
+    }
+    assert!(drawn > 0);
+}
+
+const SCRIPT: &str = r#"
+local land = source("land.geojson")
+local Grow = module("Grow", "radius")
+local orchards = lsystem({ object = orchard })
+orchards:axiom(land, function(feature)
+  return orchard(feature.geometry, { wells = land, spacing = 3 }), Grow(1)
+end)
+orchards:rule("Grow(r)", function(this, r)
+  if this:trees() > 0 and this:nearest() < 1000 and this:wells() > 10 and r < 3 then return Grow(r + 1) end
+end)
+orchards:interpret("Grow(r)", function(this, r) this:crowns(r / 2) end)
+orchards:derive()
+"#;
+
+/// A folder with the script and its data: so many fields that it pays to prefetch.
+fn folder() -> (tempfile::TempDir, PathBuf) {
+    let folder = tempfile::tempdir().unwrap();
+    let fields = (0..300).map(|number| {
+        let (west, south) = (6.0 + f64::from(number % 20) * 4e-4, 45.0 + f64::from(number / 20) * 4e-4);
+        let (east, north) = (west + 2e-4, south + 1e-4 + f64::from(number % 7) * 1e-5);
+        format!(
+            r#"{{"type":"Feature","id":{number},"properties":{{}},"geometry":{{"type":"Polygon","coordinates":
+               [[[{west},{south}],[{east},{south}],[{east},{north}],[{west},{north}],[{west},{south}]]]}}}}"#
+        )
+    });
+    let fields = fields.collect::<Vec<_>>().join(",");
+    let land = format!(r#"{{"type":"FeatureCollection","features":[{fields}]}}"#);
+    std::fs::write(folder.path().join("land.geojson"), land).unwrap();
+    let script = folder.path().join("orchards.lua");
+    std::fs::write(&script, SCRIPT).unwrap();
+    (folder, script)
+}
+
+fn options(threads: usize) -> RunOptions {
+    RunOptions { registry: registry(), threads: Some(threads), batch: 8, ..burgeon::options() }
+}
+
+#[test]
+fn it_reads_a_layer_prefetches_gathers_expands_and_draws_the_same_for_any_number_of_threads() {
+    let (folder, script) = folder();
+    let bytes = |threads: usize| {
+        let run: Run = burgeon::run(&script, options(threads)).unwrap();
+        assert!(run.scene.triangles() > 100, "{} triangles", run.scene.triangles());
+        assert!(run.systems[0].steps >= 2, "rules have asked it");
+        let path = folder.path().join(format!("{threads}.glb"));
+        burgeon::export::write(&run.scene, &path, &Picture::default()).unwrap();
+        std::fs::read(path).unwrap()
+    };
+    let one = bytes(1);
+    assert_eq!(one, bytes(2));
+    assert!(LOOKED_FOR.load(Ordering::Relaxed) > 0, "a prefetch was handed out");
+    assert!(EXPANSIONS.load(Ordering::Relaxed) > 0, "it expanded by itself");
+}
+
+#[test]
+fn a_triangle_of_it_names_the_module_that_drew_it() {
+    let (_folder, script) = folder();
+    let options = options(1);
+    let run = burgeon::run(&script, options.clone()).unwrap();
+    let picked = pick(&script, &options, &run.scene, Pick { instance: 0, part: 0, triangle: 3 }).unwrap();
+    let drawn = picked.drawn.unwrap();
+    assert_eq!(drawn.interpretation.unwrap().text.as_ref() as &str, "Grow(r)");
+    let path: Vec<&str> = drawn.path.iter().map(|ancestor| &*ancestor.module.text).take(3).collect();
+    assert_eq!(path, ["Grow(1)", "Grow(2)", "Grow(3)"]);
+    assert!(drawn.runs.iter().map(|run| run.count).sum::<usize>() > 3);
+}
+
+#[test]
+fn a_script_that_uses_it_can_be_checked_without_expanding_it() {
+    let (_folder, script) = folder();
+    burgeon::check(&script, options(1)).unwrap();
+}

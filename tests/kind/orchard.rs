@@ -1,0 +1,267 @@
+//! A type of object that the house does not know: rows of trees on a field of a data file.
+
+use std::any::Any;
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Arc, LazyLock};
+
+use burgeon::Result;
+use burgeon::geometry::sphere;
+use burgeon::kit::{
+    Draw, Drawing, Expand, Expected, Features, Kind, Object, Parameter, Prefetch, Rewriter, Shape, Table,
+    Value, Vector, fields, methods,
+};
+use burgeon::scene::Material;
+use burgeon::sources::{Geometry, Layer};
+use glam::{DVec2, DVec3};
+
+/// How many middles were there before they were asked for, and how many were looked for.
+pub static LOOKED_FOR: AtomicUsize = AtomicUsize::new(0);
+/// How often trees were set out.
+pub static EXPANSIONS: AtomicUsize = AtomicUsize::new(0);
+
+/// The corners (m) of a field.
+#[derive(Debug, Clone, Default)]
+pub struct Corners(Vec<DVec3>);
+
+impl Corners {
+    fn of(geometry: &Geometry) -> Self {
+        let points = match geometry {
+            Geometry::Polygon(rings) => rings.first().cloned().unwrap_or_default(),
+            Geometry::Line(points) => points.clone(),
+            Geometry::Point(point) => vec![*point],
+        };
+        Self(points.into_iter().map(DVec3::from).collect())
+    }
+
+    fn middle(&self) -> DVec3 {
+        self.0.iter().sum::<DVec3>() / self.0.len().max(1) as f64
+    }
+}
+
+impl Parameter for Corners {
+    fn luau() -> String {
+        "any".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let what = || Expected::new("a feature's geometry");
+        let Value::Object(object) = &value else { return Err(what()) };
+        let any: &dyn Any = &**object;
+        any.downcast_ref::<Shape>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
+    }
+
+    fn into_value(self) -> Value {
+        self.0.into_iter().map(Vector).collect::<Vec<_>>().into_value()
+    }
+}
+
+/// A layer of a data file, as a whole.
+#[derive(Clone, Default)]
+pub struct Whole(Option<Arc<Layer>>);
+
+impl std::fmt::Debug for Whole {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a layer of {} features", self.0.as_ref().map_or(0, |layer| layer.features.len()))
+    }
+}
+
+impl Parameter for Whole {
+    fn luau() -> String {
+        "any".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expected> {
+        let Value::Object(object) = &value else { return Err(Expected::new("a source")) };
+        let any: &dyn Any = &**object;
+        let features = any.downcast_ref::<Features>().ok_or_else(|| Expected::new("a source"))?;
+        Ok(Self(Some(Arc::clone(&features.0))))
+    }
+
+    fn into_value(self) -> Value {
+        Value::Nil
+    }
+}
+
+/// What `orchard(geometry, { ... })` takes.
+#[fields("orchard", crate = burgeon::kit)]
+pub struct OrchardOptions {
+    /// The field on which it stands: a feature's geometry.
+    pub geometry: Corners,
+    /// The wells of the land, as a source: a tree stands farther than a metre from each.
+    pub wells: Whole,
+    /// Distance (m) from tree to tree.
+    #[default(4.0)]
+    pub spacing: f64,
+}
+
+/// Rows of trees on a field.
+#[derive(Clone)]
+pub struct Orchard {
+    corners: Corners,
+    wells: Whole,
+    spacing: f64,
+    middle: DVec3,
+    /// Distance (m) to the nearest other one.
+    nearest: f64,
+    /// Where trees stand, from the middle.
+    trees: Vec<DVec3>,
+    drawing: Drawing,
+}
+
+#[methods("orchard", crate = burgeon::kit)]
+impl Orchard {
+    /// Draws each tree as a ball of `radius` (m).
+    pub fn crowns(&mut self, radius: f64) -> Result<()> {
+        let material = Material { base_color: [0.2, 0.5, 0.2, 1.0], ..Material::default() };
+        let part = self.drawing.material(&material);
+        for tree in &self.trees {
+            sphere(self.drawing.part(part), *tree + DVec3::Z * radius, radius, 8)?;
+        }
+        Ok(())
+    }
+
+    /// The number of its trees.
+    pub fn trees(&self) -> f64 {
+        self.trees.len() as f64
+    }
+
+    /// Distance (m) to the nearest other orchard; infinite if there is none.
+    pub fn nearest(&self) -> f64 {
+        self.nearest
+    }
+
+    /// The number of features in the layer of wells.
+    pub fn wells(&self) -> f64 {
+        self.wells.0.as_ref().map_or(0.0, |layer| layer.features.len() as f64)
+    }
+}
+
+impl Orchard {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new("orchard", "Rows of trees on a field.").first("geometry").begins_empty();
+            let kind =
+                kind.made_of(OrchardOptions::fields(), Orchard::from_table).methods(Orchard::methods());
+            let kind = kind.draws::<Orchard>().expands::<Orchard>();
+            Arc::new(kind.gathers(gather).prefetches(|layer| Arc::new(Middles::new(layer))))
+        });
+        &KIND
+    }
+
+    fn from_table(table: &Table) -> Result<Self> {
+        let OrchardOptions { geometry, wells, spacing } = OrchardOptions::from_table(table)?;
+        let middle = prefetched(table).unwrap_or_else(|| geometry.middle());
+        let (trees, drawing) = (Vec::new(), Drawing::default());
+        Ok(Self { corners: geometry, wells, spacing, middle, nearest: f64::INFINITY, trees, drawing })
+    }
+}
+
+/// The middle of a feature's corners, if it was made before it was asked for.
+fn prefetched(table: &Table) -> Option<DVec3> {
+    let Some(Value::Object(object)) = table.get("geometry") else { return None };
+    let any: &dyn Any = &**object;
+    let (prefetch, number) = any.downcast_ref::<Shape>()?.prefetch()?;
+    let any: &dyn Any = prefetch;
+    LOOKED_FOR.fetch_add(1, Ordering::Relaxed);
+    any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()
+}
+
+/// The middles of a layer's features, made by a thread that has time.
+struct Middles {
+    layer: Arc<Layer>,
+    middles: Vec<std::sync::OnceLock<DVec3>>,
+    over: AtomicBool,
+}
+
+impl Middles {
+    fn new(layer: &Arc<Layer>) -> Self {
+        let middles = layer.features.iter().map(|_| Default::default()).collect();
+        Self { layer: Arc::clone(layer), middles, over: AtomicBool::new(false) }
+    }
+}
+
+impl Prefetch for Middles {
+    fn work(&self) {
+        for (feature, middle) in self.layer.features.iter().zip(&self.middles) {
+            if self.over.load(Ordering::Relaxed) {
+                return;
+            }
+            middle.get_or_init(|| Corners::of(&feature.geometry).middle());
+        }
+    }
+
+    fn end(&self) {
+        self.over.store(true, Ordering::Relaxed);
+    }
+}
+
+/// Tells each how far the nearest other one is.
+fn gather(all: &mut [Box<dyn Object>]) {
+    let middle = |object: &dyn Object| {
+        let any: &dyn Any = object;
+        any.downcast_ref::<Orchard>().map(|orchard| orchard.middle)
+    };
+    let middles: Vec<Option<DVec3>> = all.iter().map(|object| middle(&**object)).collect();
+    for (own, object) in all.iter_mut().enumerate() {
+        let any: &mut dyn Any = &mut **object;
+        let Some(orchard) = any.downcast_mut::<Orchard>() else { continue };
+        let others = middles.iter().enumerate().filter(|(number, _)| *number != own);
+        let distances = others.filter_map(|(_, other)| Some(other.as_ref()?.distance(orchard.middle)));
+        orchard.nearest = distances.fold(f64::INFINITY, f64::min);
+    }
+}
+
+impl Object for Orchard {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self) {
+        self.drawing.clear();
+    }
+}
+
+impl Draw for Orchard {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
+    }
+
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
+    }
+
+    fn origin(&self) -> DVec3 {
+        self.middle
+    }
+}
+
+impl Expand for Orchard {
+    fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
+        rules.check()?;
+        EXPANSIONS.fetch_add(1, Ordering::Relaxed);
+        let wells: Vec<DVec2> =
+            self.wells.0.iter().flat_map(|layer| &layer.features).fold(Vec::new(), |mut wells, feature| {
+                wells.push((Corners::of(&feature.geometry).middle() - self.middle).truncate());
+                wells
+            });
+        let low = self.corners.0.iter().copied().fold(DVec3::INFINITY, DVec3::min) - self.middle;
+        let high = self.corners.0.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max) - self.middle;
+        let along = |from: f64, to: f64| {
+            let spacing = self.spacing;
+            (1..100).map(move |step| from + f64::from(step) * spacing).take_while(move |at| *at < to)
+        };
+        let places = along(low.x, high.x).flat_map(|x| along(low.y, high.y).map(move |y| DVec2::new(x, y)));
+        let dry = places.filter(|place| wells.iter().all(|well| well.distance(*place) > 1.0));
+        self.trees = dry.map(|place| place.extend(0.0)).collect();
+        Ok(())
+    }
+
+    fn sketch(&mut self) {
+        self.trees = vec![DVec3::ZERO];
+    }
+}
