@@ -15,7 +15,7 @@ fn table(entries: &[(&str, Value)]) -> Arc<Table> {
 }
 
 /// The same as a method takes it.
-fn options<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
+fn given<T>(entries: &[(&str, Value)]) -> Option<TableOf<T>> {
     Some(table(entries).into())
 }
 
@@ -25,8 +25,8 @@ fn volume(geometry: Rings, roof: &[(&str, Value)]) -> f64 {
         .expect("a clean footprint");
     house.begin();
     house.groundwork("extruded".into(), None).expect("groundwork");
-    house.walls(options(&[("height", Value::Number(3.0))])).expect("walls");
-    house.roof(options(roof)).expect("a roof");
+    house.walls(given(&[("height", Value::Number(3.0))])).expect("walls");
+    house.roof(given(roof)).expect("a roof");
     let check = solid::check(house.drawing.parts());
     assert!(
         check.is_solid(),
@@ -153,9 +153,9 @@ fn with_facades(detail: u8) -> Footprint {
     house.groundwork("z_min".into(), None).expect("groundwork");
     for _ in 0..2 {
         let walls = [("height", Value::Number(3.0)), ("templates", template.clone())];
-        house.walls(options(&walls)).expect("walls");
+        house.walls(given(&walls)).expect("walls");
     }
-    house.roof(options(&kind("hip"))).expect("a roof");
+    house.roof(given(&kind("hip"))).expect("a roof");
     house.end().expect("an end");
     house
 }
@@ -257,7 +257,7 @@ fn a_photo_covers_each_frontage_once() {
         .expect("a clean footprint");
     house.begin();
     let photo = Value::Table(photo);
-    house.walls(options(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");
+    house.walls(given(&[("height", Value::Number(6.0)), ("photo", photo)])).expect("walls");
     let textured = |part: &&Part| house.drawing.material_of(part.material).texture.is_some();
     let part = house.drawing.parts().iter().find(textured).expect("walls with the photo");
     assert_eq!((part.positions.len(), part.triangles.len()), (16, 8));
