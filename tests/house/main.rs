@@ -299,7 +299,7 @@ fn the_page_for_those_who_change_burgeon_names_what_is_there() {
     for folder in ["src", "crates", "tests", "benches", "examples", "fuzz"] {
         sources::collect(&root().join(folder), "rs", &mut files);
     }
-    let code: String = files.iter().map(|file| text(file)).collect();
+    let code: String = files.iter().map(text).collect();
     let known: BTreeSet<&str> = words(&code).collect();
     for name in quoted(&page) {
         if name.contains(['"', ' ', '=']) || name.contains("NAME") {
