@@ -102,7 +102,7 @@ pub struct RunOptions {
     /// Whether warnings end the run as errors, and bad data does; otherwise its features are left out, and
     /// [`Derived::remarks`] tells which.
     ///
-    /// [`Derived::remarks`]: crate::derive::Derived::remarks
+    /// [`Derived::remarks`]: crate::results::Derived::remarks
     pub strict: bool,
     /// The chains to note the lineage of; see [`trace`](crate::trace).
     pub trace: Option<Traced>,
