@@ -10,7 +10,7 @@ use burgeon_base::memory::make_room;
 /// told triangle by triangle: that is a tenth of the memory, whose first touch costs more than the geometry does.
 ///
 /// ```
-/// use burgeon::scene::Triangles;
+/// use burgeon_scene::Triangles;
 ///
 /// let mut triangles = Triangles::from(vec![[9, 8, 7]]);
 /// triangles.fan(0, 4, false);
