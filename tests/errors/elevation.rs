@@ -104,6 +104,15 @@ fn told(line: &str) -> String {
 }
 
 #[test]
+fn what_is_made_of_a_file_alone_takes_no_options() {
+    assert_snapshot!(told(r#"model("a.glb", { fast = true })"#), @r#"
+    error: in/s.lua:2: model takes no options
+      | model("a.glb", { fast = true })
+      help: write model("window.glb")
+    "#);
+}
+
+#[test]
 fn a_file_of_heights_that_is_missing_or_lies_outside_is_told() {
     assert_snapshot!(told(r#"elevation("N43E008.hgt")"#), @r#"
     error: in/s.lua:2: there is no file of heights N43E008.hgt

@@ -1,4 +1,4 @@
-//! What pages wish: parameters, the seed, steps; and how wishes outlive saves.
+//! What pages request: parameters, the seed, steps; and how requests outlive saves.
 
 use std::time::Duration;
 

@@ -10,6 +10,7 @@ pub mod declare;
 
 mod boxed;
 mod capability;
+mod color;
 mod colors;
 mod distance;
 mod drawing;
@@ -33,6 +34,7 @@ mod value;
 
 pub use boxed::Boxed;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
+pub use color::Color;
 pub use drawing::Drawing;
 pub use features::{Features, Shape};
 pub use fields::{Fields, TableOf};
@@ -42,7 +44,7 @@ pub use makers::Makers;
 pub use model::Model;
 pub use note::Note;
 pub use object::Object;
-pub use parameter::{Answer, Color, Expected, ObjectParameter, Parameter, Vector, object};
+pub use parameter::{Answer, Expected, ObjectParameter, Parameter, Vector, object};
 pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;

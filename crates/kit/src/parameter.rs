@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Boxed, Field, Key, Object, Table, Value, colors};
+use super::{Boxed, Field, Key, Object, Table, Value};
 use burgeon_base::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
@@ -428,87 +428,9 @@ impl Parameter for DVec3 {
     }
 }
 
-/// A colour with opacity; scripts give it as sRGB, here it is linear.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Color(pub [f32; 4]);
-
-impl Parameter for Color {
-    fn luau() -> String {
-        "Color".into()
-    }
-
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || {
-            Expected::new(
-                "a colour: \"#rrggbb\", a name such as \"lightblue\", or { red, green, blue } from 0 to 1",
-            )
-        };
-        let channels: Vec<f64> = match value {
-            Value::Text(text) => match colors::read(&text) {
-                Ok(channels) => channels.map(|channel| f64::from(channel) / 255.0).to_vec(),
-                Err(Some(near)) => return Err(Expected::new(format!("a colour, such as \"{near}\""))),
-                Err(None) => return Err(what()),
-            },
-            value => Vec::<f64>::from_value(value).map_err(|_| what())?,
-        };
-        if !matches!(channels.len(), 3 | 4) || channels.iter().any(|channel| !(0.0..=1.0).contains(channel)) {
-            return Err(what());
-        }
-        let mut color = [1.0; 4];
-        for (index, channel) in channels.iter().enumerate() {
-            color[index] = if index == 3 { narrow(*channel) } else { narrow(linear(*channel)) };
-        }
-        Ok(Self(color))
-    }
-
-    fn into_value(self) -> Value {
-        let byte = |channel: f32| (srgb(f64::from(channel)) * 255.0).round();
-        let [red, green, blue, _] = self.0;
-        let hex = [red, green, blue].map(|channel| format!("{:02x}", clamp_byte(byte(channel)))).concat();
-        Value::Text(format!("#{hex}").into())
-    }
-}
-
-#[allow(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "a float to integer cast saturates"
-)]
-fn clamp_byte(value: f64) -> u8 {
-    value as u8
-}
-
-#[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
-fn narrow(value: f64) -> f32 {
-    value as f32
-}
-
-/// The sRGB transfer function of IEC 61966-2-1, from display to linear.
-fn linear(channel: f64) -> f64 {
-    if channel <= 0.04045 { channel / 12.92 } else { ((channel + 0.055) / 1.055).powf(2.4) }
-}
-
-fn srgb(channel: f64) -> f64 {
-    if channel <= 0.003_130_8 { channel * 12.92 } else { 1.055 * channel.powf(1.0 / 2.4) - 0.055 }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_colour_reads_hexadecimal_and_lists_and_writes_back() {
-        let hex = Color::from_value(Value::Text("#336699".into())).unwrap();
-        assert_eq!(hex.into_value().to_string(), "\"#336699\"");
-        let list = Color::from_value(vec![0.2, 0.4, 0.6].into_value()).unwrap();
-        assert_eq!(list.into_value().to_string(), "\"#336699\"");
-        for wrong in ["#33669", "#gggggg", "", "#", "no colour", "é", "#é00000"] {
-            assert!(Color::from_value(Value::Text(wrong.into())).is_err(), "{wrong}");
-        }
-        for right in ["LightSteelBlue", "#369", "336699"] {
-            assert!(Color::from_value(Value::Text(right.into())).is_ok(), "{right}");
-        }
-    }
 
     #[test]
     fn an_optional_number_may_be_left_out_of_a_column() {

@@ -33,15 +33,3 @@ impl Registry {
         self.kinds.iter()
     }
 }
-
-impl<K: Into<Arc<Kind>>> FromIterator<K> for Registry {
-    /// Of two types with one name the first counts.
-    fn from_iter<I: IntoIterator<Item = K>>(kinds: I) -> Self {
-        let mut registry = Self::default();
-        for kind in kinds {
-            // The name is taken by the earlier one.
-            let _ = registry.add(kind);
-        }
-        registry
-    }
-}

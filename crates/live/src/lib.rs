@@ -6,12 +6,12 @@
 //!
 //! ```text
 //! files ──► watch ──► state ──► work ──► state ──► server, socket ──► pages
-//!                       ▲   (wish)   (model)              │
-//!                       └───────────── ask ◄──────────────┘
+//!                       ▲ (request)  (model)              │
+//!                       └────────── commands ◄────────────┘
 //! ```
 //!
-//! One thread runs the script (`work`) as it was last requested (`wish`); all pages share that wish and the model
-//! (`state`). A newer wish stops the run of an older one, unless that is almost done.
+//! One thread runs the script (`work`) as it was last requested (`request`); all pages share that request and the model
+//! (`state`). A newer request stops the run of an older one, unless that is almost done.
 
 mod address;
 mod commands;

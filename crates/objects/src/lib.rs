@@ -49,5 +49,18 @@ pub fn registry() -> Registry {
         Elevation::kind(),
         EditFile::kind(),
     ];
-    own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
+    let mut registry = Registry::default();
+    for kind in own.into_iter().chain(facade::kinds()) {
+        // A test holds that no name stands twice.
+        let _ = registry.add(Arc::clone(kind));
+    }
+    registry
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn no_type_is_left_out_for_its_name() {
+        assert_eq!(super::registry().kinds().count(), 12 + super::facade::kinds().len());
+    }
 }

@@ -9,7 +9,7 @@ use burgeon_base::error::{Error, Place, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{Key, Symbol};
-use burgeon_kit::{Call, Method, Value};
+use burgeon_kit::{Call, Kind, Value};
 
 /// Applies recorded method calls to objects while a batch is interpreted.
 pub(crate) trait Flusher: std::any::Any {
@@ -52,8 +52,8 @@ pub(crate) struct Current {
     pub used: Cell<usize>,
     /// The most random numbers that one application has drawn lately.
     pub drawn: Cell<usize>,
-    /// The methods of `this`, as their numbers in Lua.
-    pub methods: RefCell<Vec<Method>>,
+    /// The type of `this`, whose methods Lua knows by their numbers.
+    pub kind: RefCell<Option<Arc<Kind>>>,
     /// The shapes of prepared returns, by number.
     pub shapes: RefCell<Vec<ReturnShape>>,
     /// Applies recorded calls while interpreting.
@@ -73,7 +73,7 @@ impl Current {
             keys: RefCell::default(),
             used: Cell::new(0),
             drawn: Cell::new(0),
-            methods: RefCell::default(),
+            kind: RefCell::default(),
             shapes: RefCell::default(),
             flusher: RefCell::default(),
             top: RefCell::new(top),
@@ -110,7 +110,8 @@ impl Current {
         arguments: &[Value],
         place: impl FnOnce() -> Option<Place>,
     ) -> Result<Value> {
-        let methods = self.methods.borrow();
+        let kind = self.kind.borrow();
+        let methods = kind.as_ref().map_or(&[][..], |kind| &kind.methods);
         let method = methods.get(method).ok_or_else(|| Error::internal("there is no such method"))?;
         let chain = match self.flusher.borrow().as_ref() {
             Some(flusher) => flusher.chain(),

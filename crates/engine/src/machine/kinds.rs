@@ -72,6 +72,10 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
                             .help(format!("write {}", loader.example_with_fields)));
                         }
                     };
+                    if kind.fields.is_empty() && !fields.entries.is_empty() {
+                        return Err(Error::argument(format!("{} takes no options", kind.name))
+                            .help(format!("write {}", loader.example)));
+                    }
                     let loaded = session.data.object(&session, (&kind.name, &loader), &name, &fields)?;
                     let machine = library.machine()?;
                     loaded.warnings.into_iter().for_each(|warning| machine.warn(warning));

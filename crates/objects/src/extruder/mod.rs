@@ -1,5 +1,6 @@
 //! The extruder: sweeps a cross-section along segments, straight or curved.
 
+mod state;
 #[cfg(test)]
 mod tests;
 
@@ -11,10 +12,10 @@ use smallvec::{SmallVec, smallvec};
 use super::Surface;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_geometry::{Frame, Rings, Section, Segment, Station, SweepOptions, sweep};
+use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
 use burgeon_kit::{Color, Kind, Object, Vector, fields, methods};
 use burgeon_kit::{Draw, Drawing};
-use burgeon_scene::Material;
+use state::{Run, State};
 
 /// What `extruder { ... }` takes.
 #[fields("extruder")]
@@ -84,37 +85,6 @@ enum Shape {
 
 /// How many cross-sections are kept.
 const KNOWN: usize = 16;
-
-#[derive(Clone)]
-struct State {
-    frame: Frame,
-    section: Arc<Section>,
-    scale: DVec2,
-    taper: DVec2,
-    bend: f64,
-    toward: f64,
-    twist: f64,
-    along: u32,
-    around: u32,
-    smooth: bool,
-    caps: [bool; 2],
-    material: Arc<Material>,
-    run: Option<Run>,
-}
-
-/// Segments that make one solid.
-#[derive(Clone)]
-struct Run {
-    stations: SmallVec<[Station; 2]>,
-    /// The modules that led to each station.
-    makers: SmallVec<[u32; 2]>,
-    section: Arc<Section>,
-    end: Frame,
-    scale: DVec2,
-    smooth: bool,
-    caps: [bool; 2],
-    material: Arc<Material>,
-}
 
 #[methods("extruder")]
 impl Extruder {
@@ -428,35 +398,6 @@ impl Extruder {
         }
         self.open_edges += swept.open.len();
         Ok(())
-    }
-}
-
-impl State {
-    fn begin(options: &ExtruderOptions, section: &Arc<Section>) -> Self {
-        let mut frame = Frame::default();
-        frame.face(options.heading.0);
-        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
-        let material = Material {
-            base_color: options.color.0,
-            roughness: options.roughness as f32,
-            metallic: options.metallic as f32,
-            ..Material::default()
-        };
-        Self {
-            frame,
-            section: Arc::clone(section),
-            scale: DVec2::ONE,
-            taper: DVec2::ONE,
-            bend: 0.0,
-            toward: 0.0,
-            twist: 0.0,
-            along: options.along,
-            around: options.around,
-            smooth: options.smooth,
-            caps: [options.caps; 2],
-            material: Arc::new(material),
-            run: None,
-        }
     }
 }
 

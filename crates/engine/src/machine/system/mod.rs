@@ -190,7 +190,7 @@ impl System {
         let lua = machine.lua();
         let this = match &self.object {
             Some(object) => {
-                *machine.current.methods.borrow_mut() = object.kind().methods.clone();
+                machine.current.kind.replace(Some(Arc::clone(object.kind())));
                 let this = lua.create_table()?;
                 let metatable = lua.create_table()?;
                 let methods: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;

@@ -1,0 +1,71 @@
+//! What an extruder is about to draw with, and the solid that it is at.
+
+use std::sync::Arc;
+
+use glam::DVec2;
+use smallvec::SmallVec;
+
+use super::ExtruderOptions;
+use burgeon_geometry::{Frame, Section, Station};
+use burgeon_scene::Material;
+
+/// The frame, the cross-section and the look of what is drawn next.
+#[derive(Clone)]
+pub(super) struct State {
+    pub(super) frame: Frame,
+    pub(super) section: Arc<Section>,
+    pub(super) scale: DVec2,
+    pub(super) taper: DVec2,
+    pub(super) bend: f64,
+    pub(super) toward: f64,
+    pub(super) twist: f64,
+    pub(super) along: u32,
+    pub(super) around: u32,
+    pub(super) smooth: bool,
+    pub(super) caps: [bool; 2],
+    pub(super) material: Arc<Material>,
+    pub(super) run: Option<Run>,
+}
+
+/// Segments that make one solid.
+#[derive(Clone)]
+pub(super) struct Run {
+    pub(super) stations: SmallVec<[Station; 2]>,
+    /// The modules that led to each station.
+    pub(super) makers: SmallVec<[u32; 2]>,
+    pub(super) section: Arc<Section>,
+    pub(super) end: Frame,
+    pub(super) scale: DVec2,
+    pub(super) smooth: bool,
+    pub(super) caps: [bool; 2],
+    pub(super) material: Arc<Material>,
+}
+
+impl State {
+    pub(super) fn begin(options: &ExtruderOptions, section: &Arc<Section>) -> Self {
+        let mut frame = Frame::default();
+        frame.face(options.heading.0);
+        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
+        let material = Material {
+            base_color: options.color.0,
+            roughness: options.roughness as f32,
+            metallic: options.metallic as f32,
+            ..Material::default()
+        };
+        Self {
+            frame,
+            section: Arc::clone(section),
+            scale: DVec2::ONE,
+            taper: DVec2::ONE,
+            bend: 0.0,
+            toward: 0.0,
+            twist: 0.0,
+            along: options.along,
+            around: options.around,
+            smooth: options.smooth,
+            caps: [options.caps; 2],
+            material: Arc::new(material),
+            run: None,
+        }
+    }
+}
