@@ -37,15 +37,15 @@ struct Cli {
 
 #[derive(Subcommand)]
 enum Command {
-    Run(Box<run::Run>),
-    Live(live::Serve),
-    Check(check::Check),
-    Api(api::Api),
-    Variations(Box<variations::Variations>),
-    Fit(fit::Fit),
-    New(new::New),
-    Sources(sources::Sources),
-    Completions(completions::Completions),
+    Run(Box<run::RunCommand>),
+    Live(live::LiveCommand),
+    Check(check::CheckCommand),
+    Api(api::ApiCommand),
+    Variations(Box<variations::VariationsCommand>),
+    Fit(fit::FitCommand),
+    New(new::NewCommand),
+    Sources(sources::SourcesCommand),
+    Completions(completions::CompletionsCommand),
 }
 
 /// Runs the command that the command line names.

@@ -13,7 +13,7 @@ use entry::{Entry, Member};
 
 /// Tells what scripts can use: types of objects with their fields and methods, functions and modules
 #[derive(Args)]
-pub(crate) struct Api {
+pub(crate) struct ApiCommand {
     /// One of them, such as extruder, extruder:extrude or extruder.sides; a list of all if left out
     name: Option<String>,
 
@@ -22,7 +22,7 @@ pub(crate) struct Api {
     json: bool,
 }
 
-impl Api {
+impl ApiCommand {
     pub(crate) fn json(&self) -> bool {
         self.json
     }
@@ -33,15 +33,15 @@ impl Api {
         report::print(&if self.json {
             let documents: Vec<_> = match &found {
                 None => entries.iter().map(Entry::to_json).collect(),
-                Some(Found::Entry(entry)) => vec![entry.to_json()],
-                Some(Found::Member((owner, member))) => vec![member.to_json(owner)],
+                Some(ApiSubject::Entry(entry)) => vec![entry.to_json()],
+                Some(ApiSubject::Member((owner, member))) => vec![member.to_json(owner)],
             };
             format!("{}\n", json!({ "ok": true, "entries": documents }))
         } else {
             match &found {
                 None => text::list(&entries),
-                Some(Found::Entry(entry)) => text::entry(entry),
-                Some(Found::Member((owner, member))) => text::member(owner, member),
+                Some(ApiSubject::Entry(entry)) => text::entry(entry),
+                Some(ApiSubject::Member((owner, member))) => text::member(owner, member),
             }
         })
     }
@@ -58,21 +58,21 @@ fn entries(registry: &Registry) -> Vec<Entry> {
 }
 
 /// What is told of.
-enum Found<'a> {
+enum ApiSubject<'a> {
     Entry(&'a Entry),
     /// A field or a method, and the full name of what has it.
     Member((String, &'a Member)),
 }
 
 /// What is called `name`.
-fn find<'a>(entries: &'a [Entry], name: &str) -> Result<Found<'a>> {
+fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
     if let Some(entry) = entries.iter().find(|entry| entry.name == name) {
-        return Ok(Found::Entry(entry));
+        return Ok(ApiSubject::Entry(entry));
     }
     if let Some(end) = name.find([':', '.'])
         && let Some(entry) = entries.iter().find(|entry| entry.name == name[..end])
     {
-        return within(&entry.name, &entry.members, &name[end..]).map(Found::Member);
+        return within(&entry.name, &entry.members, &name[end..]).map(ApiSubject::Member);
     }
     let message = format!("scripts have nothing called {name}");
     // Whoever gives a method's name alone wants to know whose it is.
@@ -132,7 +132,7 @@ mod tests {
             let name = member.full_name(owner);
             assert!(member.doc.ends_with('.') && member.doc.len() > 8, "{name}: {}", member.doc);
             assert!(!member.arguments.iter().any(|argument| argument.luau.is_empty()), "{name}");
-            let Found::Member((has, found)) = find(entries, &name).unwrap() else { panic!("{name}") };
+            let ApiSubject::Member((has, found)) = find(entries, &name).unwrap() else { panic!("{name}") };
             assert!(std::ptr::eq(found, member) && has == owner, "{name}");
             count += 1 + check(entries, &name, &member.fields);
         }
@@ -146,7 +146,7 @@ mod tests {
         let mut members = 0;
         for entry in &entries {
             let has_example = entry.usage.is_empty() || !entry.example.is_empty();
-            assert!(has_example || entry.group != entry::Group::Type, "{}", entry.name);
+            assert!(has_example || entry.group != entry::EntryGroup::Type, "{}", entry.name);
             assert!(entry.doc.ends_with('.') && entry.doc.len() > 15, "{}: {}", entry.name, entry.doc);
             members += check(&entries, &entry.name, &entry.members);
         }

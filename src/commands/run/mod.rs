@@ -10,7 +10,7 @@ use burgeon::script::{Param, Preset, Session};
 use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
 
-use super::progress::Progress;
+use super::progress::ProgressDisplay;
 use super::report;
 use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 
@@ -19,7 +19,7 @@ mod watch;
 
 /// Runs a script and writes what it makes
 #[derive(Args)]
-pub(crate) struct Run {
+pub(crate) struct RunCommand {
     #[command(flatten)]
     script: ScriptFlags,
 
@@ -63,7 +63,7 @@ pub(crate) struct Run {
     save_preset: Option<String>,
 }
 
-impl Run {
+impl RunCommand {
     pub(crate) fn json(&self) -> bool {
         self.script.json
     }
@@ -99,7 +99,7 @@ impl Run {
         stale: &dyn Fn() -> bool,
     ) -> Result<Option<burgeon::Run>> {
         let (run, writing) = {
-            let _progress = Progress::show(session, !self.script.json);
+            let _progress = ProgressDisplay::show(session, !self.script.json);
             let mut run = burgeon::run_session(session)?;
             if stale() {
                 return Ok(None);

@@ -20,7 +20,7 @@ pub type Result<T, E = Error> = std::result::Result<T, E>;
 
 /// A line of a script or data file.
 #[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Place {
+pub struct SourcePlace {
     /// The file as the user named it.
     pub file: String,
     /// The line, counted from 1.
@@ -31,7 +31,7 @@ pub struct Place {
 const LARGEST: u64 = 16_000_000;
 const WIDEST: usize = 160;
 
-impl Place {
+impl SourcePlace {
     /// The lines from so many before it to so many after, each with its number. None if the file cannot be read, and if
     /// the line itself is empty or not there.
     pub fn excerpt(&self, before: usize, after: usize) -> Vec<(usize, String)> {
@@ -51,7 +51,7 @@ impl Place {
     }
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for SourcePlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{}:{}", self.file, self.line)
     }
@@ -73,7 +73,7 @@ pub struct Error(Box<Parts>);
 struct Parts {
     kind: ErrorKind,
     message: String,
-    place: Option<Place>,
+    place: Option<SourcePlace>,
     rule: Option<String>,
     module: Option<String>,
     step: Option<usize>,
@@ -195,7 +195,7 @@ impl Error {
 
     /// Says where, unless that is known already.
     #[must_use]
-    pub fn at(mut self, place: Option<Place>) -> Self {
+    pub fn at(mut self, place: Option<SourcePlace>) -> Self {
         if self.0.place.is_none() {
             self.0.place = place;
         }
@@ -204,7 +204,7 @@ impl Error {
 
     /// Says where more exactly than is known so far.
     #[must_use]
-    pub fn rather_at(mut self, place: Option<Place>) -> Self {
+    pub fn rather_at(mut self, place: Option<SourcePlace>) -> Self {
         if place.is_some() {
             self.0.place = place;
         }
@@ -244,7 +244,7 @@ impl Error {
     }
 
     /// Where, if known.
-    pub fn place(&self) -> Option<&Place> {
+    pub fn place(&self) -> Option<&SourcePlace> {
         self.0.place.as_ref()
     }
 
@@ -351,7 +351,7 @@ mod tests {
     #[test]
     fn an_error_reads_place_rule_message_module_and_help() {
         let error = Error::argument("the height is NaN")
-            .at(Some(Place { file: "a.lua".into(), line: 3 }))
+            .at(Some(SourcePlace { file: "a.lua".into(), line: 3 }))
             .rule("Slab(h)")
             .module("Slab(NaN)", 2)
             .help("give a finite length");

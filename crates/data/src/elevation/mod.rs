@@ -1,6 +1,6 @@
 //! Measured elevation: rasters of heights, in the formats that surveys publish and that programs exchange.
 //!
-//! Comes in: a file, and what it cannot tell ([`Wanted`]). Goes out: a [`Raster`] without holes, in the coordinates of
+//! Comes in: a file, and what it cannot tell ([`HeightOptions`]). Goes out: a [`Raster`] without holes, in the coordinates of
 //! the file, and a [`Relief`] of it, which knows the height of each place in the metres of a run. Readers (`ascii`,
 //! `hgt` and `raw`, and those of other formats, which a program may be built without) only read; holes, bad heights and places are looked after once, in `raster`.
 
@@ -15,7 +15,7 @@ pub(crate) mod raw;
 mod relief;
 
 pub use names::{png_text, tiff_key};
-pub use raster::{Grid, Raster};
+pub use raster::{Raster, SampleGrid};
 pub use relief::Relief;
 
 /// The most heights of a raster.
@@ -23,7 +23,7 @@ pub const MOST: usize = 200_000_000;
 
 /// What a file of heights cannot tell, or tells wrongly.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Wanted {
+pub struct HeightOptions {
     /// The EPSG code of its coordinates.
     pub crs: Option<u32>,
     /// The height (m) of black in a 16-bit PNG.

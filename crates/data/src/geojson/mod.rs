@@ -14,10 +14,10 @@ use serde::Deserialize;
 use serde_json::value::RawValue;
 use serde_json::{Map, Value};
 
-use super::{Attribute, Crs, Table, Wanted};
+use super::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
-use document::{Head, document};
+use document::{DocumentHeader, document};
 
 /// The largest file (bytes) that is read; it takes about five times as much memory.
 pub(super) const LARGEST: u64 = 500_000_000;
@@ -39,7 +39,7 @@ struct RawFeature<'a> {
 }
 
 /// Reads all of a file, which messages call `name`.
-pub(super) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &Wanted) -> Result<Table> {
+pub(super) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let text = match std::str::from_utf8(bytes) {
         Ok(text) if !bytes.iter().take(1000).any(|byte| *byte == 0) => text,
@@ -50,7 +50,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &Wanted) -> Re
     };
     let stem = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
     let mut reader = Reader {
-        table: Table::new(&stem, name, Crs::epsg(4326), Arc::clone(&wanted.budget)),
+        table: FeatureTable::new(&stem, name, Crs::epsg(4326), Arc::clone(&wanted.budget)),
         name,
         wanted,
         records: 0,
@@ -69,9 +69,9 @@ pub(super) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &Wanted) -> Re
 
 /// What has been read of a file.
 struct Reader<'a> {
-    table: Table,
+    table: FeatureTable,
     name: &'a str,
-    wanted: &'a Wanted,
+    wanted: &'a SourceOptions,
     /// How many features there have been.
     records: usize,
     /// The numbers of the attributes' names.
@@ -126,12 +126,12 @@ impl Reader<'_> {
     }
 
     /// Reads one text, whose features are added at once; gives what else it says, and what follows it.
-    fn text<'t>(&mut self, text: &'t str) -> Result<(Head<'t>, &'t str), serde_json::Error> {
+    fn text<'t>(&mut self, text: &'t str) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
         document(self, text)
     }
 
     /// Takes the document that is the whole file.
-    fn alone(&mut self, head: Head<'_>) -> Result<()> {
+    fn alone(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         self.table.crs = system(head.crs.as_ref());
         if let Some(title) = head.name.as_ref().and_then(Value::as_str).filter(|title| !title.is_empty()) {
@@ -141,7 +141,7 @@ impl Reader<'_> {
     }
 
     /// Takes a text of a sequence, which may name the coordinate system of all.
-    fn member(&mut self, head: Head<'_>) -> Result<()> {
+    fn member(&mut self, head: DocumentHeader<'_>) -> Result<()> {
         self.stop()?;
         if head.crs.is_some() {
             self.table.crs = system(head.crs.as_ref());
@@ -150,7 +150,7 @@ impl Reader<'_> {
     }
 
     /// Adds what a text is: a feature, a geometry, or the features that were added already.
-    fn take(&mut self, head: Head<'_>, alone: bool) -> Result<()> {
+    fn take(&mut self, head: DocumentHeader<'_>, alone: bool) -> Result<()> {
         let name = self.name;
         let kind = head.kind.as_ref().and_then(Value::as_str).unwrap_or_default();
         let error = match kind {
@@ -160,7 +160,7 @@ impl Reader<'_> {
                     .help("it needs \"features\": [ ... ]")
             }
             "Feature" if !head.features => {
-                let Head { id, properties, geometry, .. } = head;
+                let DocumentHeader { id, properties, geometry, .. } = head;
                 return self.feature(&RawFeature { id, properties, geometry });
             }
             kind if geometry::is_known(kind) && !head.features => {

@@ -16,11 +16,11 @@ mod system;
 mod watchdog;
 
 pub use blank::make_ready;
-pub(crate) use current::{Current, Flusher, ReturnShape};
+pub(crate) use current::{Flusher, ReturnShape, WorkState};
 pub(crate) use driver::Driver;
 pub(crate) use handles::Objects;
 pub(crate) use host::native;
-pub(crate) use system::{Axiom, Declared, Interpretations, returns_modules};
+pub(crate) use system::{Axiom, Interpretations, SystemFunctions, returns_modules};
 pub use watchdog::Watchdog;
 
 use std::cell::Cell;
@@ -33,10 +33,10 @@ use mlua::{Buffer, Function, Lua, Value};
 
 use crate::declare::Session;
 use blank::BlankMachine;
-use burgeon_base::error::{Error, ErrorKind, Limit, Place, Result};
+use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Symbol, Symbols};
-use library::{Library, Silence};
+use library::{Library, PrintSwitch};
 use prelude::Prelude;
 use system::tell_unseen;
 
@@ -54,7 +54,7 @@ pub struct Machine {
     /// The run that it belongs to.
     pub session: Arc<Session>,
     /// What the functions that Rust gives to Lua need to know of the work at hand.
-    pub(crate) current: Rc<Current>,
+    pub(crate) current: Rc<WorkState>,
     pub(crate) library: Rc<Library>,
     /// Who derives its systems.
     pub(crate) driver: Rc<dyn Driver>,
@@ -74,7 +74,7 @@ impl Machine {
         let build = || -> mlua::Result<Rc<Self>> {
             let BlankMachine { lua, prelude } = BlankMachine::take()?;
             let guard = watchdog.register(&lua);
-            let current = Rc::new(Current::new(Arc::clone(session)));
+            let current = Rc::new(WorkState::new(Arc::clone(session)));
             let library = Rc::new(Library::default());
             let host = host::functions(&lua, &current, &library)?;
             let prelude = Prelude::new(&prelude.call(host)?)?;
@@ -136,7 +136,7 @@ impl Machine {
 
     /// Keeps the script from printing, since another machine runs it too.
     pub(crate) fn silence(&self) {
-        self.lua.set_app_data(Silence(self.prelude.phase.clone()));
+        self.lua.set_app_data(PrintSwitch(self.prelude.phase.clone()));
     }
 
     /// Empties the caches of parameters if some of them have been dropped.
@@ -230,12 +230,12 @@ impl Machine {
     }
 
     /// The line of the script that is being run, `level` calls up from the Rust function that asks.
-    pub(crate) fn place(lua: &Lua) -> Option<Place> {
+    pub(crate) fn place(lua: &Lua) -> Option<SourcePlace> {
         (1..20).find_map(|level| {
             lua.inspect_stack(level, |debug| {
                 let source = debug.source();
                 let file = source.source?.strip_prefix('@')?.to_owned();
-                Some(Place { file, line: debug.current_line()? })
+                Some(SourcePlace { file, line: debug.current_line()? })
             })
             .flatten()
         })
@@ -348,7 +348,7 @@ fn is_of_values(message: &str) -> bool {
 }
 
 /// Parts `file:line: message`; no place for the machine's own code.
-fn split_place(text: &str) -> Option<(Option<Place>, &str)> {
+fn split_place(text: &str) -> Option<(Option<SourcePlace>, &str)> {
     let mut from = 0;
     while let Some(found) = text[from..].find(':') {
         let colon = from + found;
@@ -358,7 +358,7 @@ fn split_place(text: &str) -> Option<(Option<Place>, &str)> {
             let line = text[colon + 1..behind].parse().ok()?;
             let file = &text[..colon];
             let own = file == OWN || file.is_empty() || file.starts_with("__mlua");
-            let place = (!own).then(|| Place { file: file.to_owned(), line });
+            let place = (!own).then(|| SourcePlace { file: file.to_owned(), line });
             return Some((place, text[behind + 1..].trim_start()));
         }
         from = colon + 1;
@@ -367,7 +367,7 @@ fn split_place(text: &str) -> Option<(Option<Place>, &str)> {
 }
 
 /// The innermost line of a script in a traceback, whose lines read `file:line: in function <...>`.
-fn place_in_traceback(traceback: &str) -> Option<Place> {
+fn place_in_traceback(traceback: &str) -> Option<SourcePlace> {
     traceback.lines().find_map(|line| split_place(line.trim())?.0)
 }
 

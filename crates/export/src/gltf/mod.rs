@@ -15,12 +15,12 @@ mod mesh;
 mod place;
 mod weld;
 
-pub use place::Place;
+pub use place::InstancePlace;
 
 #[cfg(test)]
 mod tests;
 
-use super::check::{Checked, check};
+use super::check::{SceneCheck, check};
 use super::files::Files;
 use super::stem;
 use super::texture::Images;
@@ -56,7 +56,7 @@ struct Document<'a> {
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Layout {
     /// For each instance of the scene, the node that shows it.
-    pub places: Vec<Option<Place>>,
+    pub places: Vec<Option<InstancePlace>>,
     /// For each mesh of the scene, its index in the document.
     pub meshes: Vec<Option<usize>>,
 }
@@ -124,7 +124,7 @@ pub(super) fn write_gltf(scene: &Scene, path: &Path, files: &mut Files) -> Resul
 
 impl<'a> Document<'a> {
     fn new(
-        checked: &Checked<'a>,
+        checked: &SceneCheck<'a>,
         images: &'a Images,
         textures: &Textures,
         arrays: Arrays,

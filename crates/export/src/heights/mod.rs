@@ -15,7 +15,7 @@ use std::path::Path;
 
 use super::{Files, Out};
 use burgeon_base::error::{Error, Result};
-use burgeon_data::Frame;
+use burgeon_data::ReferenceFrame;
 use glam::DVec2;
 
 /// What stands for a missing height in an ASCII grid.
@@ -33,14 +33,14 @@ pub struct HeightMap {
     /// The outer south-west corner (m): each height stands in the middle of a cell, half a step from its edges.
     pub corner: DVec2,
     /// The projection and origin of the run, if it has them.
-    pub frame: Option<Frame>,
+    pub frame: Option<ReferenceFrame>,
     /// The heights (m), row by row from the north, each from the west; NaN where there is none.
     pub heights: Vec<f64>,
 }
 
 /// The formats of height maps.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Format {
+enum HeightFormat {
     Png,
     Ascii,
     GeoTiff,
@@ -48,7 +48,7 @@ enum Format {
     Raw64,
 }
 
-impl Format {
+impl HeightFormat {
     /// The one that the extension of `path` names. Fails if the program was built without it.
     fn of(path: &Path) -> Result<Self> {
         let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
@@ -79,26 +79,26 @@ impl Format {
 /// metres of the run otherwise. Fails if the map has too few or infinite heights, if the format cannot hold it, and if
 /// the disk is full.
 pub fn write(map: &HeightMap, path: &Path, files: &mut Files) -> Result<()> {
-    let format = Format::of(path)?;
+    let format = HeightFormat::of(path)?;
     check(map, format).map_err(|error| error.about(&format!("cannot write {}", path.display())))?;
     files.write(path, |out| match format {
-        Format::Png => packed::write_png(map, out),
-        Format::Ascii => write_ascii(map, out),
-        Format::GeoTiff => packed::write_tiff(map, out),
-        Format::Raw32 => {
+        HeightFormat::Png => packed::write_png(map, out),
+        HeightFormat::Ascii => write_ascii(map, out),
+        HeightFormat::GeoTiff => packed::write_tiff(map, out),
+        HeightFormat::Raw32 => {
             map.heights.iter().try_for_each(|height| out.write_all(&narrow(*height).to_le_bytes()))
         }
-        Format::Raw64 => map.heights.iter().try_for_each(|height| out.write_all(&height.to_le_bytes())),
+        HeightFormat::Raw64 => map.heights.iter().try_for_each(|height| out.write_all(&height.to_le_bytes())),
     })
 }
 
 /// Refuses a file whose extension is no format of height maps.
 pub fn check_name(path: &Path) -> Result<()> {
-    Format::of(path).map(|_| ())
+    HeightFormat::of(path).map(|_| ())
 }
 
 /// Refuses what cannot be written.
-fn check(map: &HeightMap, format: Format) -> Result<()> {
+fn check(map: &HeightMap, format: HeightFormat) -> Result<()> {
     let (columns, rows) = (map.columns, map.rows);
     let fits = columns.checked_mul(rows) == Some(map.heights.len());
     if !fits || columns < 2 || rows < 2 {
@@ -123,10 +123,10 @@ fn check(map: &HeightMap, format: Format) -> Result<()> {
         ))
         .help("give finite heights"));
     }
-    if format == Format::Png && map.heights.iter().any(|height| height.is_nan()) {
+    if format == HeightFormat::Png && map.heights.iter().any(|height| height.is_nan()) {
         return Err(Error::argument("a PNG cannot leave heights out").help("write a GeoTIFF: .tif"));
     }
-    if matches!(format, Format::Raw32 | Format::Raw64) && columns != rows {
+    if matches!(format, HeightFormat::Raw32 | HeightFormat::Raw64) && columns != rows {
         return Err(Error::argument(format!(
             "raw floats tell no width, and {columns} x {rows} is no square"
         ))
@@ -149,7 +149,7 @@ impl HeightMap {
 
     /// The EPSG code of its projection.
     fn epsg(&self) -> Option<u16> {
-        self.frame.as_ref().and_then(Frame::epsg)
+        self.frame.as_ref().and_then(ReferenceFrame::epsg)
     }
 }
 
@@ -182,22 +182,22 @@ mod tests {
         files.publish()
     }
     use burgeon_data::Crs;
-    use burgeon_data::elevation::{Raster, Wanted};
+    use burgeon_data::elevation::{HeightOptions, Raster};
 
     /// Hills of 12 by `rows` heights.
-    fn map(rows: usize, frame: Option<Frame>) -> HeightMap {
+    fn map(rows: usize, frame: Option<ReferenceFrame>) -> HeightMap {
         let height =
             |at: usize| 250.0 + 80.0 * ((at % 12) as f64 * 0.7).sin() * ((at / 12) as f64 * 0.4).cos();
         let heights = (0..12 * rows).map(height).collect();
         HeightMap { columns: 12, rows, step: 2.5, corner: DVec2::new(-40.0, 30.0), frame, heights }
     }
 
-    fn frame(code: u32, at: [f64; 2]) -> Option<Frame> {
-        Some(Frame::around(&Crs::epsg(code).unwrap(), at, "a").unwrap())
+    fn frame(code: u32, at: [f64; 2]) -> Option<ReferenceFrame> {
+        Some(ReferenceFrame::around(&Crs::epsg(code).unwrap(), at, "a").unwrap())
     }
 
     /// What is read of what was written.
-    fn again(map: &HeightMap, name: &str, wanted: &Wanted) -> Raster {
+    fn again(map: &HeightMap, name: &str, wanted: &HeightOptions) -> Raster {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(name);
         write_alone(map, &path).unwrap();
@@ -215,10 +215,10 @@ mod tests {
     #[test]
     fn what_is_written_is_read_back_in_every_format() {
         let edges = [-40.0, 30.0, -10.0, 52.5];
-        let wanted = Wanted { bounds: Some(edges), ..Wanted::default() };
+        let wanted = HeightOptions { bounds: Some(edges), ..HeightOptions::default() };
         let (hills, square) = (map(9, None), map(12, None));
         for (name, tolerance) in [("a.asc", 2e-5), ("a.tif", 2e-5), ("a.TIFF", 2e-5)] {
-            let raster = again(&hills, name, &Wanted::default());
+            let raster = again(&hills, name, &HeightOptions::default());
             assert_same(&raster, &hills, tolerance);
             assert_eq!((raster.bounds(), raster.crs), (edges, None), "{name}");
         }
@@ -231,19 +231,19 @@ mod tests {
     #[test]
     fn a_geotiff_tells_the_projection_of_the_run() {
         let map = map(9, frame(3067, [385_423.0, 6_671_463.0]));
-        let raster = again(&map, "a.tif", &Wanted::default());
+        let raster = again(&map, "a.tif", &HeightOptions::default());
         assert_same(&raster, &map, 2e-5);
         assert_eq!(raster.bounds(), [385_360.0, 6_671_530.0, 385_390.0, 6_671_552.5]);
         assert_eq!(raster.crs.unwrap().code, Some(3067));
         let map = super::tests::map(9, frame(4326, [7.42, 43.73]));
-        let raster = again(&map, "a.tif", &Wanted::default());
+        let raster = again(&map, "a.tif", &HeightOptions::default());
         assert_eq!(raster.crs.as_ref().unwrap().name(), "transverse Mercator around 7.4, 43.7");
         let mut there = map.frame.clone();
         let relief = burgeon_data::elevation::Relief::new(raster.into(), &mut there).unwrap();
         assert_eq!(relief.low().truncate(), map.corner);
         // Feet have become metres, which no code of EPSG's tells.
         let map = super::tests::map(9, frame(2272, [2_690_000.0, 235_000.0]));
-        let raster = again(&map, "a.tif", &Wanted::default());
+        let raster = again(&map, "a.tif", &HeightOptions::default());
         assert_eq!((raster.bounds(), raster.crs), ([-40.0, 30.0, -10.0, 52.5], None));
     }
 
@@ -251,11 +251,11 @@ mod tests {
     fn a_plain_and_holes_are_written_too() {
         let mut plain = map(9, None);
         plain.heights.fill(42.0);
-        let wanted = Wanted { bounds: Some([0.0, 0.0, 1.0, 1.0]), ..Wanted::default() };
+        let wanted = HeightOptions { bounds: Some([0.0, 0.0, 1.0, 1.0]), ..HeightOptions::default() };
         assert_same(&again(&plain, "a.png", &wanted), &plain, 1e-6);
         plain.heights[17] = f64::NAN;
         for name in ["a.asc", "a.tif"] {
-            let raster = again(&plain, name, &Wanted::default());
+            let raster = again(&plain, name, &HeightOptions::default());
             assert_eq!((raster.filled, raster.heights[17]), (1, 42.0));
         }
     }

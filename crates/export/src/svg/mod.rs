@@ -11,15 +11,15 @@ mod outline;
 mod sheets;
 mod view;
 
-use super::check::{Checked, check};
+use super::check::{SceneCheck, check};
 use super::texture::Images;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
-use faces::{Faces, Palette};
+use faces::{Palette, VisibleFaces};
 use glam::DVec3;
 use std::fmt::Write;
-use view::View;
+use view::DrawingSide;
 
 /// The most triangles that a drawing is made of; what has more is a picture.
 const LIMIT: usize = 2_000_000;
@@ -37,9 +37,9 @@ pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
         return Err(error.help("write a picture (.png) instead, or draw a part of the model"));
     }
     let images = Images::load(&checked)?;
-    let view = View::of(&checked);
+    let view = DrawingSide::of(&checked);
     stop.check()?;
-    let faces = Faces::collect(&checked, view);
+    let faces = VisibleFaces::collect(&checked, view);
     stop.check()?;
     let palette = Palette::new(&scene.materials, &images)?;
     document(&checked, view, &faces, &palette, stop)
@@ -59,7 +59,7 @@ struct Paper {
 }
 
 impl Paper {
-    fn around(faces: &Faces) -> Option<Self> {
+    fn around(faces: &VisibleFaces) -> Option<Self> {
         let (low, high) = faces.bounds()?;
         let metres = |number: i64| number as f64 / 1000.0;
         let (left, right) = (metres(low[0]), metres(high[0]));
@@ -75,9 +75,9 @@ impl Paper {
 }
 
 fn document(
-    checked: &Checked<'_>,
-    view: View,
-    faces: &Faces,
+    checked: &SceneCheck<'_>,
+    view: DrawingSide,
+    faces: &VisibleFaces,
     palette: &Palette,
     stop: &Stop,
 ) -> Result<String> {
@@ -135,7 +135,7 @@ fn document(
     }
     line(format_args!("</g>"));
     line(format_args!("{}", scale_bar(&paper)));
-    if view == View::Plan {
+    if view == DrawingSide::Plan {
         line(format_args!("{}", north_arrow(&paper)));
     }
     line(format_args!("</svg>"));

@@ -1,6 +1,6 @@
 //! Roofs: over every polygon with holes, as patches that close the building below.
 //!
-//! Comes in: the walls as a [`Support`], and a [`Shape`]. Goes out: flat patches. Nothing is drawn here.
+//! Comes in: the walls as a [`Support`], and a [`RoofShape`]. Goes out: flat patches. Nothing is drawn here.
 
 mod build;
 mod fill;
@@ -24,11 +24,11 @@ use glam::{DVec2, DVec3};
 
 use crate::planar::Ring;
 
-pub use build::Cover;
+pub use build::RoofCover;
 pub use build::floor;
 pub use fill::fill;
-pub use lines::{LineKind, RoofLine, lines, normal};
-pub use shape::{Border, Eaves, Ends, Rise, STEEPEST_EAVES, Shape, Surface};
+pub use lines::{RoofLine, RoofLineKind, lines, normal};
+pub use shape::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface, STEEPEST_EAVES};
 pub use support::Support;
 
 /// What a patch is.

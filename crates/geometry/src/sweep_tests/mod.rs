@@ -7,7 +7,9 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use glam::{DVec2, DVec3, Vec3};
 
 use super::solid::{area, check, volume};
-use super::{Frame, Lengthwise, Rings, Section, SectionPoint, Segment, Station, SweepOptions, Swept, sweep};
+use super::{
+    Frame, Lengthwise, Rings, Section, SectionPoint, Segment, Station, SweepOptions, SweepResult, sweep,
+};
 use burgeon_scene::{Normal, Part};
 
 const FLAT: SweepOptions = SweepOptions {
@@ -31,7 +33,7 @@ fn tower(levels: &[(f64, f64, f64, f64)]) -> Vec<Station> {
     levels.iter().map(station).collect()
 }
 
-fn swept(section: &Section, stations: &[Station], options: &SweepOptions) -> (Part, Swept) {
+fn swept(section: &Section, stations: &[Station], options: &SweepOptions) -> (Part, SweepResult) {
     let mut part = Part::default();
     let swept = sweep(&mut part, section, stations, options).expect("a sweep that works");
     (part, swept)
@@ -226,7 +228,7 @@ fn stations_that_repeat_add_nothing() {
         solid(&section, &tower(&[(0., 1., 1., 0.), (0., 1., 1., 0.), (2., 1., 1., 0.), (2., 1., 1., 0.)]));
     assert_eq!(once, twice);
     let (part, swept) = swept(&section, &tower(&[(1., 1., 1., 0.); 3]), &SweepOptions::default());
-    assert_eq!((part, swept), (Part::default(), Swept::default()));
+    assert_eq!((part, swept), (Part::default(), SweepResult::default()));
 }
 
 #[test]

@@ -9,13 +9,13 @@ mod command;
 mod model;
 mod origin;
 
-pub use command::{Command, PickCommand, read};
+pub use command::{PageCommand, PickCommand, read};
 pub use model::{
     Bounds, ControlMessage, CountMessage, ModelMessage, ParamMessage, RuleMessage, SystemMessage,
     TimesMessage, json,
 };
 pub use origin::{
-    AroundMessage, HighlightMessage, ModuleMessage, Named, OriginMessage, PickMessage, Range, RuleAt,
+    AroundMessage, HighlightMessage, ModuleMessage, NamedValue, OriginMessage, PickMessage, Range, RuleAt,
     StepMessage,
 };
 

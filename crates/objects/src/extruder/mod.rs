@@ -9,13 +9,13 @@ use std::sync::{Arc, LazyLock};
 use glam::{DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
-use super::Surface;
+use super::MaterialOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
 use burgeon_kit::{Color, Kind, Object, Vector, fields, methods};
 use burgeon_kit::{Draw, Drawing};
-use state::{Run, State};
+use state::{ExtruderState, SolidRun};
 
 /// What `extruder { ... }` takes.
 #[fields("extruder")]
@@ -66,10 +66,10 @@ const CREASE: f64 = 40.0;
 pub struct Extruder {
     options: ExtruderOptions,
     first_section: Arc<Section>,
-    state: State,
-    stack: Vec<State>,
+    state: ExtruderState,
+    stack: Vec<ExtruderState>,
     /// The cross-sections that were set last, since the same ones are set again and again.
-    known: Vec<(Shape, Arc<Section>)>,
+    known: Vec<(SectionShape, Arc<Section>)>,
     drawing: Drawing,
     open_edges: usize,
     warnings: Vec<Warning>,
@@ -77,7 +77,7 @@ pub struct Extruder {
 
 /// A cross-section that a few numbers describe.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Shape {
+enum SectionShape {
     Regular(u32),
     Star(u32, f64),
     Rectangle(f64, f64),
@@ -90,17 +90,17 @@ const KNOWN: usize = 16;
 impl Extruder {
     /// Sets the cross-section to a regular polygon with `sides` and radius 1.
     pub fn regular(&mut self, sides: u32) -> Result<()> {
-        self.set(Shape::Regular(sides))
+        self.set(SectionShape::Regular(sides))
     }
 
     /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
     pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
-        self.set(Shape::Star(points, inner))
+        self.set(SectionShape::Star(points, inner))
     }
 
     /// Sets the cross-section to a rectangle around the middle (m).
     pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
-        self.set(Shape::Rectangle(width, height))
+        self.set(SectionShape::Rectangle(width, height))
     }
 
     /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
@@ -202,7 +202,7 @@ impl Extruder {
     }
 
     /// Sets the whole material of what is drawn.
-    pub fn material(&mut self, material: Surface) -> Result<()> {
+    pub fn material(&mut self, material: MaterialOptions) -> Result<()> {
         self.state.material = Arc::new(material.material()?);
         Ok(())
     }
@@ -280,7 +280,7 @@ impl Extruder {
             shaded(Section::polygon(&flat([options.shape.clone()]))?, options.smooth)
         };
         let section = Arc::new(section);
-        let state = State::begin(&options, &section);
+        let state = ExtruderState::begin(&options, &section);
         Ok(Self {
             options,
             first_section: section,
@@ -294,15 +294,15 @@ impl Extruder {
     }
 
     /// Sets the cross-section to `shape`.
-    fn set(&mut self, shape: Shape) -> Result<()> {
+    fn set(&mut self, shape: SectionShape) -> Result<()> {
         let known = self.known.iter().find(|(known, _)| *known == shape);
         self.state.section = match known {
             Some((_, section)) => Arc::clone(section),
             None => {
                 let section = Arc::new(match shape {
-                    Shape::Regular(sides) => Section::regular(sides as usize)?,
-                    Shape::Star(points, inner) => Section::star(points as usize, inner)?,
-                    Shape::Rectangle(width, height) => Section::rectangle(width, height)?,
+                    SectionShape::Regular(sides) => Section::regular(sides as usize)?,
+                    SectionShape::Star(points, inner) => Section::star(points as usize, inner)?,
+                    SectionShape::Rectangle(width, height) => Section::rectangle(width, height)?,
                 });
                 if self.known.len() == KNOWN {
                     self.known.remove(0);
@@ -362,7 +362,7 @@ impl Extruder {
                 run.scale = state.taper;
             }
             None => {
-                state.run = Some(Run {
+                state.run = Some(SolidRun {
                     makers: smallvec![maker; stations.len()],
                     stations,
                     section,
@@ -411,7 +411,7 @@ impl Object for Extruder {
     }
 
     fn begin(&mut self) {
-        self.state = State::begin(&self.options, &self.first_section);
+        self.state = ExtruderState::begin(&self.options, &self.first_section);
         self.stack.clear();
         self.drawing.clear();
         self.open_edges = 0;
@@ -419,7 +419,7 @@ impl Object for Extruder {
 
     fn push(&mut self) {
         let run = self.state.run.take();
-        self.stack.push(State { run, ..self.state.clone() });
+        self.stack.push(ExtruderState { run, ..self.state.clone() });
     }
 
     fn pop(&mut self) -> Result<()> {

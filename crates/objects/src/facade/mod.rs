@@ -1,6 +1,6 @@
 //! Facades by a wall grammar of five rules: panel, bordered, extruded, list and grid.
 //!
-//! Comes in: walls that scripts put together, and a frontage's width and height. Goes out: [`Laid`] faces and models.
+//! Comes in: walls that scripts put together, and a frontage's width and height. Goes out: [`FacadeLayout`] faces and models.
 //! It never knows where on a building the frontage is.
 //!
 //! Method: T. Larive and V. Gaildrat, "Wall grammar for building generation", 2006.
@@ -22,7 +22,7 @@ mod tests;
 pub mod wall;
 
 pub use join::{FaceMesh, Joiner};
-pub use lay::{Face, Laid, Rectangle};
+pub use lay::{FacadeFace, FacadeLayout, Rectangle};
 pub use template::{Facade, Template, Templates};
 pub use wall::Wall;
 

@@ -16,19 +16,19 @@ use std::sync::{Arc, LazyLock, OnceLock};
 
 use glam::{DVec2, DVec3};
 
-use super::{LineIndex, Surface, Terrain};
+use super::{LineIndex, MaterialOptions, Terrain};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{
-    Color, Draw, Drawing, Expected, Kind, LevelOfDetail, Note, Object, Parameter, Report, Shape, Table,
-    TableOf, Value, Vector, fields, methods,
+    Color, Draw, Drawing, Expectation, FeatureShape, Kind, LevelOfDetail, Note, Object, Parameter, Report,
+    Table, TableOf, Value, Vector, fields, methods,
 };
 use burgeon_scene::Material;
 pub use edges::EdgeKeywords;
 use edges::Edges;
 use neighbors::Neighborhood;
-use prefetch::{Grounded, PlanPrefetch};
-pub use roof::{Detail, Roof};
+use prefetch::{LocalPlan, PlanPrefetch};
+pub use roof::{Roof, RoofDetail};
 use shell::Shell;
 use sides::Side;
 use walls::Plain;
@@ -43,7 +43,7 @@ impl Parameter for Height {
         f64::luau()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         f64::from_value(value).map(Self)
     }
 
@@ -109,7 +109,7 @@ pub struct Footprint {
 #[methods("footprint")]
 impl Footprint {
     /// Lays the ground: "z_min" at the lowest point, "z_max" at the highest, "extruded" with faces down from it.
-    pub fn groundwork(&mut self, kind: String, material: Option<Surface>) -> Result<()> {
+    pub fn groundwork(&mut self, kind: String, material: Option<MaterialOptions>) -> Result<()> {
         self.lay(&kind, material)
     }
 
@@ -236,15 +236,15 @@ impl Footprint {
     }
 
     /// The same, where its plan may be ready.
-    fn with(mut options: FootprintOptions, ready: Option<Result<Grounded>>) -> Result<Self> {
+    fn with(mut options: FootprintOptions, ready: Option<Result<LocalPlan>>) -> Result<Self> {
         if let Some(ground) = &options.ground {
             for point in options.geometry.0.iter_mut().flatten() {
                 point.z = ground.height(Vector(*point)).map_err(Error::of_data)?;
             }
         }
-        let Grounded { plan, origin } = match ready {
+        let LocalPlan { plan, origin } = match ready {
             Some(ready) => ready?,
-            None => Grounded::new(&options.geometry)?,
+            None => LocalPlan::new(&options.geometry)?,
         };
         if let Some(Height(height)) = options.height {
             check_height("footprint: height", height)?;
@@ -270,7 +270,7 @@ impl Footprint {
     }
 
     /// The part with this material, or with this colour, or with the footprint's own.
-    fn part(&mut self, color: Option<Color>, material: Option<&Surface>) -> Result<usize> {
+    fn part(&mut self, color: Option<Color>, material: Option<&MaterialOptions>) -> Result<usize> {
         let material = match material {
             Some(surface) => surface.material()?,
             None => Material { base_color: color.unwrap_or(self.options.color).0, ..Material::default() },
@@ -293,10 +293,10 @@ impl Footprint {
 }
 
 /// The plan of the geometry in a table of options, if another thread has made it.
-fn prefetched(options: &Table) -> Option<Result<Grounded>> {
+fn prefetched(options: &Table) -> Option<Result<LocalPlan>> {
     let Some(Value::Object(object)) = options.get("geometry") else { return None };
     let any: &dyn std::any::Any = &**object;
-    let (prefetch, number) = any.downcast_ref::<Shape>()?.prefetch()?;
+    let (prefetch, number) = any.downcast_ref::<FeatureShape>()?.prefetch()?;
     let any: &dyn std::any::Any = prefetch;
     any.downcast_ref::<PlanPrefetch>()?.take(number)
 }

@@ -10,7 +10,8 @@ fn plan(rings: &[&[(f64, f64)]]) -> Rings {
 }
 
 fn table(entries: &[(&str, Value)]) -> Arc<Table> {
-    let entries = entries.iter().map(|(name, value)| (burgeon_kit::Key::Name((*name).into()), value.clone()));
+    let entries =
+        entries.iter().map(|(name, value)| (burgeon_kit::TableKey::Name((*name).into()), value.clone()));
     Arc::new(Table { class: None, entries: entries.collect() })
 }
 

@@ -21,11 +21,11 @@ use gltf_json::{Index, Root, scene::Node};
 
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::{Kind, Loaded, Loader, Loading, Model, Table};
+use burgeon_kit::{Kind, LoadRequest, LoadedObject, Loader, Model, Table};
 use burgeon_scene::{Instance, Mesh, Scene};
-use bytes::{Bytes, Columns};
-use look::Look;
-use shape::Shape;
+use bytes::{Bytes, NumberColumns};
+use look::ImportMaterial;
+use shape::TintedPart;
 
 /// The deepest that nodes may be nested, and the most of them.
 const DEEPEST: usize = 64;
@@ -34,7 +34,7 @@ const MOST_NODES: usize = 100_000;
 const OBJECT: usize = 500;
 
 /// What an import needs from outside of the file.
-struct Wanted<'a> {
+struct ImportOptions<'a> {
     /// What messages call the file.
     pub name: &'a str,
     /// The most triangles, those of repeated meshes counted each time.
@@ -50,7 +50,7 @@ struct Wanted<'a> {
 /// Takes positions, normals, texture coordinates, colours of points, instances of a node, and of materials base colour with its texture, metal, roughness and
 /// light; normals that are missing are those of flat faces, texture coordinates are then metres along the faces. Fails
 /// if the file is damaged, needs an extension that is not known here, or has too many triangles.
-fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
+fn read(content: &[u8], wanted: &mut ImportOptions<'_>) -> Result<Scene> {
     let name = wanted.name;
     let (json, own) = container(content).map_err(|why| broken(name, why))?;
     wanted.budget.check()?;
@@ -63,7 +63,7 @@ fn read(content: &[u8], wanted: &mut Wanted<'_>) -> Result<Scene> {
     let materials = look::materials(&root, &bytes, wanted)?;
     let mut model = Import {
         root: &root,
-        columns: Columns::new(&root, &bytes, wanted.budget),
+        columns: NumberColumns::new(&root, &bytes, wanted.budget),
         name,
         scene: Scene::default(),
         meshes: vec![None; root.meshes.len()],
@@ -149,12 +149,12 @@ fn roots(root: &Root) -> Vec<Index<Node>> {
 
 struct Import<'a> {
     root: &'a Root,
-    columns: Columns<'a>,
+    columns: NumberColumns<'a>,
     name: &'a str,
     scene: Scene,
     /// By mesh of the file: the one of the scene, once it has been asked for; none if it has no triangles.
     meshes: Vec<Option<Option<usize>>>,
-    materials: Vec<Look>,
+    materials: Vec<ImportMaterial>,
     nodes: usize,
     left: usize,
     limit: usize,
@@ -251,7 +251,7 @@ impl Import<'_> {
                 let noted = error.noting(&format!("mesh {}", index.value()));
                 damaged(self.name, self.columns.budget, &noted)
             })?;
-            for Shape { tint, part } in shapes {
+            for TintedPart { tint, part } in shapes {
                 let material = self.scene.material(&look.tinted(tint));
                 // Parts of the same material stay apart in the file; here they are one.
                 let whole = mesh.part(material);
@@ -312,7 +312,7 @@ pub(super) fn kind() -> Kind {
     Kind::clone(Model::kind()).loaded(Vec::new(), loader)
 }
 
-fn load(file: &mut Loading<'_>, _: &Table) -> Result<Loaded> {
+fn load(file: &mut LoadRequest<'_>, _: &Table) -> Result<LoadedObject> {
     let remedy = "name a .glb or .gltf file";
     let content = file.read(remedy)?;
     // Files beside it are named from its own folder.
@@ -321,8 +321,12 @@ fn load(file: &mut Loading<'_>, _: &Table) -> Result<Loaded> {
         let name = folder.join(uri).display().to_string();
         file.read_beside("file of a model", &name, remedy)
     };
-    let mut wanted =
-        Wanted { name: file.name, triangles: file.triangles, budget: file.budget, beside: &mut beside };
+    let mut wanted = ImportOptions {
+        name: file.name,
+        triangles: file.triangles,
+        budget: file.budget,
+        beside: &mut beside,
+    };
     let model = Model::new(read(&content, &mut wanted)?);
-    Ok(Loaded { memory: model.memory(), object: Arc::new(model), warnings: Vec::new() })
+    Ok(LoadedObject { memory: model.memory(), object: Arc::new(model), warnings: Vec::new() })
 }

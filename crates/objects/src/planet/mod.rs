@@ -7,10 +7,10 @@ use std::sync::{Arc, LazyLock};
 use glam::{DAffine3, DVec3};
 use rayon::prelude::*;
 
-use super::terrain::{Cover, RuleLayers, Water, lost_focus, rules};
+use super::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::Key;
+use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, Expand, Kind, Object, Rewriter, Seed, Show, Vector, fields, methods};
 use burgeon_scene::{Instance, Material, Mesh, Scene};
 use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
@@ -55,14 +55,14 @@ pub struct PlanetOptions {
     /// Whether what lies below the horizon of the focus is left out.
     pub horizon: bool,
     /// What lies on it, from the bottom to the top.
-    pub covers: Vec<Cover>,
+    pub covers: Vec<GroundCover>,
     /// Its colour, where it has no covers.
     #[default(Color([0.30, 0.28, 0.22, 1.0]))]
     pub color: Color,
     /// Its seas: their level (m), or more of them.
     pub water: Option<Water>,
     /// What lies on the water, such as ice near the poles.
-    pub ice: Option<Cover>,
+    pub ice: Option<GroundCover>,
 }
 
 /// A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.
@@ -184,7 +184,7 @@ impl Planet {
         }
         let built =
             options.rules.build("planet", options.start.as_ref(), (options.height, options.decay), 0)?;
-        let key = options.seed.map_or(Key::default(), |seed| Key::seed(seed.0));
+        let key = options.seed.map_or(ModuleKey::default(), |seed| ModuleKey::seed(seed.0));
         let world = World {
             corner: glam::DVec2::ZERO,
             size: options.radius,
@@ -242,7 +242,7 @@ impl Object for Planet {
             return;
         }
         let world = self.globe.world();
-        let world = World { key: world.key.map(|_| Key(seed)), ..world.clone() };
+        let world = World { key: world.key.map(|_| ModuleKey(seed)), ..world.clone() };
         self.globe = Globe::new(world, self.options.radius, self.globe.sea());
     }
 

@@ -16,7 +16,7 @@ use std::sync::{Arc, LazyLock};
 use glam::{DVec2, DVec3};
 
 pub use edits::EditFile;
-pub use looks::Cover;
+pub use looks::GroundCover;
 pub use mask::Mask;
 pub use plants::Plants;
 pub use rules::{LayerRules, RuleLayer, RuleLayers};
@@ -27,11 +27,11 @@ use river::River;
 use super::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::rules::Key;
+use burgeon_kit::rules::ModuleKey;
 use burgeon_kit::{Color, Kind, Object, ObjectParameter, Vector, fields, methods};
 use burgeon_kit::{Expand, Rewriter, Show};
 use burgeon_scene::Scene;
-use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, Map, View, World};
+use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
 
 /// What `terrain { ... }` takes.
 #[fields("terrain")]
@@ -68,7 +68,7 @@ pub struct TerrainOptions {
     /// Changes of the ground that were kept: edits("ground.json").
     pub edits: Option<EditFile>,
     /// What lies on it, from the bottom to the top.
-    pub covers: Vec<Cover>,
+    pub covers: Vec<GroundCover>,
     /// The height (m) of an underside: then it has sides and is closed.
     pub base: Option<f64>,
     /// The colour of its sides.
@@ -104,7 +104,7 @@ pub struct Terrain {
     kept_read: bool,
     /// These, and what the present pass has changed.
     edits: Arc<Edits>,
-    key: Key,
+    key: ModuleKey,
     /// Whether the script is only checked.
     sketched: bool,
     /// Whether a pass has begun.
@@ -252,7 +252,7 @@ impl Terrain {
             kept: Arc::default(),
             edits: Arc::default(),
             kept_read: false,
-            key: Key::default(),
+            key: ModuleKey::default(),
             sketched: false,
             begun: false,
         })
@@ -264,7 +264,7 @@ impl Terrain {
     }
 
     /// The heights (m) of all that is expanded, as a map.
-    pub fn map(&self) -> Result<Map> {
+    pub fn map(&self) -> Result<GroundMap> {
         let mut map = self.ground.map()?;
         map.heights.iter_mut().for_each(|height| *height += self.options.position.0.z);
         Ok(map)
@@ -397,9 +397,9 @@ impl Object for Terrain {
     }
 
     fn seed(&mut self, seed: u64) {
-        self.key = Key(seed);
+        self.key = ModuleKey(seed);
         let world = self.ground.world();
-        let world = World { key: world.key.map(|_| Key(seed)), ..world.clone() };
+        let world = World { key: world.key.map(|_| ModuleKey(seed)), ..world.clone() };
         self.plain = Ground::new(Arc::new(world));
         self.ground = self.plain.clone();
     }

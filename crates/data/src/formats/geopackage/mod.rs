@@ -13,7 +13,7 @@ use rusqlite::limits::Limit;
 use rusqlite::types::ValueRef;
 use rusqlite::{Connection, OpenFlags, OptionalExtension};
 
-use super::super::{Attribute, Crs, Table, Wanted};
+use super::super::{Attribute, Crs, FeatureTable, SourceOptions};
 use super::arc;
 use super::wkb::read_blob;
 use burgeon_base::budget::Budget;
@@ -31,7 +31,7 @@ const GRACE: Duration = Duration::from_millis(500);
 pub struct GeoPackage {
     connection: Connection,
     name: String,
-    layers: Vec<Described>,
+    layers: Vec<LayerDescription>,
 }
 
 /// Has `work` done with a connection by a thread of its own, and gives what comes of it.
@@ -71,14 +71,14 @@ fn watched<T: Send + 'static>(
 }
 
 /// What the package's own tables say of a layer.
-struct Described {
+struct LayerDescription {
     table: String,
     column: String,
     crs: Result<Crs>,
 }
 
 impl GeoPackage {
-    pub(crate) fn open(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
+    pub(crate) fn open(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
         let connection = connect(path).map_err(|error| broken(name, &error))?;
         let (owned, budget) = (name.to_owned(), Arc::clone(&wanted.budget));
         watched(connection, &wanted.budget, move |connection| Self::with(connection, owned, &budget))
@@ -130,7 +130,7 @@ impl GeoPackage {
         self.layers.iter().map(|layer| layer.table.clone()).collect()
     }
 
-    pub(crate) fn read(self, layer: &str, wanted: &Wanted) -> Result<Table> {
+    pub(crate) fn read(self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let Self { connection, name, layers } = self;
         let (layer, wanted) = (layer.to_owned(), wanted.clone());
         let budget = Arc::clone(&wanted.budget);
@@ -139,7 +139,7 @@ impl GeoPackage {
         })
     }
 
-    fn table(mut self, layer: &str, wanted: &Wanted) -> Result<Table> {
+    fn table(mut self, layer: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let name = self.name.clone();
         let error = |error: rusqlite::Error| broken(&name, &error);
         let Some(position) = self.layers.iter().position(|known| known.table == layer) else {
@@ -147,10 +147,10 @@ impl GeoPackage {
         };
         let described = self.layers.swap_remove(position);
         let label = format!("{name}:{}", shown(layer));
-        let mut table = Table::new(layer, &label, described.crs, Arc::clone(&wanted.budget));
+        let mut table = FeatureTable::new(layer, &label, described.crs, Arc::clone(&wanted.budget));
         let crs = wanted.crs.map_or_else(|| table.crs.clone(), Crs::epsg);
         let near = arc::NEAR / crs.map_or(1.0, |crs| crs.metres());
-        let columns = Columns::read(&self.connection, layer, &described.column).map_err(error)?;
+        let columns = LayerColumns::read(&self.connection, layer, &described.column).map_err(error)?;
         table.names = columns.names.clone();
         let id = match &wanted.id {
             Some(id) => Some(table.column(id)?),
@@ -237,7 +237,7 @@ fn connect(path: &Path) -> rusqlite::Result<Connection> {
 }
 
 /// The layers of features, in the order of the file.
-fn described(connection: &Connection) -> rusqlite::Result<Vec<Described>> {
+fn described(connection: &Connection) -> rusqlite::Result<Vec<LayerDescription>> {
     let mut statement = connection.prepare(
         "SELECT c.table_name, g.column_name, g.srs_id FROM gpkg_contents c \
          JOIN gpkg_geometry_columns g ON g.table_name = c.table_name \
@@ -246,7 +246,7 @@ fn described(connection: &Connection) -> rusqlite::Result<Vec<Described>> {
     let mut rows = statement.query([])?;
     let mut layers = Vec::new();
     while let Some(row) = rows.next()? {
-        layers.push(Described {
+        layers.push(LayerDescription {
             table: row.get(0)?,
             column: row.get(1)?,
             crs: system(connection, row.get(2)?)?,
@@ -285,13 +285,13 @@ fn system(connection: &Connection, number: i64) -> rusqlite::Result<Result<Crs>>
 }
 
 /// The columns of a layer besides key and geometry.
-struct Columns {
+struct LayerColumns {
     names: Vec<String>,
     booleans: Vec<bool>,
     key: Option<String>,
 }
 
-impl Columns {
+impl LayerColumns {
     fn read(connection: &Connection, layer: &str, geometry: &str) -> rusqlite::Result<Self> {
         let mut columns = Self { names: Vec::new(), booleans: Vec::new(), key: None };
         let mut statement = connection.prepare(&format!("PRAGMA table_info({})", quoted(layer)))?;
@@ -308,7 +308,7 @@ impl Columns {
         Ok(columns)
     }
 
-    fn select(&self, layer: &str, geometry: &str, wanted: &Wanted) -> String {
+    fn select(&self, layer: &str, geometry: &str, wanted: &SourceOptions) -> String {
         let key = self.key.as_deref().map_or_else(|| "NULL".to_owned(), quoted);
         let mut sql = format!("SELECT {key}, {}", quoted(geometry));
         for name in &self.names {
@@ -359,7 +359,7 @@ fn broken(name: &str, error: &rusqlite::Error) -> Error {
 }
 
 /// The error of a query, which is the condition's fault if there is one.
-fn refused(shown: &str, wanted: &Wanted, error: &rusqlite::Error) -> Error {
+fn refused(shown: &str, wanted: &SourceOptions, error: &rusqlite::Error) -> Error {
     let text = words(error);
     match &wanted.condition {
         Some(condition) if !text.contains("malformed") => {

@@ -21,7 +21,7 @@ use std::time::Duration;
 use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
-use burgeon_base::error::{Error, Limit, Place};
+use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::rules::Signature;
 pub(crate) use peeks::peeks;
 pub(crate) use pure::has_metatables;
@@ -80,11 +80,11 @@ const PATIENCE: Duration = Duration::from_secs(30);
 
 /// Reads `text`, the content of `file`. What Luau does not compile is left as it stands, for it to tell.
 pub(crate) fn analyse(file: &str, text: &str, globals: &Globals) -> Analysis {
-    Reading::begin(file, text).finish(globals)
+    ScriptReader::begin(file, text).finish(globals)
 }
 
 /// A script that is being read in a thread of its own, which waits for what the script may use.
-pub(crate) struct Reading {
+pub(crate) struct ScriptReader {
     file: String,
     text: String,
     globals: Sender<Globals>,
@@ -92,7 +92,7 @@ pub(crate) struct Reading {
     analysis: Receiver<Analysis>,
 }
 
-impl Reading {
+impl ScriptReader {
     /// Begins to read `text`, the content of `file`.
     pub(crate) fn begin(file: &str, text: &str) -> Self {
         let (sender, analysis) = channel();
@@ -130,7 +130,7 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
         return unread(text, Vec::new());
     }
     let refuse = |line: usize| {
-        let place = Place { file: file.to_owned(), line };
+        let place = SourcePlace { file: file.to_owned(), line };
         let error = Error::syntax("this part of Luau's syntax is not known to Burgeon")
             .help("write it in another way; attributes in brackets, such as @[native], are not needed");
         unread(text, vec![error.at(Some(place))])

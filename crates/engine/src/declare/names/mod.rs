@@ -21,13 +21,13 @@ pub struct Name {
     /// The name, or what people call it.
     pub name: Text,
     /// What it is.
-    pub sort: Sort,
+    pub sort: NameKind,
     /// Its type in Luau; of a function, its parameters and its result.
     pub luau: Text,
     /// What it does.
     pub doc: Text,
     /// What the table that it takes may have, or what it has.
-    pub parts: &'static [Part],
+    pub parts: &'static [NameMember],
     /// Whether calling it leaves nothing behind but which random numbers are drawn, and calls no function that it is given;
     /// of a library, whether all its functions are such.
     pub(crate) pure: bool,
@@ -35,7 +35,7 @@ pub struct Name {
 
 /// What a name is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Sort {
+pub enum NameKind {
     /// A function or a value that a script names.
     Global,
     /// A function or a library of Luau itself.
@@ -53,7 +53,7 @@ pub enum Sort {
 
 /// A field of a table, or a method.
 #[derive(Debug, Clone, Copy)]
-pub struct Part {
+pub struct NameMember {
     /// Its name.
     pub name: &'static str,
     /// Its type in Luau; of a method, its parameters and its result.
@@ -69,7 +69,7 @@ pub struct Part {
 }
 
 impl Name {
-    const fn new(name: &'static str, sort: Sort, luau: &'static str, doc: &'static str) -> Self {
+    const fn new(name: &'static str, sort: NameKind, luau: &'static str, doc: &'static str) -> Self {
         let (name, luau, doc) = (Cow::Borrowed(name), Cow::Borrowed(luau), Cow::Borrowed(doc));
         Self { name, sort, luau, doc, parts: &[], pure: false }
     }
@@ -79,7 +79,7 @@ impl Name {
         self
     }
 
-    const fn parts(mut self, parts: &'static [Part]) -> Self {
+    const fn parts(mut self, parts: &'static [NameMember]) -> Self {
         self.parts = parts;
         self
     }
@@ -90,7 +90,7 @@ impl Name {
     }
 }
 
-impl Part {
+impl NameMember {
     const fn new(name: &'static str, luau: &'static str, doc: &'static str) -> Self {
         Self { name, luau, default: "", unit: None, doc, is_method: false }
     }

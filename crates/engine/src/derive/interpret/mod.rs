@@ -15,14 +15,14 @@ use std::time::{Duration, Instant};
 
 use crate::results::Use;
 
-use super::Plan;
-use super::threads::{Job, ThreadPool};
+use super::DerivationPlan;
+use super::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Flusher, Machine, write_column};
 pub(crate) use apply::Applier;
-use burgeon_base::error::{Error, Limit, Place, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Chain, END, Mark, Symbol, module_brief};
-use notices::{Notice, Notices};
+use notices::{Notices, ObjectNotice};
 
 /// Entries that one call into Lua interprets.
 const ENTRIES: usize = 4096;
@@ -33,7 +33,7 @@ const DEALT: usize = 64;
 
 /// One pass over all chains, shared by the threads.
 pub(crate) struct InterpretationPass {
-    pub plan: Arc<Plan>,
+    pub plan: Arc<DerivationPlan>,
     pub chain: Chain,
     pub step: usize,
     /// Where each piece of whole chains begins; one more for the end.
@@ -50,7 +50,7 @@ impl InterpretationPass {
     /// `said` what the objects warned of.
     pub(crate) fn pass(
         (machine, threads): (&Machine, &ThreadPool),
-        plan: &Arc<Plan>,
+        plan: &Arc<DerivationPlan>,
         chain: Chain,
         step: usize,
         uses: &mut [Use],
@@ -81,7 +81,7 @@ impl InterpretationPass {
             uses: Mutex::new(vec![Use::default(); uses.len()]),
             notices: Notices::default(),
         });
-        threads.hand_out(machine, count, 2, || Job::Interpret(Arc::downgrade(&interpreting)))?;
+        threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
         while interpreting.work(machine) {}
         let done = threads.reclaim(interpreting);
         let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -248,9 +248,9 @@ impl InterpretationPass {
     }
 
     /// Adds what objects have warned of in the batch that was interpreted last.
-    fn note_all(&self, machine: &Machine, notices: &[Notice]) {
+    fn note_all(&self, machine: &Machine, notices: &[ObjectNotice]) {
         for (index, notice) in notices.iter().enumerate() {
-            let same = |other: &Notice| {
+            let same = |other: &ObjectNotice| {
                 other.module == notice.module && other.warning.message() == notice.warning.message()
             };
             self.note(
@@ -263,7 +263,7 @@ impl InterpretationPass {
 
     /// Adds what an object has warned of in the batch that was interpreted last, for the first time of its module or
     /// once more.
-    fn note(&self, machine: &Machine, notice: &Notice, is_first: bool) {
+    fn note(&self, machine: &Machine, notice: &ObjectNotice, is_first: bool) {
         let (module, param) = notice.module;
         let symbol = self.chain.symbols[module];
         self.notices.add((symbol, module), is_first, notice.warning.clone(), |warning| {
@@ -287,7 +287,7 @@ impl InterpretationPass {
     }
 
     /// The line of a recorded call of the last batch, given as its entry and its number: the rule runs once more to find it.
-    fn line_of(machine: &Machine, call: (usize, usize)) -> Option<Place> {
+    fn line_of(machine: &Machine, call: (usize, usize)) -> Option<SourcePlace> {
         let prelude = machine.prelude();
         let place = match prelude.relive.call::<()>(call) {
             Err(raised) => machine.translate(raised).place().cloned(),
@@ -337,7 +337,7 @@ impl InterpretationPass {
     }
 
     /// The name and the place of the interpretation rule of modules with this symbol.
-    fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<Place>)> {
+    fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<SourcePlace>)> {
         let interpretations = &self.plan.interpretations;
         let id = interpretations.by_symbol.get(usize::from(symbol))?;
         let known = interpretations.list.get(usize::from(*id))?;

@@ -11,7 +11,7 @@ pub(crate) use axiom::Axiom;
 pub(crate) use declare::returns_modules;
 
 pub(crate) use handle::SystemHandle;
-pub(crate) use lazy::{Eager, UNREAD, feature_of, install as install_lazy, is_unread_geometry, shape_of};
+pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy, is_unread_geometry, shape_of};
 pub(crate) use source::{GEOMETRY, SourceHandle};
 pub(crate) use unseen::tell_unseen;
 
@@ -21,15 +21,15 @@ use std::sync::Arc;
 use mlua::{Function, Table, Value as LuaValue};
 
 use super::Machine;
-use super::freeze::{Frozen, Reached, freeze};
+use super::freeze::{ReachableFunction, TableFreeze, freeze};
 use super::handles::methods_key;
 use super::library::Library;
-use burgeon_base::error::{Place, Result};
+use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::Object;
 use burgeon_kit::rules::{FIRST_SYMBOL, Grammar, Rule, Symbol};
 
 /// What a script declared of one system.
-pub(crate) struct System {
+pub(crate) struct SystemDeclaration {
     /// The object that each chain gets a copy of.
     pub object: Option<Arc<dyn Object>>,
     /// Whether only the last step is interpreted.
@@ -39,9 +39,9 @@ pub(crate) struct System {
     /// Its place among the systems of the script.
     pub index: usize,
     /// Where it was made.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     /// Where its axiom was set.
-    pub axiom_place: Option<Place>,
+    pub axiom_place: Option<SourcePlace>,
     pub(super) axiom: Option<DeclaredAxiom>,
     pub(super) rules: Vec<DeclaredRule>,
     pub(super) interpretations: Vec<DeclaredInterpretation>,
@@ -50,7 +50,7 @@ pub(crate) struct System {
     /// Each time that it was derived.
     pub(super) derivations: RefCell<Vec<DerivationRecord>>,
     /// What was declared since it was derived last, and where.
-    pub(super) late: RefCell<Vec<(&'static str, Option<Place>)>>,
+    pub(super) late: RefCell<Vec<(&'static str, Option<SourcePlace>)>>,
     /// Whether its axiom was set since it was derived last.
     pub(super) axiom_is_new: Cell<bool>,
     /// Whether the script gave it to an object.
@@ -59,7 +59,7 @@ pub(crate) struct System {
 
 /// A time that a system was derived.
 pub(super) struct DerivationRecord {
-    pub(super) place: Option<Place>,
+    pub(super) place: Option<SourcePlace>,
     /// Its number among those of the script.
     pub(super) number: usize,
     /// Whether it began from an axiom of its own.
@@ -84,19 +84,19 @@ pub(super) struct DeclaredInterpretation {
     pub(super) bound: usize,
     pub(super) rule: Function,
     pub(super) name: String,
-    pub(super) place: Option<Place>,
+    pub(super) place: Option<SourcePlace>,
     /// Whether it has been told already that it returns modules.
     pub(super) loses: bool,
 }
 
 /// A system ready to derive in one machine: the functions that the grammar's rules run.
-pub(crate) struct Declared {
+pub(crate) struct SystemFunctions {
     /// By rule: the function that applies it to a batch.
     pub drivers: Vec<Function>,
     /// By rule: the function that asks its guard about a batch.
     pub guards: Vec<Option<Function>>,
     /// Keeps what the rules can reach frozen.
-    _frozen: Frozen,
+    _frozen: TableFreeze,
 }
 
 /// How modules are interpreted: the same in every machine.
@@ -118,12 +118,12 @@ pub(crate) struct Interpretation {
     /// Its pattern.
     pub name: String,
     /// Where it was declared.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     /// Whether it has been told already that it returns modules.
     pub loses: bool,
 }
 
-impl System {
+impl SystemDeclaration {
     /// Whether every interpretation pass begins with empty objects, so that earlier passes leave no trace.
     pub(crate) fn draws_afresh(&self) -> bool {
         self.object.as_ref().is_none_or(|object| object.kind().begins_empty)
@@ -176,12 +176,12 @@ impl System {
     }
 
     /// Prepares `machine` for deriving this system: drivers and frozen tables.
-    pub(crate) fn prepare(&self, machine: &Machine) -> Result<Declared> {
+    pub(crate) fn prepare(&self, machine: &Machine) -> Result<SystemFunctions> {
         let mut reached = Vec::new();
         let (drivers, guards) =
             self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
         let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
-        Ok(Declared { drivers, guards, _frozen: frozen })
+        Ok(SystemFunctions { drivers, guards, _frozen: frozen })
     }
 
     /// Has `machine` work for this system from now on: its `this` and its interpretation rules.
@@ -215,7 +215,7 @@ impl System {
     fn prepare_functions(
         &self,
         machine: &Machine,
-        reached: &mut Vec<Reached>,
+        reached: &mut Vec<ReachableFunction>,
     ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
         let prelude = machine.prelude();
         let mut drivers = Vec::new();
@@ -223,7 +223,7 @@ impl System {
         for declared in &self.rules {
             let arity = declared.rule.arguments();
             drivers.push(prelude.driver.call((&declared.successor, arity))?);
-            let reach = |function: &Function| Reached {
+            let reach = |function: &Function| ReachableFunction {
                 function: function.clone(),
                 name: declared.rule.pattern.text.clone(),
                 place: declared.rule.place.clone(),
@@ -238,7 +238,7 @@ impl System {
             });
         }
         for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
-            reached.push(Reached {
+            reached.push(ReachableFunction {
                 function: known.rule.clone(),
                 name: known.name.clone(),
                 place: known.place.clone(),

@@ -60,7 +60,7 @@ pub fn render_within(
     picture.check()?;
     let textures = texture::load(&scene.materials)?;
     let stage = stage::Stage::within(scene, &textures, extent, stop)?;
-    let detail = detail::Detail::of(picture.quality, stage.triangles());
+    let detail = detail::RenderDetail::of(picture.quality, stage.triangles());
     let size = [picture.width, picture.height];
     let (eye, camera) = match (extent, picture.look) {
         (None, None) => {

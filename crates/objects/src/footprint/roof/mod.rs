@@ -8,14 +8,14 @@ mod tests;
 
 use glam::DVec3;
 
-use super::{Color, Footprint, Surface};
+use super::{Color, Footprint, MaterialOptions};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::roof::{
-    Cover, Eaves, Patch, PatchKind, STEEPEST_EAVES, Shape, Support, Surface as SurfaceOf,
+    Eaves, Patch, PatchKind, RoofCover, RoofShape, RoofSurface as SurfaceOf, STEEPEST_EAVES, Support,
 };
 use burgeon_geometry::{Plan, fill};
 use burgeon_kit::{Note, fields};
-pub use detail::Detail;
+pub use detail::RoofDetail;
 
 /// What `footprint:roof { ... }` takes.
 #[fields("footprint:roof")]
@@ -46,18 +46,18 @@ pub struct Roof {
     /// Its colour.
     pub color: Option<Color>,
     /// Its material, in place of the colour.
-    pub material: Option<Surface>,
+    pub material: Option<MaterialOptions>,
     /// The material of gables; that of the walls below them if left out.
-    pub gable: Option<Surface>,
+    pub gable: Option<MaterialOptions>,
     /// The material of slabs and borders; the roof's if left out.
-    pub trim: Option<Surface>,
+    pub trim: Option<MaterialOptions>,
     /// The material of undersides; that of slabs if left out.
-    pub underside: Option<Surface>,
+    pub underside: Option<MaterialOptions>,
     /// Whether walls along neighbours that run away from the street end in gables, as in a row of houses.
     #[default(true)]
     pub party_gables: bool,
     /// What stands on it: a list of { model, on, every, ... }.
-    pub details: Vec<Detail>,
+    pub details: Vec<RoofDetail>,
 }
 
 impl Footprint {
@@ -86,7 +86,7 @@ impl Footprint {
         let drop = if open { STEEPEST_EAVES * shape.overhang } else { 0.0 };
         let reach = if furthest > 0.0 { self.reach(furthest, drop) } else { Vec::new() };
         let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach };
-        let mut make = |shape: &Shape, support: &Support<'_>| shape.cover_on(support);
+        let mut make = |shape: &RoofShape, support: &Support<'_>| shape.cover_on(support);
         let made = replace::cover(&shape, &options.kind, &support, &mut make);
         let mut note = |what: String, why: String| self.notes.push(Note::new(what, why));
         if let Some((what, why)) = made.replaced {
@@ -98,7 +98,7 @@ impl Footprint {
         // Without neighbours some edges would have more: what is over them gives way for these.
         let is_limited = !made.cover.tight.is_empty() && reach.iter().any(|reach| *reach < furthest);
         let alone = if is_limited { shape.cover_on(&Support { reach: &[], ..support }).ok() } else { None };
-        let has_more = |cover: &Cover, edge: usize| cover.overhangs[edge] > made.cover.overhangs[edge];
+        let has_more = |cover: &RoofCover, edge: usize| cover.overhangs[edge] > made.cover.overhangs[edge];
         let is_beside = |edge: &usize| alone.as_ref().is_some_and(|alone| has_more(alone, *edge));
         let (beside, within): (Vec<usize>, Vec<usize>) =
             made.cover.tight.iter().partition(|edge| is_beside(edge));
