@@ -13,8 +13,7 @@ pub mod trace;
 /// What a run is told, what its script declares, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
-        Control, Limits, Name, NameKind, NameMember, Param, Preset, Print, RunOptions, RunProgress, Session,
-        Setting, TraceRequest, names,
+        Control, Limits, Param, Preset, Print, RunOptions, RunProgress, Session, Setting, TraceRequest,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
 }

@@ -273,8 +273,8 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declare::names::LOCKED;
-    use crate::declare::{NameKind, RunOptions, names};
+    use crate::declare::RunOptions;
+    use burgeon_language::{LOCKED, NameKind, names};
 
     #[test]
     fn scripts_have_the_names_that_are_declared_and_no_others() {
@@ -286,7 +286,7 @@ mod tests {
         let (machine, _threads) = leading_machine(&session).unwrap();
         let there = machine.library.globals().names;
         let declared: Vec<String> = names()
-            .into_iter()
+            .iter()
             .filter(|name| name.sort != NameKind::Given)
             .map(|name| name.name.to_string())
             .chain(registry.kinds().map(|kind| kind.name.to_string()))

@@ -5,7 +5,6 @@
 
 pub(crate) mod analysis;
 mod data;
-pub(crate) mod names;
 mod options;
 mod param;
 pub(crate) mod paths;
@@ -13,7 +12,6 @@ mod positions;
 mod preset;
 mod session;
 
-pub use names::{Name, NameKind, NameMember, names};
 pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;

@@ -15,11 +15,11 @@ use super::{Machine, compile, native};
 use crate::declare::Param;
 use crate::declare::Print;
 use crate::declare::analysis::Globals;
-use crate::declare::names::LOCKED;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Construct;
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
+use burgeon_language::LOCKED;
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
