@@ -71,15 +71,13 @@ function build.system()
     "Building(style, levels, height, use)",
     function(this: Footprint, style: number, levels: number, height: number, use: string)
       local chosen: any = styles[style]
+      local pick: ((...any) -> string)? = chosen.pick
       local usual = chosen.ground + (levels - 1) * chosen.storey
       local stretch = if height > 0 then height / usual else 1
       local chain = { Groundwork(style) }
       for number = 1, levels do
         local storey = if number == 1 then chosen.ground else chosen.storey
-        local kind = if chosen.pick
-          then chosen.pick(number, levels, use)
-          elseif number == 1 then "ground"
-          else "upper"
+        local kind = if pick then pick(number, levels, use) elseif number == 1 then "ground" else "upper"
         table.insert(chain, Storey(style, kind, storey * stretch))
       end
       local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
