@@ -9,5 +9,5 @@ mod reader;
 #[cfg(test)]
 mod tests;
 
-use reader::{LARGE, Reader, words};
+use reader::{FeatureReader, LARGE, words};
 pub(super) use reader::{LARGEST, read};

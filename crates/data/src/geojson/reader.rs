@@ -43,7 +43,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
         }
     };
     let stem = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
-    let mut reader = Reader {
+    let mut reader = FeatureReader {
         table: FeatureTable::new(&stem, name, Crs::epsg(4326), Arc::clone(&wanted.budget)),
         name,
         wanted,
@@ -62,7 +62,7 @@ pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions
 }
 
 /// What has been read of a file.
-pub(super) struct Reader<'a> {
+pub(super) struct FeatureReader<'a> {
     table: FeatureTable,
     name: &'a str,
     wanted: &'a SourceOptions,
@@ -74,7 +74,7 @@ pub(super) struct Reader<'a> {
     pub(super) failure: Option<Error>,
 }
 
-impl Reader<'_> {
+impl FeatureReader<'_> {
     /// Reads the texts of a sequence with separators.
     fn records(&mut self, text: &str) -> Result<()> {
         let mut line = 1;
