@@ -49,7 +49,7 @@
 //! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
 //! - [`script`], [`results`] and [`trace`](mod@trace), the engine, which knows no type of object by name: a
 //!   [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for each thread; chains are
-//!   rewritten step by step into a [`DerivedSystem`](results::DerivedSystem) system, and interpreted in between.
+//!   rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
 //! - [`watch`]: tells when the files of a script have changed.

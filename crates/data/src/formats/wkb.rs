@@ -31,7 +31,7 @@ pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<
     };
     let body = bytes.get(8 + envelope..).ok_or(ENDS)?;
     // The flag of an empty geometry says nothing that its content does not say.
-    let mut reader = Reader { bytes: body, little: true, near, budget };
+    let mut reader = WkbReader { bytes: body, little: true, near, budget };
     let mut parts = Vec::new();
     reader.geometry(&mut parts, |_| true, 0)?;
     Ok(parts)
@@ -42,7 +42,7 @@ const ENDS: &str = "ends too early";
 /// The types that may stand in a place.
 type TypeFilter = fn(u32) -> bool;
 
-struct Reader<'a> {
+struct WkbReader<'a> {
     bytes: &'a [u8],
     little: bool,
     near: f64,
@@ -57,7 +57,7 @@ struct GeometryHeader {
     m: bool,
 }
 
-impl Reader<'_> {
+impl WkbReader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
         let (taken, rest) = self.bytes.split_first_chunk::<N>().ok_or(ENDS)?;
         self.bytes = rest;

@@ -6,7 +6,7 @@ use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, V
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::Reader;
+use super::FeatureReader;
 
 /// What a text says besides the features of its collection.
 #[derive(Default)]
@@ -27,7 +27,7 @@ pub(super) struct DocumentHeader<'t> {
 
 /// Reads the text that `text` begins with; gives what it says and what follows it.
 pub(super) fn document<'t>(
-    reader: &mut Reader<'_>,
+    reader: &mut FeatureReader<'_>,
     text: &'t str,
 ) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
     let mut parser = serde_json::Deserializer::from_str(text);
@@ -36,7 +36,7 @@ pub(super) fn document<'t>(
     Ok((head, text.get(end..).unwrap_or_default()))
 }
 
-struct Members<'r, 'a>(&'r mut Reader<'a>);
+struct Members<'r, 'a>(&'r mut FeatureReader<'a>);
 
 impl<'t> DeserializeSeed<'t> for Members<'_, '_> {
     type Value = DocumentHeader<'t>;
@@ -80,7 +80,7 @@ impl<'t> Visitor<'t> for Members<'_, '_> {
 }
 
 /// The list of a collection's features.
-struct FeatureList<'r, 'a>(&'r mut Reader<'a>);
+struct FeatureList<'r, 'a>(&'r mut FeatureReader<'a>);
 
 impl<'t> DeserializeSeed<'t> for FeatureList<'_, '_> {
     type Value = ();

@@ -1,12 +1,13 @@
 //! The geometries of GeoJSON: coordinates are read straight into points, as their type says.
 
+use crate::SourceOptions;
 use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::{LARGE, SourceOptions, words};
+use super::{LARGE, words};
 use crate::{DEEPEST, Geometry};
 use burgeon_base::budget::Budget;
 use burgeon_base::text::shown;

@@ -2,7 +2,11 @@
 
 use super::super::{Geometry, GeometryKind};
 use super::*;
+use crate::{FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+use std::path::Path;
+use std::sync::Arc;
 
 fn read_as(text: &str, name: &str) -> Result<FeatureTable> {
     read(text.as_bytes(), Path::new(name), name, &SourceOptions::default())

@@ -6,6 +6,8 @@ use super::super::solid;
 use super::super::{Plan, Polygon, Rings};
 use super::tests::{HEIGHT, around, building};
 use super::*;
+use crate::planar::Ring;
+use glam::{DVec2, DVec3};
 
 const SURFACES: [RoofSurface; 5] = [
     RoofSurface::Sloped(Ends::Hips, &[]),

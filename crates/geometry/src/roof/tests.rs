@@ -7,7 +7,9 @@ use super::super::solid;
 use super::shape::Profile;
 use super::*;
 use crate::planar::Polygon;
+use crate::planar::Ring;
 use burgeon_scene::Part;
+use glam::{DVec2, DVec3};
 
 pub(super) const HEIGHT: f64 = 3.0;
 pub(super) const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];

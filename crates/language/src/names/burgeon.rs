@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use burgeon_kit::{Argument, Field};
 
-use super::{Name, field};
+use super::name::{Name, field};
 use crate::form::argument;
 
 /// All of them.

@@ -1,6 +1,6 @@
 //! The names of Luau itself that scripts keep, and those that they do not.
 
-use super::{Effect, Name, NameKind};
+use super::name::{Effect, Name, NameKind};
 
 /// Names that would make a script's meaning depend on more than itself, or would slow it down.
 pub const LOCKED: [&str; 14] = [

@@ -2,7 +2,7 @@
 
 use burgeon_kit::Argument;
 
-use super::{Name, NameKind};
+use super::name::{Name, NameKind};
 use crate::form::{CallForm, argument};
 
 /// The text of the standard library.

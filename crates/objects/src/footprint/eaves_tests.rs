@@ -1,9 +1,16 @@
 //! Tests of what a roof knows of its surroundings: storeys that stand out, neighbours, and what walls are made of.
 
+use super::object::{FootprintOptions, Height};
 use super::*;
+use crate::MaterialOptions;
 use crate::facade;
+use burgeon_geometry::Rings;
+use burgeon_kit::Parameter;
 use burgeon_kit::TableKey;
 use burgeon_kit::random::Stream;
+use burgeon_kit::{Kind, Object, Table, Value};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 fn table(entries: &[(&str, Value)]) -> Table {
     let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));

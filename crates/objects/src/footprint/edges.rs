@@ -233,7 +233,7 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
-    use super::super::FootprintOptions;
+    use super::super::object::FootprintOptions;
     use super::*;
     use crate::LineIndex;
     use burgeon_geometry::{Line, Rings};

@@ -279,7 +279,7 @@ fn union(parts: &mut [[f64; 2]]) -> f64 {
 mod tests {
     use glam::DVec3;
 
-    use super::super::FootprintOptions;
+    use super::super::object::FootprintOptions;
     use super::*;
     use burgeon_geometry::Rings;
 

@@ -1,8 +1,9 @@
 //! The lower part of a building: its groundwork, and how far it has got.
 
+use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::{Footprint, MaterialOptions, along, unknown};
+use super::{Footprint, along, unknown};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Ring, fill};
 

@@ -2,8 +2,9 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
+use super::object::Height;
 use super::sides::material_of;
-use super::{Footprint, Height, along, check_height};
+use super::{Footprint, along, check_height};
 use crate::MaterialOptions;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;

@@ -2,9 +2,14 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
+use super::gltf_file::read;
 use super::*;
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Error;
+use burgeon_base::error::Result;
 use burgeon_export::picture::Picture;
 use burgeon_kit::random::Stream;
+use burgeon_scene::{Instance, Mesh, Scene};
 use burgeon_scene::{Material, Part, Texture, image};
 
 /// A box of 2 m by 3 m by 4 m that stands twice, once turned and at half its size, with an image on it.

@@ -2,9 +2,12 @@
 
 use rusqlite::Connection;
 
-use super::*;
 use crate::{Geometry, Layer, Source, SourceOptions};
+use burgeon_base::budget::Budget;
 use burgeon_kit::random::Stream;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
 
 /// A blob of a GeoPackage of a type, with a number of items, and points.
 fn blob(kind: u32, count: Option<u32>, points: &[[f64; 2]]) -> Vec<u8> {

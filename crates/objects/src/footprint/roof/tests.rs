@@ -6,6 +6,7 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::*;
 use burgeon_base::error::Error;
+use burgeon_geometry::roof::{Eaves, Patch, PatchKind, Support};
 use burgeon_geometry::roof::{Ends, Rise, RoofCover, RoofShape, RoofSurface, fill, floor};
 use burgeon_geometry::{Polygon, Ring, solid};
 use burgeon_kit::random::Stream;
