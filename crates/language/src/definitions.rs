@@ -508,3 +508,33 @@ fn in_place(argument: &Argument) -> String {
     });
     format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_form_takes_what_any_of_several_takes() {
+        let forms = ["(a: string, b: (...any) -> any) -> T", "(a: string, b: number, c: boolean) -> T"];
+        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
+        let form = merged(&forms);
+        assert_eq!(form.to_string(), "(a: string, b: (...never) -> any | number, c: (boolean)?) -> T");
+        let forms = ["(...Module) -> T", "(source: Layer, chain: any) -> T"];
+        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
+        assert_eq!(merged(&forms).to_string(), "(...any) -> T");
+    }
+
+    #[test]
+    fn everything_is_declared_once_and_keeps_to_the_names_of_luau() {
+        let definitions = definitions(&burgeon_objects::registry());
+        let mut declared = BTreeSet::new();
+        for line in definitions.luau.lines() {
+            assert!(!line.contains(" end:"), "{line}");
+            let words: Vec<&str> = line.split([' ', '(', '<', ':']).collect();
+            if let ["declare", "class" | "function", name, ..] | ["export", "type", name, ..] = &words[..] {
+                assert!(declared.insert(*name), "{name}");
+            }
+        }
+        assert!(declared.len() > 80, "{}", declared.len());
+    }
+}

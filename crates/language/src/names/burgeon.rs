@@ -157,7 +157,7 @@ pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
             ),
             Name::function(
                 "rule",
-                "Adds a rule: what replaces a module that the pattern describes. What its options are is told of under rule.",
+                "Adds a rule: what replaces a module that the pattern describes.",
             )
             .form([pattern(), successor()], "System<T>")
             .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
