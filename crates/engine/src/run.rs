@@ -9,7 +9,7 @@ use crate::declare::{Param, RunOptions, Session};
 use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
 use crate::results::{DerivedSystem, FeatureReport, Times, Trace};
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::ReferenceFrame;
@@ -147,9 +147,12 @@ pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
     let mut found = Vec::new();
     let ran = declare_with(&session, &mut found);
     let mut problems = session.problems();
+    problems.retain(|known| !found.iter().any(|found| is_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {
         for problem in error.problems() {
+            // Whoever ran into it knows more of it than whoever read it.
+            problems.retain(|known| !is_same(known, problem));
             let told =
                 problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
             if !told {
@@ -169,6 +172,15 @@ pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
         return Err(Error::several(problems));
     }
     Ok(ScriptCheck { params: session.params(), warnings })
+}
+
+/// Whether two errors miss the same name in the same place.
+fn is_same(one: &Error, other: &Error) -> bool {
+    let missed = |error: &Error| match error.kind() {
+        ErrorKind::NotFound { name, .. } => Some(name.clone()),
+        _ => None,
+    };
+    one.place() == other.place() && missed(one).is_some() && missed(one) == missed(other)
 }
 
 /// A machine for a session's script, which is read in the meantime.

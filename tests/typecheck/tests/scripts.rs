@@ -58,7 +58,7 @@ fn what_is_wrong_with_a_call_is_found_in_an_editor() {
         ("this:extrude()", "Argument count mismatch"),
         ("this:extrude(1):bend(3):nothing()", "Key 'nothing' not found in class 'Extruder'"),
         ("local height: string = this:position().z", "Expected this to be 'string', but got 'number'"),
-        ("lerp(1, 2)", "Argument count mismatch"),
+        ("noise()", "Argument count mismatch"),
         ("noise(\"a\")", "Expected this to be 'number', but got 'string'"),
         ("print(unheard)", "Unknown global 'unheard'"),
     ] {
@@ -82,7 +82,7 @@ fn what_luau_cannot_know_is_allowed() {
         "local s = lsystem({ object = turtle(), interpret = \"last\" }) s:axiom(F(1), { Turn(3), F() })",
         "local s = lsystem({ seed = 3 }) s:rule(\"A(x)\", { weight = 2 }, function(this, x) return F(x - 1), { F(x) } end)",
         "local t = lsystem({ object = turtle }) local d = t:derive() t:interpret(\"A\", function(this) this:place(d) end)",
-        "local v = vec(1, 2) * 3 + vec({ 1, 2 }) print(v.x, v[2], #v, -v:unit(), lerp(v, v, 0.5), lerp(1, 2, 0.5))",
+        "local v = vec(1, 2) * 3 + vec({ 1, 2 }) print(v.x, v[2], -v:unit(), lerp(v, v, 0.5), lerp(1, 2, 0.5))",
         "local p = param(\"p\", { default = true }) if p then print(param(\"n\", { default = 3 }) + 1) end",
         "for index, feature in source(\"a.geojson\") do print(index + 1, feature.height, feature.geometry.points[1][1]) end",
         "local w = panel({ width = { 1, 2 } }) local f = facade({ template(grid(w)), template(list({ w, w })) }) print(f)",
@@ -109,5 +109,5 @@ fn all_that_scripts_can_use_is_in_the_definitions() {
         }
     }
     assert!(definitions.docs.values().all(|doc| doc.ends_with('.')), "{:?}", definitions.docs);
-    assert!(definitions.docs.len() > 250, "{}", definitions.docs.len());
+    assert!(definitions.docs.len() > 200, "{}", definitions.docs.len());
 }

@@ -64,8 +64,13 @@ pub(crate) struct Library {
 impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
-        let shapes = self.machine().map(|machine| Arc::clone(&machine.session.shapes)).unwrap_or_default();
+        let session = self.machine().map(|machine| Arc::clone(&machine.session)).ok();
+        let shapes = session.as_ref().map(|session| Arc::clone(&session.shapes)).unwrap_or_default();
+        let held_against = session
+            .filter(|session| session.options.check)
+            .map(|session| Arc::new(session.options.registry.clone()));
         Globals {
+            held_against,
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),
