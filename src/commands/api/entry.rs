@@ -1,6 +1,6 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Call, Construct, Field, Kind, Method, Registry};
+use burgeon::kit::{Construct, Field, Kind, Method, Registry};
 use burgeon::script::{Name, Part, Sort};
 use serde_json::{Value, json};
 
@@ -165,7 +165,7 @@ impl Member {
         });
         Self {
             name: method.name.to_string(),
-            what: if matches!(method.call, Call::Read(_)) { What::Reads } else { What::Changes },
+            what: if method.call.changes() { What::Changes } else { What::Reads },
             luau: method.returns.clone(),
             arguments: arguments.collect(),
             default: String::new(),

@@ -12,6 +12,7 @@ mod library;
 mod prelude;
 mod protected;
 mod require;
+mod script_types;
 mod system;
 mod watchdog;
 

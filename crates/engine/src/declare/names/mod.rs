@@ -9,7 +9,7 @@ mod standard;
 
 use std::borrow::Cow;
 
-pub(crate) use burgeon::{DERIVED, LAYER, LSYSTEM, PARAM, RULE, SOURCE, SYSTEM};
+pub(crate) use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM};
 pub(crate) use luau::LOCKED;
 
 /// A text that stands in the program or is made from what does.
