@@ -92,6 +92,9 @@ pub trait Draw {
     fn origin(&self) -> DVec3 {
         DVec3::ZERO
     }
+
+    /// Begins at `origin` (m) from now on, and draws what it is told to around it, for an object that draws there.
+    fn set_origin(&mut self, _: DVec3) {}
 }
 
 impl<T: Draw> Show for T {

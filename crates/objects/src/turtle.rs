@@ -5,6 +5,7 @@ use std::sync::{Arc, LazyLock};
 use glam::{DAffine3, DQuat, DVec3};
 
 use super::Surface;
+use super::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector, fields, methods};
@@ -259,6 +260,12 @@ impl Turtle {
         self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
+    /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
+        let part = self.drawing.part(self.state.part);
+        draw_mesh(("turtle", part), &self.state.frame, &points, &faces)
+    }
+
     /// Its place (m).
     pub fn position(&self) -> DVec3 {
         self.options.position.0 + self.state.frame.position
@@ -473,5 +480,9 @@ impl Draw for Turtle {
 
     fn origin(&self) -> DVec3 {
         self.options.position.0
+    }
+
+    fn set_origin(&mut self, origin: DVec3) {
+        self.options.position.0 = origin;
     }
 }

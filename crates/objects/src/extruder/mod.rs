@@ -6,14 +6,15 @@ mod tests;
 
 use std::sync::{Arc, LazyLock};
 
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
 use super::Surface;
+use super::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{Color, Kind, Object, Vector, fields, methods};
+use burgeon_kit::{Color, Kind, Model, Object, Vector, fields, methods};
 use burgeon_kit::{Draw, Drawing};
 use state::{Run, State};
 
@@ -205,6 +206,18 @@ impl Extruder {
     pub fn material(&mut self, material: Surface) -> Result<()> {
         self.state.material = Arc::new(material.material()?);
         Ok(())
+    }
+
+    /// Draws `faces` in the extruder's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
+        let part = self.drawing.material(&self.state.material);
+        draw_mesh(("extruder", self.drawing.part(part)), &self.state.frame, &points, &faces)
+    }
+
+    /// Places what another system has drawn at the extruder's frame, scaled.
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
+        let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
+        self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
     /// Its place (m).
@@ -450,5 +463,9 @@ impl Draw for Extruder {
 
     fn origin(&self) -> DVec3 {
         self.options.position.0
+    }
+
+    fn set_origin(&mut self, origin: DVec3) {
+        self.options.position.0 = origin;
     }
 }
