@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
-use super::{Expected, Field, Key, Parameter, Table, Value};
+use super::{Expectation, Field, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 
 /// What a field is declared with.
@@ -76,15 +76,15 @@ impl ScriptField {
     /// Reads what a script declares of the field `name` of the type `of`: a table, or the default alone.
     pub fn declare(of: &str, name: &str, declared: &Value) -> Result<Self> {
         let owner = format!("{of}.{name}");
-        let bare = Table { class: None, entries: vec![(Key::Name("default".into()), declared.clone())] };
+        let bare = Table { class: None, entries: vec![(TableKey::Name("default".into()), declared.clone())] };
         let table = match declared {
             Value::Table(table) if table.class.is_none() => &**table,
             _ => &bare,
         };
         for (key, _) in &table.entries {
             let key = match key {
-                Key::Name(key) => key.to_string(),
-                Key::Index(index) => index.to_string(),
+                TableKey::Name(key) => key.to_string(),
+                TableKey::Index(index) => index.to_string(),
             };
             if !PARTS.contains(&key.as_str()) {
                 let message = format!("the field {owner} is declared with {key}, which means nothing");
@@ -139,7 +139,7 @@ impl ScriptField {
     pub fn read(&self, of: &str, value: Value) -> Result<Value> {
         match self.expected(&value) {
             None => Ok(value),
-            Some(what) => Err(Expected::new(what).refuse(of, &self.name, &value)),
+            Some(what) => Err(Expectation::new(what).refuse(of, &self.name, &value)),
         }
     }
 
@@ -201,7 +201,7 @@ mod tests {
     use super::*;
 
     fn table(entries: &[(&str, Value)]) -> Value {
-        let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+        let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
         Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
     }
 

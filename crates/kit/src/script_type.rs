@@ -111,7 +111,7 @@ impl ScriptType {
         let mut given = Table { class: None, entries: table.entries.clone() };
         let mut fields = Table::default();
         for field in &self.fields {
-            let key = super::Key::Name(Arc::clone(&field.name));
+            let key = super::TableKey::Name(Arc::clone(&field.name));
             let value = match table.get(&field.name).cloned() {
                 Some(value) => field.read(&kind.name, value)?,
                 None => field.default.clone().ok_or_else(|| {

@@ -24,14 +24,14 @@ pub(crate) fn draw_mesh(
             return Err(Error::argument(format!("{kind}:mesh: face {number} has {} corners", face.len()))
                 .help("a face has three corners or more, such as { 1, 2, 3 }"));
         }
-        let found: Option<Vec<DVec3>> = face
-            .iter()
-            .map(|corner| placed.get((*corner as usize).checked_sub(1)?).copied())
-            .collect();
+        let found: Option<Vec<DVec3>> =
+            face.iter().map(|corner| placed.get((*corner as usize).checked_sub(1)?).copied()).collect();
         corners.push(found.ok_or_else(|| {
             let count = placed.len();
-            Error::argument(format!("{kind}:mesh: face {number} names a point that is not one of 1 to {count}"))
-                .help("points are numbered from 1 on, in the order in which they are given")
+            Error::argument(format!(
+                "{kind}:mesh: face {number} names a point that is not one of 1 to {count}"
+            ))
+            .help("points are numbered from 1 on, in the order in which they are given")
         })?);
     }
     corners.iter().try_for_each(|corners| face(part, corners))

@@ -13,8 +13,8 @@ mod positions;
 mod preset;
 mod session;
 
-pub use names::{Name, Part, Sort, names};
-pub use options::{Limits, Print, RunOptions, Traced};
+pub use names::{Name, NameKind, NameMember, names};
+pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
-pub use session::{Progress, Session};
+pub use session::{RunProgress, Session};

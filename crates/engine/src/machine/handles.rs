@@ -7,7 +7,7 @@ use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value
 
 use super::convert::to_lua;
 use crate::declare::names::DERIVED;
-use crate::results::Derived;
+use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Object, ScriptObject};
@@ -134,7 +134,7 @@ pub(crate) fn methods_key(kind: &str) -> String {
 }
 
 /// What `derive` returns.
-pub(crate) struct DerivedHandle(pub Arc<Derived>);
+pub(crate) struct DerivedHandle(pub Arc<DerivedSystem>);
 
 impl DerivedHandle {
     pub(crate) fn model(&self) -> Result<Arc<dyn Object>> {

@@ -5,7 +5,7 @@ use std::sync::{Arc, LazyLock};
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
-use super::current::Current;
+use super::current::WorkState;
 use crate::machine::convert::{to_lua, to_value};
 use crate::machine::handles::ObjectHandle;
 use crate::machine::library::Library;
@@ -19,7 +19,7 @@ const GUARD: u8 = 2;
 /// At the top level, in `prelude.luau`.
 const TOP: u8 = 0;
 
-pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>) -> mlua::Result<Table> {
+pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
     host.set("deepest", DEEPEST)?;
     let state = Rc::clone(current);
@@ -27,8 +27,8 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         "pack",
         lua.create_function(move |_, value: LuaValue| {
             let value = to_value(&value, true).map_err(mlua::Error::external)?;
-            match burgeon_kit::rules::Boxed::unpack(state.session.values.pack(value)) {
-                burgeon_kit::rules::Boxed::Handle(handle) => Ok(handle),
+            match burgeon_kit::rules::ColumnValue::unpack(state.session.values.pack(value)) {
+                burgeon_kit::rules::ColumnValue::Handle(handle) => Ok(handle),
                 _ => Err(mlua::Error::external(Error::argument("this value cannot be a parameter"))),
             }
         })?,
@@ -178,7 +178,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
 }
 
 /// What is asked of objects whose types the script declares, and kept of them.
-fn script_objects(lua: &Lua, host: &Table, current: &Rc<Current>) -> mlua::Result<()> {
+fn script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set("chain_of", lua.create_function(move |_, application: usize| Ok(state.chain_of(application)))?)?;
     let state = Rc::clone(current);
@@ -256,7 +256,7 @@ fn script_objects(lua: &Lua, host: &Table, current: &Rc<Current>) -> mlua::Resul
 fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
     let table = lua.create_table()?;
     for (key, value) in &kept.entries {
-        if let burgeon_kit::Key::Name(name) = key {
+        if let burgeon_kit::TableKey::Name(name) = key {
             table.raw_set(&**name, to_lua(lua, value, true)?)?;
         }
     }

@@ -9,8 +9,10 @@ use super::convert::{to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
 use super::kinds::{constructor, install_methods};
 use crate::declare::names::{EXTEND, OBJECT};
-use burgeon_base::error::{Error, Place, Result};
-use burgeon_kit::{Argument, Call, Key, Kind, Method, ScriptField, ScriptType, Table as ValueTable, Value};
+use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_kit::{
+    Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
+};
 
 /// The functions that run around the interpretation of a chain, as a script names them.
 const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
@@ -22,7 +24,7 @@ pub(crate) struct ScriptTypeEntry {
     pub table: Table,
     pub declaration: ScriptType,
     pub functions: Vec<ScriptFunction>,
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
 }
 
 /// A function of a type.
@@ -59,7 +61,7 @@ impl ScriptTypeEntry {
         }
         let mut state = ValueTable::clone(&entry.declaration.state);
         for (key, value) in named(declared, "state", &what("state"))? {
-            state.entries.retain(|(known, _)| !matches!(known, Key::Name(known) if **known == *key));
+            state.entries.retain(|(known, _)| !matches!(known, TableKey::Name(known) if **known == *key));
             entry.declaration.held.retain(|(known, _)| **known != *key);
             if let LuaValue::UserData(data) = &value
                 && let Ok(object) = data.borrow::<ObjectHandle>()
@@ -68,7 +70,7 @@ impl ScriptTypeEntry {
                 continue;
             }
             let value = to_value(&value, true).map_err(|error| named_part(error, name, &key))?;
-            state.entries.push((Key::Name(key.as_str().into()), value));
+            state.entries.push((TableKey::Name(key.as_str().into()), value));
         }
         state.entries.sort_by(|a, b| a.0.cmp(&b.0));
         for field in &entry.declaration.fields {
