@@ -204,15 +204,19 @@ fn script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Res
     host.set(
         "keep_state",
         lua.create_function(move |_, (chain, kept): (usize, Table)| {
-            let Value::Table(kept) = to_value(&LuaValue::Table(kept), false).map_err(|error| {
-                mlua::Error::external(
-                    Error::argument(format!("the state cannot be kept: {}", error.message()))
-                        .help("state is numbers, booleans, strings, tables of these, and objects"),
-                )
-            })?
-            else {
-                return Ok(());
-            };
+            let mut entries = Vec::new();
+            for pair in kept.pairs::<String, LuaValue>() {
+                let (name, value) = pair?;
+                let value = to_value(&value, false).map_err(|error| {
+                    mlua::Error::external(
+                        Error::argument(format!("{name} of the state cannot be kept: {}", error.message()))
+                            .help("state is numbers, booleans, strings, tables of these, and objects"),
+                    )
+                })?;
+                entries.push((burgeon_kit::TableKey::Name(name.into()), value));
+            }
+            entries.sort_by(|a, b| a.0.cmp(&b.0));
+            let kept = Arc::new(burgeon_kit::Table { class: None, entries });
             state.keep_state(chain, kept).map_err(mlua::Error::external)
         })?,
     )?;

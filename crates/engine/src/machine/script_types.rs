@@ -380,7 +380,8 @@ fn not_a_type(name: &str) -> Error {
 }
 
 fn not_a_function(what: &str, found: &LuaValue) -> Error {
-    Error::argument(format!("{what} must be a function, not a {}", found.type_name())).help(
+    let found = if found.is_number() || found.is_integer() { "number" } else { found.type_name() };
+    Error::argument(format!("{what} must be a function, not a {found}")).help(
         "write name = function(self, ...) ... end, or name = { doc = \"...\", function(self, ...) ... end }",
     )
 }
