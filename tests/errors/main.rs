@@ -28,5 +28,6 @@ mod successors;
 mod support;
 mod syntax;
 mod terrain;
+mod unseen;
 mod variations;
 mod warnings;

@@ -54,4 +54,4 @@ pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
-pub use burgeon_macros::{fields, methods};
+pub use burgeon_macros::{Draw, fields, methods};
