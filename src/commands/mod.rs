@@ -9,6 +9,7 @@ mod completions;
 mod fit;
 #[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
+mod mods;
 mod new;
 mod progress;
 mod report;
@@ -43,6 +44,7 @@ enum Command {
     Api(api::Api),
     Variations(Box<variations::Variations>),
     Fit(fit::Fit),
+    Mods(mods::Mods),
     New(new::New),
     Sources(sources::Sources),
     Completions(completions::Completions),
@@ -61,6 +63,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
         Command::Fit(command) => (command.json(), command.run()),
+        Command::Mods(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),

@@ -38,7 +38,9 @@ pub use color::Color;
 pub use drawing::Drawing;
 pub use features::{Features, Shape};
 pub use fields::{Fields, TableOf};
-pub use kind::{Argument, Call, Construct, Field, Kind, Make, Method, Read, Write, WriteNumbers};
+pub use kind::{
+    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, Read, Write, WriteNumbers,
+};
 pub use loading::{Loaded, Loader, Loading, Resources};
 pub use makers::Makers;
 pub use model::Model;

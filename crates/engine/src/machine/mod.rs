@@ -36,6 +36,7 @@ use blank::BlankMachine;
 use burgeon_base::error::{Error, ErrorKind, Limit, Place, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Symbol, Symbols};
+use burgeon_packages::Package;
 use library::{Library, Silence};
 use prelude::Prelude;
 use system::tell_unseen;
@@ -227,6 +228,14 @@ impl Machine {
             _ => Err(Error::scope(format!("{what} belongs at the top level of the script, not in a rule"))
                 .help("make it before derive, and let the rule use it")),
         }
+    }
+
+    /// The package whose file is being run; none for the script's own.
+    pub(crate) fn asker<'a>(lua: &Lua, session: &'a Session) -> Option<&'a Package> {
+        if session.packages().order().is_empty() {
+            return None;
+        }
+        session.package_of(&Self::place(lua)?.file)
     }
 
     /// The line of the script that is being run, `level` calls up from the Rust function that asks.
