@@ -48,7 +48,7 @@
 //! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
 //! - [`script`], [`results`] and [`trace`](mod@trace), the engine, which knows no type of object by name: a
 //!   [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for each thread; chains are
-//!   rewritten step by step into a [`Derived`](results::Derived) system, and interpreted in between.
+//!   rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
 //! - [`packages`]: folders of scripts, models and textures that other scripts use, and the order that they come in.
@@ -92,9 +92,11 @@
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
-pub use burgeon_base::{Budget, Error, Held, Result, Stop, Warning, WarningKind, error, text, warning};
+pub use burgeon_base::{
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, text, warning,
+};
 pub use burgeon_data as sources;
-pub use burgeon_engine::run::{Check, Run, RunTimes, check, check_package, run, run_session};
+pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, check_package, run, run_session};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
 pub use burgeon_export::picture;

@@ -3,8 +3,8 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use burgeon::packages::{FileName, Packages, Search};
-use burgeon::picture::{Background, Look, Picture};
+use burgeon::packages::{FileName, PackageSearch, Packages};
+use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
 use burgeon::script::{Limits, Print, RunOptions, api_version};
 use burgeon::{Error, Result};
@@ -101,7 +101,7 @@ impl ScriptFlags {
             return Ok((Presets::path_of(&self.script), name.to_owned()));
         }
         let meant = FileName::parse(name)?;
-        let search = Search {
+        let search = PackageSearch {
             script: self.script.parent().map(Path::to_path_buf),
             given: self.mods.clone(),
             user: user_mods(),
@@ -169,15 +169,15 @@ pub(crate) struct PictureFlags {
 
     /// Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
     #[arg(long, value_name = "X,Y,Z,M", value_parser = look, allow_hyphen_values = true, help_heading = "Pictures")]
-    look: Option<Look>,
+    look: Option<ViewBall>,
 
     /// What is behind the model
-    #[arg(long, value_enum, default_value_t = Behind::Light, help_heading = "Pictures")]
-    background: Behind,
+    #[arg(long, value_enum, default_value_t = BackgroundFlag::Light, help_heading = "Pictures")]
+    background: BackgroundFlag,
 }
 
 /// Reads `X,Y,Z,M`.
-fn look(text: &str) -> std::result::Result<Look, String> {
+fn look(text: &str) -> std::result::Result<ViewBall, String> {
     let numbers: Vec<f64> = text
         .split(',')
         .map(|part| part.trim().parse::<f64>())
@@ -185,14 +185,14 @@ fn look(text: &str) -> std::result::Result<Look, String> {
         .unwrap_or_default();
     match numbers.as_slice() {
         [x, y, z, radius] if numbers.iter().all(|number| number.is_finite()) && *radius > 0.0 => {
-            Ok(Look { at: [*x, *y, *z], radius: *radius })
+            Ok(ViewBall { at: [*x, *y, *z], radius: *radius })
         }
         _ => Err("write a place and a distance above 0, such as 10,-5,0,40".to_owned()),
     }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Behind {
+enum BackgroundFlag {
     Light,
     Dark,
     /// Transparent
@@ -208,9 +208,9 @@ impl PictureFlags {
             elevation: self.elevation,
             look: self.look,
             background: match self.background {
-                Behind::Light => Background::Light,
-                Behind::Dark => Background::Dark,
-                Behind::Clear => Background::Clear,
+                BackgroundFlag::Light => Background::Light,
+                BackgroundFlag::Dark => Background::Dark,
+                BackgroundFlag::Clear => Background::Clear,
             },
             ..Picture::default()
         }

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
+mod front_pages;
+mod names;
 mod sources;
 
 use std::collections::{BTreeMap, BTreeSet};

@@ -7,8 +7,8 @@ use std::sync::{Arc, LazyLock};
 use burgeon::Result;
 use burgeon::geometry::sphere;
 use burgeon::kit::{
-    Draw, Drawing, Expand, Expected, Features, Kind, Object, Parameter, Prefetch, Rewriter, Shape, Table,
-    Value, Vector, fields, methods,
+    Draw, Drawing, Expand, Expectation, FeatureShape, Features, Kind, Object, Parameter, Prefetch, Rewriter,
+    Table, Value, Vector, fields, methods,
 };
 use burgeon::scene::Material;
 use burgeon::sources::{Geometry, Layer};
@@ -43,11 +43,11 @@ impl Parameter for Corners {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a feature's geometry");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a feature's geometry");
         let Value::Object(object) = &value else { return Err(what()) };
         let any: &dyn Any = &**object;
-        any.downcast_ref::<Shape>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
+        any.downcast_ref::<FeatureShape>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
     }
 
     fn into_value(self) -> Value {
@@ -70,10 +70,10 @@ impl Parameter for Whole {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let Value::Object(object) = &value else { return Err(Expected::new("a source")) };
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let Value::Object(object) = &value else { return Err(Expectation::new("a source")) };
         let any: &dyn Any = &**object;
-        let features = any.downcast_ref::<Features>().ok_or_else(|| Expected::new("a source"))?;
+        let features = any.downcast_ref::<Features>().ok_or_else(|| Expectation::new("a source"))?;
         Ok(Self(Some(Arc::clone(&features.0))))
     }
 
@@ -161,7 +161,7 @@ impl Orchard {
 fn prefetched(table: &Table) -> Option<DVec3> {
     let Some(Value::Object(object)) = table.get("geometry") else { return None };
     let any: &dyn Any = &**object;
-    let (prefetch, number) = any.downcast_ref::<Shape>()?.prefetch()?;
+    let (prefetch, number) = any.downcast_ref::<FeatureShape>()?.prefetch()?;
     let any: &dyn Any = prefetch;
     LOOKED_FOR.fetch_add(1, Ordering::Relaxed);
     any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()

@@ -2,8 +2,8 @@
 
 use rayon::prelude::*;
 
-use super::frame::Frame;
-use super::table::{Feature, Table};
+use super::frame::ReferenceFrame;
+use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 
@@ -60,16 +60,16 @@ impl Layer {
     }
 
     /// Brings `table` into `frame`, which is made for it unless there is one already.
-    pub fn new(mut table: Table, frame: &mut Option<Frame>) -> Result<Self> {
+    pub fn new(mut table: FeatureTable, frame: &mut Option<ReferenceFrame>) -> Result<Self> {
         table.refuse_endless()?;
-        let left = |table: &Table| match table.refused.first() {
+        let left = |table: &FeatureTable| match table.refused.first() {
             Some((_, error)) if table.features.is_empty() => Err(error.clone()),
             _ => Ok(()),
         };
         left(&table)?;
         let found = match frame {
             Some(frame) => frame.clone(),
-            None => Frame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
+            None => ReferenceFrame::new(&mut table).or_else(|error| left(&table).and(Err(error)))?,
         };
         found.bring(&mut table)?;
         // What decides on a place must have one.
@@ -130,7 +130,7 @@ mod tests {
     fn outer_rings_turn_left_and_holes_turn_right() {
         let square = |size: f64| vec![[0.0, 0.0, 0.0], [0.0, size, 0.0], [size, size, 0.0], [size, 0.0, 0.0]];
         let hole = square(1.0).into_iter().rev().collect();
-        let mut table = Table::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
         table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new()).unwrap();
         let layer = Layer::new(table, &mut None).unwrap();
         let Geometry::Polygon(rings) = &layer.features[0].geometry else { panic!("a polygon") };

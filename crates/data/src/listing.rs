@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use serde_json::{Value, json};
 
-use super::{Attribute, Kind, Source, Table, Wanted};
+use super::{Attribute, FeatureTable, GeometryKind, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{escaped, shown};
@@ -36,7 +36,7 @@ pub struct LayerListing {
     /// How many records with a geometry there are.
     pub records: usize,
     /// How many features they give of each kind, one for each part of a geometry.
-    pub kinds: BTreeMap<Kind, usize>,
+    pub kinds: BTreeMap<GeometryKind, usize>,
     /// How many features have no geometry.
     pub empty: usize,
     /// How many features cannot be read, and why the first of them cannot.
@@ -66,7 +66,7 @@ impl Listing {
     /// Reads all layers of the file at `path`, within a budget.
     pub fn read(path: &Path, budget: &Arc<Budget>) -> Result<Self> {
         let name = path.display().to_string();
-        let wanted = Wanted { budget: Arc::clone(budget), ..Wanted::default() };
+        let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
         let before = budget.taken();
         let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing(path, error));
         let source = open()?;
@@ -135,7 +135,7 @@ pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
 }
 
 impl LayerListing {
-    fn of(table: &Table) -> Self {
+    fn of(table: &FeatureTable) -> Self {
         let mut kinds = BTreeMap::new();
         let mut attributes: Vec<AttributeListing> = table
             .names

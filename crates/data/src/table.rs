@@ -12,7 +12,7 @@ use burgeon_base::text::{listed, shown};
 
 /// The kinds of geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum GeometryKind {
     /// A place.
     Point,
     /// A way from place to place.
@@ -21,7 +21,7 @@ pub enum Kind {
     Polygon,
 }
 
-impl Kind {
+impl GeometryKind {
     /// All kinds.
     pub const ALL: [Self; 3] = [Self::Point, Self::Line, Self::Polygon];
 
@@ -48,11 +48,11 @@ pub enum Geometry {
 
 impl Geometry {
     /// Its kind.
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> GeometryKind {
         match self {
-            Self::Point(_) => Kind::Point,
-            Self::Line(_) => Kind::Line,
-            Self::Polygon(_) => Kind::Polygon,
+            Self::Point(_) => GeometryKind::Point,
+            Self::Line(_) => GeometryKind::Line,
+            Self::Polygon(_) => GeometryKind::Polygon,
         }
     }
 
@@ -117,13 +117,13 @@ pub struct Feature {
     pub id: String,
     /// Where it is.
     pub geometry: Geometry,
-    /// What it knows: the number of the name in [`Table::names`], and the value. Shared by the parts of a geometry.
+    /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Shared by the parts of a geometry.
     pub attributes: Arc<[(usize, Attribute)]>,
 }
 
 /// A layer as it stands in its file.
 #[derive(Debug)]
-pub struct Table {
+pub struct FeatureTable {
     /// The layer's name.
     pub layer: String,
     /// File and layer, for messages.
@@ -145,7 +145,7 @@ pub struct Table {
     budget: Arc<Budget>,
 }
 
-impl Table {
+impl FeatureTable {
     pub(super) fn new(layer: &str, shown: &str, crs: Result<Crs>, budget: Arc<Budget>) -> Self {
         Self {
             layer: layer.to_owned(),
@@ -188,7 +188,7 @@ impl Table {
         Ok(())
     }
 
-    /// Leaves out a feature for the reason that `error` gives. Fails as [`Table::push`] does.
+    /// Leaves out a feature for the reason that `error` gives. Fails as [`FeatureTable::push`] does.
     pub(super) fn refuse(&mut self, id: String, error: Error) -> Result<()> {
         self.budget.tick()?;
         self.budget.take(500 + id.len())?;
@@ -269,9 +269,9 @@ impl Table {
     }
 
     /// Leaves only geometries of the kind that is wanted, of which there must be one.
-    pub(super) fn choose(&mut self, kind: Option<Kind>) -> Result<()> {
+    pub(super) fn choose(&mut self, kind: Option<GeometryKind>) -> Result<()> {
         let Some(kind) = kind else { return Ok(()) };
-        let there: Vec<&str> = Kind::ALL
+        let there: Vec<&str> = GeometryKind::ALL
             .iter()
             .filter(|known| self.features.iter().any(|feature| feature.geometry.kind() == **known))
             .map(|known| known.name())
@@ -338,7 +338,7 @@ mod tests {
 
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {
-        let mut table = Table::new("a", "a", Crs::epsg(4326), Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
         let point = Geometry::Point([0.0; 3]);
         table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
         table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
@@ -348,7 +348,7 @@ mod tests {
     }
     #[test]
     fn many_equal_ids_take_no_longer_than_others() {
-        let mut table = Table::new("a", "a", Crs::epsg(4326), Arc::default());
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
         for number in 0..200_000 {
             let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
             table.push(&id, vec![Geometry::Point([0.0; 3])], Vec::new()).unwrap();

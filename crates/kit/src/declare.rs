@@ -1,12 +1,12 @@
 //! How an object type says what scripts can do with it: said once, in the type's own file.
 
-use super::{Boxed, Key, Object, Parameter, Table, Value};
+use super::{ColumnValue, Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Refuses entries of `table` that `fields` does not name.
 pub fn refuse_unknown(kind: &str, fields: &[&str], table: &Table) -> Result<()> {
     for (key, value) in &table.entries {
-        let Key::Name(name) = key else {
+        let TableKey::Name(name) = key else {
             return Err(Error::argument(format!(
                 "{kind} takes named fields, but was given {value} without a name"
             ))
@@ -88,11 +88,11 @@ impl<'a> Numbers<'a> {
 
     #[cold]
     fn refuse<T: Parameter>(&self, name: &str, number: f64) -> Result<T> {
-        let value = match Boxed::unpack(number) {
-            Boxed::Number(number) => Value::Number(number),
-            Boxed::Boolean(value) => Value::Boolean(value),
-            Boxed::Nil => Value::Nil,
-            Boxed::Handle(_) => Value::Table(std::sync::Arc::default()),
+        let value = match ColumnValue::unpack(number) {
+            ColumnValue::Number(number) => Value::Number(number),
+            ColumnValue::Boolean(value) => Value::Boolean(value),
+            ColumnValue::Nil => Value::Nil,
+            ColumnValue::Handle(_) => Value::Table(std::sync::Arc::default()),
         };
         T::from_value(value.clone())
             .map_err(|expected| expected.refuse(&format!("{}:{}", self.kind, self.method), name, &value))

@@ -128,7 +128,7 @@ pub struct Argument {
 }
 
 /// Calls a method by itself.
-pub type Read = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
+pub type ReadCall = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
 /// Calls a method that changes the object.
 pub type Write = Arc<dyn Fn(&mut dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
 /// Calls a method that changes the object and takes only numbers.
@@ -138,7 +138,7 @@ pub type WriteNumbers = Arc<dyn Fn(&mut dyn Object, &[f64]) -> Result<()> + Send
 #[derive(Clone)]
 pub enum Call {
     /// It only reads, so rules may call it.
-    Read(Read),
+    Read(ReadCall),
     /// It changes the object, so only interpretation rules may call it.
     Write {
         /// With any values.

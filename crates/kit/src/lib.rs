@@ -32,27 +32,27 @@ pub mod rules;
 mod seed;
 mod value;
 
-pub use boxed::Boxed;
+pub use boxed::ColumnValue;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use drawing::Drawing;
-pub use features::{Features, Shape};
+pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};
 pub use kind::{
-    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, Read, Write, WriteNumbers,
+    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
 };
-pub use loading::{Loaded, Loader, Loading, Resources};
+pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
 pub use model::Model;
 pub use note::Note;
 pub use object::Object;
-pub use parameter::{Answer, Expected, ObjectParameter, Parameter, Vector, object};
+pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, Vector, object};
 pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
 pub use seed::Seed;
-pub use value::{Key, Table, Value};
+pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;

@@ -2,7 +2,7 @@
 
 use std::sync::{Arc, LazyLock};
 
-use burgeon_kit::{Call, Key, Kind, Object, Result, Table, Value, fields, methods};
+use burgeon_kit::{Call, Kind, Object, Result, Table, TableKey, Value, fields, methods};
 
 /// What `tower { ... }` takes.
 #[fields("tower")]
@@ -90,7 +90,7 @@ impl Object for Other {
 }
 
 fn table(entries: &[(&str, Value)]) -> Table {
-    let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+    let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
     Table { class: None, entries: entries.collect() }
 }
 

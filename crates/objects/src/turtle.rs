@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::Surface;
+use super::MaterialOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector, fields, methods};
@@ -54,8 +54,8 @@ pub struct TurtleOptions {
 #[derive(Clone)]
 pub struct Turtle {
     options: TurtleOptions,
-    state: State,
-    stack: Vec<State>,
+    state: TurtleState,
+    stack: Vec<TurtleState>,
     drawing: Drawing,
     angles: Angles,
     polygons: Vec<Vec<DVec3>>,
@@ -84,7 +84,7 @@ impl Angles {
 }
 
 #[derive(Clone)]
-struct State {
+struct TurtleState {
     frame: Frame,
     width: f64,
     /// The part of the drawing, and so the material.
@@ -207,7 +207,7 @@ impl Turtle {
     }
 
     /// Sets the whole material of what is drawn.
-    pub fn material(&mut self, material: Surface) -> Result<()> {
+    pub fn material(&mut self, material: MaterialOptions) -> Result<()> {
         self.state.part = self.drawing.material(&material.material()?);
         Ok(())
     }
@@ -327,7 +327,7 @@ impl Turtle {
             return Err(Error::argument("turtle: heading has no length"));
         }
         let mut drawing = Drawing::default();
-        let state = State::begin(&options, &mut drawing);
+        let state = TurtleState::begin(&options, &mut drawing);
         Ok(Self {
             options,
             state,
@@ -395,7 +395,7 @@ impl Turtle {
     }
 }
 
-impl State {
+impl TurtleState {
     fn begin(options: &TurtleOptions, drawing: &mut Drawing) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
@@ -429,7 +429,7 @@ impl Object for Turtle {
     fn begin(&mut self) {
         self.stack.clear();
         self.drawing.clear();
-        self.state = State::begin(&self.options, &mut self.drawing);
+        self.state = TurtleState::begin(&self.options, &mut self.drawing);
         self.polygons.clear();
     }
 

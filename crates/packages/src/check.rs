@@ -7,11 +7,11 @@ use burgeon_base::error::Error;
 use burgeon_base::warning::Warning;
 use semver::Version;
 
-use super::find::{Origin, Package, Packages};
-use super::order::Circle;
+use super::find::{Package, PackageOrigin, Packages};
+use super::order::DependencyCircle;
 
 /// Notes at each package why it cannot be used, and at `found` what those that are chosen lack.
-pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<Circle>) {
+pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<DependencyCircle>) {
     let own: Vec<Vec<Error>> =
         found.order().iter().map(|package| problems(found, package, api, &circles)).collect();
     // What is wrong with a package is wrong with all that need it.
@@ -35,7 +35,7 @@ pub(crate) fn check(found: &mut Packages, api: &Version, circles: Vec<Circle>) {
     let chosen: Vec<String> = found
         .order()
         .iter()
-        .filter(|package| package.origin != Origin::User)
+        .filter(|package| package.origin != PackageOrigin::User)
         .flat_map(|package| found.with_dependencies(&package.manifest.name))
         .map(|package| package.manifest.name.clone())
         .collect();
@@ -91,7 +91,7 @@ fn conflicts(package: &Package, together: &[&Package]) -> Vec<Error> {
 }
 
 /// What is wrong with `package` itself.
-fn problems(found: &Packages, package: &Package, api: &Version, circles: &[Circle]) -> Vec<Error> {
+fn problems(found: &Packages, package: &Package, api: &Version, circles: &[DependencyCircle]) -> Vec<Error> {
     let manifest = &package.manifest;
     let name = &manifest.name;
     let mut problems = Vec::new();

@@ -18,7 +18,7 @@ const MOST: usize = 10_000;
 /// Where packages may be. Who comes first, wins: of packages of one name, the one beside the script counts, then those in
 /// the folders that are given, then that of the user.
 #[derive(Debug, Clone, Default)]
-pub struct Search {
+pub struct PackageSearch {
     /// The folder that the script is in, as it was named, if there is a script.
     pub script: Option<PathBuf>,
     /// Folders that are given, each a package or a folder of packages.
@@ -29,7 +29,7 @@ pub struct Search {
 
 /// Where a package was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Origin {
+pub enum PackageOrigin {
     /// In `mods/` beside the script.
     Beside,
     /// In a folder that was given.
@@ -48,7 +48,7 @@ pub struct Package {
     /// Its folder as people find it.
     pub shown: PathBuf,
     /// Where it was found.
-    pub origin: Origin,
+    pub origin: PackageOrigin,
     /// Whether what it replaces counts: it was put beside the script or given, or one of those depends on it.
     pub is_replacing: bool,
     /// Why it cannot be used; empty if it can.
@@ -97,21 +97,23 @@ impl Packages {
     /// The packages in the folders of `search`, for scripts of version `api` of the script API.
     ///
     /// Only each `mod.toml` is read. What is wrong is kept: with those in the user's folder, until someone asks for them.
-    pub fn find(search: &Search, api: &Version) -> Self {
+    pub fn find(search: &PackageSearch, api: &Version) -> Self {
         let mut found = Self::default();
         if let Some(script) = &search.script {
             let folder = if script.as_os_str().is_empty() { Path::new(".") } else { script };
             if let (Ok(script_root), Ok(root)) = (folder.canonicalize(), folder.join(BESIDE).canonicalize()) {
                 // A link may lead anywhere.
                 if root.starts_with(&script_root) && root.is_dir() {
-                    found.search(&root, &script.join(BESIDE), Origin::Beside);
+                    found.search(&root, &script.join(BESIDE), PackageOrigin::Beside);
                 }
             }
         }
         for given in &search.given {
             match given.canonicalize() {
-                Ok(root) if root.join(MANIFEST).is_file() => found.add(root, given.clone(), Origin::Given),
-                Ok(root) if root.is_dir() => found.search(&root, given, Origin::Given),
+                Ok(root) if root.join(MANIFEST).is_file() => {
+                    found.add(root, given.clone(), PackageOrigin::Given)
+                }
+                Ok(root) if root.is_dir() => found.search(&root, given, PackageOrigin::Given),
                 _ => {
                     let shown = given.display();
                     let error = Error::not_found("folder", &shown, [], format!("there is no folder {shown}"));
@@ -123,7 +125,7 @@ impl Packages {
             && let Ok(root) = user.canonicalize()
             && root.is_dir()
         {
-            found.search(&root, user, Origin::User);
+            found.search(&root, user, PackageOrigin::User);
         }
         let (packages, circles) = order::sort(std::mem::take(&mut found.packages));
         found.packages = packages;
@@ -173,7 +175,7 @@ impl Packages {
     }
 
     /// Adds the packages in the folder `root`, which people find as `shown`.
-    fn search(&mut self, root: &Path, shown: &Path, origin: Origin) {
+    fn search(&mut self, root: &Path, shown: &Path, origin: PackageOrigin) {
         self.roots.push(root.to_path_buf());
         let names = match names(root) {
             Ok(names) => names,
@@ -203,22 +205,22 @@ impl Packages {
         }
     }
 
-    fn add_broken(&mut self, folder: PathBuf, error: Error, origin: Origin) {
-        if origin != Origin::User {
+    fn add_broken(&mut self, folder: PathBuf, error: Error, origin: PackageOrigin) {
+        if origin != PackageOrigin::User {
             self.problems.push(error.clone());
         }
         self.broken.push(BrokenPackage { folder, error });
     }
 
     /// Adds the package in `folder`, unless there is one of that name already.
-    fn add(&mut self, folder: PathBuf, shown: PathBuf, origin: Origin) {
+    fn add(&mut self, folder: PathBuf, shown: PathBuf, origin: PackageOrigin) {
         let manifest = match Manifest::read(&folder, &shown) {
             Ok(manifest) => manifest,
             Err(error) => return self.add_broken(folder, error, origin),
         };
         let known = self.packages.iter().find(|known| known.manifest.name == manifest.name);
         let Some(known) = known else {
-            let is_replacing = origin != Origin::User;
+            let is_replacing = origin != PackageOrigin::User;
             let problems = Vec::new();
             return self.packages.push(Package { manifest, folder, shown, origin, is_replacing, problems });
         };
@@ -237,7 +239,7 @@ impl Packages {
             return self.add_broken(folder, error, origin);
         }
         // The user's folder is there for all scripts, and each may have versions of its own.
-        if origin != Origin::User {
+        if origin != PackageOrigin::User {
             let message = format!("{name} {version} in {} is not used, for there is {both}", shown.display());
             let warning = Warning::new(burgeon_base::WarningKind::HiddenPackage, message);
             self.warnings.push(warning.at(Some(manifest.begin())).help("remove the one that is not meant"));

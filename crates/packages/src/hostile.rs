@@ -152,8 +152,7 @@ fn a_zip_of_too_many_files_or_bytes_is_refused() {
     // What is in a header is not what counts.
     let folder = tempfile::tempdir().unwrap();
     let mut copy = install::PackageCopy::new(folder.path().join("new"), 2_000_000).unwrap();
-    let said =
-        copy.add(Path::new("bomb.zip"), "a.png", &mut std::io::repeat(0).take(u64::MAX)).unwrap_err();
+    let said = copy.add(Path::new("bomb.zip"), "a.png", &mut std::io::repeat(0).take(u64::MAX)).unwrap_err();
     assert_eq!(said.message(), "bomb.zip has more than 2 MB");
 }
 

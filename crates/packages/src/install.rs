@@ -216,7 +216,7 @@ impl PackageCopy {
 
 /// The folder in `into` that holds a package `name`, whatever it is called.
 fn elsewhere(into: &Path, name: &str) -> Option<PathBuf> {
-    let search = super::Search { given: vec![into.to_path_buf()], ..super::Search::default() };
+    let search = super::PackageSearch { given: vec![into.to_path_buf()], ..super::PackageSearch::default() };
     let found = Packages::find(&search, &Version::new(0, 0, 0));
     Some(found.get(name)?.shown.clone())
 }

@@ -17,7 +17,7 @@
 //! course = 0.4                 # another default of a parameter
 //! ```
 //!
-//! Comes in: folders in which packages may be ([`Search`]), and names of their files, such as `@castle/towers.lua`. Goes
+//! Comes in: folders in which packages may be ([`PackageSearch`]), and names of their files, such as `@castle/towers.lua`. Goes
 //! out: [`Packages`] in an order that depends on nothing but what they say of each other, the file that a name means
 //! ([`Packages::locate`]), and an installed folder ([`install()`]). It never runs a script, and it never leads to a file
 //! outside the folder of a package.
@@ -36,7 +36,7 @@ mod hostile;
 #[cfg(test)]
 mod tests;
 
-pub use find::{BrokenPackage, HiddenPackage, Origin, Package, Packages, Search};
+pub use find::{BrokenPackage, HiddenPackage, Package, PackageOrigin, PackageSearch, Packages};
 pub use install::{Installation, LARGEST, MOST, install};
 pub use locate::{FileName, PackageFile};
 pub use manifest::{Dependency, MANIFEST, Manifest, ParamDefault, Replacement, is_name};

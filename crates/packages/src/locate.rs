@@ -86,7 +86,9 @@ impl Packages {
         let found = wanted.canonicalize();
         seek(&wanted, found.is_ok());
         match found {
-            Ok(found) if found.starts_with(&package.folder) => Ok(PackageFile { path: found, shown, package }),
+            Ok(found) if found.starts_with(&package.folder) => {
+                Ok(PackageFile { path: found, shown, package })
+            }
             Ok(_) => Err(Error::file(
                 &shown,
                 format!(

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use semver::{Version, VersionReq};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
@@ -180,12 +180,12 @@ impl Manifest {
     }
 
     /// A line of the file.
-    pub(crate) fn place(&self, line: usize) -> Place {
-        Place { file: self.file.clone(), line }
+    pub(crate) fn place(&self, line: usize) -> SourcePlace {
+        SourcePlace { file: self.file.clone(), line }
     }
 
     /// Where it begins.
-    pub fn begin(&self) -> Place {
+    pub fn begin(&self) -> SourcePlace {
         self.place(1)
     }
 
@@ -202,7 +202,7 @@ impl Manifest {
 
 impl ParamDefault {
     /// Where it stands in the `mod.toml` of `package`.
-    pub fn place(&self, package: &Manifest) -> Place {
+    pub fn place(&self, package: &Manifest) -> SourcePlace {
         package.place(self.line)
     }
 }
@@ -221,8 +221,8 @@ impl File<'_> {
         1 + self.text.as_bytes().iter().take(at).filter(|byte| **byte == b'\n').count()
     }
 
-    fn place(&self, at: usize) -> Place {
-        Place { file: self.name.to_owned(), line: self.line(at) }
+    fn place(&self, at: usize) -> SourcePlace {
+        SourcePlace { file: self.name.to_owned(), line: self.line(at) }
     }
 
     fn lacks(&self, field: &str, example: &str) -> Error {

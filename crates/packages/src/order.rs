@@ -3,10 +3,10 @@
 use super::find::Package;
 
 /// Packages that depend on each other in a circle, from one of them back to it.
-pub(crate) type Circle = Vec<String>;
+pub(crate) type DependencyCircle = Vec<String>;
 
 /// Sorts `packages`. Those of circles come last, by name.
-pub(crate) fn sort(mut packages: Vec<Package>) -> (Vec<Package>, Vec<Circle>) {
+pub(crate) fn sort(mut packages: Vec<Package>) -> (Vec<Package>, Vec<DependencyCircle>) {
     packages.sort_by(|a, b| a.manifest.name.cmp(&b.manifest.name));
     let mut sorted: Vec<Package> = Vec::with_capacity(packages.len());
     loop {
@@ -26,8 +26,8 @@ pub(crate) fn sort(mut packages: Vec<Package>) -> (Vec<Package>, Vec<Circle>) {
 }
 
 /// A circle for each of `packages`, all of which wait for one another, that is in one; each circle once.
-fn circles(packages: &[Package]) -> Vec<Circle> {
-    let mut circles: Vec<Circle> = Vec::new();
+fn circles(packages: &[Package]) -> Vec<DependencyCircle> {
+    let mut circles: Vec<DependencyCircle> = Vec::new();
     for package in packages {
         let start = &package.manifest.name;
         if circles.iter().any(|circle| circle.contains(start)) {

@@ -29,7 +29,7 @@ fn write(folder: &Path, name: &str, content: &str) {
 
 fn find(folder: &tempfile::TempDir) -> Packages {
     let path = folder.path();
-    let search = Search {
+    let search = PackageSearch {
         script: Some(path.to_path_buf()),
         given: vec![path.join("given")].into_iter().filter(|given| given.is_dir()).collect(),
         user: Some(path.join("user")),

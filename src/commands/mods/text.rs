@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use burgeon::packages::{Dependency, Origin, Package, Packages};
+use burgeon::packages::{Dependency, Package, PackageOrigin, Packages};
 use serde_json::{Value, json};
 
 /// All packages, for people.
@@ -53,9 +53,9 @@ pub(super) fn explain(packages: &Packages, package: &Package) -> String {
         let _ = writeln!(text, "  by {}", manifest.authors.join(", "));
     }
     let why = match package.origin {
-        Origin::Beside => "it is in mods beside the script",
-        Origin::Given => "its folder is given with --mods",
-        Origin::User => "it is in the user's folder, for scripts that name it",
+        PackageOrigin::Beside => "it is in mods beside the script",
+        PackageOrigin::Given => "its folder is given with --mods",
+        PackageOrigin::User => "it is in the user's folder, for scripts that name it",
     };
     let _ = writeln!(text, "found: {why}");
     for hidden in packages.hidden.iter().filter(|hidden| hidden.name == manifest.name) {
@@ -157,9 +157,9 @@ pub(super) fn package_json(packages: &Packages, package: &Package) -> Value {
     let replaced: serde_json::Map<String, Value> =
         packages.replaced(package).into_iter().map(|(file, by)| (file.to_string(), by.into())).collect();
     let origin = match package.origin {
-        Origin::Beside => "beside",
-        Origin::Given => "given",
-        Origin::User => "user",
+        PackageOrigin::Beside => "beside",
+        PackageOrigin::Given => "given",
+        PackageOrigin::User => "user",
     };
     let params: Vec<Value> = manifest
         .params

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::super::formats::{geotiff, png, zipped};
-use super::raster::Found;
-use super::{Wanted, ascii, hgt, raw};
+use super::raster::RasterHeader;
+use super::{HeightOptions, ascii, hgt, raw};
 use burgeon_base::error::{Error, Result};
 
 /// The formats that are read.
@@ -14,7 +14,11 @@ const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), E
 /// Reads `bytes`, the content of the file called `name`.
 ///
 /// What begins as a zip, a TIFF, a PNG or an ASCII grid is read as that; the extension tells the others.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
+pub(super) fn read<'a>(
+    bytes: &'a [u8],
+    name: &'a str,
+    wanted: &'a HeightOptions,
+) -> Result<RasterHeader<'a>> {
     if bytes.is_empty() {
         return Err(Error::data(format!("{name} is empty")).help("get it again"));
     }

@@ -31,7 +31,7 @@ pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<
     };
     let body = bytes.get(8 + envelope..).ok_or(ENDS)?;
     // The flag of an empty geometry says nothing that its content does not say.
-    let mut reader = Reader { bytes: body, little: true, near, budget };
+    let mut reader = WkbReader { bytes: body, little: true, near, budget };
     let mut parts = Vec::new();
     reader.geometry(&mut parts, |_| true, 0)?;
     Ok(parts)
@@ -40,9 +40,9 @@ pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<
 const ENDS: &str = "ends too early";
 
 /// The types that may stand in a place.
-type Allowed = fn(u32) -> bool;
+type TypeFilter = fn(u32) -> bool;
 
-struct Reader<'a> {
+struct WkbReader<'a> {
     bytes: &'a [u8],
     little: bool,
     near: f64,
@@ -51,13 +51,13 @@ struct Reader<'a> {
 
 /// What stands before each geometry: its type, and whether its points have Z and M.
 #[derive(Clone, Copy)]
-struct Head {
+struct GeometryHeader {
     kind: u32,
     z: bool,
     m: bool,
 }
 
-impl Reader<'_> {
+impl WkbReader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
         let (taken, rest) = self.bytes.split_first_chunk::<N>().ok_or(ENDS)?;
         self.bytes = rest;
@@ -83,7 +83,7 @@ impl Reader<'_> {
         Ok(count)
     }
 
-    fn point(&mut self, head: Head) -> Result<[f64; 3], String> {
+    fn point(&mut self, head: GeometryHeader) -> Result<[f64; 3], String> {
         let point = [self.f64()?, self.f64()?, if head.z { self.f64()? } else { 0.0 }];
         if head.m {
             self.f64()?;
@@ -92,19 +92,19 @@ impl Reader<'_> {
         Ok(if point[2].is_nan() { [point[0], point[1], 0.0] } else { point })
     }
 
-    fn points(&mut self, head: Head) -> Result<Vec<[f64; 3]>, String> {
+    fn points(&mut self, head: GeometryHeader) -> Result<Vec<[f64; 3]>, String> {
         let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
         let count = self.count(size)?;
         (0..count).map(|_| self.point(head)).collect()
     }
 
-    fn rings(&mut self, head: Head) -> Result<Vec<Vec<[f64; 3]>>, String> {
+    fn rings(&mut self, head: GeometryHeader) -> Result<Vec<Vec<[f64; 3]>>, String> {
         let count = self.count(4)?;
         (0..count).map(|_| self.points(head)).collect()
     }
 
     /// The head of a geometry of a type that is `allowed` here.
-    fn head(&mut self, allowed: Allowed) -> Result<Head, String> {
+    fn head(&mut self, allowed: TypeFilter) -> Result<GeometryHeader, String> {
         self.little = match self.take::<1>()? {
             [0] => false,
             [1] => true,
@@ -121,11 +121,16 @@ impl Reader<'_> {
         }
         let (z, m) =
             (flags & 0x8000_0000 != 0 || thousands & 1 != 0, flags & 0x4000_0000 != 0 || thousands & 2 != 0);
-        Ok(Head { kind, z, m })
+        Ok(GeometryHeader { kind, z, m })
     }
 
     /// Adds the parts of one geometry.
-    fn geometry(&mut self, parts: &mut Vec<Geometry>, allowed: Allowed, depth: usize) -> Result<(), String> {
+    fn geometry(
+        &mut self,
+        parts: &mut Vec<Geometry>,
+        allowed: TypeFilter,
+        depth: usize,
+    ) -> Result<(), String> {
         self.budget.tick().map_err(|error| error.message().to_owned())?;
         if depth > DEEPEST {
             return Err(format!("is nested more than {DEEPEST} deep"));
@@ -147,7 +152,7 @@ impl Reader<'_> {
                 parts.extend(Geometry::polygon(rings));
             }
             4..=7 | 11 | 12 | 15 | 16 => {
-                let allowed: Allowed = match head.kind {
+                let allowed: TypeFilter = match head.kind {
                     4 => |kind| kind == 1,
                     5 => |kind| kind == 2,
                     6 | 15 => |kind| kind == 3,
@@ -166,13 +171,13 @@ impl Reader<'_> {
     }
 
     /// The points of a curve of a type that is `allowed` here.
-    fn curve(&mut self, allowed: Allowed) -> Result<Vec<[f64; 3]>, String> {
+    fn curve(&mut self, allowed: TypeFilter) -> Result<Vec<[f64; 3]>, String> {
         let head = self.head(allowed)?;
         self.curve_of(head)
     }
 
     /// The points of a line, a circular string or a compound of these, whose head has been read.
-    fn curve_of(&mut self, head: Head) -> Result<Vec<[f64; 3]>, String> {
+    fn curve_of(&mut self, head: GeometryHeader) -> Result<Vec<[f64; 3]>, String> {
         match head.kind {
             8 => {
                 let given = self.points(head)?;

@@ -1,12 +1,13 @@
 //! The geometries of GeoJSON: coordinates are read straight into points, as their type says.
 
+use crate::SourceOptions;
 use std::fmt;
 
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::{LARGE, Wanted, words};
+use super::{LARGE, words};
 use crate::{DEEPEST, Geometry};
 use burgeon_base::budget::Budget;
 use burgeon_base::text::shown;
@@ -69,7 +70,7 @@ pub(super) fn is_known(kind: &str) -> bool {
 }
 
 /// The parts of the geometry in `text`. Fails with the reason.
-pub(super) fn read(text: &RawValue, wanted: &Wanted) -> Result<Vec<Geometry>, String> {
+pub(super) fn read(text: &RawValue, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
     let mut parts = Vec::new();
     geometry(text, wanted, 0, &mut parts)?;
     Ok(parts)
@@ -80,14 +81,19 @@ pub(super) fn of_members(
     kind: &str,
     coordinates: Option<&RawValue>,
     geometries: Option<&RawValue>,
-    wanted: &Wanted,
+    wanted: &SourceOptions,
 ) -> Result<Vec<Geometry>, String> {
     let mut parts = Vec::new();
     members(kind, coordinates, geometries, wanted, 0, &mut parts)?;
     Ok(parts)
 }
 
-fn geometry(text: &RawValue, wanted: &Wanted, depth: usize, parts: &mut Vec<Geometry>) -> Result<(), String> {
+fn geometry(
+    text: &RawValue,
+    wanted: &SourceOptions,
+    depth: usize,
+    parts: &mut Vec<Geometry>,
+) -> Result<(), String> {
     let raw: RawGeometry<'_> = serde_json::from_str(text.get())
         .map_err(|error| format!("has a geometry that is none: {}", words(&error)))?;
     let kind: String = raw
@@ -101,7 +107,7 @@ fn members(
     kind: &str,
     coordinates: Option<&RawValue>,
     geometries: Option<&RawValue>,
-    wanted: &Wanted,
+    wanted: &SourceOptions,
     depth: usize,
     parts: &mut Vec<Geometry>,
 ) -> Result<(), String> {
@@ -203,13 +209,13 @@ struct Number(f64);
 
 impl<'t> Deserialize<'t> for Number {
     fn deserialize<D: Deserializer<'t>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Numbers)
+        deserializer.deserialize_any(NumberVisitor)
     }
 }
 
-struct Numbers;
+struct NumberVisitor;
 
-impl<'t> Visitor<'t> for Numbers {
+impl<'t> Visitor<'t> for NumberVisitor {
     type Value = Number;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

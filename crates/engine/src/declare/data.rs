@@ -8,29 +8,29 @@ use super::paths::{is_absolute, lead};
 use super::session::Session;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
-use burgeon_kit::{Loaded, Loader, Loading, Resources, Table};
+use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
+use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
 use burgeon_packages::Package;
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
 /// that another would decide otherwise; and what was read once is not read again.
 #[derive(Default)]
 pub(crate) struct Data {
-    known: Mutex<Known>,
+    known: Mutex<LayerStore>,
 }
 
 #[derive(Default)]
-struct Known {
+struct LayerStore {
     /// The projection and the origin, which the first source decides.
-    frame: Option<Frame>,
+    frame: Option<ReferenceFrame>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     /// What was made of files, by type, file and fields.
-    objects: BTreeMap<String, Result<Loaded>>,
+    objects: BTreeMap<String, Result<LoadedObject>>,
     /// What all reading of the run may take.
     budget: Option<Arc<Budget>>,
 }
 
-impl Known {
+impl LayerStore {
     fn budget(&mut self, session: &Session) -> Arc<Budget> {
         let make = || {
             let stop = Arc::clone(&session.stop);
@@ -47,7 +47,7 @@ impl Data {
         session: &Arc<Session>,
         asker: Option<&Package>,
         text: &str,
-        mut wanted: Wanted,
+        mut wanted: SourceOptions,
     ) -> Result<Arc<Layer>> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let key = format!("{:?} {text:?} {wanted:?}", asker.map(|asker| &asker.manifest.name));
@@ -75,7 +75,7 @@ impl Data {
         (kind, loader): (&str, &Loader),
         name: &str,
         fields: &Table,
-    ) -> Result<Loaded> {
+    ) -> Result<LoadedObject> {
         if name.is_empty() {
             return Err(Error::argument(format!("{kind} needs the name of a file"))
                 .help(format!("write {}", loader.example)));
@@ -89,7 +89,7 @@ impl Data {
         }
         let budget = known.budget(session);
         let before = budget.taken();
-        let mut file = Loading {
+        let mut file = LoadRequest {
             name,
             path: &path,
             budget: &budget,
@@ -105,7 +105,7 @@ impl Data {
     }
 
     /// The projection and the origin of the run, if any data has decided them.
-    pub(crate) fn frame(&self) -> Option<Frame> {
+    pub(crate) fn frame(&self) -> Option<ReferenceFrame> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner).frame.clone()
     }
 }
@@ -130,8 +130,8 @@ fn read(
     session: &Session,
     asker: Option<&Package>,
     text: &str,
-    mut wanted: Wanted,
-    known: &mut Known,
+    mut wanted: SourceOptions,
+    known: &mut LayerStore,
 ) -> Result<Arc<Layer>> {
     let (name, layer) = split_name(text);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));

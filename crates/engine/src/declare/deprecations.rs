@@ -5,7 +5,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use super::names::deprecated_names;
 use super::session::Session;
-use burgeon_base::error::Place;
+use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Deprecation, Registry};
 
@@ -15,7 +15,7 @@ pub(crate) struct Deprecations {
     /// Values, such as constructors.
     names: Arc<BTreeMap<String, Deprecation>>,
     /// What was used, as people write it, and where first: threads come to a line in any order.
-    used: Mutex<BTreeMap<String, (Deprecation, Option<Place>)>>,
+    used: Mutex<BTreeMap<String, (Deprecation, Option<SourcePlace>)>>,
 }
 
 impl Deprecations {
@@ -26,7 +26,7 @@ impl Deprecations {
     /// A warning for each name that was used.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let used = self.used.lock().unwrap_or_else(PoisonError::into_inner);
-        let warning = |(name, (deprecation, place)): (&String, &(Deprecation, Option<Place>))| {
+        let warning = |(name, (deprecation, place)): (&String, &(Deprecation, Option<SourcePlace>))| {
             let warning = Warning::new(WarningKind::Deprecated, deprecation.message(name));
             warning.help(format!("use {} instead", deprecation.instead)).at(place.clone())
         };
@@ -41,7 +41,7 @@ impl Session {
     }
 
     /// Takes notice that a script uses `name`, as people write it, in `place`.
-    pub(crate) fn use_deprecated(&self, name: &str, deprecation: &Deprecation, place: Option<Place>) {
+    pub(crate) fn use_deprecated(&self, name: &str, deprecation: &Deprecation, place: Option<SourcePlace>) {
         let mut used = self.deprecated.used.lock().unwrap_or_else(PoisonError::into_inner);
         match used.get_mut(name) {
             Some((_, first)) => {

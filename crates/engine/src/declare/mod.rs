@@ -18,8 +18,8 @@ mod session;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
-pub use names::{Name, Part, Sort, names};
-pub use options::{Limits, Print, RunOptions, Traced};
+pub use names::{Name, NameKind, NameMember, names};
+pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
-pub use session::{Progress, Session};
+pub use session::{RunProgress, Session};

@@ -5,9 +5,9 @@ use std::sync::PoisonError;
 
 use super::param::Param;
 use super::session::Session;
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_data::split_name;
-use burgeon_packages::{FileName, PackageFile, Package};
+use burgeon_packages::{FileName, Package, PackageFile};
 
 impl Session {
     /// The package whose file people find as `file`; none for the script's own.
@@ -69,7 +69,7 @@ impl Session {
             let known = self.packages().get(&name.package).is_some();
             let error =
                 (known && !owner.manifest.may_use(&name.package)).then(|| owner.not_declared(&name.package));
-            Some(error?.at(Some(Place { file: file.to_owned(), line: *line })))
+            Some(error?.at(Some(SourcePlace { file: file.to_owned(), line: *line })))
         });
         refused.collect()
     }
@@ -83,7 +83,7 @@ impl Session {
             let error = self.locate("file", &name, Some(package)).err()?;
             // What `require` takes has no extension.
             let found = self.locate("file", &script, Some(package)).is_ok();
-            (!found).then(|| error.rather_at(Some(Place { file: file.to_owned(), line: *line })))
+            (!found).then(|| error.rather_at(Some(SourcePlace { file: file.to_owned(), line: *line })))
         });
         missing.collect()
     }
@@ -97,7 +97,7 @@ impl Session {
     }
 
     /// Gives a parameter that is declared in `place` the default that packages ask for, if any does.
-    pub(crate) fn redefault(&self, param: &mut Param, place: Option<&Place>) -> Result<()> {
+    pub(crate) fn redefault(&self, param: &mut Param, place: Option<&SourcePlace>) -> Result<()> {
         let Some(owner) = place.and_then(|place| self.package_of(&place.file)) else { return Ok(()) };
         for package in self.packages().order().iter().filter(|package| package.is_replacing) {
             let manifest = &package.manifest;

@@ -8,32 +8,32 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, Reading, has_metatables};
+use super::analysis::{Analysis, Globals, ScriptReader, has_metatables};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
-use burgeon_base::error::{Error, Limit, Place, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
-use burgeon_packages::{Packages, Search};
+use burgeon_packages::{PackageSearch, Packages};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
 
 /// How far a run has come, for those who wait.
 #[derive(Debug, Default)]
-pub struct Progress {
+pub struct RunProgress {
     step: AtomicUsize,
     steps: AtomicUsize,
     modules: AtomicUsize,
     total: AtomicUsize,
 }
 
-impl Progress {
+impl RunProgress {
     /// Notes that `step` of at most `steps` has made a chain of `modules`.
     pub(crate) fn note(&self, step: usize, steps: usize, modules: usize) {
         self.step.store(step, Ordering::Relaxed);
@@ -72,7 +72,7 @@ impl Progress {
 
 /// A source file, read once, as every virtual machine runs it.
 #[derive(Debug)]
-pub(crate) struct Source {
+pub(crate) struct SourceFile {
     /// The name in messages, relative to where the script was called.
     pub name: String,
     /// What reading it gave.
@@ -86,7 +86,7 @@ pub struct Session {
     /// Asks the run to stop.
     pub stop: Arc<Stop>,
     /// How far the run has come.
-    pub progress: Progress,
+    pub progress: RunProgress,
     /// The parameters of modules that are not numbers.
     pub(crate) values: Arc<Values>,
     script: PathBuf,
@@ -100,9 +100,9 @@ pub struct Session {
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     stdlib: Option<(String, String)>,
-    sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
     /// The main file while it is read ahead, and its path.
-    ahead: Mutex<Option<(PathBuf, Reading)>>,
+    ahead: Mutex<Option<(PathBuf, ScriptReader)>>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
@@ -124,7 +124,7 @@ impl Session {
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
         let data_roots = options.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
-        let search = Search {
+        let search = PackageSearch {
             script: script.parent().map(Path::to_path_buf),
             given: options.mods.clone(),
             user: options.user_mods.clone(),
@@ -136,7 +136,7 @@ impl Session {
         Ok(Arc::new(Self {
             stop: Arc::new(Stop::under(options.stop.clone())),
             options,
-            progress: Progress::default(),
+            progress: RunProgress::default(),
             values: Arc::default(),
             script: script.to_path_buf(),
             root,
@@ -284,7 +284,7 @@ impl Session {
         known.map_or_else(|| inner.display().to_string(), |source| source.name.clone())
     }
 
-    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+    fn source_called(&self, file: &str) -> Option<Arc<SourceFile>> {
         let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         sources.values().find(|source| source.name == file).cloned()
     }
@@ -327,7 +327,7 @@ impl Session {
     }
 
     /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
-    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<Source>> {
+    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<SourceFile>> {
         let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(source) = sources.get(path) {
             return Ok(Arc::clone(source));
@@ -342,27 +342,27 @@ impl Session {
         self.note(&analysis);
         for (used, line) in &analysis.deprecated {
             if let Some(deprecation) = globals.deprecated.get(used) {
-                let place = Place { file: name.to_owned(), line: *line };
+                let place = SourcePlace { file: name.to_owned(), line: *line };
                 self.use_deprecated(used, deprecation, Some(place));
             }
         }
         let undeclared = self.undeclared(name, &analysis.packages);
         analysis.problems.extend(undeclared);
-        let source = Arc::new(Source { name: name.to_owned(), analysis });
+        let source = Arc::new(SourceFile { name: name.to_owned(), analysis });
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
 }
 
 /// Begins to read the file at `path`; `name` is for messages.
-fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
+fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
     let bytes =
         burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Error::file(path, format!("{name} is not a text file"))
             .help("scripts are UTF-8 text; check the file's name")
     })?;
-    Ok(Reading::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
+    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
 }
 
 /// A folder of data files, without links in its path.
@@ -417,7 +417,7 @@ mod tests {
 
     #[test]
     fn progress_tells_the_time_left_once_there_is_some() {
-        let progress = Progress::default();
+        let progress = RunProgress::default();
         progress.note(5, 20, 1_000_000);
         let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
         assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use crate::declare::Session;
 use crate::machine::handles::Objects;
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::rules::{ModuleKey, Symbol};
 use burgeon_kit::{Call, Kind, Value};
 
 /// Applies recorded method calls to objects while a batch is interpreted.
@@ -38,7 +38,7 @@ pub(crate) struct ReturnShape {
 const SHAPE: usize = 1 << 30;
 
 /// What is being rewritten or interpreted.
-pub(crate) struct Current {
+pub(crate) struct WorkState {
     pub session: Arc<Session>,
     /// The system that the machine works for.
     pub system: Cell<Option<usize>>,
@@ -47,7 +47,7 @@ pub(crate) struct Current {
     /// The chain of each application in the batch.
     pub chains: RefCell<Vec<u32>>,
     /// The random key of each application in the batch.
-    pub keys: RefCell<Vec<Key>>,
+    pub keys: RefCell<Vec<ModuleKey>>,
     /// How many numbers of its stream an application's weighted choice has used already.
     pub used: Cell<usize>,
     /// The most random numbers that one application has drawn lately.
@@ -62,9 +62,9 @@ pub(crate) struct Current {
     pub top: RefCell<Stream>,
 }
 
-impl Current {
+impl WorkState {
     pub(crate) fn new(session: Arc<Session>) -> Self {
-        let top = Key::seed(session.options.seed).stream();
+        let top = ModuleKey::seed(session.options.seed).stream();
         Self {
             session,
             system: Cell::new(None),
@@ -108,7 +108,7 @@ impl Current {
         method: usize,
         application: usize,
         arguments: &[Value],
-        place: impl FnOnce() -> Option<Place>,
+        place: impl FnOnce() -> Option<SourcePlace>,
     ) -> Result<Value> {
         let kind = self.kind.borrow();
         let methods = kind.as_ref().map_or(&[][..], |kind| &kind.methods);

@@ -6,7 +6,7 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use crate::declare::names::DERIVED;
-use crate::results::Derived;
+use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Object;
 
@@ -115,7 +115,7 @@ pub(crate) fn methods_key(kind: &str) -> String {
 }
 
 /// What `derive` returns.
-pub(crate) struct DerivedHandle(pub Arc<Derived>);
+pub(crate) struct DerivedHandle(pub Arc<DerivedSystem>);
 
 impl DerivedHandle {
     pub(crate) fn model(&self) -> Result<Arc<dyn Object>> {

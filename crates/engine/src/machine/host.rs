@@ -5,7 +5,7 @@ use std::sync::LazyLock;
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
-use super::current::Current;
+use super::current::WorkState;
 use crate::machine::convert::{to_lua, to_value};
 use crate::machine::handles::ObjectHandle;
 use crate::machine::library::Library;
@@ -18,7 +18,7 @@ const GUARD: u8 = 2;
 /// At the top level, in `prelude.luau`.
 const TOP: u8 = 0;
 
-pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>) -> mlua::Result<Table> {
+pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
     host.set("deepest", DEEPEST)?;
     let state = Rc::clone(current);
@@ -26,8 +26,8 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<Current>, library: &Rc<Library>)
         "pack",
         lua.create_function(move |_, value: LuaValue| {
             let value = to_value(&value, true).map_err(mlua::Error::external)?;
-            match burgeon_kit::rules::Boxed::unpack(state.session.values.pack(value)) {
-                burgeon_kit::rules::Boxed::Handle(handle) => Ok(handle),
+            match burgeon_kit::rules::ColumnValue::unpack(state.session.values.pack(value)) {
+                burgeon_kit::rules::ColumnValue::Handle(handle) => Ok(handle),
                 _ => Err(mlua::Error::external(Error::argument("this value cannot be a parameter"))),
             }
         })?,

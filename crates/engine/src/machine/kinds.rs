@@ -9,7 +9,7 @@ use super::handles::{ObjectHandle, methods_key};
 use super::system::is_unread_geometry;
 use super::{Machine, compile};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Call, Construct, Deprecation, Key, Kind, Table as ValueTable, Value};
+use burgeon_kit::{Call, Construct, Deprecation, Kind, Table as ValueTable, TableKey, Value};
 
 /// Makes the constructor of a type of object and its table of methods.
 pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>) -> mlua::Result<()> {
@@ -142,7 +142,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     if table.get(first).is_some() {
         return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
     }
-    table.entries.push((Key::Name(first.into()), to_field(&one)?));
+    table.entries.push((TableKey::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))
 }
 

@@ -10,12 +10,12 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::convert::{class_key, to_lua};
 use super::kinds::{install_kind, named_fields, no_table};
 use super::require::require;
-use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
+use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::{Machine, compile, native};
 use crate::declare::analysis::Globals;
 use crate::declare::names::LOCKED;
 use crate::declare::{API_VERSION, Param, Print, has_name};
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Construct;
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
@@ -26,7 +26,7 @@ static STANDARD_COMPILED: LazyLock<Vec<u8>> =
     LazyLock::new(|| compile(include_str!("../../../../stdlib.lua")));
 
 /// An interpretation that the standard library gives to modules of every system with a type of object.
-pub(crate) struct Standard {
+pub(crate) struct StandardInterpretation {
     pub kind: String,
     pub symbol: Symbol,
     /// The place of a method among those of the type, called with the module's parameters.
@@ -37,11 +37,11 @@ pub(crate) struct Standard {
 #[derive(Default)]
 pub(crate) struct Library {
     pub symbols: RefCell<Symbols>,
-    pub systems: RefCell<Vec<System>>,
-    pub standard: RefCell<Vec<Standard>>,
+    pub systems: RefCell<Vec<SystemDeclaration>>,
+    pub standard: RefCell<Vec<StandardInterpretation>>,
     pub problems: RefCell<Vec<Error>>,
     /// Where the script declared its modules.
-    pub places: RefCell<FxHashMap<Symbol, Place>>,
+    pub places: RefCell<FxHashMap<Symbol, SourcePlace>>,
     /// Constructors of modules, by symbol.
     pub constructors: RefCell<FxHashMap<Symbol, Function>>,
     /// The files that are being required, from the main one on.
@@ -57,7 +57,7 @@ pub(crate) struct Library {
     /// The constructors of objects, by name.
     kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
-    params: RefCell<Vec<(Param, Option<Place>)>>,
+    params: RefCell<Vec<(Param, Option<SourcePlace>)>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
 }
 
@@ -89,11 +89,11 @@ impl Library {
 
     /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
     /// line once more, share it.
-    fn add_param(&self, param: Param, place: Option<Place>) -> Result<()> {
+    fn add_param(&self, param: Param, place: Option<SourcePlace>) -> Result<()> {
         let machine = self.machine()?;
         let mut params = self.params.borrow_mut();
         if let Some((known, first)) = params.iter().find(|(known, _)| known.name == param.name) {
-            let in_file = |place: &Option<Place>| place.as_ref().map(|place| place.file.clone());
+            let in_file = |place: &Option<SourcePlace>| place.as_ref().map(|place| place.file.clone());
             let shared = *known == param && (*first == place || in_file(first) != in_file(&place));
             if !shared {
                 let first = first.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
@@ -218,7 +218,7 @@ impl Library {
         coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
         globals.raw_set("resume", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
-        lua.set_app_data(Eager(Arc::clone(&machine.session)));
+        lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
         for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
@@ -237,7 +237,7 @@ impl Library {
                 let method = method.ok_or_else(|| {
                     mlua::Error::external(Error::internal(format!("{kind} has no such method")))
                 })?;
-                library.standard.borrow_mut().push(Standard { kind, symbol, method });
+                library.standard.borrow_mut().push(StandardInterpretation { kind, symbol, method });
                 Ok(())
             })?,
         )?;
@@ -378,7 +378,7 @@ fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symb
 }
 
 fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
-    if lua.app_data_ref::<Silence>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
+    if lua.app_data_ref::<PrintSwitch>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
@@ -389,4 +389,4 @@ fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
 
 /// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
 /// function that tells whether the top level is running.
-pub(crate) struct Silence(pub Function);
+pub(crate) struct PrintSwitch(pub Function);

@@ -8,8 +8,8 @@ mod remark;
 mod trace;
 mod uses;
 
-pub use derived::{Derived, RuleReport, Times};
-pub use remark::{Remark, Report};
+pub use derived::{DerivedSystem, RuleReport, Times};
+pub use remark::{FeatureReport, Remark};
 pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace};
 pub(crate) use trace::{Step, around};
 pub use uses::Use;

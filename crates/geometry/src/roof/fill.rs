@@ -18,7 +18,7 @@ const MOST: usize = 200;
 const SMALL: usize = 16;
 
 /// Triangles as places in a ring.
-type Corners = SmallVec<[[usize; 3]; 16]>;
+type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
 
 /// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
 ///
@@ -43,7 +43,7 @@ pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3)
     let up = normal.cross(right);
     let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
     let flats: SmallVec<[DVec2; 16]> = rings.iter().flatten().map(flat).collect();
-    let triangles: Corners = match rings {
+    let triangles: TriangleIndices = match rings {
         [_] => match star(&flats) {
             Some(apex) => fan(flats.len(), apex).collect(),
             None => match cap::triangulate(&[flats.as_slice()]) {
@@ -78,7 +78,7 @@ pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3)
 ///
 /// Method: dynamic programming over the parts of the ring beyond each diagonal (G. Klincsek, "Minimal triangulations of
 /// polygonal domains", 1980).
-fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
+fn without_slivers(ring: &[DVec2], triangles: TriangleIndices) -> TriangleIndices {
     let count = ring.len();
     let thinnest = triangles.iter().map(|&triangle| width(ring, triangle)).fold(f64::INFINITY, f64::min);
     if thinnest >= SLIVER || count > MOST {
@@ -101,7 +101,7 @@ fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
     if best[count - 1].0 <= thinnest {
         return triangles;
     }
-    let (mut found, mut pending) = (Corners::new(), vec![[0, count - 1]]);
+    let (mut found, mut pending) = (TriangleIndices::new(), vec![[0, count - 1]]);
     while let Some([from, to]) = pending.pop() {
         if to > from + 1 {
             let tip = best[from * count + to].1;

@@ -9,7 +9,7 @@ use super::super::skeleton::{Pace, Skeleton};
 use super::overhang::Rake;
 use super::plate::is_at;
 use super::shape::{Profile, between};
-use super::subdivision::{Corners, Piece};
+use super::subdivision::{FacePiece, PieceCorners};
 use super::{Patch, PatchKind};
 use crate::planar::edges;
 
@@ -56,14 +56,14 @@ pub(super) fn patches(
         let is_below = paces[edge].moves_at(profile.beyond()) || (profile.beyond() > 0.0 && number == 0);
         is_upright && !is_border && (is_below || rakes[edge].is_some())
     });
-    let corners = Corners { points: &points, outline: faces.len(), passes, levels: &levels };
+    let corners = PieceCorners { points: &points, outline: faces.len(), passes, levels: &levels };
     let pieces = corners.subdivide(pieces);
     let mut patches = Vec::with_capacity(pieces.len());
     let mut rest = pieces.as_slice();
     for (edge, (face, pace)) in faces.iter().zip(paces).enumerate() {
         let along = (points[face[1]] - points[face[0]]).truncate().normalize_or_zero();
         let lowest = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
-        for (number, &Span { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
+        for (number, &ProfileSpan { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
             let flap = number.saturating_sub(lowest);
             let patch = |kind, ring| Patch::new(kind, edge, flap, along, ring);
             let is_step = spans[edge][number].is_step();
@@ -111,7 +111,7 @@ fn cut(
     spans: &[Spans],
     points: &mut Vec<DVec3>,
     is_fixed: impl Fn(usize, usize) -> bool,
-) -> Vec<Piece> {
+) -> Vec<FacePiece> {
     let mut passes = FxHashMap::default();
     let mut all = Vec::with_capacity(faces.len());
     for (edge, face) in faces.iter().enumerate() {
@@ -124,7 +124,7 @@ fn cut(
                 let ring =
                     if last { piece } else { divide(&piece, span.high, points, &mut passes, &mut above) };
                 if ring.len() > 2 {
-                    all.push(Piece { edge, number, ring, is_fixed });
+                    all.push(FacePiece { edge, number, ring, is_fixed });
                 }
             }
             pieces = above;
@@ -133,10 +133,10 @@ fn cut(
     all
 }
 
-type Spans = SmallVec<[Span; 4]>;
+type Spans = SmallVec<[ProfileSpan; 4]>;
 
 /// A part of a profile's interval.
-struct Span {
+struct ProfileSpan {
     /// The ends of the interval.
     line: [DVec2; 2],
     /// From where to where (m from the outline) the part goes.
@@ -144,7 +144,7 @@ struct Span {
     high: f64,
 }
 
-impl Span {
+impl ProfileSpan {
     /// Whether it is upright.
     fn is_step(&self) -> bool {
         self.line[0].x >= self.line[1].x
@@ -157,9 +157,13 @@ fn spans(profile: &Profile, pace: &Pace) -> Spans {
     for pair in profile.corners.windows(2) {
         let (line, low, high) = ([pair[0], pair[1]], pair[0].x, pair[1].x);
         if pace.speed > 0.0 && low < pace.rest && pace.rest < high {
-            spans.extend([[low, pace.rest], [pace.rest, high]].map(|[low, high]| Span { line, low, high }));
+            spans.extend([[low, pace.rest], [pace.rest, high]].map(|[low, high]| ProfileSpan {
+                line,
+                low,
+                high,
+            }));
         } else {
-            spans.push(Span { line, low, high });
+            spans.push(ProfileSpan { line, low, high });
         }
     }
     spans

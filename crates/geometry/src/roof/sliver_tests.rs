@@ -11,7 +11,7 @@ use burgeon_scene::Part;
 const WIDE: f64 = 1e-4;
 
 /// How wide the thinnest triangle of a roof is (m).
-fn thinnest(cover: &Cover) -> f64 {
+fn thinnest(cover: &RoofCover) -> f64 {
     let mut part = Part::default();
     for patch in &cover.patches {
         fill(&mut part, &patch.rings, patch.along.extend(0.0), patch.rings[0][0]).expect("a flat face");
@@ -30,13 +30,13 @@ fn faults(seed: u64, known: &[usize]) -> (usize, Vec<String>) {
     let times: usize = std::env::var("BURGEON_CASES").ok().and_then(|times| times.parse().ok()).unwrap_or(1);
     let border = Border { height: 0.5, width: 0.3 };
     let surfaces = [
-        Surface::Flat(Some(border)),
-        Surface::Sloped(Ends::Hips, &[]),
-        Surface::Sloped(Ends::Hips, BENT),
-        Surface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
-        Surface::Sloped(Ends::Gables, &[]),
-        Surface::Sloped(Ends::Gables, BENT),
-        Surface::Sloped(Ends::DutchHips, &[]),
+        RoofSurface::Flat(Some(border)),
+        RoofSurface::Sloped(Ends::Hips, &[]),
+        RoofSurface::Sloped(Ends::Hips, BENT),
+        RoofSurface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
+        RoofSurface::Sloped(Ends::Gables, &[]),
+        RoofSurface::Sloped(Ends::Gables, BENT),
+        RoofSurface::Sloped(Ends::DutchHips, &[]),
     ];
     let eaves = [(Eaves::Closed, 0.0), (Eaves::Slab, 0.2), (Eaves::Open, 0.15)];
     let mut random = Random(seed);
@@ -47,9 +47,9 @@ fn faults(seed: u64, known: &[usize]) -> (usize, Vec<String>) {
         let Some(walls) = Some(rings).filter(|_| chosen).and_then(|rings| plan(&rings)) else { continue };
         let (overhang, (eaves, slab)) = ([0.0, 0.3, 0.8][round / 8 % 3], eaves[round / 24 % 3]);
         for surface in surfaces {
-            let thin = matches!(surface, Surface::Flat(_)) && overhang > 0.0;
+            let thin = matches!(surface, RoofSurface::Flat(_)) && overhang > 0.0;
             let slab = if thin { 0.15 } else { slab };
-            let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
+            let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
             let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
             let (check, width) = (solid::check([&building(&walls, &cover)]), thinnest(&cover));
             if !check.is_solid() || width < WIDE {

@@ -14,7 +14,7 @@ const ROUNDS: usize = 16;
 
 /// A part of a face.
 #[derive(Debug, Clone)]
-pub(super) struct Piece {
+pub(super) struct FacePiece {
     /// The edge of the outline that it belongs to.
     pub edge: usize,
     /// The number of the interval of the profile that it is in.
@@ -26,9 +26,9 @@ pub(super) struct Piece {
 }
 
 /// The ends of a border, the lesser one first.
-type Border = [usize; 2];
+type BorderEnds = [usize; 2];
 
-fn border([a, b]: [usize; 2]) -> Border {
+fn border([a, b]: [usize; 2]) -> BorderEnds {
     [a.min(b), a.max(b)]
 }
 
@@ -36,11 +36,11 @@ fn border([a, b]: [usize; 2]) -> Border {
 #[derive(Default)]
 struct Touches {
     same: Vec<[usize; 2]>,
-    between: FxHashMap<Border, SmallVec<[(f64, usize); 2]>>,
+    between: FxHashMap<BorderEnds, SmallVec<[(f64, usize); 2]>>,
 }
 
 /// The corners of all pieces, and what is known of them.
-pub(super) struct Corners<'a> {
+pub(super) struct PieceCorners<'a> {
     /// Their places (m), with the distances from the outline as heights.
     pub points: &'a [DVec3],
     /// How many of them, the first, are those of the outline.
@@ -51,13 +51,13 @@ pub(super) struct Corners<'a> {
     pub levels: &'a [f64],
 }
 
-impl Corners<'_> {
+impl PieceCorners<'_> {
     /// Makes corners that all but touch each other one, and gives each border those that all but touch it, in the pieces
     /// on both of its sides alike. A piece that touches itself there falls into several, and one that is all border
     /// into none.
     ///
     /// What is on a level stays there, and so do the outline and the borders of fixed pieces.
-    pub(super) fn subdivide(&self, mut pieces: Vec<Piece>) -> Vec<Piece> {
+    pub(super) fn subdivide(&self, mut pieces: Vec<FacePiece>) -> Vec<FacePiece> {
         for _ in 0..ROUNDS {
             let Touches { same, between } = self.touches(&pieces);
             let done = if same.is_empty() { between.is_empty() } else { !self.merge(&mut pieces, &same) };
@@ -73,7 +73,7 @@ impl Corners<'_> {
         pieces
     }
 
-    fn touches(&self, pieces: &[Piece]) -> Touches {
+    fn touches(&self, pieces: &[FacePiece]) -> Touches {
         let mut found = Touches::default();
         for piece in pieces.iter().filter(|piece| !piece.is_fixed) {
             for [a, b] in edges(&piece.ring).map(border) {
@@ -107,7 +107,7 @@ impl Corners<'_> {
         found.same.retain(|&[a, b]| b >= self.outline && a != b);
         if !found.between.is_empty() {
             // Along both sides of a border there has to be one piece that may be divided.
-            let mut sides: FxHashMap<Border, [usize; 2]> = FxHashMap::default();
+            let mut sides: FxHashMap<BorderEnds, [usize; 2]> = FxHashMap::default();
             for piece in pieces {
                 for ends in edges(&piece.ring) {
                     if found.between.contains_key(&border(ends)) {
@@ -122,7 +122,7 @@ impl Corners<'_> {
     }
 
     /// Lets one corner of each pair stand for both; whether any does.
-    fn merge(&self, pieces: &mut [Piece], pairs: &[[usize; 2]]) -> bool {
+    fn merge(&self, pieces: &mut [FacePiece], pairs: &[[usize; 2]]) -> bool {
         let fixed: FxHashSet<usize> = pieces
             .iter()
             .filter(|piece| piece.is_fixed)
@@ -159,8 +159,11 @@ impl Corners<'_> {
 }
 
 /// The simple pieces that pieces fall into, with more corners `between` those of some borders.
-fn divided(pieces: &[Piece], between: &FxHashMap<Border, SmallVec<[(f64, usize); 2]>>) -> Vec<Piece> {
-    let parts = |piece: &Piece| {
+fn divided(
+    pieces: &[FacePiece],
+    between: &FxHashMap<BorderEnds, SmallVec<[(f64, usize); 2]>>,
+) -> Vec<FacePiece> {
+    let parts = |piece: &FacePiece| {
         let mut ring = Vec::with_capacity(piece.ring.len() + 2);
         for ends in edges(&piece.ring) {
             ring.push(ends[0]);
@@ -171,8 +174,8 @@ fn divided(pieces: &[Piece], between: &FxHashMap<Border, SmallVec<[(f64, usize);
                 ring.extend(more.rev());
             }
         }
-        let piece = Piece { ring: Vec::new(), ..*piece };
-        simple(&ring).into_iter().map(move |ring| Piece { ring, ..piece })
+        let piece = FacePiece { ring: Vec::new(), ..*piece };
+        simple(&ring).into_iter().map(move |ring| FacePiece { ring, ..piece })
     };
     pieces.iter().flat_map(parts).collect()
 }

@@ -47,14 +47,14 @@ pub struct ModuleMessage {
     /// Its symbol.
     pub symbol: String,
     /// Its parameters.
-    pub params: Vec<Named>,
+    pub params: Vec<NamedValue>,
     /// Its place in the chain, brackets counted.
     pub index: usize,
 }
 
 /// A parameter of a module.
 #[derive(Debug, Clone, Serialize)]
-pub struct Named {
+pub struct NamedValue {
     /// Its name.
     pub name: String,
     /// Its value as text.

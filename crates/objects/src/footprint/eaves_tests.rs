@@ -1,12 +1,19 @@
 //! Tests of what a roof knows of its surroundings: storeys that stand out, neighbours, and what walls are made of.
 
+use super::object::{FootprintOptions, Height};
 use super::*;
+use crate::MaterialOptions;
 use crate::facade;
-use burgeon_kit::Key;
+use burgeon_geometry::Rings;
+use burgeon_kit::Parameter;
+use burgeon_kit::TableKey;
 use burgeon_kit::random::Stream;
+use burgeon_kit::{Kind, Object, Table, Value};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 fn table(entries: &[(&str, Value)]) -> Table {
-    let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+    let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
     Table { class: None, entries: entries.collect() }
 }
 
@@ -106,12 +113,13 @@ fn a_gable_goes_on_as_the_wall_below_it_unless_it_is_given_a_material() {
         found.expect("a gable")
     };
     let expected =
-        Surface::from_value(material("#a03020")).expect("a colour").material().expect("a material");
+        MaterialOptions::from_value(material("#a03020")).expect("a colour").material().expect("a material");
     for walls in [&red[..], &plain[..], &photo[..]] {
         assert_eq!(color(walls, &[]), expected.base_color);
     }
     assert_eq!(color(&bare, &[]), grey.0);
-    let own = Surface::from_value(material("#102030")).expect("a colour").material().expect("a material");
+    let own =
+        MaterialOptions::from_value(material("#102030")).expect("a colour").material().expect("a material");
     assert_eq!(color(&red, &[("gable", material("#102030"))]), own.base_color);
 }
 
