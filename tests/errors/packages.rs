@@ -340,7 +340,7 @@ fn two_packages_that_replace_the_same_are_warned_of() {
                 &format!("mods/{name}/mod.toml"),
                 about(name, "[depends]\ncastle = \"1\"\n[replaces]\n\"@castle/towers.lua\" = \"towers.lua\""),
             )
-            .with(&format!("mods/{name}/towers.lua"), &format!("return {{ height = 1, name = \"{name}\" }}"))
+            .with(&format!("mods/{name}/towers.lua"), format!("return {{ height = 1, name = \"{name}\" }}"))
     };
     let folder = replacing(replacing(castle(""), "snow"), "ruins");
     assert!(prints(&folder, &[]).contains("1\tsnow"));

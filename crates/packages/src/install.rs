@@ -244,7 +244,7 @@ fn parts<'a>(from: &Path, name: &'a str) -> Result<Vec<&'a str>> {
             || part.chars().any(char::is_control)
             || is_device(part)
     };
-    if parts.iter().any(|part| is_odd(part)) {
+    if parts.iter().any(is_odd) {
         return refuse("whose name not every system can have");
     }
     Ok(parts)

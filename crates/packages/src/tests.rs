@@ -281,6 +281,7 @@ fn a_mod_toml_is_refused_with_its_line() {
     .to_vec();
     insta::assert_snapshot!(said.join("\n"), @r#"
     mod.toml:1: name must be a text in quotes, not a number
+      help: write name = "..."
     mod.toml:1: this is not TOML: invalid basic string, expected `"`
       help: write name = "castle", one field a line
     mod.toml:2: this is not TOML: duplicate key
@@ -322,6 +323,7 @@ fn a_mod_toml_is_refused_with_its_line() {
     mod.toml:5: params: height must be a table, not a number
       help: write [params.castle] and below it height = 12
     mod.toml:5: params: masonry: height must be a number, a switch or a text, not a list
+      help: write [params.castle] and below it height = 12
     "#);
 }
 
