@@ -10,6 +10,7 @@ mod completions;
 mod fit;
 #[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
+mod mods;
 mod new;
 mod progress;
 mod report;

@@ -16,6 +16,7 @@ mod foreign;
 mod limits;
 mod neighbors;
 mod outputs;
+mod packages;
 mod params;
 mod patterns;
 mod places;

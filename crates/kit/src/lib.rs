@@ -38,7 +38,9 @@ pub use color::Color;
 pub use drawing::Drawing;
 pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};
-pub use kind::{Argument, Call, Construct, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
+pub use kind::{
+    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
+};
 pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
 pub use model::Model;

@@ -44,7 +44,8 @@ impl SourceHandle {
     }
 
     fn load(machine: &Machine, text: &str, wanted: SourceOptions) -> Result<Self> {
-        let layer = machine.session.data.load(&machine.session, text, wanted)?;
+        let asker = Machine::asker(machine.lua(), &machine.session);
+        let layer = machine.session.data.load(&machine.session, asker, text, wanted)?;
         layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
         Ok(Self::Layer(layer))
     }
