@@ -48,6 +48,26 @@ pub struct Kind {
     pub prefetch: Option<BeginPrefetch>,
     /// What a script declared of it, if it comes from one.
     pub script: Option<Arc<ScriptType>>,
+    /// Which of its names will go, and what is used instead.
+    pub deprecated: Vec<Deprecation>,
+}
+
+/// A name that still does what it did, but will go.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Deprecation {
+    /// A field or a method; empty for the type itself.
+    pub name: Text,
+    /// The version of the script API from which on something else is to be used.
+    pub since: Text,
+    /// What is to be used.
+    pub instead: Text,
+}
+
+impl Deprecation {
+    /// What people are told of `name`, as they write it.
+    pub fn message(&self, name: &str) -> String {
+        format!("{name} is deprecated since version {} of the script API", self.since)
+    }
 }
 
 /// Makes an object of the constructor's table.
@@ -172,6 +192,7 @@ impl Kind {
             gather: None,
             prefetch: None,
             script: None,
+            deprecated: Vec::new(),
         }
     }
 
@@ -190,6 +211,24 @@ impl Kind {
     ) -> Self {
         let make = move |table: &Table| make(table).map(|made| Box::new(made) as Box<dyn Object>);
         Self { fields, construct: Construct::Fields(Arc::new(make)), ..self }
+    }
+
+    /// Will do without `name`, a field or a method, or empty for the type itself: scripts that use it are told that
+    /// since this version of the script API they should use `instead`.
+    #[must_use]
+    pub fn deprecates(
+        mut self,
+        name: impl Into<Text>,
+        since: impl Into<Text>,
+        instead: impl Into<Text>,
+    ) -> Self {
+        self.deprecated.push(Deprecation { name: name.into(), since: since.into(), instead: instead.into() });
+        self
+    }
+
+    /// That the field or the method `name` is deprecated, if it is.
+    pub fn deprecation(&self, name: &str) -> Option<&Deprecation> {
+        self.deprecated.iter().find(|known| known.name == name)
     }
 
     /// The field `first` may be given before the table.

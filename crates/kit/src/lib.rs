@@ -41,7 +41,9 @@ pub use color::Color;
 pub use drawing::Drawing;
 pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};
-pub use kind::{Argument, Call, Construct, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
+pub use kind::{
+    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
+};
 pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
 pub use model::Model;
@@ -60,4 +62,4 @@ pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
-pub use burgeon_macros::{fields, methods};
+pub use burgeon_macros::{Draw, fields, methods};

@@ -45,16 +45,7 @@ impl ScriptObject {
         base: Option<Box<dyn Object>>,
         fields: Arc<Table>,
     ) -> Self {
-        let of_base = base.as_deref().and_then(|base| Some(base.kind().draw.as_ref()?.of(base)?.origin()));
-        let held = of.held.iter().map(|(_, object)| {
-            let mut held = object.boxed();
-            let draw = held.kind().draw;
-            if let (Some(origin), Some(draw)) = (of_base, draw.and_then(|draw| draw.of_mut(&mut *held))) {
-                draw.set_origin(origin);
-            }
-            held
-        });
-        let held = held.collect();
+        let held = of.held.iter().map(|(_, object)| object.boxed()).collect();
         let state = Arc::clone(&of.state);
         Self {
             kind,

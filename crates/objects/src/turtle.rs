@@ -52,7 +52,7 @@ pub struct TurtleOptions {
 }
 
 /// A turtle as in *The Algorithmic Beauty of Plants*, which draws round branches in three dimensions.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
 pub struct Turtle {
     options: TurtleOptions,
     state: TurtleState,
@@ -176,7 +176,7 @@ impl Turtle {
     /// Goes to a place (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
         self.lift();
-        self.state.frame.position = position.0 - self.options.position.0;
+        self.state.frame.position = position.0 - self.drawing.origin();
     }
 
     /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
@@ -268,7 +268,7 @@ impl Turtle {
 
     /// Its place (m).
     pub fn position(&self) -> DVec3 {
-        self.options.position.0 + self.state.frame.position
+        self.drawing.origin() + self.state.frame.position
     }
 
     /// The direction in which it looks.
@@ -288,7 +288,7 @@ impl Turtle {
 
     /// Distance (m) from a place to the nearest point of what it has drawn.
     pub fn distance(&self, place: Vector) -> f64 {
-        self.drawing.distance(place.0 - self.options.position.0)
+        self.drawing.distance(place.0 - self.drawing.origin())
     }
 }
 
@@ -333,7 +333,7 @@ impl Turtle {
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::argument("turtle: heading has no length"));
         }
-        let mut drawing = Drawing::default();
+        let mut drawing = Drawing::at(options.position.0);
         let state = TurtleState::begin(&options, &mut drawing);
         Ok(Self {
             options,
@@ -466,23 +466,5 @@ impl Object for Turtle {
             .help("end it with EndPolygon()"));
         }
         Ok(())
-    }
-}
-
-impl Draw for Turtle {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.options.position.0
-    }
-
-    fn set_origin(&mut self, origin: DVec3) {
-        self.options.position.0 = origin;
     }
 }

@@ -13,14 +13,14 @@ use super::require::require;
 use super::script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::{Machine, compile, native};
-use crate::declare::Param;
-use crate::declare::Print;
 use crate::declare::analysis::Globals;
 use crate::declare::names::LOCKED;
+use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
 use burgeon_kit::{Construct, Kind};
+use burgeon_packages::FileName;
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
@@ -70,11 +70,15 @@ pub(crate) struct Library {
 impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
-        let shapes = self.machine().map(|machine| Arc::clone(&machine.session.shapes)).unwrap_or_default();
+        let session = self.machine().map(|machine| Arc::clone(&machine.session));
+        let (shapes, deprecated) = session
+            .map(|session| (Arc::clone(&session.shapes), Arc::clone(session.deprecated_names())))
+            .unwrap_or_default();
         Globals {
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),
+            deprecated,
             shapes,
         }
     }
@@ -294,12 +298,14 @@ impl Library {
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
+                let place = Machine::place(lua);
+                session.redefault(&mut param, place.as_ref()).map_err(mlua::Error::external)?;
                 match param.given(&session.options.set, session.options.preset.as_ref()) {
                     Ok(value) => param.value = value,
                     Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
                 }
                 let value = param.value.to_value();
-                library.add_param(param, Machine::place(lua)).map_err(mlua::Error::external)?;
+                library.add_param(param, place).map_err(mlua::Error::external)?;
                 to_lua(lua, &value, false)
             })?,
         )?;
@@ -357,16 +363,35 @@ impl Library {
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
             "require",
-            lua.create_function(move |_, name: LuaValue| {
+            lua.create_function(move |lua, name: LuaValue| {
                 let name = match name {
                     LuaValue::String(name) => name.to_string_lossy(),
                     _ => String::new(),
                 };
                 let required =
-                    library.at_top_level("require").and_then(|()| require(&library, &session, &name));
+                    library.at_top_level("require").and_then(|()| require(&library, &session, lua, &name));
                 required.map_err(mlua::Error::external)
             })?,
-        )
+        )?;
+        let api = lua.create_table()?;
+        api.raw_set("version", API_VERSION)?;
+        let session = Arc::clone(&machine.session);
+        api.raw_set(
+            "has",
+            lua.create_function(move |_, name: LuaValue| {
+                let LuaValue::String(name) = name else {
+                    return Err(mlua::Error::external(
+                        Error::argument("api.has takes a name").help("write api.has(\"extruder.bend\")"),
+                    ));
+                };
+                let name = name.to_string_lossy();
+                Ok(match FileName::parse(&name) {
+                    Ok(file) if file.path.is_empty() => session.has_package(&file.package),
+                    _ => has_name(&name, &session.options.registry),
+                })
+            })?,
+        )?;
+        globals.raw_set("api", api)
     }
 }
 

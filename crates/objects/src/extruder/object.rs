@@ -58,7 +58,7 @@ const CREASE: f64 = 40.0;
 ///
 /// Segments that continue one another exactly make one solid; a jump in place, direction, scale or section
 /// closes it and begins another.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
 pub struct Extruder {
     options: ExtruderOptions,
     first_section: Arc<Section>,
@@ -181,7 +181,7 @@ impl Extruder {
 
     /// Goes to a place (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
-        self.state.frame.position = position.0 - self.options.position.0;
+        self.state.frame.position = position.0 - self.drawing.origin();
     }
 
     /// Turns the direction to the left by `angle` (degrees).
@@ -224,7 +224,7 @@ impl Extruder {
 
     /// Its place (m).
     pub fn position(&self) -> DVec3 {
-        self.options.position.0 + self.state.frame.position
+        self.drawing.origin() + self.state.frame.position
     }
 
     /// The direction of extruding.
@@ -234,7 +234,7 @@ impl Extruder {
 
     /// Distance (m) from a place to the nearest point of what it has drawn.
     pub fn distance(&self, place: Vector) -> f64 {
-        self.drawing.distance(place.0 - self.options.position.0)
+        self.drawing.distance(place.0 - self.drawing.origin())
     }
 
     /// The number of edges left open by missing caps and open sections.
@@ -296,13 +296,14 @@ impl Extruder {
         };
         let section = Arc::new(section);
         let state = ExtruderState::begin(&options, &section);
+        let drawing = Drawing::at(options.position.0);
         Ok(Self {
             options,
             first_section: section,
             state,
             stack: Vec::new(),
             known: Vec::new(),
-            drawing: Drawing::default(),
+            drawing,
             open_edges: 0,
             warnings: Vec::new(),
         })
@@ -451,23 +452,5 @@ impl Object for Extruder {
 
     fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
-    }
-}
-
-impl Draw for Extruder {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.options.position.0
-    }
-
-    fn set_origin(&mut self, origin: DVec3) {
-        self.options.position.0 = origin;
     }
 }

@@ -4,9 +4,25 @@ use super::{Name, NameKind, NameMember};
 
 /// All of them.
 pub(super) static NAMES: &[&Name] = &[
-    &EXTEND, &LOD, &LSYSTEM, &MODULE, &OBJECT, &PARAM, &RANDOM, &REQUIRE, &SOURCE, &DERIVED, &FEATURE,
+    &API, &EXTEND, &LOD, &LSYSTEM, &MODULE, &OBJECT, &PARAM, &RANDOM, &REQUIRE, &SOURCE, &DERIVED, &FEATURE,
     &GEOMETRY, &LAYER, &RULE, &SYSTEM,
 ];
+
+static API: Name = Name::new(
+    "api",
+    NameKind::Global,
+    "{ version: string, has: (name: string) -> boolean }",
+    "What scripts can rely on: the version of these names, and whether a name is among them.",
+)
+.parts(&[
+    NameMember::new("version", "string", "The version of the script API, such as \"1.0.0\"."),
+    NameMember::new(
+        "has",
+        "(name: string) -> boolean",
+        "Whether there is such a name, such as \"terrain\" or \"extruder.bend\", or such a package, as \"@castle\".",
+    ),
+])
+.pure();
 
 static MODULE: Name = Name::new(
     "module",
@@ -28,7 +44,7 @@ static REQUIRE: Name = Name::new(
     "require",
     NameKind::Global,
     "(name: string) -> any",
-    "What another file of the script returns; each is run once.",
+    "What another file of the script returns, or of a package: require(\"@castle/towers\"). Each is run once.",
 );
 
 static LOD: Name = Name::new(

@@ -11,4 +11,4 @@ mod standard;
 pub(crate) use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM};
 pub(crate) use luau::LOCKED;
 pub use name::{Name, NameKind, NameMember, names};
-pub(crate) use name::{is_pure_function, is_pure_library};
+pub(crate) use name::{deprecated_names, is_pure_function, is_pure_library};

@@ -1,6 +1,9 @@
 //! What stands in the list: a name, its type, what it takes and what it gives.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
+
+use burgeon_kit::{Deprecation, Registry};
 
 use super::{burgeon, luau, standard};
 
@@ -23,6 +26,8 @@ pub struct Name {
     /// Whether calling it leaves nothing behind but which random numbers are drawn, and calls no function that it is given;
     /// of a library, whether all its functions are such.
     pub(crate) pure: bool,
+    /// That it will go, and what is used instead.
+    pub deprecated: Option<Deprecation>,
 }
 
 /// What a name is.
@@ -68,7 +73,7 @@ impl Name {
         doc: &'static str,
     ) -> Self {
         let (name, luau, doc) = (Cow::Borrowed(name), Cow::Borrowed(luau), Cow::Borrowed(doc));
-        Self { name, sort, luau, doc, parts: &[], pure: false }
+        Self { name, sort, luau, doc, parts: &[], pure: false, deprecated: None }
     }
 
     pub(super) const fn pure(mut self) -> Self {
@@ -111,6 +116,14 @@ impl NameMember {
 pub fn names() -> Vec<Name> {
     let own = burgeon::NAMES.iter().chain(luau::NAMES).map(|name| (*name).clone());
     own.chain(standard::names()).collect()
+}
+
+/// Which names, and constructors of the types in `registry`, will go.
+pub(crate) fn deprecated_names(registry: &Registry) -> BTreeMap<String, Deprecation> {
+    let own = burgeon::NAMES.iter().chain(luau::NAMES);
+    let own = own.filter_map(|name| Some((name.name.to_string(), name.deprecated.clone()?)));
+    let kinds = registry.kinds();
+    own.chain(kinds.filter_map(|kind| Some((kind.name.to_string(), kind.deprecation("")?.clone())))).collect()
 }
 
 /// Whether a function that every script has is pure.
