@@ -8,10 +8,10 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
-mod boxed;
 mod capability;
 mod color;
 mod colors;
+mod column_value;
 mod distance;
 mod drawing;
 mod features;
@@ -35,9 +35,9 @@ mod script_type;
 mod seed;
 mod value;
 
-pub use boxed::ColumnValue;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
+pub use column_value::ColumnValue;
 pub use drawing::Drawing;
 pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};

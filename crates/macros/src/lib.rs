@@ -3,7 +3,7 @@
 //! Comes in: an `impl` block or a struct, as anyone would write it. Goes out: the same, and what the contract of
 //! objects, the crate `burgeon_kit`, needs to know of it. They never read a file, and keep nothing.
 
-mod declared;
+mod attribute;
 mod doc;
 mod draw;
 mod fields;
@@ -88,7 +88,7 @@ use proc_macro::TokenStream;
 /// ```
 #[proc_macro_attribute]
 pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    declared::expand(arguments.into(), item.into(), methods::expand).into()
+    attribute::expand(arguments.into(), item.into(), methods::expand).into()
 }
 
 /// Declares the table that a constructor or a method takes: a struct with documented, defaulted fields.
@@ -130,7 +130,7 @@ pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// ```
 #[proc_macro_attribute]
 pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    declared::expand(arguments.into(), item.into(), fields::expand).into()
+    attribute::expand(arguments.into(), item.into(), fields::expand).into()
 }
 
 /// Says where an object has its drawing: `Draw` for a struct with one field of type `Drawing`.
