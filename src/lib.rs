@@ -18,18 +18,19 @@
 //! macros     uses ──► nothing
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
-//! data       uses ──► base
+//! data       uses ──► base, geometry
 //! kit        uses ──► base, data, geometry, macros, scene
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
-//! engine     uses ──► base, data, kit, language, scene
+//! packages   uses ──► base
+//! engine     uses ──► base, data, kit, language, packages, scene
 //! export     uses ──► base, data, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, export, kit, scene
 //! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, presets, scene, terrain, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, scene, terrain, variations, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
@@ -52,6 +53,7 @@
 //!   rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`packages`]: folders of scripts, models and textures that other scripts use, and the order that they come in.
 //! - [`watch`]: tells when the files of a script have changed.
 //! - [`presets`]: values of parameters under names, in a file beside the script.
 //! - [`variations`]: many runs of a script, as thumbnails to choose from.
@@ -96,7 +98,7 @@ pub use burgeon_base::{
     Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, text, warning,
 };
 pub use burgeon_data as sources;
-pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, run, run_session};
+pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, check_package, run, run_session};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
 pub use burgeon_export::picture;
@@ -106,6 +108,7 @@ pub use burgeon_language as language;
 #[cfg(feature = "live")]
 pub use burgeon_live as live;
 pub use burgeon_objects as objects;
+pub use burgeon_packages as packages;
 pub use burgeon_presets as presets;
 pub use burgeon_scene as scene;
 pub use burgeon_terrain as terrain;

@@ -3,7 +3,7 @@
 use std::io::{ErrorKind, Write as _};
 use std::process::ExitCode;
 
-use super::{api, check, completions, fit, live, new, report, run, sources, variations};
+use super::{api, check, completions, fit, live, mods, new, report, run, sources, variations};
 use burgeon::Error;
 use clap::{Parser, Subcommand};
 
@@ -27,6 +27,7 @@ enum Command {
     Api(api::ApiCommand),
     Variations(Box<variations::VariationsCommand>),
     Fit(fit::FitCommand),
+    Mods(mods::ModsCommand),
     New(new::NewCommand),
     Sources(sources::SourcesCommand),
     Completions(completions::CompletionsCommand),
@@ -45,6 +46,7 @@ pub(crate) fn main() -> ExitCode {
         Command::Check(command) => (command.json(), command.run()),
         Command::Variations(command) => (command.json(), command.run()),
         Command::Fit(command) => (command.json(), command.run()),
+        Command::Mods(command) => (command.json(), command.run()),
         Command::New(command) => (command.json(), command.run()),
         Command::Sources(command) => (command.json(), command.run()),
         Command::Completions(command) => (false, command.run()),

@@ -10,6 +10,7 @@ mod completions;
 mod fit;
 #[cfg_attr(not(feature = "live"), path = "absent.rs")]
 mod live;
+mod mods;
 mod new;
 mod progress;
 mod report;
@@ -18,5 +19,4 @@ mod shared;
 mod sources;
 mod variations;
 
-use command_line::Cli;
 pub(crate) use command_line::main;

@@ -124,6 +124,15 @@ fn a_change_of_the_object_in_a_rule_is_found() {
 }
 
 #[test]
+fn what_scripts_add_to_types_is_known() {
+    let script = "local lantern = object(\"lantern\", { extends = extruder, fields = { height = { default = 4 } } })\n\
+                  extend(footprint, { reads = { wide = function(self) return self:area() > 9 end } })\n\
+                  lsystem({ object = footprint }):rule(\"F\", function(this) print(this:wide()) return nil end)\n\
+                  lsystem({ object = lantern({ height = 5 }) }):interpret(\"F\", function(this) this:glow(1, 2) end)\n";
+    Folder::new().with("s.lua", script).burgeon(&["check", "s.lua"]).done();
+}
+
+#[test]
 fn nothing_is_found_in_scripts_that_run() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let mut count = 0;

@@ -56,6 +56,12 @@ pub enum WarningKind {
     Data,
     /// Something that is done as asked, though hardly as meant.
     Doubtful,
+    /// A name that will go, for there is a better one.
+    Deprecated,
+    /// A package that is not used, for another of its name comes first.
+    HiddenPackage,
+    /// Something of a package that two others replace.
+    ReplacedTwice,
 }
 
 impl WarningKind {
@@ -82,6 +88,9 @@ impl WarningKind {
             Self::NoEffect => "warning.no-effect",
             Self::Data => "warning.data",
             Self::Doubtful => "warning.doubtful",
+            Self::Deprecated => "warning.deprecated",
+            Self::HiddenPackage => "warning.hidden-package",
+            Self::ReplacedTwice => "warning.replaced-twice",
         }
     }
 }

@@ -13,9 +13,10 @@ pub mod trace;
 /// What a run is told, what its script declares, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
-        Control, Limits, Param, Preset, Print, RunOptions, RunProgress, Session, Setting, TraceRequest,
+        API_VERSION, Control, Limits, Param, Preset, Print, RunOptions, RunProgress, Session, Setting,
+        TraceRequest, api_version,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
 }
 
-pub use run::{Run, RunTimes, ScriptCheck, check, run_session};
+pub use run::{Run, RunTimes, ScriptCheck, check, check_package, run_session};

@@ -1,8 +1,8 @@
 //! One run of a script, from the file to the scene.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::declare::{Param, RunOptions, Session};
@@ -13,6 +13,7 @@ use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::ReferenceFrame;
+use burgeon_packages::MANIFEST;
 use burgeon_scene::Scene;
 
 /// What a run of a script gave.
@@ -144,9 +145,39 @@ fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<DerivedSystem>]) -
 /// run would end with are among them if it is to be strict.
 pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
     let session = Session::new(path, RunOptions { check: true, ..options })?;
+    checked(&session, Machine::run)
+}
+
+/// The same of all Lua files of the package in `folder`, and of the files that they name.
+pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> {
+    let session = Session::new(&folder.join(MANIFEST), RunOptions { check: true, ..options })?;
+    let packages = session.packages();
+    let package = packages.order().iter().find(|package| package.folder == session.root());
+    let Some(package) = package else {
+        // It is hidden by another one, or there is a problem that tells why.
+        let shown = folder.display();
+        let problems = packages.problems.clone();
+        return Err(if problems.is_empty() {
+            Error::not_found("package", &shown, [], format!("{shown} is no package that is used"))
+                .help("burgeon mods lists those that are")
+        } else {
+            Error::several(problems)
+        });
+    };
+    checked(&session, |machine| machine.run_package(package))
+}
+
+/// What comes of `run` in a session whose options say to check only.
+fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> Result<ScriptCheck> {
     let mut found = Vec::new();
-    let ran = declare_with(&session, &mut found);
+    let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
+    // What a script adds to a type is known once it has run; whoever read the calls did not know it.
+    let added = session.extensions.lock().unwrap_or_else(PoisonError::into_inner);
+    problems.retain(|known| {
+        !matches!(known.kind(), ErrorKind::NotFound { what: "method", name, .. } if added.contains(name))
+    });
+    drop(added);
     problems.retain(|known| !found.iter().any(|found| is_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {
@@ -160,7 +191,7 @@ pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
             }
         }
     }
-    if let Err(error) = refuse_unknown(&session, &session.params()) {
+    if let Err(error) = refuse_unknown(session, &session.params()) {
         problems.push(error);
     }
     let warnings = session.warnings();
@@ -185,6 +216,10 @@ fn is_same(one: &Error, other: &Error) -> bool {
 
 /// A machine for a session's script, which is read in the meantime.
 fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
+    let problems = &session.packages().problems;
+    if !problems.is_empty() {
+        return Err(Error::several(problems.clone()));
+    }
     session.read_ahead();
     let watchdog = Arc::new(Watchdog::new(session));
     let threads = Rc::new(ThreadPool::leading(&watchdog));
@@ -203,13 +238,17 @@ pub(crate) fn run_traced(session: &Arc<Session>) -> Result<Option<Trace>> {
 
 /// Runs the script of a session whose options say to check only, for the sake of its parameters.
 pub fn declare(session: &Arc<Session>) -> Result<()> {
-    declare_with(session, &mut Vec::new())
+    declare_with(session, &mut Vec::new(), Machine::run)
 }
 
-/// The same, with the `problems` of its rules.
-fn declare_with(session: &Arc<Session>, problems: &mut Vec<Error>) -> Result<()> {
+/// The same with `run` in place of the script, and with the `problems` of its rules.
+fn declare_with(
+    session: &Arc<Session>,
+    problems: &mut Vec<Error>,
+    run: impl FnOnce(&Machine) -> Result<()>,
+) -> Result<()> {
     let (machine, _threads) = leading_machine(session)?;
-    let ran = machine.run();
+    let ran = run(&machine);
     problems.extend(machine.library.problems.borrow_mut().drain(..));
     ran
 }
@@ -257,29 +296,38 @@ fn left_out(system: &DerivedSystem) -> Option<Warning> {
     Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
 }
 
-/// Turns the textures' names into files within the script's folder.
+/// Turns the textures' names into files within the script's folder, or those of packages.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
     for texture in textures.filter(|texture| texture.content.is_none()) {
         let shown = texture.path.display().to_string();
+        if let Some(found) = session.package_file("texture", &shown, None) {
+            texture.path = readable(found?, &shown)?;
+            continue;
+        }
         let path = session.root().join(&texture.path);
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         let path = found.map_err(|_| {
-            Error::not_found("texture", &shown, [], format!("there is no texture {shown}"))
-                .help("textures are files beside the script")
+            let error = Error::not_found("texture", &shown, [], format!("there is no texture {shown}"));
+            session.propose_packages(&shown, error).help("textures are files beside the script")
         })?;
         if !path.starts_with(session.root()) {
             return Err(Error::file(&path, format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
-        burgeon_base::files::open(&path).map_err(|error| {
-            Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
-                .help("textures are PNG or JPEG files beside the script")
-        })?;
-        texture.path = path;
+        texture.path = readable(path, &shown)?;
     }
     Ok(())
+}
+
+/// A texture's path, if it leads to a file.
+fn readable(path: PathBuf, shown: &str) -> Result<PathBuf> {
+    burgeon_base::files::open(&path).map_err(|error| {
+        Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
+            .help("textures are PNG or JPEG files beside the script")
+    })?;
+    Ok(path)
 }
 
 #[cfg(test)]

@@ -8,10 +8,10 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
-mod boxed;
 mod capability;
 mod color;
 mod colors;
+mod column_value;
 mod distance;
 mod drawing;
 mod features;
@@ -29,16 +29,21 @@ pub mod random;
 mod registry;
 mod rewriter;
 pub mod rules;
+mod script_field;
+mod script_object;
+mod script_type;
 mod seed;
 mod value;
 
-pub use boxed::ColumnValue;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
+pub use column_value::ColumnValue;
 pub use drawing::Drawing;
 pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};
-pub use kind::{Argument, Call, Construct, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers};
+pub use kind::{
+    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
+};
 pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
 pub use model::Model;
@@ -49,9 +54,12 @@ pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
+pub use script_field::ScriptField;
+pub use script_object::ScriptObject;
+pub use script_type::ScriptType;
 pub use seed::Seed;
 pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
-pub use burgeon_macros::{fields, methods};
+pub use burgeon_macros::{Draw, fields, methods};

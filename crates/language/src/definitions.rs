@@ -63,7 +63,9 @@ pub fn definitions(registry: &Registry) -> Definitions {
     let mut luau = String::from(
         "-- What Burgeon's scripts can use, for luau-lsp with Luau's new type solver. Written by: burgeon api --luau\n\n\
          -- A module, as the functions that module gives make it.\nexport type Module = any\n\n\
-         declare class Object end\n\n",
+         declare class Object end\n\n\
+         -- An object of a type that a script declares: what it has is known to that script alone.\n\
+         declare class ScriptObject extends Object\n  [string]: any\nend\n\n",
     );
     for (alias, stands_for) in &writer.aliases {
         let _ = writeln!(luau, "export type {alias} = {stands_for}\n");
@@ -271,6 +273,9 @@ impl Writer {
         self.doc(out, &format!("global/{}", name.name), &name.doc, "");
         let _ = writeln!(out, "declare {}:", name.name);
         let _ = writeln!(out, "  (<T>(options: {{ read object: T & Object }}) -> System<T>)");
+        out.push_str(
+            "  & ((options: { read object: (fields: any?) -> ScriptObject }) -> System<ScriptObject>)\n",
+        );
         // Those that neither draw nor divide anything are of no use to a system.
         let of_use = |kind: &&std::sync::Arc<Kind>| kind.show.is_some() || kind.expand.is_some();
         for kind in registry.kinds().filter(of_use) {
@@ -307,6 +312,11 @@ impl Writer {
             );
         } else if !name.functions.is_empty() {
             let _ = writeln!(out, "declare {}: {{", name.name);
+            for field in &name.fields {
+                let luau = self.got(&field.luau);
+                self.doc(out, &format!("global/{}.{}", name.name, field.name), &field.doc, "  ");
+                let _ = writeln!(out, "  read {}: {luau},", field.name);
+            }
             for function in &name.functions {
                 self.doc(out, &format!("global/{}.{}", name.name, function.name), &function.doc, "  ");
                 let form = merged(&function.forms);
@@ -317,8 +327,13 @@ impl Writer {
             }
             out.push_str("}\n\n");
         } else if let [form] = &name.forms[..] {
+            self.options = format!("{}Options", capital(&name.name));
             let arguments = self.arguments(&form.arguments, false);
-            let returns = self.got(&form.returns);
+            // What makes objects of a type that a script declares.
+            let returns = match &*form.returns {
+                "(fields: { ... }?) -> any" => "(fields: any?) -> ScriptObject".to_owned(),
+                returns => self.got(returns),
+            };
             let returns = if returns.contains("->") { format!("({returns})") } else { returns };
             let _ = writeln!(out, "declare function {}({arguments}): {returns}\n", name.name);
         } else if name.forms.is_empty() {

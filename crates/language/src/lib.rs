@@ -13,6 +13,6 @@ pub use definitions::{Definitions, definitions, module_form};
 pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{
-    DERIVED, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, PARAM, RULE, SOURCE, SYSTEM, VECTOR,
-    is_pure_function, is_pure_method, library_effect, names,
+    DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, OBJECT, PARAM, RULE, SOURCE, SYSTEM,
+    VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
 };

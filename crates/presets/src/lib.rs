@@ -49,8 +49,12 @@ impl Presets {
 
     /// The presets of `script`; none if there is no file. Fails, with the line, on a file that cannot be understood.
     pub fn read(script: &Path) -> Result<Self> {
-        let path = Self::path_of(script);
-        settled(&path, || Self::read_once(&path))
+        Self::read_file(&Self::path_of(script))
+    }
+
+    /// The presets in the file at `path`; none if there is no file. Fails as [`read`](Self::read) does.
+    pub fn read_file(path: &Path) -> Result<Self> {
+        settled(path, || Self::read_once(path))
     }
 
     fn read_once(path: &Path) -> Result<Self> {

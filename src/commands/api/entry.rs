@@ -1,6 +1,6 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Call, Construct, Field, Kind, Method, Registry};
+use burgeon::kit::{Construct, Field, Kind, Method, Registry};
 use burgeon::language::{CallForm, Name, NameKind, module_form};
 use serde_json::{Value, json};
 
@@ -171,7 +171,7 @@ impl Member {
         let form = CallForm { arguments: method.arguments.clone(), returns: method.returns.clone() };
         Self {
             name: method.name.to_string(),
-            what: if matches!(method.call, Call::Read(_)) { MemberKind::Reads } else { MemberKind::Changes },
+            what: if method.call.changes() { MemberKind::Changes } else { MemberKind::Reads },
             luau: String::new(),
             forms: vec![form],
             default: String::new(),

@@ -10,6 +10,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
 use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
+use burgeon_packages::Package;
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
 /// that another would decide otherwise; and what was read once is not read again.
@@ -40,21 +41,22 @@ impl LayerStore {
 }
 
 impl Data {
-    /// The features that `source(text, wanted)` means.
+    /// The features that `source(text, wanted)` means where a file of `asker` says it.
     pub(crate) fn load(
         &self,
         session: &Arc<Session>,
+        asker: Option<&Package>,
         text: &str,
         mut wanted: SourceOptions,
     ) -> Result<Arc<Layer>> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = format!("{text:?} {wanted:?}");
+        let key = format!("{:?} {text:?} {wanted:?}", asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.loaded.get(&key) {
             return loaded.clone();
         }
         wanted.budget = known.budget(session);
         let before = wanted.budget.taken();
-        let loaded = read(session, text, wanted, &mut known);
+        let loaded = read(session, asker, text, wanted, &mut known);
         session.stop.check()?;
         let kept = loaded.as_ref().map_or(0, |layer| layer.size());
         known.budget(session).settle(before, kept);
@@ -64,10 +66,12 @@ impl Data {
 }
 
 impl Data {
-    /// What `loader` makes of the file that a script calls `name`: the same each time. It is for type `kind`.
+    /// What `loader` makes of the file that a script, or a file of the package `asker`, calls `name`: the same each time.
+    /// It is for type `kind`.
     pub(crate) fn object(
         &self,
         session: &Session,
+        asker: Option<&Package>,
         (kind, loader): (&str, &Loader),
         name: &str,
         fields: &Table,
@@ -76,9 +80,10 @@ impl Data {
             return Err(Error::argument(format!("{kind} needs the name of a file"))
                 .help(format!("write {}", loader.example)));
         }
-        let path = find(session, loader.what, name)?;
+        let path = find(session, asker, loader.what, name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = format!("{kind} {} {fields:?}", path.display());
+        let key =
+            format!("{kind} {} {:?} {fields:?}", path.display(), asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.objects.get(&key) {
             return loaded.clone();
         }
@@ -90,7 +95,7 @@ impl Data {
             budget: &budget,
             triangles: session.options.limits.triangles,
             frame: &mut known.frame,
-            resources: session,
+            resources: &FileAccess { session, asker },
         };
         let loaded = (loader.load)(&mut file, fields);
         session.stop.check()?;
@@ -105,18 +110,25 @@ impl Data {
     }
 }
 
-impl Resources for Session {
+/// The files of a run, for the script or for a package.
+struct FileAccess<'a> {
+    session: &'a Session,
+    asker: Option<&'a Package>,
+}
+
+impl Resources for FileAccess<'_> {
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf> {
-        find(self, what, name)
+        find(self.session, self.asker, what, name)
     }
 
     fn cache(&self) -> Option<&Cache> {
-        self.options.cache.as_deref()
+        self.session.options.cache.as_deref()
     }
 }
 
 fn read(
     session: &Session,
+    asker: Option<&Package>,
     text: &str,
     mut wanted: SourceOptions,
     known: &mut LayerStore,
@@ -128,7 +140,7 @@ fn read(
             Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
         );
     }
-    let path = find(session, "data file", name)?;
+    let path = find(session, asker, "data file", name)?;
     let cache = session.options.cache.as_deref();
     let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
     let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
@@ -155,8 +167,11 @@ fn read(
 }
 
 /// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
-/// `--data`.
-fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
+/// `--data`, or in a package's if `name` says so, for the package `asker` if it is one that asks.
+fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &str) -> Result<PathBuf> {
+    if let Some(found) = session.package_file(what, name, asker) {
+        return found;
+    }
     let outside = || {
         Error::file(name, format!("the {what} {name} lies outside the script's folder")).help(
             "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
@@ -196,7 +211,7 @@ fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
         return Err(outside());
     }
     let error = Error::not_found(what, name, near.as_deref(), format!("there is no {what} {name}"));
-    Err(error.help(match session.data_roots().is_empty() {
+    Err(session.propose_packages(name, error).help(match session.data_roots().is_empty() {
         true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
         false => "it is looked for from the script's folder and from those given with --data",
     }))

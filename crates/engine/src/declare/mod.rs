@@ -4,14 +4,19 @@
 //! share, with the parameters, the data and the analysis of every file. It never runs Lua.
 
 pub(crate) mod analysis;
+mod api;
 mod data;
+mod deprecations;
 mod options;
+mod packages;
 mod param;
 pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
 
+pub(crate) use api::has_name;
+pub use api::{API_VERSION, api_version};
 pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;

@@ -86,6 +86,10 @@ pub struct RunOptions {
     pub stop: Option<Arc<Stop>>,
     /// Folders besides the script's whose data files it may read.
     pub data: Vec<PathBuf>,
+    /// Folders besides `mods` beside the script that packages are in, or that are packages.
+    pub mods: Vec<PathBuf>,
+    /// The user's own folder of packages, which need not be there.
+    pub user_mods: Option<PathBuf>,
     /// Layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
     /// The types of objects that scripts can use.
@@ -134,6 +138,8 @@ impl Default for RunOptions {
             print: None,
             stop: None,
             data: Vec::new(),
+            mods: Vec::new(),
+            user_mods: None,
             cache: None,
             registry: Registry::default(),
             stdlib: None,

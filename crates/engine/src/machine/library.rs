@@ -10,16 +10,17 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::convert::{class_key, to_lua};
 use super::kinds::{install_kind, named_fields, no_table};
 use super::require::require;
+use super::script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::{Machine, compile, native};
-use crate::declare::Param;
-use crate::declare::Print;
 use crate::declare::analysis::Globals;
+use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::Construct;
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
+use burgeon_kit::{Construct, Kind};
 use burgeon_language::LOCKED;
+use burgeon_packages::FileName;
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
@@ -54,6 +55,11 @@ pub(crate) struct Library {
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
+    /// The types of objects by the addresses of their constructors.
+    constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
+    /// The types of objects that the script declared, and the functions that it added to others.
+    pub script_types: RefCell<Vec<ScriptTypeEntry>>,
+    pub extensions: RefCell<Vec<ScriptFunction>>,
     /// The constructors of objects, by name.
     kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
@@ -65,7 +71,10 @@ impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
         let session = self.machine().map(|machine| Arc::clone(&machine.session)).ok();
-        let shapes = session.as_ref().map(|session| Arc::clone(&session.shapes)).unwrap_or_default();
+        let (shapes, deprecated) = session
+            .as_ref()
+            .map(|session| (Arc::clone(&session.shapes), Arc::clone(session.deprecated_names())))
+            .unwrap_or_default();
         let held_against = session
             .filter(|session| session.options.check)
             .map(|session| Arc::new(session.options.registry.clone()));
@@ -74,6 +83,7 @@ impl Library {
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),
+            deprecated,
             shapes,
         }
     }
@@ -86,6 +96,16 @@ impl Library {
 
     pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
         *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
+    }
+
+    /// Notes what `constructor` makes.
+    pub(super) fn note_constructor(&self, constructor: &Function, kind: &Arc<Kind>) {
+        self.constructed.borrow_mut().insert(constructor.to_pointer() as usize, Arc::clone(kind));
+    }
+
+    /// The type of what `constructor` makes, if it makes objects.
+    pub(super) fn kind_of(&self, constructor: &Function) -> Option<Arc<Kind>> {
+        self.constructed.borrow().get(&(constructor.to_pointer() as usize)).cloned()
     }
 
     /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
@@ -283,12 +303,14 @@ impl Library {
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
+                let place = Machine::place(lua);
+                session.redefault(&mut param, place.as_ref()).map_err(mlua::Error::external)?;
                 match param.given(&session.options.set, session.options.preset.as_ref()) {
                     Ok(value) => param.value = value,
                     Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
                 }
                 let value = param.value.to_value();
-                library.add_param(param, Machine::place(lua)).map_err(mlua::Error::external)?;
+                library.add_param(param, place).map_err(mlua::Error::external)?;
                 to_lua(lua, &value, false)
             })?,
         )?;
@@ -319,6 +341,22 @@ impl Library {
         )?;
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
+            "object",
+            lua.create_function(move |_, (name, declared): (LuaValue, LuaValue)| {
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                declare_type(&machine, &name, &declared).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "extend",
+            lua.create_function(move |_, (constructor, declared): (LuaValue, LuaValue)| {
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                extend_type(&machine, &constructor, &declared).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
             "source",
             lua.create_function(move |_, (what, options): (LuaValue, LuaValue)| {
                 let made = library
@@ -330,16 +368,35 @@ impl Library {
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
             "require",
-            lua.create_function(move |_, name: LuaValue| {
+            lua.create_function(move |lua, name: LuaValue| {
                 let name = match name {
                     LuaValue::String(name) => name.to_string_lossy(),
                     _ => String::new(),
                 };
                 let required =
-                    library.at_top_level("require").and_then(|()| require(&library, &session, &name));
+                    library.at_top_level("require").and_then(|()| require(&library, &session, lua, &name));
                 required.map_err(mlua::Error::external)
             })?,
-        )
+        )?;
+        let api = lua.create_table()?;
+        api.raw_set("version", API_VERSION)?;
+        let session = Arc::clone(&machine.session);
+        api.raw_set(
+            "has",
+            lua.create_function(move |_, name: LuaValue| {
+                let LuaValue::String(name) = name else {
+                    return Err(mlua::Error::external(
+                        Error::argument("api.has takes a name").help("write api.has(\"extruder.bend\")"),
+                    ));
+                };
+                let name = name.to_string_lossy();
+                Ok(match FileName::parse(&name) {
+                    Ok(file) if file.path.is_empty() => session.has_package(&file.package),
+                    _ => has_name(&name, &session.options.registry),
+                })
+            })?,
+        )?;
+        globals.raw_set("api", api)
     }
 }
 

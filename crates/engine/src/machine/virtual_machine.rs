@@ -14,6 +14,7 @@ use crate::declare::Session;
 use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Symbol, Symbols};
+use burgeon_packages::Package;
 use mlua::chunk::{ChunkMode, Compiler};
 use mlua::{Buffer, Function, Lua, Value};
 
@@ -204,6 +205,14 @@ impl Machine {
             _ => Err(Error::scope(format!("{what} belongs at the top level of the script, not in a rule"))
                 .help("make it before derive, and let the rule use it")),
         }
+    }
+
+    /// The package whose file is being run; none for the script's own.
+    pub(crate) fn asker<'a>(lua: &Lua, session: &'a Session) -> Option<&'a Package> {
+        if session.packages().order().is_empty() {
+            return None;
+        }
+        session.package_of(&Self::place(lua)?.file)
     }
 
     /// The line of the script that is being run, `level` calls up from the Rust function that asks.

@@ -9,7 +9,7 @@ use crate::form::argument;
 
 /// All of them.
 pub(super) fn names() -> Vec<Name> {
-    let shared = [&*PARAM, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &VECTOR];
+    let shared = [&*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &VECTOR];
     let mut names: Vec<Name> = shared.into_iter().cloned().collect();
     names.extend([
         Name::global(
@@ -24,8 +24,20 @@ pub(super) fn names() -> Vec<Name> {
         )
         .form([argument("a", "number?"), argument("b", "number?")], "number")
         .pure(),
-        Name::global("require", "What another file of the script returns; each is run once.")
+        Name::global("require", "What another file of the script returns, or of a package: require(\"@castle/towers\"). Each is run once.")
             .form([argument("name", "string")], "any"),
+        Name::global(
+            "api",
+            "What scripts can rely on: the version of these names, and whether a name is among them.",
+        )
+        .fields([Field::new("version", "string", "The version of the script API, such as \"1.0.0\".")])
+        .functions([Name::function(
+            "has",
+            "Whether there is such a name, such as \"terrain\" or \"extruder.bend\", or such a package, as \"@castle\".",
+        )
+        .form([argument("name", "string")], "boolean")
+        .pure()])
+        .pure(),
         Name::global(
             "lod",
             "The level of detail of the run: 0 ground plans, 1 blocks, 2 roofs, 3 everything.",
@@ -138,6 +150,59 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
         )],
         "System<T>",
     )
+});
+
+/// What a type of object is declared with.
+pub static OBJECT: LazyLock<Name> = LazyLock::new(|| {
+    let functions = "{ [string]: (self: any, ...any) -> any }?";
+    let hook = "((self: any) -> ())?";
+    let fields = [
+        field("doc", "string?", "nil", "What it is; the first line is a summary."),
+        field(
+            "extends",
+            "((...any) -> any)?",
+            "nil",
+            "The constructor of the type whose fields, methods and drawing it has, too.",
+        ),
+        field(
+            "fields",
+            "{ [string]: any }?",
+            "nil",
+            "What its constructor takes, each as { default =, type =, min =, max =, choices =, unit =, doc = }.",
+        ),
+        field(
+            "state",
+            "{ [string]: any }?",
+            "nil",
+            "What its functions may assign, with the values that every pass begins with; objects draw into its drawing.",
+        ),
+        field("reads", functions, "nil", "Functions that rules may call, too."),
+        field(
+            "changes",
+            functions,
+            "nil",
+            "Functions that only interpretations may call; without a result they give the object.",
+        ),
+        field("begin", hook, "nil", "Runs before a chain is interpreted."),
+        field("push", hook, "nil", "Runs where a branch opens."),
+        field("pop", hook, "nil", "Runs where a branch closes."),
+        field("finish", hook, "nil", "Runs after a chain was interpreted."),
+    ];
+    let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
+    Name::global("object", "Declares a type of object, and gives the function that makes objects of it.")
+        .form([argument("name", "string"), declaration], "(fields: { ... }?) -> any")
+});
+
+/// What is added to a type of object.
+pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
+    let functions = "{ [string]: (self: any, ...any) -> any }?";
+    let fields = [
+        field("reads", functions, "nil", "Functions that rules may call, too."),
+        field("changes", functions, "nil", "Functions that only interpretations may call."),
+    ];
+    let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
+    Name::global("extend", "Adds functions to a type of object, for the scripts of this run.")
+        .form([argument("constructor", "(...any) -> any"), declaration], "()")
 });
 
 /// What a system has.

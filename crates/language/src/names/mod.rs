@@ -8,6 +8,8 @@ mod luau;
 mod name;
 mod standard;
 
-pub use burgeon::{DERIVED, LAYER, LSYSTEM, PARAM, RULE, SOURCE, SYSTEM, VECTOR};
+pub use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM, VECTOR};
 pub use luau::LOCKED;
-pub use name::{Effect, Name, NameKind, is_pure_function, is_pure_method, library_effect, names};
+pub use name::{
+    Effect, Name, NameKind, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
+};

@@ -1,9 +1,10 @@
 //! A name that scripts have, what it is and how it is called, and the list of all of them.
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use burgeon_kit::{Argument, Field};
+use burgeon_kit::{Argument, Deprecation, Field, Registry};
 
 use crate::form::CallForm;
 
@@ -33,6 +34,8 @@ pub struct Name {
     pub functions: Vec<Name>,
     /// What is left behind by a call.
     pub effect: Effect,
+    /// That it will go, and what is used instead.
+    pub deprecated: Option<Deprecation>,
 }
 
 /// What a name is.
@@ -71,7 +74,19 @@ impl Name {
         let (name, doc) = (Cow::Borrowed(name), Cow::Borrowed(doc));
         let (luau, instead, extends) = (Text::default(), Text::default(), Text::default());
         let (forms, fields, functions) = (Vec::new(), Vec::new(), Vec::new());
-        Self { name, sort, forms, luau, instead, extends, doc, fields, functions, effect: Effect::Other }
+        Self {
+            name,
+            sort,
+            forms,
+            luau,
+            instead,
+            extends,
+            doc,
+            fields,
+            functions,
+            effect: Effect::Other,
+            deprecated: None,
+        }
     }
 
     /// A function or a value that a script names.
@@ -154,6 +169,13 @@ pub fn names() -> &'static [Name] {
         own.chain(super::standard::names()).collect()
     });
     &NAMES
+}
+
+/// Which names, and constructors of the types in `registry`, will go.
+pub fn deprecated_names(registry: &Registry) -> BTreeMap<String, Deprecation> {
+    let own = names().iter().filter_map(|name| Some((name.name.to_string(), name.deprecated.clone()?)));
+    let kinds = registry.kinds();
+    own.chain(kinds.filter_map(|kind| Some((kind.name.to_string(), kind.deprecation("")?.clone())))).collect()
 }
 
 /// Whether a function that every script has is pure.

@@ -8,8 +8,11 @@ use std::time::Duration;
 
 use super::walk::{Facts, Walk};
 use burgeon_base::error::{Error, Limit, SourcePlace};
-use burgeon_kit::Registry;
 use burgeon_kit::rules::Signature;
+use burgeon_kit::{Deprecation, Registry};
+use burgeon_packages::FileName;
+use full_moon::node::Node;
+use full_moon::tokenizer::TokenType;
 use mlua::chunk::Compiler;
 use rustc_hash::FxHashMap;
 
@@ -22,6 +25,8 @@ pub(crate) struct Globals {
     pub modules: FxHashMap<String, Signature>,
     /// The constructors of objects among them.
     pub kinds: Vec<String>,
+    /// Those that will go.
+    pub deprecated: Arc<BTreeMap<String, Deprecation>>,
     /// Counts the shapes of the run's rules.
     pub shapes: Arc<AtomicUsize>,
     /// What calls are held against, if anybody asks for that.
@@ -43,6 +48,10 @@ pub(crate) struct Analysis {
     pub blind: Vec<usize>,
     /// By the line on which an interpretation begins: where it returns modules.
     pub lost: BTreeMap<usize, usize>,
+    /// The names that will go, and the lines on which they stand.
+    pub deprecated: Vec<(String, usize)>,
+    /// The texts that may name files of packages, and their lines.
+    pub packages: Vec<(String, usize)>,
 }
 
 /// What stands before a successor that is given as text: the line on which it begins.
@@ -134,7 +143,7 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     first.run(&ast);
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
-    let Walk { mut edits, mut problems, random, pure, mut blind, lost, begins, .. } = second;
+    let Walk { mut edits, mut problems, random, pure, mut blind, lost, begins, deprecated, .. } = second;
     // Luau knows functions by the line of their first word, which is then another.
     let is_apart =
         |begin: &usize| text[..*begin].rsplit('\n').next().is_some_and(|head| head.trim().is_empty());
@@ -160,12 +169,35 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
         at = edit.end;
     }
     out.push_str(&text[at..]);
-    Analysis { text: out, problems, random, pure, blind, lost }
+    let packages = package_names(&ast);
+    Analysis { text: out, problems, random, pure, blind, lost, deprecated, packages }
+}
+
+/// The texts of a script that begin as the names of packages' files do, and their lines.
+fn package_names(ast: &full_moon::ast::Ast) -> Vec<(String, usize)> {
+    let texts = ast.nodes().tokens().filter_map(|token| match token.token_type() {
+        TokenType::StringLiteral { literal, .. } if FileName::is_meant(literal) => {
+            Some((literal.to_string(), token.start_position()?.line()))
+        }
+        _ => None,
+    });
+    texts.collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_name_that_will_go_is_found_with_its_lines() {
+        let names = ["oldest", "newest"].map(str::to_owned).to_vec();
+        let deprecation = Deprecation { name: "".into(), since: "1.1".into(), instead: "newest".into() };
+        let deprecated = Arc::new(BTreeMap::from([("oldest".to_owned(), deprecation)]));
+        let globals = Globals { names, deprecated, ..Globals::default() };
+        let script = "local a = oldest(1)\nlocal b = newest(2)\ndo\n  local oldest = 3\n  b = oldest\nend\nprint(oldest)";
+        let found = analyse("s.lua", script, &globals).deprecated;
+        assert_eq!(found, [("oldest".to_owned(), 1), ("oldest".to_owned(), 7)]);
+    }
 
     #[test]
     fn a_function_is_blind_if_it_never_reads_its_first_parameter() {

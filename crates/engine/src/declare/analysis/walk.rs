@@ -97,6 +97,8 @@ pub(super) struct Walk<'a> {
     pub(super) lost: BTreeMap<usize, usize>,
     /// Where the parameters of functions begin.
     pub(super) begins: Vec<usize>,
+    /// The names that will go, and their lines.
+    pub(super) deprecated: Vec<(String, usize)>,
 }
 
 impl<'a> Walk<'a> {
@@ -117,6 +119,7 @@ impl<'a> Walk<'a> {
             blind: BTreeMap::new(),
             lost: BTreeMap::new(),
             begins: Vec::new(),
+            deprecated: Vec::new(),
         }
     }
 
@@ -364,6 +367,10 @@ impl<'a> Walk<'a> {
             return;
         }
         if self.globals.names.contains(&name) {
+            if self.globals.deprecated.contains_key(&name) {
+                let line = token.start_position().map_or(1, |position| position.line());
+                self.deprecated.push((name, line));
+            }
             return;
         }
         let message = format!("unknown name {name}");
