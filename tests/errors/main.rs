@@ -26,6 +26,7 @@ mod presets;
 mod reports;
 mod sandbox;
 mod scope;
+mod setup;
 mod successors;
 mod support;
 mod syntax;

@@ -5,11 +5,13 @@
 //! knows no virtual machine.
 
 mod definitions;
+mod editor;
 mod form;
 mod luau_type;
 mod names;
 
 pub use definitions::{Definitions, definitions, module_form};
+pub use editor::{EditorFile, SETTINGS, editor_files, merged_settings};
 pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
 pub use names::{
