@@ -5,6 +5,7 @@
 mod build;
 mod fill;
 mod lines;
+mod mesh;
 mod outset;
 mod overhang;
 mod patches;
@@ -15,7 +16,6 @@ mod shape;
 mod shed;
 #[cfg(test)]
 mod sliver_tests;
-mod subdivision;
 mod support;
 #[cfg(test)]
 mod tests;
