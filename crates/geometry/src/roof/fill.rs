@@ -74,7 +74,8 @@ impl Flat {
                 None => {
                     let clipped = cap::triangulate(&[corners.as_slice()]).map(Corners::from);
                     // Where there are none, it almost touches itself.
-                    let triangles = clipped.unwrap_or_else(|_| fan(corners.len(), widest(&corners)).collect());
+                    let triangles =
+                        clipped.unwrap_or_else(|_| fan(corners.len(), widest(&corners)).collect());
                     without_slivers(&corners, triangles)
                 }
             },

@@ -51,7 +51,8 @@ fn is_wide(rings: &[Ring<DVec3>]) -> bool {
     let ([a, b, c] | [a, b, c, _]) = ring[..] else { return false };
     let d = ring[ring.len() - 1];
     let normals = [[a, b, c], [a, c, d]].map(|[a, b, c]| (b - a).cross(c - a));
-    let longest = [a - b, b - c, a - c, c - d, a - d].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+    let longest =
+        [a - b, b - c, a - c, c - d, a - d].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
     let wide = |normal: &DVec3| normal.length_squared() > WIDE * WIDE * longest;
     wide(&normals[0]) && (ring.len() == 3 || (wide(&normals[1]) && normals[0].dot(normals[1]) > 0.0))
 }
@@ -61,10 +62,12 @@ fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
     let origin = rings.first()?.as_ref().first()?;
     let flat = Flat::new(rings, patch.along.extend(0.0), *origin).ok()?;
     let widths = flat.triangles.iter().map(|&triangle| (flat.width(triangle), triangle));
-    let (width, [a, b, c]) = widths.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|least| !(least.0 >= SLIVER))?;
+    let (width, [a, b, c]) =
+        widths.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|least| !(least.0 >= SLIVER))?;
     let length = |from: usize, to: usize| flat.corners[from].distance_squared(flat.corners[to]);
     let turned = [[a, b, c], [b, c, a], [c, a, b]];
-    let corners = turned.into_iter().max_by(|one, two| length(one[0], one[1]).total_cmp(&length(two[0], two[1])))?;
+    let corners =
+        turned.into_iter().max_by(|one, two| length(one[0], one[1]).total_cmp(&length(two[0], two[1])))?;
     let place = |corner: usize| rings.iter().flat_map(|ring| ring.as_ref()).nth(corner).copied();
     let side = place(corners[1])? - place(corners[0])?;
     Some(Sliver { corners, out: flat.normal.cross(side).normalize_or_zero(), width })
@@ -88,7 +91,8 @@ impl Mesh {
                 points.len() - 1
             })
         };
-        let rings = |patch: &Patch| patch.rings.iter().map(|ring| ring.iter().map(&mut number).collect()).collect();
+        let rings =
+            |patch: &Patch| patch.rings.iter().map(|ring| ring.iter().map(&mut number).collect()).collect();
         let faces: Vec<(usize, Vec<Vec<usize>>)> = patches.iter().map(rings).enumerate().collect();
         // Beside the walls a border has the roof on one side only.
         let borders: FxHashSet<[usize; 2]> =
@@ -115,7 +119,8 @@ impl Mesh {
             if let Some(sliver) = thin(&self.places(rings), &patches[*patch]) {
                 let all: SmallVec<[usize; 16]> = rings.iter().flatten().copied().collect();
                 let corners = sliver.corners.map(|corner| all[corner]);
-                done |= self.joins(corners) || self.divides(corners, sliver.out) || self.widens(corners, &sliver);
+                done |=
+                    self.joins(corners) || self.divides(corners, sliver.out) || self.widens(corners, &sliver);
             }
             face += 1;
         }

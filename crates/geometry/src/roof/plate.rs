@@ -53,10 +53,12 @@ pub(super) fn at_walls(
     let passes: Vec<Option<[bool; 2]>> =
         faces.iter().zip(ends).map(|(face, ends)| passes(face, points, beyond, *ends)).collect();
     // Two that go on beyond the corner between them leave it alone.
-    let misses = |one: usize, two: usize| !free[one] && !free[two]
-        && matches!((passes[one], passes[two]), (Some([_, true]), Some([true, _])));
+    let misses = |one: usize, two: usize| {
+        !free[one] && !free[two] && matches!((passes[one], passes[two]), (Some([_, true]), Some([true, _])))
+    };
     let is_astray = |edge: &usize| {
-        !free[*edge] && (passes[*edge].is_none() || misses(before[*edge], *edge) || misses(*edge, faces[*edge][1]))
+        !free[*edge]
+            && (passes[*edge].is_none() || misses(before[*edge], *edge) || misses(*edge, faces[*edge][1]))
     };
     let astray: Vec<usize> = (0..faces.len()).filter(is_astray).collect();
     if astray.is_empty() { Ok(faces) } else { Err(astray) }
@@ -105,7 +107,8 @@ fn passes(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2; 
     let along = (right - left).normalize_or_zero();
     let is_beyond = |at: DVec2, end: DVec2, way: f64| {
         let off = at - end;
-        let in_line = off == DVec2::ZERO || (along.perp_dot(off).abs() < AT_CORNER && way * along.dot(off) > 0.0);
+        let in_line =
+            off == DVec2::ZERO || (along.perp_dot(off).abs() < AT_CORNER && way * along.dot(off) > 0.0);
         in_line.then_some(off != DVec2::ZERO)
     };
     Some([is_beyond(to, left, -1.0)?, is_beyond(from, right, 1.0)?])

@@ -10,7 +10,8 @@ use smallvec::SmallVec;
 
 use super::edge::{Direction, Edge, metres};
 use super::events::{Event, What, short};
-use super::lines::{Line, Lines, Place, When};
+use super::fronts::{Front, Fronts};
+use super::lines::{Lines, Place, When};
 use super::meeting::Spot;
 use super::{Pace, Peak};
 use burgeon_base::error::{Error, Result};
@@ -72,20 +73,12 @@ impl Corner {
     }
 }
 
-/// An edge and its line at present.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Front {
-    pub line: Line,
-    pub direction: Direction,
-    pub edge: usize,
-}
-
 #[derive(Default)]
 pub(super) struct Wavefront {
     pub traced: Traced,
     pub lines: Lines,
-    /// The edges that are still there, with their lines at present.
-    pub current: Vec<Front>,
+    /// The edges that are still there.
+    pub current: Fronts,
     /// How many pieces there are of each edge.
     alive: Vec<u32>,
     /// How many corners there had been when it was last asked which edges are still there.
@@ -300,9 +293,7 @@ impl Wavefront {
         let Pace { speed, rest } = self.traced.edges[edge].pace;
         let direction = self.lines.direction(self.traced.edges[edge].line);
         let line = self.lines.add(direction, self.through[edge], speed, rest);
-        for front in self.current.iter_mut().filter(|front| front.edge == edge) {
-            front.line = *self.lines.line(line);
-        }
+        self.current.turn_to(edge, *self.lines.line(line));
         self.traced.edges[edge].line = line;
         self.restarted = true;
     }
@@ -388,7 +379,7 @@ impl Wavefront {
     pub(super) fn go_on(&mut self, fresh: &[usize]) {
         if self.corners.len() > self.known + self.current.len() / 2 {
             self.known = self.corners.len();
-            self.current.retain(|front| self.alive[front.edge] > 0);
+            self.current.retain(|edge| self.alive[edge] > 0);
         }
         for &index in fresh {
             let Corner { alive, before, after, .. } = self.corners[index];
