@@ -141,7 +141,7 @@ fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
 fn width(points: &[DVec2], triangle: [usize; 3]) -> f64 {
     let [a, b, c] = triangle.map(|corner| points[corner]);
     let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
-    (b - a).perp_dot(c - a) / longest.sqrt()
+    (b - a).perp_dot(c - a) / longest.sqrt().max(f64::MIN_POSITIVE)
 }
 
 /// The triangles between a corner of a ring and all edges that it is not on.

@@ -37,15 +37,17 @@ pub(super) fn mend(patches: &mut Vec<Patch>) {
     mesh.finish(patches);
 }
 
-/// A triangle that is too thin: its corners as numbers, the one opposite its longest side last, the direction in its plane from
-/// that side to that corner, and how wide it is (m).
+/// A triangle that is too thin.
 struct Sliver {
+    /// Its corners, the one opposite its longest side last.
     corners: [usize; 3],
+    /// The direction from that side to that corner.
     out: DVec3,
+    /// How wide it is (m).
     width: f64,
 }
 
-/// Whether a patch is a triangle or a square whose triangles are far from being slivers.
+/// Whether a patch is a triangle or a quadrilateral whose triangles are far from being slivers.
 fn is_wide(rings: &[Ring<DVec3>]) -> bool {
     let [ring] = rings else { return false };
     let ([a, b, c] | [a, b, c, _]) = ring[..] else { return false };
@@ -62,8 +64,7 @@ fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
     let origin = rings.first()?.as_ref().first()?;
     let flat = Flat::new(rings, patch.along.extend(0.0), *origin).ok()?;
     let widths = flat.triangles.iter().map(|&triangle| (flat.width(triangle), triangle));
-    let (width, [a, b, c]) =
-        widths.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|least| !(least.0 >= SLIVER))?;
+    let (width, [a, b, c]) = widths.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|least| least.0 < SLIVER)?;
     let length = |from: usize, to: usize| flat.corners[from].distance_squared(flat.corners[to]);
     let turned = [[a, b, c], [b, c, a], [c, a, b]];
     let corners =
@@ -114,8 +115,8 @@ impl Mesh {
     fn mend(&mut self, patches: &[Patch]) -> bool {
         let mut done = false;
         let mut face = 0;
-        while face < self.faces.len() {
-            let (patch, rings) = &self.faces[face];
+        // Faces may fall into several meanwhile.
+        while let Some((patch, rings)) = self.faces.get(face) {
             if let Some(sliver) = thin(&self.places(rings), &patches[*patch]) {
                 let all: SmallVec<[usize; 16]> = rings.iter().flatten().copied().collect();
                 let corners = sliver.corners.map(|corner| all[corner]);

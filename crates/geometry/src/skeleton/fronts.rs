@@ -6,7 +6,7 @@ use super::edge::Direction;
 use super::lines::Line;
 
 /// How many edges are looked at together: as a processor does with numbers that lie side by side.
-const LANES: usize = 8;
+const LANES: usize = 4;
 
 /// An edge and its line at present.
 #[derive(Debug, Clone, Copy)]

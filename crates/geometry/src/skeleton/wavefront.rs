@@ -273,10 +273,9 @@ impl Wavefront {
         index
     }
 
-    /// Lets an edge that stood still move from `time` on, if it is still there; corners along it begin anew.
+    /// Lets an edge that stood still move from `time` on; corners along it begin anew.
     ///
-    /// Only then is it looked again what all corners reach, so that what they are to reach after this edge must go on
-    /// to be expected otherwise.
+    /// Of one that is gone the line stays as it is: corners that were to reach it next would forget what comes after.
     pub(super) fn start(&mut self, edge: usize, when: &mut When) {
         if self.alive[edge] == 0 {
             return;
