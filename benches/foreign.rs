@@ -12,7 +12,7 @@ use burgeon::geometry::{Plan, Rings};
 use burgeon::kit::random::Stream;
 use burgeon::picture::Picture;
 use burgeon::script::{Limits, RunOptions};
-use burgeon::sources::{Layer, Source, Wanted};
+use burgeon::sources::{Layer, Source, SourceOptions};
 use glam::DVec3;
 
 const VILLAGE: &str = include_str!("../examples/data/village.geojson");
@@ -61,7 +61,10 @@ fn damaged(what: &str, whole: &[u8], count: usize, read: impl Fn(&[u8]) -> bool)
 }
 
 fn layer(path: &Path) -> bool {
-    let wanted = Wanted { budget: Budget::within(Duration::from_secs(20), 200_000_000), ..Wanted::default() };
+    let wanted = SourceOptions {
+        budget: Budget::within(Duration::from_secs(20), 200_000_000),
+        ..SourceOptions::default()
+    };
     let layer = Source::open_within(path, "a", &wanted)
         .and_then(|source| source.read("a", &wanted))
         .and_then(|table| Layer::new(table, &mut None));

@@ -11,9 +11,9 @@ use std::time::Instant;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, Polygon, Rings, solid};
-use burgeon::kit::{Call, Key, Parameter, Table, Value, rings};
+use burgeon::kit::{Call, Parameter, Table, TableKey, Value, rings};
 use burgeon::objects::Footprint;
-use burgeon::sources::{Layer, Source, Wanted};
+use burgeon::sources::{Layer, Source, SourceOptions};
 use glam::{DVec2, Vec3};
 
 #[allow(dead_code, reason = "the tests use the rest")]
@@ -57,10 +57,10 @@ fn main() {
 /// The buildings of a real town, if its file is beside the repository.
 fn town() -> Option<Vec<Polygon>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data/france_buildings.gpkg");
-    let wanted = Wanted { layer: Some("buildings".into()), ..Wanted::default() };
+    let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
     let table = Source::open(&path, "france").ok()?.read("france", &wanted).ok()?;
     let layer = Layer::new(table, &mut None).ok()?;
-    let plan = |feature: &burgeon::sources::Feature| Some(Plan::new(&rings(&feature.geometry)?).ok()?.flat());
+    let plan = |feature: &burgeon::sources::Feature| Some(Plan::new(rings(&feature.geometry)?).ok()?.flat());
     Some(layer.features.iter().filter_map(plan).collect())
 }
 
@@ -129,7 +129,10 @@ fn regular(family: &Family, count: usize) {
 fn is_closed(rings: &Rings) -> bool {
     let table = |entries: &[(&str, Value)]| Table {
         class: None,
-        entries: entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone())).collect(),
+        entries: entries
+            .iter()
+            .map(|(name, value)| (TableKey::Name((*name).into()), value.clone()))
+            .collect(),
     };
     let geometry = rings.clone().into_value();
     let Ok(mut house) = Footprint::kind().make(&table(&[("geometry", geometry)])) else { return false };

@@ -16,9 +16,10 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use burgeon::kit::random::Stream;
-use burgeon::kit::rules::Key;
+use burgeon::kit::rules::ModuleKey;
 use burgeon::terrain::{
-    Area, Draw, Ground, Layer, Mesh, Quadrants, Ring, RuleTable, Rules, Tables, View, World,
+    Area, Ground, GroundMesh, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, TileRing, View,
+    World,
 };
 use cpu_time::ProcessTime;
 use glam::DVec2;
@@ -28,13 +29,13 @@ fn table(drawn: bool) -> RuleTable {
     let mut rule = |symbol: u16| {
         let mut change = || {
             let low = stream.uniform() * 2.0 - 1.0;
-            Draw { low, high: if drawn { low + 0.5 } else { low } }
+            NumberRange { low, high: if drawn { low + 0.5 } else { low } }
         };
         Quadrants {
             weight: 1.0,
             change: std::array::from_fn(|_| change()),
             symbols: [symbol, (symbol + 1) % 4, (symbol + 2) % 4, symbol],
-            decay: [Draw::exactly(0.55); 4],
+            decay: [NumberRange::exactly(0.55); 4],
         }
     };
     RuleTable {
@@ -47,7 +48,7 @@ fn world(drawn: bool, smooth: bool) -> World {
     World {
         corner: DVec2::ZERO,
         size: 512.0 * 65_536.0,
-        layers: vec![Layer {
+        layers: vec![LevelRules {
             from: 0,
             rules: Rules::Table(Arc::new(table(drawn))),
             start: 0,
@@ -56,14 +57,14 @@ fn world(drawn: bool, smooth: bool) -> World {
             names: Arc::default(),
         }],
         smooth,
-        key: drawn.then(|| Key::seed(1)),
+        key: drawn.then(|| ModuleKey::seed(1)),
         remap: Vec::new(),
         measured: None,
     }
 }
 
 fn reference() -> View {
-    let ring = |(across, levels)| Ring { across, levels };
+    let ring = |(across, levels)| TileRing { across, levels };
     View { cell: 512.0, rings: [(4, 8), (8, 6), (12, 4), (16, 2)].map(ring).to_vec() }
 }
 
@@ -256,7 +257,7 @@ fn mesh() {
     for error in [0.1, 1.0, 5.0] {
         let mut triangles = 0;
         let time = least(3, || {
-            let mesh = Mesh::new(&ground, error);
+            let mesh = GroundMesh::new(&ground, error);
             triangles = 0;
             for number in 0..ground.tiles().len() {
                 let mut part = burgeon::scene::Part::default();

@@ -18,17 +18,18 @@
 //! macros     uses ──► nothing
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
-//! data       uses ──► base
+//! data       uses ──► base, geometry
 //! kit        uses ──► base, data, geometry, macros, scene
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
-//! engine     uses ──► base, data, kit, scene
+//! packages   uses ──► base
+//! engine     uses ──► base, data, kit, packages, scene
 //! export     uses ──► base, data, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, export, kit, scene
 //! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, live, objects, presets, scene, terrain, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, live, objects, packages, presets, scene, terrain, variations, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
@@ -47,9 +48,10 @@
 //! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
 //! - [`script`], [`results`] and [`trace`](mod@trace), the engine, which knows no type of object by name: a
 //!   [`Session`](script::Session) is one run of a script, in one [`Machine`](script::Machine) for each thread; chains are
-//!   rewritten step by step into a [`Derived`](results::Derived) system, and interpreted in between.
+//!   rewritten step by step into a [`DerivedSystem`](results::DerivedSystem), and interpreted in between.
 //! - [`export`] and [`picture`]: the scene as a file ([`Format`](export::Format)) or an image
 //!   ([`render`](picture::render)).
+//! - [`packages`]: folders of scripts, models and textures that other scripts use, and the order that they come in.
 //! - [`watch`]: tells when the files of a script have changed.
 //! - [`presets`]: values of parameters under names, in a file beside the script.
 //! - [`variations`]: many runs of a script, as thumbnails to choose from.
@@ -90,9 +92,11 @@
 //!   numbers. Such a step is not counted.
 #![recursion_limit = "256"]
 
-pub use burgeon_base::{Budget, Error, Held, Result, Stop, Warning, WarningKind, error, text, warning};
+pub use burgeon_base::{
+    Budget, Error, MemoryReservation, Result, Stop, Warning, WarningKind, error, text, warning,
+};
 pub use burgeon_data as sources;
-pub use burgeon_engine::run::{Check, Run, RunTimes, check, run, run_session};
+pub use burgeon_engine::run::{Run, RunTimes, ScriptCheck, check, check_package, run, run_session};
 pub use burgeon_engine::{results, script, trace};
 pub use burgeon_export as export;
 pub use burgeon_export::picture;
@@ -101,6 +105,7 @@ pub use burgeon_kit as kit;
 #[cfg(feature = "live")]
 pub use burgeon_live as live;
 pub use burgeon_objects as objects;
+pub use burgeon_packages as packages;
 pub use burgeon_presets as presets;
 pub use burgeon_scene as scene;
 pub use burgeon_terrain as terrain;

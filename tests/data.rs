@@ -14,7 +14,7 @@ use std::sync::Arc;
 use burgeon::geometry::{Plan, Rings};
 use burgeon::objects::Elevation;
 use burgeon::sources::elevation::{Raster, Relief};
-use burgeon::sources::{Geometry, Kind, Layer, Source, Wanted};
+use burgeon::sources::{Geometry, GeometryKind, Layer, Source, SourceOptions};
 use glam::{DVec2, DVec3};
 
 #[path = "terrain/measured.rs"]
@@ -41,8 +41,11 @@ fn shared(name: &str) -> Option<PathBuf> {
 }
 
 fn layer(path: &Path, name: &str, condition: Option<&str>) -> Layer {
-    let wanted =
-        Wanted { layer: Some(name.to_owned()), condition: condition.map(str::to_owned), ..Wanted::default() };
+    let wanted = SourceOptions {
+        layer: Some(name.to_owned()),
+        condition: condition.map(str::to_owned),
+        ..SourceOptions::default()
+    };
     let table = Source::open(path, "file").unwrap().read("file", &wanted).unwrap();
     Layer::new(table, &mut None).unwrap()
 }
@@ -50,13 +53,11 @@ fn layer(path: &Path, name: &str, condition: Option<&str>) -> Layer {
 /// The area (m²) within a polygon, of which holes are taken away since they turn the other way.
 fn area(geometry: &Geometry) -> f64 {
     let Geometry::Polygon(rings) = geometry else { return 0.0 };
-    let ring = |ring: &Vec<[f64; 3]>| -> f64 {
+    let ring = |ring: &Vec<DVec3>| -> f64 {
         let next = ring.iter().cycle().skip(1);
         ring.iter()
             .zip(next)
-            .map(|(a, b)| {
-                (a[0] - ring[0][0]) * (b[1] - ring[0][1]) - (b[0] - ring[0][0]) * (a[1] - ring[0][1])
-            })
+            .map(|(a, b)| (a - ring[0]).truncate().perp_dot((b - ring[0]).truncate()))
             .sum::<f64>()
             / 2.0
     };
@@ -90,7 +91,13 @@ fn every_layer_of_helsinki_and_monaco_is_read() {
     {
         let Some(path) = shared(name) else { return };
         let names = ["buildings", "roads", "trees", "furniture", "green"];
-        let kinds = [Kind::Polygon, Kind::Line, Kind::Point, Kind::Point, Kind::Polygon];
+        let kinds = [
+            GeometryKind::Polygon,
+            GeometryKind::Line,
+            GeometryKind::Point,
+            GeometryKind::Point,
+            GeometryKind::Polygon,
+        ];
         for ((layer_name, count), kind) in names.into_iter().zip(counts).zip(kinds) {
             let layer = layer(&path, layer_name, None);
             assert_eq!(layer.features.len(), count, "{name}:{layer_name}");
@@ -98,7 +105,10 @@ fn every_layer_of_helsinki_and_monaco_is_read() {
             let [low, high] = layer.bounds;
             assert!((0..2).all(|axis| low[axis] > -5000.0 && high[axis] < 5000.0), "{low:?} {high:?}");
             assert!(
-                layer.features.iter().all(|feature| kind != Kind::Polygon || area(&feature.geometry) > 0.0)
+                layer
+                    .features
+                    .iter()
+                    .all(|feature| kind != GeometryKind::Polygon || area(&feature.geometry) > 0.0)
             );
         }
     }
@@ -118,7 +128,7 @@ fn monacos_mountains_are_as_high_as_maps_say_under_the_towns_own_frame() {
     std::fs::write(&path, format!(r#"{{"type":"FeatureCollection","features":[{}]}}"#, points.join(",")))
         .unwrap();
     let read = |path: &Path, layer: Option<&str>, frame: &mut _| {
-        let wanted = Wanted { layer: layer.map(str::to_owned), ..Wanted::default() };
+        let wanted = SourceOptions { layer: layer.map(str::to_owned), ..SourceOptions::default() };
         Layer::new(Source::open(path, "file").unwrap().read("file", &wanted).unwrap(), frame).unwrap()
     };
     let raster = Arc::new(
@@ -165,7 +175,7 @@ fn the_village_has_what_its_script_draws() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("examples/data/village.geojson");
     let village = layer(&path, "village", None);
     let count = |kind| village.features.iter().filter(|feature| feature.geometry.kind() == kind).count();
-    assert_eq!(Kind::ALL.map(count), [110, 4, 72]);
+    assert_eq!(GeometryKind::ALL.map(count), [110, 4, 72]);
     assert!(path.metadata().unwrap().len() < 60_000);
 }
 

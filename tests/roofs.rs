@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use burgeon::geometry::skeleton::{Pace, Skeleton};
 use burgeon::geometry::{Plan, Rings, solid};
-use burgeon::kit::{Call, Key, Object, Parameter, Table, Value, rings};
+use burgeon::kit::{Call, Object, Parameter, Table, TableKey, Value, rings};
 use burgeon::objects::Footprint;
-use burgeon::sources::{Layer, Source, Wanted};
+use burgeon::sources::{Layer, Source, SourceOptions};
 use glam::DVec3;
 
 const KINDS: [&str; 10] =
@@ -28,14 +28,14 @@ fn shared(name: &str) -> Option<PathBuf> {
 
 /// The rings of all buildings in a file.
 fn buildings(name: &str) -> Option<Vec<Rings>> {
-    let wanted = Wanted { layer: Some("buildings".into()), ..Wanted::default() };
+    let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
     let table = Source::open(&shared(name)?, "file").unwrap().read("file", &wanted).unwrap();
     let layer = Layer::new(table, &mut None).unwrap();
-    Some(layer.features.iter().filter_map(|feature| rings(&feature.geometry)).collect())
+    Some(layer.features.iter().filter_map(|feature| rings(&feature.geometry).cloned()).collect())
 }
 
 fn table(entries: &[(&str, Value)]) -> Table {
-    let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+    let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
     Table { class: None, entries: entries.collect() }
 }
 

@@ -8,11 +8,11 @@ use std::sync::Arc;
 use std::time::{Duration, SystemTime};
 
 use burgeon::kit::rules::{Pattern, Signature, Symbols};
-use burgeon::kit::{Construct, Loading, Resources, Table};
+use burgeon::kit::{Construct, LoadRequest, Resources, Table};
 use burgeon::presets::Presets;
 use burgeon::script::{Limits, Print, RunOptions};
-use burgeon::sources::elevation::{Raster, Relief, Wanted as WantedHeights};
-use burgeon::sources::{Cache, Layer, Listing, Source, Wanted};
+use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
+use burgeon::sources::{Cache, Layer, Listing, Source, SourceOptions};
 use burgeon::{Budget, Error, Result};
 use rusqlite::Connection;
 
@@ -149,7 +149,7 @@ fn budget() -> Arc<Budget> {
 fn layer(bytes: &[u8], path: &Path) -> bool {
     let _ = fs::write(path, bytes);
     let _ = Listing::read(path, &budget()).map(|listing| (listing.text(), listing.to_json()));
-    let wanted = Wanted { budget: budget(), ..Wanted::default() };
+    let wanted = SourceOptions { budget: budget(), ..SourceOptions::default() };
     let source = Source::open_within(path, "a", &wanted).and_then(|source| source.read("a", &wanted));
     let layer = source.and_then(|table| Layer::new(table, &mut None));
     let Ok(layer) = layer else { return false };
@@ -182,7 +182,7 @@ fn wkb(bytes: &[u8], folder: &Path) -> bool {
     if made().is_err() {
         return false;
     }
-    let wanted = Wanted { budget: budget(), ..Wanted::default() };
+    let wanted = SourceOptions { budget: budget(), ..SourceOptions::default() };
     let table = Source::open_within(&path, "a", &wanted).and_then(|source| source.read("a", &wanted));
     table.and_then(|table| Layer::new(table, &mut None)).is_ok()
 }
@@ -236,7 +236,7 @@ fn model(bytes: &[u8], folder: &Path) -> bool {
     let Some(Construct::File(loader)) = registry.get("model").map(|kind| &kind.construct) else {
         return false;
     };
-    let mut loading = Loading {
+    let mut loading = LoadRequest {
         name: "a.glb",
         path: &path,
         budget: &budget(),

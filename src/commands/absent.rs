@@ -5,13 +5,13 @@ use clap::Args;
 
 /// Shows what a script makes in the browser (this program was built without it)
 #[derive(Args)]
-pub(crate) struct Serve {
+pub(crate) struct LiveCommand {
     /// Whatever it would take.
     #[arg(trailing_var_arg = true, allow_hyphen_values = true, hide = true)]
     given: Vec<String>,
 }
 
-impl Serve {
+impl LiveCommand {
     pub(crate) fn json(&self) -> bool {
         self.given.iter().any(|given| given == "--json")
     }

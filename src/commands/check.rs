@@ -9,18 +9,18 @@ use super::shared::ScriptFlags;
 
 /// Loads a script and everything it requires, compiles every rule, and reports all problems at once
 #[derive(Args)]
-pub(crate) struct Check {
+pub(crate) struct CheckCommand {
     #[command(flatten)]
     script: ScriptFlags,
 }
 
-impl Check {
+impl CheckCommand {
     pub(crate) fn json(&self) -> bool {
         self.script.json
     }
 
     pub(crate) fn run(&self) -> Result<()> {
-        let burgeon::Check { params, warnings } =
+        let burgeon::ScriptCheck { params, warnings } =
             burgeon::check(&self.script.script, self.script.options()?)?;
         if self.script.json {
             let params: Vec<_> = params

@@ -6,15 +6,15 @@ use clap_complete::Shell;
 
 /// Prints a script that completes the command line in a shell
 #[derive(Args)]
-pub(crate) struct Completions {
+pub(crate) struct CompletionsCommand {
     /// The shell
     shell: Shell,
 }
 
-impl Completions {
+impl CompletionsCommand {
     pub(crate) fn run(&self) -> Result<()> {
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut super::Cli::command(), "burgeon", &mut script);
+        clap_complete::generate(self.shell, &mut super::command_line::Cli::command(), "burgeon", &mut script);
         super::report::print(&String::from_utf8_lossy(&script))
     }
 }

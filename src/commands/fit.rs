@@ -9,14 +9,14 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use burgeon::export;
-use burgeon::sources::elevation::{Raster, Wanted};
-use burgeon::terrain::fit::{Fitted, Search, Target};
+use burgeon::sources::elevation::{HeightOptions, Raster};
+use burgeon::terrain::fit::{FitResult, Search, Target};
 use burgeon::text::grouped;
 use burgeon::{Budget, Error, Result};
 use clap::Args;
 use serde_json::json;
 
-use super::progress::Progress;
+use super::progress::ProgressDisplay;
 use super::report;
 use super::shared::{on_interrupt, seconds, threads, whole};
 
@@ -28,7 +28,7 @@ const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Searches for a rule table whose terrain is like a height map
 #[derive(Args)]
-pub(crate) struct Fit {
+pub(crate) struct FitCommand {
     /// The height map: hill, ridge, crater, plain or mountains
     target: String,
 
@@ -68,7 +68,7 @@ const SECONDS: f64 = 60.0;
 /// How far the search is: the rounds that are over, and the best error with how many tables were tried.
 type Best = Arc<Mutex<(usize, Option<(f64, usize)>)>>;
 
-impl Fit {
+impl FitCommand {
     pub(crate) fn json(&self) -> bool {
         self.json
     }
@@ -103,7 +103,12 @@ impl Fit {
     }
 
     /// The best table, and after how many rounds the time ended the search, if it did before --rounds.
-    fn search(&self, target: &Target, begin: Instant, over: &AtomicBool) -> Result<(Fitted, Option<usize>)> {
+    fn search(
+        &self,
+        target: &Target,
+        begin: Instant,
+        over: &AtomicBool,
+    ) -> Result<(FitResult, Option<usize>)> {
         // Where the rounds end it, the result is the same on every machine, however long they take.
         let limit = self.seconds.or(self.rounds.is_none().then_some(SECONDS)).map(Duration::from_secs_f64);
         let best = Best::default();
@@ -113,14 +118,14 @@ impl Fit {
             let left = limit.map(|limit| limit.saturating_sub(begin.elapsed()));
             message(*shown.lock().unwrap_or_else(PoisonError::into_inner), left, rounds)
         };
-        let _progress = Progress::saying(message, !self.json);
+        let _progress = ProgressDisplay::saying(message, !self.json);
         let late = AtomicBool::new(false);
         let stop = || {
             let ended = limit.is_some_and(|limit| begin.elapsed() >= limit);
             late.fetch_or(ended, Ordering::AcqRel);
             ended || over.load(Ordering::Acquire)
         };
-        let mut tell = |fitted: &Fitted| {
+        let mut tell = |fitted: &FitResult| {
             let mut best = best.lock().unwrap_or_else(PoisonError::into_inner);
             *best = (best.0 + 1, Some((fitted.error(), fitted.tried)));
         };
@@ -165,7 +170,7 @@ impl Fit {
         Ok(())
     }
 
-    fn tell(&self, fitted: &Fitted, elapsed: Duration, late: Option<usize>) -> Result<()> {
+    fn tell(&self, fitted: &FitResult, elapsed: Duration, late: Option<usize>) -> Result<()> {
         let warning = late.map(|whole| {
             let asked = self.rounds.unwrap_or_default();
             format!(
@@ -212,11 +217,11 @@ fn target(name: &str) -> Result<Target> {
     // What black and white are does not matter, since both maps are scaled, nor where a picture lies.
     let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
     let placeless = ["png", "r32", "f32", "r64", "f64"].contains(&extension.as_str());
-    let wanted = Wanted {
+    let wanted = HeightOptions {
         low: Some(0.0),
         high: Some(1.0),
         bounds: placeless.then_some([0.0, 0.0, 1.0, 1.0]),
-        ..Wanted::default()
+        ..HeightOptions::default()
     };
     let raster = Raster::open(path, name, &wanted, &Budget::default())?;
     let heights: Vec<f64> = raster.heights.iter().map(|height| f64::from(*height)).collect();

@@ -13,7 +13,7 @@ use super::shared::{ScriptFlags, on_interrupt};
 
 /// Shows what a script makes in the browser, and shows it anew on every save
 #[derive(Args)]
-pub(crate) struct Serve {
+pub(crate) struct LiveCommand {
     #[command(flatten)]
     script: ScriptFlags,
 
@@ -38,7 +38,7 @@ pub(crate) struct Serve {
     token: Option<Token>,
 }
 
-impl Serve {
+impl LiveCommand {
     pub(crate) fn json(&self) -> bool {
         self.script.json
     }

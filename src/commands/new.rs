@@ -15,7 +15,7 @@ const STARTER: &str = include_str!("starter.lua");
 
 /// Makes a script to start from
 #[derive(Args)]
-pub(crate) struct New {
+pub(crate) struct NewCommand {
     /// The file to make; .lua is added if it has no extension
     path: PathBuf,
 
@@ -24,7 +24,7 @@ pub(crate) struct New {
     json: bool,
 }
 
-impl New {
+impl NewCommand {
     pub(crate) fn json(&self) -> bool {
         self.json
     }

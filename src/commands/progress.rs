@@ -13,12 +13,12 @@ use indicatif::{ProgressBar, ProgressStyle};
 const PATIENCE: Duration = Duration::from_millis(400);
 
 /// Shows how far a run has come until it is dropped.
-pub(crate) struct Progress {
+pub(crate) struct ProgressDisplay {
     over: Arc<AtomicBool>,
     thread: Option<JoinHandle<()>>,
 }
 
-impl Progress {
+impl ProgressDisplay {
     /// Watches `session`; silent unless stderr is a terminal and `wanted`.
     pub(crate) fn show(session: &Arc<Session>, wanted: bool) -> Self {
         let session = Arc::clone(session);
@@ -56,7 +56,7 @@ impl Progress {
     }
 }
 
-impl Drop for Progress {
+impl Drop for ProgressDisplay {
     fn drop(&mut self) {
         self.over.store(true, Ordering::Relaxed);
         if let Some(thread) = self.thread.take() {

@@ -45,7 +45,7 @@ pub(crate) fn warnings_json(warnings: &[Warning]) -> serde_json::Value {
 }
 
 /// The text of a line of a script.
-fn line(place: &burgeon::error::Place) -> Option<String> {
+fn line(place: &burgeon::error::SourcePlace) -> Option<String> {
     let (_, line) = place.excerpt(0, 0).pop()?;
     Some(line.trim().to_owned())
 }
@@ -164,12 +164,12 @@ pub(crate) fn is_closed() -> bool {
 }
 
 /// Standard output: a program gets everything as it is, a terminal all at once, with nothing that it would obey.
-pub(crate) enum Standard {
+pub(crate) enum StandardOutput {
     Program(StdoutLock<'static>),
     Terminal(Vec<u8>),
 }
 
-impl io::Write for Standard {
+impl io::Write for StandardOutput {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         match self {
             Self::Program(out) => out.write(bytes),
@@ -196,10 +196,12 @@ pub(crate) fn print(text: &str) -> Result<()> {
 }
 
 /// As [`print`], for what need not be in memory all at once.
-pub(crate) fn print_all(content: impl FnOnce(&mut BufWriter<Standard>) -> io::Result<()>) -> Result<()> {
+pub(crate) fn print_all(
+    content: impl FnOnce(&mut BufWriter<StandardOutput>) -> io::Result<()>,
+) -> Result<()> {
     let standard = match io::stdout().is_terminal() {
-        true => Standard::Terminal(Vec::new()),
-        false => Standard::Program(io::stdout().lock()),
+        true => StandardOutput::Terminal(Vec::new()),
+        false => StandardOutput::Program(io::stdout().lock()),
     };
     let mut out = BufWriter::new(standard);
     match content(&mut out).and_then(|()| out.flush()) {

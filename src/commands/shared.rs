@@ -1,11 +1,12 @@
 //! Flags that several commands have.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use burgeon::picture::{Background, Look, Picture};
+use burgeon::packages::{FileName, PackageSearch, Packages};
+use burgeon::picture::{Background, Picture, ViewBall};
 use burgeon::presets::Presets;
-use burgeon::script::{Limits, Print, RunOptions};
+use burgeon::script::{Limits, Print, RunOptions, api_version};
 use burgeon::{Error, Result};
 use clap::{Args, ValueEnum};
 
@@ -28,6 +29,10 @@ pub(crate) struct ScriptFlags {
     /// Lets the script read data files in this folder and below it; may be repeated
     #[arg(long, value_name = "FOLDER")]
     data: Vec<PathBuf>,
+
+    /// Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
+    #[arg(long, value_name = "FOLDER")]
+    mods: Vec<PathBuf>,
 
     /// Ends with an error where there would be a warning, and at the first feature whose data cannot be built
     #[arg(long)]
@@ -86,15 +91,35 @@ pub(crate) struct ScriptFlags {
 impl ScriptFlags {
     /// The files that decide what is made even if the script cannot be read.
     pub(crate) fn files(&self) -> Vec<PathBuf> {
-        let presets = self.preset.as_ref().map(|_| Presets::path_of(&self.script));
+        let presets = self.preset.as_ref().and_then(|name| Some(self.presets(name).ok()?.0));
         std::iter::once(&self.script).chain(&self.stdlib).cloned().chain(presets).collect()
+    }
+
+    /// The file that the preset `name` is in, and its name there: `@castle/grand` is in the presets.json of a package.
+    fn presets(&self, name: &str) -> Result<(PathBuf, String)> {
+        if !FileName::is_meant(name) {
+            return Ok((Presets::path_of(&self.script), name.to_owned()));
+        }
+        let meant = FileName::parse(name)?;
+        let search = PackageSearch {
+            script: self.script.parent().map(Path::to_path_buf),
+            given: self.mods.clone(),
+            user: user_mods(),
+        };
+        let packages = Packages::find(&search, &api_version());
+        let file = FileName { package: meant.package, path: "presets.json".to_owned() };
+        let located = packages.locate("file of presets", &file, None, &mut |_, _| {})?;
+        Ok((located.shown, meant.path))
     }
 
     /// How to run the script. Fails if there is no such preset.
     pub(crate) fn options(&self) -> Result<RunOptions> {
         let preset = match &self.preset {
             // A script that is not there is told of by the run.
-            Some(name) if self.script.is_file() => Some(Presets::read(&self.script)?.get(name)?.clone()),
+            Some(name) if self.script.is_file() => {
+                let (path, name) = self.presets(name)?;
+                Some(Presets::read_file(&path)?.get(&name)?.clone())
+            }
             _ => None,
         };
         let seed = self.seed.or(preset.as_ref().and_then(|preset| preset.seed));
@@ -113,12 +138,22 @@ impl ScriptFlags {
                 triangles: self.triangle_limit as usize,
             },
             data: self.data.clone(),
+            mods: self.mods.clone(),
+            user_mods: user_mods(),
             strict: self.strict,
             stdlib: self.stdlib.clone(),
             print: Some(Print::new(report::printed)),
             ..burgeon::options()
         })
     }
+}
+
+/// The user's folder of packages, which need not be there.
+pub(crate) fn user_mods() -> Option<PathBuf> {
+    let set = |name: &str| std::env::var_os(name).filter(|value| !value.is_empty()).map(PathBuf::from);
+    let home = || set("HOME").map(|home| home.join(".local/share"));
+    let data = if cfg!(windows) { set("LOCALAPPDATA") } else { set("XDG_DATA_HOME").or_else(home) };
+    data.map(|folder| folder.join("burgeon/mods"))
 }
 
 /// How a picture is taken, but for its size.
@@ -134,15 +169,15 @@ pub(crate) struct PictureFlags {
 
     /// Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
     #[arg(long, value_name = "X,Y,Z,M", value_parser = look, allow_hyphen_values = true, help_heading = "Pictures")]
-    look: Option<Look>,
+    look: Option<ViewBall>,
 
     /// What is behind the model
-    #[arg(long, value_enum, default_value_t = Behind::Light, help_heading = "Pictures")]
-    background: Behind,
+    #[arg(long, value_enum, default_value_t = BackgroundFlag::Light, help_heading = "Pictures")]
+    background: BackgroundFlag,
 }
 
 /// Reads `X,Y,Z,M`.
-fn look(text: &str) -> std::result::Result<Look, String> {
+fn look(text: &str) -> std::result::Result<ViewBall, String> {
     let numbers: Vec<f64> = text
         .split(',')
         .map(|part| part.trim().parse::<f64>())
@@ -150,14 +185,14 @@ fn look(text: &str) -> std::result::Result<Look, String> {
         .unwrap_or_default();
     match numbers.as_slice() {
         [x, y, z, radius] if numbers.iter().all(|number| number.is_finite()) && *radius > 0.0 => {
-            Ok(Look { at: [*x, *y, *z], radius: *radius })
+            Ok(ViewBall { at: [*x, *y, *z], radius: *radius })
         }
         _ => Err("write a place and a distance above 0, such as 10,-5,0,40".to_owned()),
     }
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Behind {
+enum BackgroundFlag {
     Light,
     Dark,
     /// Transparent
@@ -173,9 +208,9 @@ impl PictureFlags {
             elevation: self.elevation,
             look: self.look,
             background: match self.background {
-                Behind::Light => Background::Light,
-                Behind::Dark => Background::Dark,
-                Behind::Clear => Background::Clear,
+                BackgroundFlag::Light => Background::Light,
+                BackgroundFlag::Dark => Background::Dark,
+                BackgroundFlag::Clear => Background::Clear,
             },
             ..Picture::default()
         }

@@ -13,7 +13,7 @@ use super::shared::{megabytes, seconds};
 
 /// Lists the layers of data files, with their attributes, coordinate systems and extents
 #[derive(Args)]
-pub(crate) struct Sources {
+pub(crate) struct SourcesCommand {
     /// GeoJSON files and GeoPackages
     #[arg(required = true, value_name = "FILE")]
     files: Vec<PathBuf>,
@@ -33,7 +33,7 @@ pub(crate) struct Sources {
     json: bool,
 }
 
-impl Sources {
+impl SourcesCommand {
     pub(crate) fn json(&self) -> bool {
         self.json
     }

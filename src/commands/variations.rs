@@ -7,41 +7,41 @@ use std::time::Instant;
 use burgeon::export::{self, Format};
 use burgeon::picture::{Picture, Quality};
 use burgeon::scene::image;
-use burgeon::variations::{Cell, Framing, Over, Sheet, Variations as Cells, sheet};
+use burgeon::variations::{Framing, SheetLayout, Variation, VariationAxis, Variations, sheet};
 use burgeon::{Error, Result, Warning};
 use clap::{ArgGroup, Args, ValueEnum};
 use serde_json::json;
 
-use super::progress::Progress;
+use super::progress::ProgressDisplay;
 use super::report;
 use super::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
 
 /// Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
 #[derive(Args)]
 #[command(group = ArgGroup::new("over").required(true))]
-pub(crate) struct Variations {
+pub(crate) struct VariationsCommand {
     #[command(flatten)]
     script: ScriptFlags,
 
     /// The seeds: 1..16, or 3,7,12
     #[arg(long, value_name = "SEEDS", value_parser = seeds, group = "over", allow_hyphen_values = true)]
-    seeds: Option<Over>,
+    seeds: Option<VariationAxis>,
 
     /// A parameter and its values: twist=0..90:10 in steps of 10, kind=a,b,c, or kind for every choice
     #[arg(long, value_name = "NAME=VALUES", value_parser = sweep, group = "over")]
-    sweep: Option<Over>,
+    sweep: Option<VariationAxis>,
 
     /// The contact sheet, a .png file
     #[arg(short, long, value_name = "FILE", value_parser = output, required = true)]
     output: PathBuf,
 
-    /// Cells in a row [default: as many as look well]
+    /// Variations in a row [default: as many as look well]
     #[arg(long, value_name = "N", value_parser = columns, allow_negative_numbers = true)]
     columns: Option<usize>,
 
     /// How the pictures go together
-    #[arg(long, value_enum, default_value_t = Fit::All, help_heading = "Pictures")]
-    fit: Fit,
+    #[arg(long, value_enum, default_value_t = FramingFlag::All, help_heading = "Pictures")]
+    fit: FramingFlag,
 
     /// Width and height of a cell in pixels
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "320x320", help_heading = "Pictures")]
@@ -52,14 +52,14 @@ pub(crate) struct Variations {
 }
 
 #[derive(Clone, Copy, ValueEnum)]
-enum Fit {
+enum FramingFlag {
     /// One camera for all: what looks larger is larger
     All,
     /// Each model fills its cell
     Each,
 }
 
-impl Variations {
+impl VariationsCommand {
     pub(crate) fn json(&self) -> bool {
         self.script.json
     }
@@ -71,25 +71,25 @@ impl Variations {
         let options = self.script.options()?;
         let over = self.seeds.as_ref().or(self.sweep.as_ref());
         let over = over.ok_or_else(|| Error::usage("give --seeds or --sweep"))?;
-        if let Over::Param { name, .. } = over
+        if let VariationAxis::Param { name, .. } = over
             && options.set.iter().any(|(known, _)| known == name)
         {
             return Err(Error::usage(format!("{name} is set and varied at the same time"))
                 .help(format!("leave out --set {name} or --sweep {name}")));
         }
-        let variations = Arc::new(Cells::new(&self.script.script, &options, over)?);
+        let variations = Arc::new(Variations::new(&self.script.script, &options, over)?);
         let picture = Picture { quality: Quality::Draft, ..self.picture.picture(self.size) };
-        let layout = Sheet::new(variations.len(), self.columns, &picture)?;
+        let layout = SheetLayout::new(variations.len(), self.columns, &picture)?;
         let framing = match self.fit {
-            Fit::All => Framing::Together,
-            Fit::Each => Framing::Each,
+            FramingFlag::All => Framing::Together,
+            FramingFlag::Each => Framing::Each,
         };
-        let mut cells: Vec<Cell> = Vec::new();
+        let mut cells: Vec<Variation> = Vec::new();
         {
             let of = variations.len();
             let watched = Arc::clone(&variations);
             let message = move || format!("{} of {of} variations", watched.ran());
-            let _progress = Progress::saying(message, !self.script.json);
+            let _progress = ProgressDisplay::saying(message, !self.script.json);
             variations.make(&picture, framing, |cell| cells.push(cell))?;
             refuse_if_all_failed(&cells)?;
             let texts: Vec<String> = cells.iter().map(told).collect();
@@ -117,7 +117,7 @@ impl Variations {
         Ok(())
     }
 
-    fn tell(&self, cells: &[Cell], layout: &Sheet, begin: Instant) {
+    fn tell(&self, cells: &[Variation], layout: &SheetLayout, begin: Instant) {
         for cell in cells {
             if let Err(error) = &cell.made {
                 report::eprint(&format!("{} failed\n", cell.label));
@@ -147,7 +147,7 @@ impl Variations {
 }
 
 /// If nothing is left to be shown, the reasons become one error.
-fn refuse_if_all_failed(cells: &[Cell]) -> Result<()> {
+fn refuse_if_all_failed(cells: &[Variation]) -> Result<()> {
     let mut errors: Vec<(Error, String)> = Vec::new();
     for cell in cells {
         let Err(error) = &cell.made else { return Ok(()) };
@@ -167,7 +167,7 @@ fn refuse_if_all_failed(cells: &[Cell]) -> Result<()> {
 }
 
 /// What a cell without a picture says.
-fn told(cell: &Cell) -> String {
+fn told(cell: &Variation) -> String {
     match &cell.made {
         Ok(_) => String::new(),
         Err(error) => {
@@ -180,7 +180,7 @@ fn told(cell: &Cell) -> String {
     }
 }
 
-fn cell_json(cell: &Cell) -> serde_json::Value {
+fn cell_json(cell: &Variation) -> serde_json::Value {
     let mut object = json!({ "label": cell.label, "seed": cell.seed });
     if let Some((name, value)) = &cell.set {
         object["set"] = json!({ name: value });
@@ -197,12 +197,12 @@ fn cell_json(cell: &Cell) -> serde_json::Value {
     object
 }
 
-fn seeds(text: &str) -> Result<Over, String> {
-    Over::seeds(text).map_err(|error| error.to_string())
+fn seeds(text: &str) -> Result<VariationAxis, String> {
+    VariationAxis::seeds(text).map_err(|error| error.to_string())
 }
 
-fn sweep(text: &str) -> Result<Over, String> {
-    Over::sweep(text).map_err(|error| error.to_string())
+fn sweep(text: &str) -> Result<VariationAxis, String> {
+    VariationAxis::sweep(text).map_err(|error| error.to_string())
 }
 
 fn output(text: &str) -> Result<PathBuf, String> {

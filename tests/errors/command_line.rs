@@ -268,6 +268,7 @@ fn help_reads_well() {
       api          Tells what scripts can use: types of objects with their fields and methods, functions and modules
       variations   Runs a script many times, with other seeds or other values of a parameter, and shows them side by side
       fit          Searches for a rule table whose terrain is like a height map
+      mods         Lists the packages that scripts can use, and what they replace; checks, explains and adds them
       new          Makes a script to start from
       sources      Lists the layers of data files, with their attributes, coordinate systems and extents
       completions  Prints a script that completes the command line in a shell
@@ -282,7 +283,7 @@ fn help_reads_well() {
       burgeon live tree.lua
       burgeon run tree.lua -o tree.glb
     ");
-    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r##"
+    assert_snapshot!(Folder::new().burgeon(&["run", "-h"]).done().stdout, @r"
     Runs a script and writes what it makes
 
     Usage: burgeon run [OPTIONS] <SCRIPT>
@@ -294,6 +295,7 @@ fn help_reads_well() {
           --set <NAME=VALUE>    Sets a parameter of the script
           --preset <NAME>       Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>       Lets the script read data files in this folder and below it; may be repeated
+          --mods <FOLDER>       Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
           --strict              Ends with an error where there would be a warning, and at the first feature whose data cannot be built
           --seed <N>            The seed of all random numbers [default: 0]
           --steps <N>           Derives at most N steps
@@ -323,8 +325,8 @@ fn help_reads_well() {
           --elevation <DEGREES>      How high the camera stands above the horizon (degrees) [default: by the model]
           --look <X,Y,Z,M>           Looks at a place (m) and at what is within a distance (m) of it [default: the whole model]
           --background <BACKGROUND>  What is behind the model [default: light] [possible values: light, dark, clear]
-    "##);
-    assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r##"
+    ");
+    assert_snapshot!(Folder::new().burgeon(&["check", "-h"]).done().stdout, @r"
     Loads a script and everything it requires, compiles every rule, and reports all problems at once
 
     Usage: burgeon check [OPTIONS] <SCRIPT>
@@ -336,6 +338,7 @@ fn help_reads_well() {
           --set <NAME=VALUE>  Sets a parameter of the script
           --preset <NAME>     Takes the parameters and the seed from a preset of the script; --set and --seed win over it
           --data <FOLDER>     Lets the script read data files in this folder and below it; may be repeated
+          --mods <FOLDER>     Uses the packages in this folder, or the one that it is, besides those in mods beside the script; may be repeated
           --strict            Ends with an error where there would be a warning, and at the first feature whose data cannot be built
           --seed <N>          The seed of all random numbers [default: 0]
           --steps <N>         Derives at most N steps
@@ -350,7 +353,11 @@ fn help_reads_well() {
           --memory-limit <MEGABYTES>  Memory that each thread's script may use [default: 2048]
           --module-limit <N>          Modules that a system's chains may have [default: 50000000]
           --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
-    "##);
+    ");
+}
+
+#[test]
+fn a_program_without_a_command_says_how_it_is_used_and_which_version_it_is() {
     let said = Folder::new().burgeon(&[]);
     assert_eq!((said.status, said.stdout.as_str()), (2, ""));
     let version = Folder::new().burgeon(&["--version"]).done().stdout;

@@ -112,6 +112,7 @@ impl Folder {
             .current_dir(self.0.path())
             .stdin(Stdio::null())
             .env("RUST_BACKTRACE", "1")
+            .env("XDG_DATA_HOME", self.0.path().join("user"))
             .output()
             .unwrap();
         let here = self.0.path().display().to_string();

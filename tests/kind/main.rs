@@ -11,7 +11,7 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 
 use burgeon::Run;
-use burgeon::kit::{Call, Construct, Key, Kind, Registry, Table, Value};
+use burgeon::kit::{Call, Construct, Kind, Registry, Table, TableKey, Value};
 use burgeon::picture::Picture;
 use burgeon::script::RunOptions;
 use burgeon::trace::{Pick, pick};
@@ -52,7 +52,8 @@ fn a_constructor_refuses_an_unknown_field_and_names_the_nearest() {
     for kind in made_of_fields(&registry) {
         let Some(field) = kind.fields.iter().max_by_key(|field| field.name.len()) else { continue };
         let misspelt = format!("{}x", field.name);
-        let table = Table { class: None, entries: vec![(Key::Name(misspelt.as_str().into()), Value::Nil)] };
+        let table =
+            Table { class: None, entries: vec![(TableKey::Name(misspelt.as_str().into()), Value::Nil)] };
         let Err(error) = kind.make(&table) else { panic!("{} takes {misspelt}", kind.name) };
         let text = error.to_string();
         assert!(

@@ -7,8 +7,8 @@ use std::sync::{Arc, LazyLock};
 use burgeon::Result;
 use burgeon::geometry::sphere;
 use burgeon::kit::{
-    Draw, Drawing, Expand, Expected, Features, Kind, Object, Parameter, Prefetch, Rewriter, Shape, Table,
-    Value, Vector, fields, methods,
+    Draw, Drawing, Expand, Expectation, FeatureShape, Features, Kind, Object, Parameter, Prefetch, Rewriter,
+    Table, Value, Vector, fields, methods,
 };
 use burgeon::scene::Material;
 use burgeon::sources::{Geometry, Layer};
@@ -25,12 +25,11 @@ pub struct Corners(Vec<DVec3>);
 
 impl Corners {
     fn of(geometry: &Geometry) -> Self {
-        let points = match geometry {
+        Self(match geometry {
             Geometry::Polygon(rings) => rings.first().cloned().unwrap_or_default(),
             Geometry::Line(points) => points.clone(),
             Geometry::Point(point) => vec![*point],
-        };
-        Self(points.into_iter().map(DVec3::from).collect())
+        })
     }
 
     fn middle(&self) -> DVec3 {
@@ -43,11 +42,11 @@ impl Parameter for Corners {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a feature's geometry");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a feature's geometry");
         let Value::Object(object) = &value else { return Err(what()) };
         let any: &dyn Any = &**object;
-        any.downcast_ref::<Shape>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
+        any.downcast_ref::<FeatureShape>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
     }
 
     fn into_value(self) -> Value {
@@ -70,10 +69,10 @@ impl Parameter for Whole {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let Value::Object(object) = &value else { return Err(Expected::new("a source")) };
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let Value::Object(object) = &value else { return Err(Expectation::new("a source")) };
         let any: &dyn Any = &**object;
-        let features = any.downcast_ref::<Features>().ok_or_else(|| Expected::new("a source"))?;
+        let features = any.downcast_ref::<Features>().ok_or_else(|| Expectation::new("a source"))?;
         Ok(Self(Some(Arc::clone(&features.0))))
     }
 
@@ -95,7 +94,8 @@ pub struct OrchardOptions {
 }
 
 /// Rows of trees on a field.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
+#[draw(crate = burgeon::kit)]
 pub struct Orchard {
     corners: Corners,
     wells: Whole,
@@ -152,7 +152,7 @@ impl Orchard {
     fn from_table(table: &Table) -> Result<Self> {
         let OrchardOptions { geometry, wells, spacing } = OrchardOptions::from_table(table)?;
         let middle = prefetched(table).unwrap_or_else(|| geometry.middle());
-        let (trees, drawing) = (Vec::new(), Drawing::default());
+        let (trees, drawing) = (Vec::new(), Drawing::at(middle));
         Ok(Self { corners: geometry, wells, spacing, middle, nearest: f64::INFINITY, trees, drawing })
     }
 }
@@ -161,7 +161,7 @@ impl Orchard {
 fn prefetched(table: &Table) -> Option<DVec3> {
     let Some(Value::Object(object)) = table.get("geometry") else { return None };
     let any: &dyn Any = &**object;
-    let (prefetch, number) = any.downcast_ref::<Shape>()?.prefetch()?;
+    let (prefetch, number) = any.downcast_ref::<FeatureShape>()?.prefetch()?;
     let any: &dyn Any = prefetch;
     LOOKED_FOR.fetch_add(1, Ordering::Relaxed);
     any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()
@@ -223,20 +223,6 @@ impl Object for Orchard {
 
     fn begin(&mut self) {
         self.drawing.clear();
-    }
-}
-
-impl Draw for Orchard {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.middle
     }
 }
 

@@ -1,8 +1,8 @@
 //! Random chains, patterns and rules of the kinds that are hard on an engine, for tests and benches alike.
 
-use burgeon::kit::rules::{Around, Bindings, CLOSE};
+use burgeon::kit::rules::{Bindings, CLOSE, ContextMatcher};
 use burgeon::kit::rules::{
-    Chain, END, FIRST_SYMBOL, Grammar, Key, Links, OPEN, Pattern, Rule, Signature, Symbols,
+    Chain, END, FIRST_SYMBOL, Grammar, Links, ModuleKey, OPEN, Pattern, Rule, Signature, Symbols,
 };
 
 use super::naive;
@@ -15,7 +15,7 @@ pub(crate) struct Dice(Box<dyn FnMut() -> f64>);
 
 impl Dice {
     pub(crate) fn new(seed: u64) -> Self {
-        let mut stream = Key::seed(seed).stream();
+        let mut stream = ModuleKey::seed(seed).stream();
         Self(Box::new(move || stream.uniform()))
     }
 
@@ -273,8 +273,8 @@ impl Engine {
             .filter(move |index| around.matches(number, *index))
     }
 
-    fn around(&self) -> Around<'_> {
-        Around { chain: &self.chain, links: &self.links, grammar: &self.grammar }
+    fn around(&self) -> ContextMatcher<'_> {
+        ContextMatcher { chain: &self.chain, links: &self.links, grammar: &self.grammar }
     }
 }
 

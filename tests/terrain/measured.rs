@@ -5,13 +5,14 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use burgeon::kit::random::Stream;
-use burgeon::kit::rules::Key;
+use burgeon::kit::rules::ModuleKey;
 use burgeon::objects::Elevation;
 use burgeon::scene::Part;
-use burgeon::sources::elevation::{Grid, Raster, Relief};
-use burgeon::sources::{Crs, Frame};
+use burgeon::sources::elevation::{Raster, Relief, SampleGrid};
+use burgeon::sources::{Crs, ReferenceFrame};
 use burgeon::terrain::{
-    Draw, Edit, Edits, Ground, Layer, Measured, Mesh, Quadrants, Ring, RuleTable, Rules, Tables, View, World,
+    Edit, Edits, Ground, GroundMesh, HeightSource, LevelRules, NumberRange, Quadrants, RuleTable, Rules,
+    Tables, TileRing, View, World,
 };
 use glam::{DVec2, DVec3};
 
@@ -72,7 +73,7 @@ pub(crate) fn check(seed: u64) -> Result<Worst, String> {
         View::whole(&world, luck.below(most as usize + 1) as u32)
     } else {
         let levels = 2 + luck.below(most.max(3) as usize - 2) as u32;
-        let ring = |(across, levels)| Ring { across, levels };
+        let ring = |(across, levels)| TileRing { across, levels };
         View { cell: size / 4.0, rings: [(2, levels), (4, levels / 2)].map(ring).to_vec() }
     };
     let edited = luck.odds(0.1);
@@ -119,41 +120,53 @@ fn relief(luck: &mut RandomSource) -> Relief {
         1 => (Some(32632), [360_000.0 + luck.between(0.0, 1e4), 4.85e6], [1.0; 2]),
         _ => (Some(4326), [luck.between(5.0, 10.0), luck.between(-60.0, 60.0)], [9e-6; 2]),
     };
-    let grid = Grid { first, step: [step * unit[0], step * ratio * unit[1]] };
+    let grid = SampleGrid { first, step: [step * unit[0], step * ratio * unit[1]] };
     let crs = crs.map(|code| Crs::epsg(code).unwrap());
     // Another source may have decided the projection.
     let middle = match &crs {
         Some(crs) if crs.is_geographic() => [first[0] - 0.3, first[1]],
         _ => [7.5, 43.7],
     };
-    let mut frame = (luck.odds(0.8)).then(|| Frame::around(&Crs::epsg(4326).unwrap(), middle, "a").unwrap());
+    let mut frame =
+        (luck.odds(0.8)).then(|| ReferenceFrame::around(&Crs::epsg(4326).unwrap(), middle, "a").unwrap());
     let raster = Raster { name: "a".into(), columns, rows, heights, grid, crs, filled: 0, surplus: 0 };
     Relief::new(Arc::new(raster), &mut frame).unwrap()
 }
 
 fn world(luck: &mut RandomSource, elevation: Elevation, corner: DVec2, size: f64) -> World {
-    let undivided =
-        Layer { from: 0, rules: Rules::None, start: 0, height: 0.0, rest: Vec::new(), names: Arc::default() };
+    let undivided = LevelRules {
+        from: 0,
+        rules: Rules::None,
+        start: 0,
+        height: 0.0,
+        rest: Vec::new(),
+        names: Arc::default(),
+    };
     let mut layers = vec![undivided.clone()];
     if luck.odds(0.6) {
-        let change = |low: f64| Draw { low, high: low + 1.0 };
+        let change = |low: f64| NumberRange { low, high: low + 1.0 };
         let rule = Quadrants {
             weight: 1.0,
             symbols: [0; 4],
             change: [change(-1.0), change(0.0), change(-0.5), change(-0.2)],
-            decay: [Draw::exactly(0.6); 4],
+            decay: [NumberRange::exactly(0.6); 4],
         };
         let table = RuleTable { names: vec!["A".into()], rules: vec![vec![rule]] };
         let from = ((size / elevation.step()).log2().max(0.0).ceil() as u32).max(1);
         let decay = if luck.odds(0.5) { 200.0 } else { luck.between(0.1, 5.0) };
-        layers.push(Layer { from, rules: Rules::Table(Arc::new(table)), rest: vec![decay], ..undivided });
+        layers.push(LevelRules {
+            from,
+            rules: Rules::Table(Arc::new(table)),
+            rest: vec![decay],
+            ..undivided
+        });
     }
     World {
         corner,
         size,
         layers,
         smooth: luck.odds(0.7),
-        key: Some(Key::seed(3)),
+        key: Some(ModuleKey::seed(3)),
         remap: Vec::new(),
         measured: Some(Arc::new(elevation)),
     }
@@ -168,7 +181,7 @@ fn measure(
 ) -> Result<Worst, String> {
     let world = ground.world();
     let mut worst = Worst::default();
-    let mesh = Mesh::new(ground, error);
+    let mesh = GroundMesh::new(ground, error);
     // A tile that cannot show samples is only asked for heights.
     let mut shown: Vec<DVec3> = Vec::new();
     for tile in ground.tiles() {
@@ -249,14 +262,19 @@ fn measure(
     if (area - size * size).abs() > 1e-4 * area {
         return Err(format!("triangles cover {area} of {} m2", size * size));
     }
-    let span = size as f32;
+    check_gaps(&edges, size as f32)?;
+    Ok(worst)
+}
+
+/// Refuses edges inside a square of this size that triangles do not run along as often one way as the other.
+fn check_gaps(edges: &HashMap<[[u32; 3]; 2], i32>, size: f32) -> Result<(), String> {
     for (edge, _) in edges.iter().filter(|(_, count)| **count != 0) {
         let on = |axis: usize, rim: f32| {
-            edge.iter().all(|end| (f32::from_bits(end[axis]) - rim).abs() < 1e-5 * span + 2e-4)
+            edge.iter().all(|end| (f32::from_bits(end[axis]) - rim).abs() < 1e-5 * size + 2e-4)
         };
-        if !(0..2).any(|axis| on(axis, 0.0) || on(axis, span)) {
+        if !(0..2).any(|axis| on(axis, 0.0) || on(axis, size)) {
             return Err(format!("a gap at {:?}", edge.map(|end| end.map(f32::from_bits))));
         }
     }
-    Ok(worst)
+    Ok(())
 }

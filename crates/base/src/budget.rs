@@ -11,14 +11,14 @@ use crate::error::{Error, Limit, Result};
 const PIECES: usize = 1024;
 
 /// Tells whether to go on.
-type Check = dyn Fn() -> Result<()> + Send + Sync;
+type BudgetCheck = dyn Fn() -> Result<()> + Send + Sync;
 
 /// What may be used to read files, by all that are read for one run.
 ///
 /// Readers ask [`check`](Self::check) now and then, and [`take`](Self::take) memory before they allocate what the
 /// content of a file decides. What is counted is an estimate, to within a factor of two.
 pub struct Budget {
-    check: Option<Box<Check>>,
+    check: Option<Box<BudgetCheck>>,
     /// The most memory (bytes), and what is taken of it.
     most: usize,
     taken: AtomicUsize,
@@ -105,9 +105,9 @@ impl Budget {
     }
 
     /// Takes memory (bytes) until the result is dropped.
-    pub fn hold(&self, bytes: usize) -> Result<Held<'_>> {
+    pub fn hold(&self, bytes: usize) -> Result<MemoryReservation<'_>> {
         self.take(bytes)?;
-        Ok(Held { budget: self, bytes })
+        Ok(MemoryReservation { budget: self, bytes })
     }
 
     /// What is taken so far (bytes).
@@ -124,12 +124,12 @@ impl Budget {
 
 /// Memory that is given back when this is dropped.
 #[derive(Debug)]
-pub struct Held<'a> {
+pub struct MemoryReservation<'a> {
     budget: &'a Budget,
     bytes: usize,
 }
 
-impl Drop for Held<'_> {
+impl Drop for MemoryReservation<'_> {
     fn drop(&mut self) {
         self.budget.give(self.bytes);
     }

@@ -12,7 +12,7 @@ pub mod stop;
 pub mod text;
 pub mod warning;
 
-pub use budget::{Budget, Held};
+pub use budget::{Budget, MemoryReservation};
 pub use error::{Error, Result};
 pub use stop::Stop;
 pub use warning::{Warning, WarningKind};

@@ -20,7 +20,7 @@ use std::collections::BTreeMap;
 use std::fmt;
 use std::sync::{Mutex, PoisonError};
 
-use crate::error::{Error, ErrorKind, Place};
+use crate::error::{Error, ErrorKind, SourcePlace};
 
 /// What a warning is about, for code.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -56,6 +56,12 @@ pub enum WarningKind {
     Data,
     /// Something that is done as asked, though hardly as meant.
     Doubtful,
+    /// A name that will go, for there is a better one.
+    Deprecated,
+    /// A package that is not used, for another of its name comes first.
+    HiddenPackage,
+    /// Something of a package that two others replace.
+    ReplacedTwice,
 }
 
 impl WarningKind {
@@ -82,6 +88,9 @@ impl WarningKind {
             Self::NoEffect => "warning.no-effect",
             Self::Data => "warning.data",
             Self::Doubtful => "warning.doubtful",
+            Self::Deprecated => "warning.deprecated",
+            Self::HiddenPackage => "warning.hidden-package",
+            Self::ReplacedTwice => "warning.replaced-twice",
         }
     }
 }
@@ -110,7 +119,7 @@ impl Warning {
 
     /// Says where, unless that is known already.
     #[must_use]
-    pub fn at(self, place: Option<Place>) -> Self {
+    pub fn at(self, place: Option<SourcePlace>) -> Self {
         Self { told: self.told.at(place), ..self }
     }
 
@@ -154,7 +163,7 @@ impl Warning {
     }
 
     /// Where, if known.
-    pub fn place(&self) -> Option<&Place> {
+    pub fn place(&self) -> Option<&SourcePlace> {
         self.told.place()
     }
 
@@ -197,11 +206,11 @@ impl fmt::Display for Warning {
 }
 
 /// Where it stands, those without a place last, and what it says.
-type Key = (bool, Option<Place>, String);
+type WarningOrder = (bool, Option<SourcePlace>, String);
 
 /// The warnings of a run.
 #[derive(Debug, Default)]
-pub struct Warnings(Mutex<BTreeMap<Key, Warning>>);
+pub struct Warnings(Mutex<BTreeMap<WarningOrder, Warning>>);
 
 impl Warnings {
     /// Adds a warning; the same text in the same place is counted.
@@ -224,7 +233,7 @@ mod tests {
 
     #[test]
     fn the_same_text_in_the_same_place_is_counted_and_all_come_in_the_order_of_their_places() {
-        let at = |line| Some(Place { file: "a.lua".to_owned(), line });
+        let at = |line| Some(SourcePlace { file: "a.lua".to_owned(), line });
         let warnings = Warnings::default();
         for (line, text) in [(7, "late"), (0, "nowhere"), (2, "early"), (7, "late"), (7, "also late")] {
             let place = if line == 0 { None } else { at(line) };

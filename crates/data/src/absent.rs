@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{Table, Wanted};
+use super::{FeatureTable, SourceOptions};
 use burgeon_base::error::{Error, Result};
 
 fn left_out<T>() -> Result<T> {
@@ -13,7 +13,7 @@ fn left_out<T>() -> Result<T> {
 pub enum GeoPackage {}
 
 impl GeoPackage {
-    pub(crate) fn open(_path: &Path, name: &str, _wanted: &Wanted) -> Result<Self> {
+    pub(crate) fn open(_path: &Path, name: &str, _wanted: &SourceOptions) -> Result<Self> {
         left_out().map_err(|error: Error| error.about(name))
     }
 
@@ -21,7 +21,7 @@ impl GeoPackage {
         match *self {}
     }
 
-    pub(crate) fn read(self, _layer: &str, _wanted: &Wanted) -> Result<Table> {
+    pub(crate) fn read(self, _layer: &str, _wanted: &SourceOptions) -> Result<FeatureTable> {
         match self {}
     }
 }
@@ -50,18 +50,22 @@ pub(crate) mod projection {
 
 pub(crate) mod geotiff {
     use super::{Error, Result, left_out};
-    use crate::elevation::raster::Found;
+    use crate::heights::RasterHeader;
 
-    pub(crate) fn read<'a>(_bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
+    pub(crate) fn read<'a>(_bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
         left_out().map_err(|error: Error| error.about(name))
     }
 }
 
 pub(crate) mod png {
     use super::Result;
-    use crate::elevation::{Wanted, raster::Found};
+    use crate::heights::{HeightOptions, RasterHeader};
 
-    pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, _wanted: &'a Wanted) -> Result<Found<'a>> {
+    pub(crate) fn read<'a>(
+        bytes: &'a [u8],
+        name: &'a str,
+        _wanted: &'a HeightOptions,
+    ) -> Result<RasterHeader<'a>> {
         super::geotiff::read(bytes, name)
     }
 }

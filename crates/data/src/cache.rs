@@ -4,8 +4,8 @@ use std::fmt;
 use std::path::Path;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::elevation::{Raster, Wanted as WantedHeights};
-use super::{Frame, Layer, Wanted};
+use super::elevation::{HeightOptions, Raster};
+use super::{Layer, ReferenceFrame, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
@@ -17,7 +17,7 @@ const MOST_RASTERS: usize = 2;
 /// Layers and rasters by the content of their files: one that is saved anew is read anew, and only then.
 #[derive(Default)]
 pub struct Cache {
-    kept: Mutex<Vec<(String, Arc<Layer>, Frame)>>,
+    kept: Mutex<Vec<(String, Arc<Layer>, ReferenceFrame)>>,
     rasters: Mutex<Vec<(String, Arc<Raster>)>>,
 }
 
@@ -31,7 +31,7 @@ impl Cache {
     /// What tells a layer from all others; `None` if that cannot be told.
     ///
     /// `frame` is that of the run so far, into which the layer is brought.
-    pub fn key(path: &Path, wanted: &Wanted, frame: Option<&Frame>) -> Option<String> {
+    pub fn key(path: &Path, wanted: &SourceOptions, frame: Option<&ReferenceFrame>) -> Option<String> {
         let mut log = path.as_os_str().to_owned();
         log.push("-wal");
         // Changes that another program makes stand elsewhere.
@@ -44,14 +44,14 @@ impl Cache {
     }
 
     /// The layer with this key, and the frame that it is in.
-    pub fn get(&self, key: &str) -> Option<(Arc<Layer>, Frame)> {
+    pub fn get(&self, key: &str) -> Option<(Arc<Layer>, ReferenceFrame)> {
         let kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         let found = kept.iter().find(|(known, ..)| known == key);
         found.map(|(_, layer, frame)| (Arc::clone(layer), frame.clone()))
     }
 
     /// Keeps a layer; the oldest goes when there are many.
-    pub fn keep(&self, key: String, layer: &Arc<Layer>, frame: &Frame) {
+    pub fn keep(&self, key: String, layer: &Arc<Layer>, frame: &ReferenceFrame) {
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
         if kept.len() >= MOST {
             kept.remove(0);
@@ -63,7 +63,7 @@ impl Cache {
         &self,
         path: &Path,
         name: &str,
-        wanted: &WantedHeights,
+        wanted: &HeightOptions,
         budget: &Budget,
     ) -> Result<Arc<Raster>> {
         // What is no file is left to the reader, which says so.
@@ -102,7 +102,7 @@ mod tests {
         let read = |height: f32, east: f64| {
             std::fs::write(&path, [height.to_le_bytes(); 4].concat()).unwrap();
             let bounds = Some([0.0, 0.0, east, 1.0]);
-            let wanted = WantedHeights { bounds, ..WantedHeights::default() };
+            let wanted = HeightOptions { bounds, ..HeightOptions::default() };
             cache.raster(&path, "a.r32", &wanted, &Budget::default()).unwrap()
         };
         let first = read(1.0, 1.0);
@@ -110,7 +110,7 @@ mod tests {
         assert_eq!(read(1.0, 2.0).bounds()[2], 2.0);
         assert_eq!(read(3.0, 1.0).heights, [3.0; 4]);
         let error =
-            cache.raster(folder.path(), "a", &WantedHeights::default(), &Budget::default()).unwrap_err();
+            cache.raster(folder.path(), "a", &HeightOptions::default(), &Budget::default()).unwrap_err();
         assert_eq!(error.message(), "a is a folder");
     }
 }

@@ -2,10 +2,11 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::formats::projection::{Projection, known};
-use super::table::{Feature, Table};
+use super::table::{Feature, FeatureTable};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 
@@ -104,7 +105,7 @@ impl Crs {
 
 /// The projection and the origin of a run.
 #[derive(Clone)]
-pub struct Frame {
+pub struct ReferenceFrame {
     /// What it is called.
     pub name: String,
     /// Where its origin lies in the projection (m): whole hundreds.
@@ -115,7 +116,7 @@ pub struct Frame {
     projection: Projection,
 }
 
-impl Frame {
+impl ReferenceFrame {
     /// The frame that suits `table` best. Features with places that cannot be are left out of the table.
     ///
     /// A projected layer keeps its projection, in metres. A geographic one, or one in Mercator's projection, whose
@@ -124,7 +125,7 @@ impl Frame {
     /// a UTM zone would shorten all lengths by 4e-4 and turn north by up to 3 degrees.
     ///
     /// Where features lie too far apart for one model, those around the median decide.
-    pub fn new(table: &mut Table) -> Result<Self> {
+    pub fn new(table: &mut FeatureTable) -> Result<Self> {
         let crs = table.crs.clone()?;
         refuse_odd_degrees(&crs, table)?;
         let (place, half) = centre(&crs, table, |_| true)?;
@@ -135,7 +136,7 @@ impl Frame {
         }
         let reached = |frame: &Self| -> Result<Vec<bool>> {
             let passage = frame.passage(&crs)?;
-            let near = |at: &[f64; 3]| within(passage.enter([at[0], at[1]]));
+            let near = |at: &DVec3| within(passage.enter([at[0], at[1]]));
             Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
         };
         if reached(&frame)?.iter().all(|near| *near) {
@@ -195,16 +196,16 @@ impl Frame {
     }
 
     /// Brings the features of `table` into this frame; those that have no place there are left out.
-    pub(super) fn bring(&self, table: &mut Table) -> Result<()> {
+    pub(super) fn bring(&self, table: &mut FeatureTable) -> Result<()> {
         let crs = table.crs.clone()?;
         refuse_odd_degrees(&crs, table)?;
         let passage = self.passage(&crs)?;
         let name = table.shown.clone();
         table.refuse_those(|feature| {
-            let place = |point: &mut [f64; 3]| -> Option<[f64; 3]> {
+            let place = |point: &mut DVec3| -> Option<DVec3> {
                 let was = *point;
-                [point[0], point[1]] = passage.enter([was[0], was[1]]);
-                let near = within([point[0], point[1]]) && was[2].abs() <= FARTHEST;
+                [point.x, point.y] = passage.enter([was.x, was.y]);
+                let near = within([point.x, point.y]) && was.z.abs() <= FARTHEST;
                 (!near).then_some(was)
             };
             let at = feature.geometry.points_mut().find_map(place)?;
@@ -231,7 +232,7 @@ fn within(place: [f64; 2]) -> bool {
 
 /// The way from a coordinate system into a frame, and back.
 pub(super) struct Passage<'a> {
-    frame: &'a Frame,
+    frame: &'a ReferenceFrame,
     outside: Projection,
     /// What the outside's coordinates are multiplied by to be radians, or 1.
     unit: f64,
@@ -273,14 +274,15 @@ fn normal(definition: &str) -> Vec<&str> {
 }
 
 /// Leaves out features with coordinates that are no numbers, or degrees that there are not.
-fn refuse_odd_degrees(crs: &Crs, table: &mut Table) -> Result<()> {
+fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
     table.refuse_endless()?;
     if !crs.is_geographic() {
         return Ok(());
     }
     let name = table.shown.clone();
     table.refuse_those(|feature| {
-        let [x, y, _] = *feature.geometry.points().find(|at| at[0].abs() > 360.0 || at[1].abs() > 90.0)?;
+        let DVec3 { x, y, .. } =
+            *feature.geometry.points().find(|at| at.x.abs() > 360.0 || at.y.abs() > 90.0)?;
         let id = shown(&feature.id);
         let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
         let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
@@ -289,7 +291,7 @@ fn refuse_odd_degrees(crs: &Crs, table: &mut Table) -> Result<()> {
 }
 
 /// A place in the midst of most features: the median of their first points, along each axis.
-fn median(crs: &Crs, table: &Table) -> [f64; 2] {
+fn median(crs: &Crs, table: &FeatureTable) -> [f64; 2] {
     let middle = |values: &mut Vec<f64>| {
         let half = values.len() / 2;
         if values.is_empty() { 0.0 } else { *values.select_nth_unstable_by(half, f64::total_cmp).1 }
@@ -310,7 +312,11 @@ fn median(crs: &Crs, table: &Table) -> [f64; 2] {
 
 /// The middle of the bounds of those features that count, and half of their greater side. Longitudes are counted on from
 /// the first one, across the date line.
-fn centre(crs: &Crs, table: &Table, mut counts: impl FnMut(&Feature) -> bool) -> Result<([f64; 2], f64)> {
+fn centre(
+    crs: &Crs,
+    table: &FeatureTable,
+    mut counts: impl FnMut(&Feature) -> bool,
+) -> Result<([f64; 2], f64)> {
     let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
     let (mut first, geographic) = (None, crs.is_geographic());
     let features = table.features.iter().filter(|feature| counts(feature));
@@ -339,17 +345,17 @@ mod tests {
     use super::super::table::Geometry;
     use super::*;
 
-    fn table(code: u32, points: &[[f64; 2]]) -> Table {
-        let mut table = Table::new("a", "a", Crs::epsg(code), std::sync::Arc::default());
+    fn table(code: u32, points: &[[f64; 2]]) -> FeatureTable {
+        let mut table = FeatureTable::new("a", "a", Crs::epsg(code), std::sync::Arc::default());
         for [x, y] in points {
-            table.push("p", vec![Geometry::Point([*x, *y, 5.0])], Vec::new()).unwrap();
+            table.push("p", vec![Geometry::Point(DVec3::new(*x, *y, 5.0))], Vec::new()).unwrap();
         }
         table
     }
 
-    fn placed(frame: &Frame, mut table: Table) -> Vec<[f64; 3]> {
+    fn placed(frame: &ReferenceFrame, mut table: FeatureTable) -> Vec<[f64; 3]> {
         frame.bring(&mut table).unwrap();
-        table.features.iter().flat_map(|feature| feature.geometry.points().copied()).collect()
+        table.features.iter().flat_map(|feature| feature.geometry.points().map(DVec3::to_array)).collect()
     }
 
     #[test]
@@ -357,7 +363,7 @@ mod tests {
         // A second of latitude at 45 degrees is 30.87 m, one of longitude 21.90 m.
         let second = 1.0 / 3600.0;
         let points = [[7.0, 45.0], [7.0, 45.0 + second], [7.0 + second, 45.0]];
-        let frame = Frame::new(&mut table(4326, &points)).unwrap();
+        let frame = ReferenceFrame::new(&mut table(4326, &points)).unwrap();
         let [a, b, c] = placed(&frame, table(4326, &points))[..] else { panic!("three") };
         assert!((b[1] - a[1] - 30.8702).abs() < 1e-3 && (b[0] - a[0]).abs() < 1e-6, "{a:?} {b:?}");
         assert!((c[0] - a[0] - 21.9014).abs() < 1e-3 && (c[1] - a[1]).abs() < 1e-2, "{a:?} {c:?}");
@@ -367,18 +373,18 @@ mod tests {
     #[test]
     fn projected_metres_stay_and_feet_and_mercator_become_metres() {
         let corner = [385_423.178, 6_671_463.227];
-        let frame = Frame::new(&mut table(3067, &[corner])).unwrap();
+        let frame = ReferenceFrame::new(&mut table(3067, &[corner])).unwrap();
         assert_eq!((frame.origin, frame.name.as_str()), ([385_400.0, 6_671_500.0], "EPSG:3067"));
         let at = placed(&frame, table(3067, &[corner]))[0];
         assert_eq!(at[..2], [corner[0] - 385_400.0, corner[1] - 6_671_500.0]);
         // EPSG:2272 counts in feet of 0.3048006 m.
         let feet = [[2_690_000.0, 235_000.0], [2_690_100.0, 235_000.0]];
-        let frame = Frame::new(&mut table(2272, &feet)).unwrap();
+        let frame = ReferenceFrame::new(&mut table(2272, &feet)).unwrap();
         let [a, b] = placed(&frame, table(2272, &feet))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 30.480_06).abs() < 1e-4, "{a:?} {b:?}");
         // At 60 degrees Mercator's metres are twice those of the ground.
         let mercator = [[1_113_194.908, 8_399_737.89], [1_113_294.908, 8_399_737.89]];
-        let frame = Frame::new(&mut table(3857, &mercator)).unwrap();
+        let frame = ReferenceFrame::new(&mut table(3857, &mercator)).unwrap();
         let [a, b] = placed(&frame, table(3857, &mercator))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 50.0).abs() < 0.3, "{a:?} {b:?}");
     }
@@ -386,7 +392,7 @@ mod tests {
     #[test]
     fn another_coordinate_system_comes_into_the_first_ones_frame() {
         // PROJ 9 has 385600, 6671500 of EPSG:3067 at 24.93802 E, 60.16435 N or so; there and back is exact.
-        let frame = Frame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
+        let frame = ReferenceFrame::new(&mut table(3067, &[[385_600.0, 6_671_500.0]])).unwrap();
         let wgs = Crs::epsg(4326).unwrap();
         let mut point = (385_600.0, 6_671_500.0, 0.0);
         frame.projection.bring(&wgs.projection().unwrap(), &mut point).unwrap();
@@ -401,7 +407,7 @@ mod tests {
     #[test]
     fn a_layer_across_the_date_line_stays_together() {
         let points = [[179.9, -16.0], [-179.9, -16.0]];
-        let frame = Frame::new(&mut table(4326, &points)).unwrap();
+        let frame = ReferenceFrame::new(&mut table(4326, &points)).unwrap();
         let [a, b] = placed(&frame, table(4326, &points))[..] else { panic!("two") };
         assert!((b[0] - a[0] - 21_400.0).abs() < 50.0, "{a:?} {b:?}");
     }

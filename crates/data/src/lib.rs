@@ -11,6 +11,7 @@ pub mod elevation;
 mod formats;
 mod frame;
 mod geojson;
+mod heights;
 mod layer;
 mod listing;
 mod table;
@@ -22,11 +23,11 @@ use std::sync::Arc;
 
 pub use cache::Cache;
 pub use formats::GeoPackage;
-pub use frame::{Crs, Frame};
+pub use frame::{Crs, ReferenceFrame};
 pub use layer::Layer;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
-pub use table::{Attribute, Feature, Geometry, Kind, Table};
+pub use table::{Attribute, Feature, FeatureTable, Geometry, GeometryKind};
 
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
@@ -44,7 +45,7 @@ const DEEPEST: usize = 32;
 
 /// What is wanted of a data file.
 #[derive(Clone, Default)]
-pub struct Wanted {
+pub struct SourceOptions {
     /// The layer; the only one if `None`.
     pub layer: Option<String>,
     /// An SQL condition that features meet.
@@ -54,14 +55,14 @@ pub struct Wanted {
     /// The attribute that tells features apart.
     pub id: Option<String>,
     /// Reads only geometries of this kind.
-    pub kind: Option<Kind>,
+    pub kind: Option<GeometryKind>,
     /// The EPSG code that holds in place of the file's.
     pub crs: Option<u32>,
     /// What reading may take.
     pub budget: Arc<Budget>,
 }
 
-impl fmt::Debug for Wanted {
+impl fmt::Debug for SourceOptions {
     /// All that decides what is read.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self { layer, condition, limit, id, kind, crs, budget: _ } = self;
@@ -72,7 +73,7 @@ impl fmt::Debug for Wanted {
 /// An open data file.
 pub enum Source {
     /// A GeoJSON file, all of it.
-    GeoJson(Box<Table>),
+    GeoJson(Box<FeatureTable>),
     /// A GeoPackage, a database of layers.
     GeoPackage(GeoPackage),
 }
@@ -82,11 +83,11 @@ impl Source {
     ///
     /// Fails if it cannot be read, or is neither GeoJSON nor a GeoPackage.
     pub fn open(path: &Path, name: &str) -> Result<Self> {
-        Self::open_within(path, name, &Wanted::default())
+        Self::open_within(path, name, &SourceOptions::default())
     }
 
     /// The same, if it takes no more than the budget that is `wanted`.
-    pub fn open_within(path: &Path, name: &str, wanted: &Wanted) -> Result<Self> {
+    pub fn open_within(path: &Path, name: &str, wanted: &SourceOptions) -> Result<Self> {
         let cannot = |error: std::io::Error| match error.kind() {
             std::io::ErrorKind::NotFound => {
                 Error::not_found("data file", name, [], format!("there is no data file {name}"))
@@ -136,7 +137,7 @@ impl Source {
     }
 
     /// Reads what is `wanted`, in the order of the file.
-    pub fn read(self, name: &str, wanted: &Wanted) -> Result<Table> {
+    pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let layer = choose(name, &self.layers(), wanted.layer.as_deref())?;
         let mut table = match self {
             Self::GeoPackage(package) => package.read(&layer, wanted)?,

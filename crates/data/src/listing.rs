@@ -5,9 +5,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
+use glam::DVec3;
 use serde_json::{Value, json};
 
-use super::{Attribute, Kind, Source, Table, Wanted};
+use super::{Attribute, FeatureTable, GeometryKind, Source, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{escaped, shown};
@@ -36,7 +37,7 @@ pub struct LayerListing {
     /// How many records with a geometry there are.
     pub records: usize,
     /// How many features they give of each kind, one for each part of a geometry.
-    pub kinds: BTreeMap<Kind, usize>,
+    pub kinds: BTreeMap<GeometryKind, usize>,
     /// How many features have no geometry.
     pub empty: usize,
     /// How many features cannot be read, and why the first of them cannot.
@@ -66,7 +67,7 @@ impl Listing {
     /// Reads all layers of the file at `path`, within a budget.
     pub fn read(path: &Path, budget: &Arc<Budget>) -> Result<Self> {
         let name = path.display().to_string();
-        let wanted = Wanted { budget: Arc::clone(budget), ..Wanted::default() };
+        let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
         let before = budget.taken();
         let open = || Source::open_within(path, &name, &wanted).map_err(|error| missing(path, error));
         let source = open()?;
@@ -135,7 +136,7 @@ pub fn nearest_file(folder: &Path, wanted: &str) -> Option<String> {
 }
 
 impl LayerListing {
-    fn of(table: &Table) -> Self {
+    fn of(table: &FeatureTable) -> Self {
         let mut kinds = BTreeMap::new();
         let mut attributes: Vec<AttributeListing> = table
             .names
@@ -148,7 +149,7 @@ impl LayerListing {
             for (index, value) in feature.attributes.iter() {
                 attributes[*index].add(value);
             }
-            for [x, y, _] in feature.geometry.points() {
+            for DVec3 { x, y, .. } in feature.geometry.points() {
                 let [west, south, east, north] = extent.get_or_insert([*x, *y, *x, *y]);
                 (*west, *south, *east, *north) = (west.min(*x), south.min(*y), east.max(*x), north.max(*y));
             }

@@ -13,10 +13,10 @@ pub mod trace;
 /// What a run is told, what its script declares, and the virtual machines that run it.
 pub mod script {
     pub use crate::declare::{
-        Control, Limits, Name, Param, Part, Preset, Print, Progress, RunOptions, Session, Setting, Sort,
-        Traced, names,
+        API_VERSION, Control, Limits, Name, NameKind, NameMember, Param, Preset, Print, RunOptions,
+        RunProgress, Session, Setting, TraceRequest, api_version, names,
     };
     pub use crate::machine::{Machine, Watchdog, make_ready};
 }
 
-pub use run::{Check, Run, RunTimes, check, run_session};
+pub use run::{Run, RunTimes, ScriptCheck, check, check_package, run_session};

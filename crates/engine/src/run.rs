@@ -1,6 +1,6 @@
 //! One run of a script, from the file to the scene.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::rc::Rc;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -8,11 +8,12 @@ use std::time::{Duration, Instant};
 use crate::declare::{Param, RunOptions, Session};
 use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
-use crate::results::{Derived, Report, Times, Trace};
+use crate::results::{DerivedSystem, FeatureReport, Times, Trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_data::Frame;
+use burgeon_data::ReferenceFrame;
+use burgeon_packages::MANIFEST;
 use burgeon_scene::Scene;
 
 /// What a run of a script gave.
@@ -20,11 +21,11 @@ pub struct Run {
     /// What the systems have drawn, in the order in which they were derived.
     pub scene: Scene,
     /// The derived systems, in order.
-    pub systems: Vec<Arc<Derived>>,
+    pub systems: Vec<Arc<DerivedSystem>>,
     /// The parameters that the script declared.
     pub params: Vec<Param>,
     /// The projection and the origin of its data, if it has any.
-    pub frame: Option<Frame>,
+    pub frame: Option<ReferenceFrame>,
     /// What people should know of it, in the order of files and lines.
     pub warnings: Vec<Warning>,
     /// Where the time went.
@@ -33,8 +34,8 @@ pub struct Run {
 
 impl Run {
     /// How many features there were, and what could not be built as the script asked.
-    pub fn report(&self) -> Report {
-        let mut report = Report::default();
+    pub fn report(&self) -> FeatureReport {
+        let mut report = FeatureReport::default();
         for system in &self.systems {
             report.add(system.given, &system.remarks);
         }
@@ -44,7 +45,7 @@ impl Run {
 
 /// What a script declares, without deriving anything.
 #[derive(Debug, Clone)]
-pub struct Check {
+pub struct ScriptCheck {
     /// Its parameters.
     pub params: Vec<Param>,
     /// What people should know of it, in the order of files and lines.
@@ -79,7 +80,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
     }
     let params = session.params();
     refuse_unknown(session, &params)?;
-    let mut systems: Vec<Arc<Derived>> = machine.driver.derived().into_iter().flatten().collect();
+    let mut systems: Vec<Arc<DerivedSystem>> = machine.driver.derived().into_iter().flatten().collect();
     drop((machine, threads));
     let mut times = RunTimes::default();
     for system in &systems {
@@ -112,7 +113,7 @@ pub fn run_session(session: &Arc<Session>) -> Result<Run> {
 }
 
 /// The warning for a model of drawing objects that is empty, unless someone has asked to see less of it.
-fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Option<Warning> {
+fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<DerivedSystem>]) -> Option<Warning> {
     let mut drawing = systems.iter().filter(|system| system.draws);
     let drawing = drawing.clone().find(|system| !system.is_placed()).or_else(|| drawing.next())?;
     let whole = session.options.steps.is_none() && session.options.lod == RunOptions::default().lod;
@@ -142,10 +143,34 @@ fn emptiness(session: &Session, scene: &Scene, systems: &[Arc<Derived>]) -> Opti
 
 /// Reads the script and everything it requires, compiles every rule, and tells all problems at once; those that a strict
 /// run would end with are among them if it is to be strict.
-pub fn check(path: &Path, options: RunOptions) -> Result<Check> {
+pub fn check(path: &Path, options: RunOptions) -> Result<ScriptCheck> {
     let session = Session::new(path, RunOptions { check: true, ..options })?;
+    checked(&session, Machine::run)
+}
+
+/// The same of all Lua files of the package in `folder`, and of the files that they name.
+pub fn check_package(folder: &Path, options: RunOptions) -> Result<ScriptCheck> {
+    let session = Session::new(&folder.join(MANIFEST), RunOptions { check: true, ..options })?;
+    let packages = session.packages();
+    let package = packages.order().iter().find(|package| package.folder == session.root());
+    let Some(package) = package else {
+        // It is hidden by another one, or there is a problem that tells why.
+        let shown = folder.display();
+        let problems = packages.problems.clone();
+        return Err(if problems.is_empty() {
+            Error::not_found("package", &shown, [], format!("{shown} is no package that is used"))
+                .help("burgeon mods lists those that are")
+        } else {
+            Error::several(problems)
+        });
+    };
+    checked(&session, |machine| machine.run_package(package))
+}
+
+/// What comes of `run` in a session whose options say to check only.
+fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> Result<ScriptCheck> {
     let mut found = Vec::new();
-    let ran = declare_with(&session, &mut found);
+    let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
     problems.extend(found);
     if let Err(error) = ran {
@@ -157,7 +182,7 @@ pub fn check(path: &Path, options: RunOptions) -> Result<Check> {
             }
         }
     }
-    if let Err(error) = refuse_unknown(&session, &session.params()) {
+    if let Err(error) = refuse_unknown(session, &session.params()) {
         problems.push(error);
     }
     let warnings = session.warnings();
@@ -168,11 +193,15 @@ pub fn check(path: &Path, options: RunOptions) -> Result<Check> {
     if !problems.is_empty() {
         return Err(Error::several(problems));
     }
-    Ok(Check { params: session.params(), warnings })
+    Ok(ScriptCheck { params: session.params(), warnings })
 }
 
 /// A machine for a session's script, which is read in the meantime.
 fn leading_machine(session: &Arc<Session>) -> Result<(Rc<Machine>, Rc<ThreadPool>)> {
+    let problems = &session.packages().problems;
+    if !problems.is_empty() {
+        return Err(Error::several(problems.clone()));
+    }
     session.read_ahead();
     let watchdog = Arc::new(Watchdog::new(session));
     let threads = Rc::new(ThreadPool::leading(&watchdog));
@@ -191,13 +220,17 @@ pub(crate) fn run_traced(session: &Arc<Session>) -> Result<Option<Trace>> {
 
 /// Runs the script of a session whose options say to check only, for the sake of its parameters.
 pub fn declare(session: &Arc<Session>) -> Result<()> {
-    declare_with(session, &mut Vec::new())
+    declare_with(session, &mut Vec::new(), Machine::run)
 }
 
-/// The same, with the `problems` of its rules.
-fn declare_with(session: &Arc<Session>, problems: &mut Vec<Error>) -> Result<()> {
+/// The same with `run` in place of the script, and with the `problems` of its rules.
+fn declare_with(
+    session: &Arc<Session>,
+    problems: &mut Vec<Error>,
+    run: impl FnOnce(&Machine) -> Result<()>,
+) -> Result<()> {
     let (machine, _threads) = leading_machine(session)?;
-    let ran = machine.run();
+    let ran = run(&machine);
     problems.extend(machine.library.problems.borrow_mut().drain(..));
     ran
 }
@@ -231,7 +264,7 @@ pub fn no_such(script: &Path, name: &str, params: &[Param]) -> Error {
 }
 
 /// Which features of a system were left out, and why; those that its source has told of are not counted.
-fn left_out(system: &Derived) -> Option<Warning> {
+fn left_out(system: &DerivedSystem) -> Option<Warning> {
     let mut skipped = system.remarks.iter().filter(|remark| remark.skipped && !remark.unread);
     let first = skipped.next()?;
     let (count, why) = (1 + skipped.count(), &first.why);
@@ -245,36 +278,45 @@ fn left_out(system: &Derived) -> Option<Warning> {
     Some(warning.help("--report FILE lists all of them; with --strict they are errors"))
 }
 
-/// Turns the textures' names into files within the script's folder.
+/// Turns the textures' names into files within the script's folder, or those of packages.
 fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     let textures = scene.materials.iter_mut().filter_map(|material| material.texture.as_mut());
     for texture in textures.filter(|texture| texture.content.is_none()) {
         let shown = texture.path.display().to_string();
+        if let Some(found) = session.package_file("texture", &shown, None) {
+            texture.path = readable(found?, &shown)?;
+            continue;
+        }
         let path = session.root().join(&texture.path);
         let found = path.canonicalize();
         session.seek(&path, found.is_ok());
         let path = found.map_err(|_| {
-            Error::not_found("texture", &shown, [], format!("there is no texture {shown}"))
-                .help("textures are files beside the script")
+            let error = Error::not_found("texture", &shown, [], format!("there is no texture {shown}"));
+            session.propose_packages(&shown, error).help("textures are files beside the script")
         })?;
         if !path.starts_with(session.root()) {
             return Err(Error::file(&path, format!("the texture {shown} lies outside the script's folder"))
                 .help("a script reads only files in its own folder and below it"));
         }
-        burgeon_base::files::open(&path).map_err(|error| {
-            Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
-                .help("textures are PNG or JPEG files beside the script")
-        })?;
-        texture.path = path;
+        texture.path = readable(path, &shown)?;
     }
     Ok(())
+}
+
+/// A texture's path, if it leads to a file.
+fn readable(path: PathBuf, shown: &str) -> Result<PathBuf> {
+    burgeon_base::files::open(&path).map_err(|error| {
+        Error::file(&path, format!("the texture {shown} cannot be read: {error}"))
+            .help("textures are PNG or JPEG files beside the script")
+    })?;
+    Ok(path)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::declare::names::LOCKED;
-    use crate::declare::{RunOptions, Sort, names};
+    use crate::declare::{NameKind, RunOptions, names};
 
     #[test]
     fn scripts_have_the_names_that_are_declared_and_no_others() {
@@ -287,7 +329,7 @@ mod tests {
         let there = machine.library.globals().names;
         let declared: Vec<String> = names()
             .into_iter()
-            .filter(|name| name.sort != Sort::Given)
+            .filter(|name| name.sort != NameKind::Given)
             .map(|name| name.name.to_string())
             .chain(registry.kinds().map(|kind| kind.name.to_string()))
             .collect();
@@ -305,7 +347,7 @@ mod tests {
         let registry = burgeon_objects::registry();
         let mut modules = 0;
         for name in names() {
-            let Sort::Module { kind, method } = name.sort else { continue };
+            let NameKind::Module { kind, method } = name.sort else { continue };
             modules += 1;
             assert!(registry.get(kind).and_then(|kind| kind.method(method)).is_some(), "{}", name.name);
         }

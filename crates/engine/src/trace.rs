@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::declare::{RunOptions, Session, Traced};
-use crate::results::{Ancestor, MadeBy, Module, RuleName, Trace};
+use crate::declare::{RunOptions, Session, TraceRequest};
+use crate::results::{Ancestor, Module, RuleName, RuleProducts, Trace};
 use crate::run::run_traced;
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::Makers;
 use burgeon_scene::{Origin, Part, Scene};
 
@@ -50,7 +50,7 @@ pub struct ModuleOrigin {
     /// The modules that led to it, from the axiom on; the last one is itself as it was made.
     pub path: Vec<Ancestor>,
     /// Where the axiom was set.
-    pub axiom: Option<Place>,
+    pub axiom: Option<SourcePlace>,
     /// The chain before it, itself, and the chain after it.
     pub around: [String; 3],
     /// What it has drawn.
@@ -113,8 +113,8 @@ pub fn highlight(
 ) -> Result<LineProducts> {
     let (mut found, mut nearest) = (LineProducts::default(), 0);
     for system in 0..systems {
-        let trace = trace(script, options, Traced { system, chain: None })?;
-        let Some(MadeBy { name, line, made }) = trace.made_by(file, line) else { continue };
+        let trace = trace(script, options, TraceRequest { system, chain: None })?;
+        let Some(RuleProducts { name, line, made }) = trace.made_by(file, line) else { continue };
         if line < nearest {
             continue;
         }
@@ -147,7 +147,7 @@ pub fn highlight(
 
 /// The chain number `chain` of a derived system around place `index`: what is before it, itself, what is after it, and
 /// the number of symbols in the chain.
-pub fn around(system: &crate::results::Derived, chain: usize, index: usize) -> ([String; 3], usize) {
+pub fn around(system: &crate::results::DerivedSystem, chain: usize, index: usize) -> ([String; 3], usize) {
     let only = system.chain.only(chain, &system.symbols.arities());
     let count = only.symbols.len().saturating_sub(1);
     let texts = crate::results::around(&only, &system.symbols, &system.values, index.min(count), AROUND);
@@ -180,11 +180,11 @@ fn made(trace: &Trace, origin: Origin, index: usize, mesh: Option<usize>) -> Opt
 }
 
 fn trace_chain(script: &Path, options: &RunOptions, origin: Origin) -> Result<Trace> {
-    trace(script, options, Traced { system: origin.system, chain: Some(origin.chain) })
+    trace(script, options, TraceRequest { system: origin.system, chain: Some(origin.chain) })
 }
 
 /// Runs `script` until the wanted system is derived, with the lineage of the wanted chains.
-pub fn trace(script: &Path, options: &RunOptions, wanted: Traced) -> Result<Trace> {
+pub fn trace(script: &Path, options: &RunOptions, wanted: TraceRequest) -> Result<Trace> {
     let session = Session::new(script, RunOptions { trace: Some(wanted), ..options.clone() })?;
     run_traced(&session)?.ok_or_else(|| {
         Error::script("the script no longer derives this system")

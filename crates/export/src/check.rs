@@ -10,13 +10,13 @@ const LARGEST: f64 = 1e15;
 
 /// A scene that can be written, and what of it is shown.
 #[derive(Debug)]
-pub(super) struct Checked<'a> {
+pub(super) struct SceneCheck<'a> {
     /// The scene as it came.
     pub(super) scene: &'a Scene,
     /// For each mesh, whether an instance names it and it has a triangle.
     pub(super) meshes: Vec<bool>,
     /// For each mesh, what its parts are like; nothing if no instance names it.
-    pub(super) parts: Vec<Vec<Measured>>,
+    pub(super) parts: Vec<Vec<PartExtent>>,
     /// For each material, whether a triangle of a shown mesh has it.
     pub(super) materials: Vec<bool>,
     /// The point (m) that the file's coordinates are counted from.
@@ -25,7 +25,7 @@ pub(super) struct Checked<'a> {
 
 /// What is known of a part once it has been checked, so that nobody has to look at all of it again for that.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Measured {
+pub(super) struct PartExtent {
     /// How many of its [`triangles`] there are.
     pub(super) triangles: usize,
     /// The box (m) around its points; the origin without any.
@@ -34,7 +34,7 @@ pub(super) struct Measured {
 }
 
 /// Refuses a scene that names what it does not have or has a number that is none, in what it shows.
-pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
+pub(super) fn check(scene: &Scene) -> Result<SceneCheck<'_>> {
     let mut meshes = vec![false; scene.meshes.len()];
     for (i, instance) in scene.instances.iter().enumerate() {
         let name = || named("instance", &instance.name, i);
@@ -55,7 +55,7 @@ pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
         let parts = mesh.parts.iter().filter(|_| *shown);
         parts.map(|part| check_part(scene, part)).collect()
     });
-    let measured: Vec<Result<Vec<Measured>, String>> = measured.collect();
+    let measured: Vec<Result<Vec<PartExtent>, String>> = measured.collect();
     let mut materials = vec![false; scene.materials.len()];
     let mut parts = Vec::with_capacity(meshes.len());
     for (i, (mesh, measured)) in scene.meshes.iter().zip(measured).enumerate() {
@@ -69,13 +69,13 @@ pub(super) fn check(scene: &Scene) -> Result<Checked<'_>> {
     }
     let boxes = scene.meshes.iter().zip(&parts).map(|(mesh, parts)| bounds(mesh, parts));
     let bounds = scene.bounds_of(&boxes.collect::<Vec<_>>());
-    Ok(Checked { scene, meshes, parts, materials, origin: origin(bounds) })
+    Ok(SceneCheck { scene, meshes, parts, materials, origin: origin(bounds) })
 }
 
 /// The least box (m) around the `measured` parts of `mesh`.
-fn bounds(mesh: &Mesh, measured: &[Measured]) -> Option<(DVec3, DVec3)> {
+fn bounds(mesh: &Mesh, measured: &[PartExtent]) -> Option<(DVec3, DVec3)> {
     let parts = mesh.parts.iter().zip(measured).filter(|(part, _)| !part.positions.is_empty());
-    let boxes = parts.map(|(_, Measured { low, high, .. })| (low.as_dvec3(), high.as_dvec3()));
+    let boxes = parts.map(|(_, PartExtent { low, high, .. })| (low.as_dvec3(), high.as_dvec3()));
     boxes.reduce(|(a, b), (low, high)| (a.min(low), b.max(high)))
 }
 
@@ -122,7 +122,7 @@ fn unsound(mesh: &Mesh, index: usize, what: &str) -> Error {
 }
 
 /// Measures `part`, or tells what is wrong with it, as the end of a sentence about its mesh.
-fn check_part(scene: &Scene, part: &Part) -> Result<Measured, String> {
+fn check_part(scene: &Scene, part: &Part) -> Result<PartExtent, String> {
     let Some(material) = scene.materials.get(part.material) else {
         return Err(format!("uses material {}, which is not there", part.material));
     };
@@ -149,7 +149,7 @@ fn check_part(scene: &Scene, part: &Part) -> Result<Measured, String> {
     let first = part.positions.first().copied().unwrap_or_default();
     let (low, high) =
         part.positions.iter().fold((first, first), |(low, high), p| (low.min(*p), high.max(*p)));
-    Ok(Measured { triangles: triangles(part).count(), low, high })
+    Ok(PartExtent { triangles: triangles(part).count(), low, high })
 }
 
 #[cfg(test)]

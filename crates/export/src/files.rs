@@ -5,8 +5,8 @@ use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::target::{Target, Way};
-use super::temporary::{Names, Temporary, remove};
+use super::target::{FileTarget, ReplaceMethod};
+use super::temporary::{Temporary, TemporaryNames, remove};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 
@@ -19,16 +19,16 @@ use burgeon_base::stop::Stop;
 #[derive(Default)]
 pub struct Files {
     stop: Arc<Stop>,
-    written: Vec<Written>,
+    written: Vec<OutputFile>,
     /// Folders that were made for them, each after the one that it is in.
     folders: Vec<Temporary>,
 }
 
 /// A file under its temporary name.
-struct Written {
-    target: Target,
+struct OutputFile {
+    target: FileTarget,
     temporary: Temporary,
-    way: Way,
+    way: ReplaceMethod,
 }
 
 /// Where the content of a file goes.
@@ -58,13 +58,13 @@ impl Files {
     /// another path, and if the disk is full.
     pub fn write(&mut self, path: &Path, content: impl FnOnce(&mut Out) -> io::Result<()>) -> Result<()> {
         self.stop.check()?;
-        let target = Target::of(path)?;
+        let target = FileTarget::of(path)?;
         if self.written.iter().any(|known| known.target.is(&target)) {
             return Err(Error::usage(format!("{} would be written twice", path.display()))
                 .help("name another file for each of them"));
         }
         let (temporary, file, way) = target.create()?;
-        let written = Written { target, temporary, way };
+        let written = OutputFile { target, temporary, way };
         let mut out = BufWriter::with_capacity(1 << 18, Stoppable { file, stop: Arc::clone(&self.stop) });
         let done = content(&mut out).and_then(|()| out.flush());
         // What has been stopped has not failed.
@@ -105,7 +105,7 @@ impl Files {
 
     /// Whether what will be at `path` is `bytes`; `None` if nothing has been written to it.
     pub(super) fn has(&self, path: &Path, bytes: &[u8]) -> Option<bool> {
-        let target = Target::of(path).ok()?;
+        let target = FileTarget::of(path).ok()?;
         let known = self.written.iter().find(|known| known.target.is(&target))?;
         Some(fs::read(known.temporary.path()).is_ok_and(|known| known == bytes))
     }
@@ -114,10 +114,12 @@ impl Files {
     /// were.
     pub fn publish(self) -> Result<()> {
         self.stop.check()?;
-        for Written { target, temporary, .. } in self.written.iter().filter(|file| file.way == Way::Through) {
+        for OutputFile { target, temporary, .. } in
+            self.written.iter().filter(|file| file.way == ReplaceMethod::Through)
+        {
             target.fill(temporary.path()).map_err(|error| target.refused(&error))?;
         }
-        let mut names = Names::lock();
+        let mut names = TemporaryNames::lock();
         let (kept, done) = replace(&self.written, &mut names);
         if done.is_ok() {
             self.folders.iter().for_each(|folder| folder.keep(&mut names));
@@ -137,11 +139,11 @@ impl Drop for Files {
 }
 
 /// Brings all that was written to its place. The first of the result is what was there before.
-fn replace(written: &[Written], names: &mut Names) -> (Vec<Option<Temporary>>, Result<()>) {
+fn replace(written: &[OutputFile], names: &mut TemporaryNames) -> (Vec<Option<Temporary>>, Result<()>) {
     let mut kept: Vec<Option<Temporary>> = Vec::new();
-    let files: Vec<&Written> = written.iter().filter(|file| file.way != Way::Through).collect();
+    let files: Vec<&OutputFile> = written.iter().filter(|file| file.way != ReplaceMethod::Through).collect();
     for (index, file) in files.iter().enumerate() {
-        let into = file.way == Way::Into;
+        let into = file.way == ReplaceMethod::Into;
         // Nothing can fail after the last name that is given, so that one needs no way back.
         let last = index + 1 == files.len() && !into;
         let target = file.target.real();
@@ -162,16 +164,16 @@ fn replace(written: &[Written], names: &mut Names) -> (Vec<Option<Temporary>>, R
 
 /// Brings back what was `before` at the place of `file`, which has taken it unless it `failed` to; if that fails there
 /// is nothing better to do.
-fn restore(file: &Written, before: Option<&Temporary>, failed: bool, names: &mut Names) {
+fn restore(file: &OutputFile, before: Option<&Temporary>, failed: bool, names: &mut TemporaryNames) {
     let target = file.target.real();
     match (before, file.way) {
-        (Some(before), Way::Into) => {
+        (Some(before), ReplaceMethod::Into) => {
             let _ = file.target.fill(before.path());
         }
         (Some(before), _) if !failed => {
             let _ = before.rename(target, names);
         }
-        (None, Way::Instead) if !failed => remove(target),
+        (None, ReplaceMethod::Instead) if !failed => remove(target),
         _ => {}
     }
 }

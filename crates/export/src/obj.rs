@@ -4,7 +4,7 @@
 //! has no axes either: y is up here, as in glTF. Materials have the classic lighting and, for programs that
 //! know them, the physically based `Pr` and `Pm`.
 
-use super::check::{Checked, check, shown_parts, triangles};
+use super::check::{SceneCheck, check, shown_parts, triangles};
 use super::color::{fraction, srgb};
 use super::files::Files;
 use super::stem;
@@ -43,7 +43,7 @@ fn heading() -> String {
 
 /// Writes everything but the materials, whose `names` are in the file `library`.
 fn write_objects(
-    checked: &Checked<'_>,
+    checked: &SceneCheck<'_>,
     names: &[String],
     library: &str,
     out: &mut impl Write,
@@ -54,7 +54,7 @@ fn write_objects(
         writeln!(out, "# Counted from ({x}, {y}, {z}): add this to each point for its place in the world.")?;
     }
     writeln!(out, "mtllib {library}")?;
-    let mut numbers = Numbers { point: 1, tex_coord: 1 };
+    let mut numbers = ObjNumbers { point: 1, tex_coord: 1 };
     for instance in checked.scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
         let mesh = &checked.scene.meshes[instance.mesh];
         let name = if instance.name.is_empty() { &mesh.name } else { &instance.name };
@@ -79,7 +79,7 @@ fn write_objects(
 }
 
 /// The numbers that the next point and texture coordinate get; OBJ counts from 1 through the whole file.
-struct Numbers {
+struct ObjNumbers {
     point: u64,
     tex_coord: u64,
 }
@@ -90,7 +90,7 @@ fn write_part(
     size: Option<[f64; 2]>,
     instance: &Instance,
     origin: DVec3,
-    numbers: &mut Numbers,
+    numbers: &mut ObjNumbers,
     out: &mut impl Write,
 ) -> io::Result<()> {
     let turned = normal_matrix(&instance.transform.matrix3);
@@ -197,16 +197,16 @@ mod tests {
     use std::path::Path;
 
     /// What a reader of OBJ finds: the points, the triangles with their normals' indices, and the text.
-    struct Read {
+    struct ObjContent {
         points: Vec<DVec3>,
         normals: Vec<DVec3>,
         faces: Vec<[[usize; 2]; 3]>,
         text: String,
     }
 
-    fn read(path: &Path) -> Read {
+    fn read(path: &Path) -> ObjContent {
         let text = std::fs::read_to_string(path).unwrap();
-        let mut read = Read { points: vec![], normals: vec![], faces: vec![], text: text.clone() };
+        let mut read = ObjContent { points: vec![], normals: vec![], faces: vec![], text: text.clone() };
         for line in text.lines() {
             let mut words = line.split(' ');
             let key = words.next().unwrap();
@@ -226,7 +226,7 @@ mod tests {
         read
     }
 
-    fn written(scene: &Scene) -> Read {
+    fn written(scene: &Scene) -> ObjContent {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a b.obj");
         super::super::write(scene, &path, &crate::picture::Picture::default()).unwrap();

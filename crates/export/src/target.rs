@@ -11,7 +11,7 @@ use burgeon_base::error::{Error, Result};
 const LINKS: usize = 40;
 
 /// A place that a file can be written to.
-pub(super) struct Target {
+pub(super) struct FileTarget {
     /// As it was named.
     named: PathBuf,
     /// Where its links lead, in a folder without links.
@@ -22,7 +22,7 @@ pub(super) struct Target {
 
 /// How what was written under a temporary name comes to its place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Way {
+pub(super) enum ReplaceMethod {
     /// It takes the place of what is there.
     Instead,
     /// It is copied into what is there, since that has other names too, or an owner that nobody else can make a file for.
@@ -31,7 +31,7 @@ pub(super) enum Way {
     Through,
 }
 
-impl Target {
+impl FileTarget {
     /// The place that `named` leads to. Fails if its folder is not there, and if it is a folder or must not be written to.
     pub(super) fn of(named: &Path) -> Result<Self> {
         let there = named.metadata().ok();
@@ -75,23 +75,24 @@ impl Target {
     }
 
     /// A file to write what is to go there, and how it will.
-    pub(super) fn create(&self) -> Result<(Temporary, File, Way)> {
-        let elsewhere = |way: Way| {
+    pub(super) fn create(&self) -> Result<(Temporary, File, ReplaceMethod)> {
+        let elsewhere = |way: ReplaceMethod| {
             let name = self.real.file_name().unwrap_or_default();
             let (temporary, file) = Temporary::beside(&std::env::temp_dir().join(name))?;
             hide(&file)?;
             Ok((temporary, file, way))
         };
         let created = match &self.there {
-            None => Temporary::beside(&self.real).map(|(temporary, file)| (temporary, file, Way::Instead)),
-            Some(there) if !there.is_file() => elsewhere(Way::Through),
+            None => Temporary::beside(&self.real)
+                .map(|(temporary, file)| (temporary, file, ReplaceMethod::Instead)),
+            Some(there) if !there.is_file() => elsewhere(ReplaceMethod::Through),
             Some(there) => match Temporary::beside(&self.real) {
                 Ok((temporary, file)) => {
                     let alike = !has_other_names(there) && liken(&file, there).is_ok();
-                    Ok((temporary, file, if alike { Way::Instead } else { Way::Into }))
+                    Ok((temporary, file, if alike { ReplaceMethod::Instead } else { ReplaceMethod::Into }))
                 }
                 // The file may be written to, and its folder not.
-                Err(error) if is_forbidden(&error) => elsewhere(Way::Into),
+                Err(error) if is_forbidden(&error) => elsewhere(ReplaceMethod::Into),
                 Err(error) => Err(error),
             },
         };

@@ -17,9 +17,9 @@ pub(super) struct Temporary {
 }
 
 /// All temporary names of this process: while this is there, nothing gets one, changes it or loses it.
-pub(super) struct Names(MutexGuard<'static, BTreeSet<PathBuf>>);
+pub(super) struct TemporaryNames(MutexGuard<'static, BTreeSet<PathBuf>>);
 
-impl Names {
+impl TemporaryNames {
     pub(super) fn lock() -> Self {
         Self(NAMES.lock().unwrap_or_else(PoisonError::into_inner))
     }
@@ -27,7 +27,7 @@ impl Names {
 
 /// Removes all files that have only a temporary name, and lets none appear any more: for a program that is about to end.
 pub fn abandon() {
-    let names = Names::lock();
+    let names = TemporaryNames::lock();
     // A folder comes before what is in it.
     for path in names.0.iter().rev() {
         remove(path);
@@ -39,7 +39,7 @@ pub fn abandon() {
 impl Temporary {
     /// An empty file beside `target`.
     pub(super) fn beside(target: &Path) -> io::Result<(Self, File)> {
-        let mut names = Names::lock();
+        let mut names = TemporaryNames::lock();
         loop {
             let path = name_beside(target);
             match File::create_new(&path) {
@@ -56,7 +56,7 @@ impl Temporary {
 
     /// A second name for the file at `target`, or a copy if it is to be written into or the disk knows no second
     /// names; `None` if there is no such file.
-    pub(super) fn of(target: &Path, copied: bool, names: &mut Names) -> io::Result<Option<Self>> {
+    pub(super) fn of(target: &Path, copied: bool, names: &mut TemporaryNames) -> io::Result<Option<Self>> {
         if !target.is_file() {
             return Ok(None);
         }
@@ -75,14 +75,14 @@ impl Temporary {
 
     /// An empty folder at `path`, which is there for good once it is kept.
     pub(super) fn folder(path: &Path) -> io::Result<Self> {
-        let mut names = Names::lock();
+        let mut names = TemporaryNames::lock();
         fs::create_dir(path)?;
         names.0.insert(path.to_path_buf());
         Ok(Self { path: path.to_path_buf() })
     }
 
     /// Lets it stay under its name.
-    pub(super) fn keep(&self, names: &mut Names) {
+    pub(super) fn keep(&self, names: &mut TemporaryNames) {
         names.0.remove(&self.path);
     }
 
@@ -92,7 +92,7 @@ impl Temporary {
     }
 
     /// Gives it the name `target`, in the place of what has it.
-    pub(super) fn rename(&self, target: &Path, names: &mut Names) -> io::Result<()> {
+    pub(super) fn rename(&self, target: &Path, names: &mut TemporaryNames) -> io::Result<()> {
         fs::rename(&self.path, target)?;
         names.0.remove(&self.path);
         Ok(())
@@ -102,7 +102,7 @@ impl Temporary {
 impl Drop for Temporary {
     fn drop(&mut self) {
         // One that has been renamed or is kept has no temporary name any more.
-        if Names::lock().0.remove(&self.path) {
+        if TemporaryNames::lock().0.remove(&self.path) {
             remove(&self.path);
         }
     }

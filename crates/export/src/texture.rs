@@ -1,6 +1,6 @@
 //! The image files of a scene's materials.
 
-use super::check::{Checked, named};
+use super::check::{SceneCheck, named};
 use super::color::linear;
 use super::files::Files;
 use super::stem;
@@ -34,7 +34,7 @@ pub(super) struct ImageFile {
 
 impl Images {
     /// Reads the files. Fails if one of them is not there or is neither PNG nor JPEG.
-    pub(super) fn load(checked: &Checked<'_>) -> Result<Self> {
+    pub(super) fn load(checked: &SceneCheck<'_>) -> Result<Self> {
         let mut images = Self { files: Vec::new(), of_material: Vec::new() };
         for (i, material) in checked.scene.materials.iter().enumerate() {
             let texture = material.texture.as_ref().filter(|_| checked.materials[i]);

@@ -38,8 +38,8 @@ pub use roof::fill;
 pub use section::{MOST_POINTS, Section, SectionPoint};
 pub use sizes::{SAME, Share, Sizes, Split};
 pub use strand::{MOST_SIDES, Strand, tube};
-pub use sweep::{Lengthwise, SweepOptions, Swept, sweep};
-pub use union::{Cell, Crossing, Union};
+pub use sweep::{Lengthwise, SweepOptions, SweepResult, sweep};
+pub use union::{Crossing, Union, UnionCell};
 
 /// The examples of the README.
 #[cfg(doctest)]

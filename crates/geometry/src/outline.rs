@@ -11,12 +11,12 @@ use burgeon_base::error::{Error, Result};
 
 /// A point with its place, counted from 1, in the list that the user gave.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Numbered {
+pub(super) struct NumberedPoint {
     pub point: SectionPoint,
     pub number: usize,
 }
 
-impl Point for Numbered {
+impl Point for NumberedPoint {
     fn flat(self) -> DVec2 {
         self.point.at
     }
@@ -25,12 +25,12 @@ impl Point for Numbered {
 /// A ring with the name that errors give it.
 struct NamedRing {
     name: String,
-    points: Vec<Numbered>,
+    points: Vec<NumberedPoint>,
 }
 
 /// What rings belong to, and how closely they are looked at.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Manner {
+pub(super) struct OutlineOptions {
     /// The name that errors give it.
     pub owner: &'static str,
     /// Points within this distance (m) are one.
@@ -40,7 +40,7 @@ pub(super) struct Manner {
     pub straight: f64,
 }
 
-const SECTION: Manner = Manner { owner: "cross-section", near: 1e-9, straight: 0.0 };
+const SECTION: OutlineOptions = OutlineOptions { owner: "cross-section", near: 1e-9, straight: 0.0 };
 
 /// Closed rings in order: the outer one counter-clockwise, the holes clockwise.
 ///
@@ -56,8 +56,8 @@ pub(super) fn closed(outer: &[SectionPoint], holes: &[Vec<SectionPoint>]) -> Res
 pub(super) fn numbered_rings(
     outer: &[SectionPoint],
     holes: &[Vec<SectionPoint>],
-    manner: &Manner,
-) -> Result<Vec<Vec<Numbered>>> {
+    manner: &OutlineOptions,
+) -> Result<Vec<Vec<NumberedPoint>>> {
     let mut rings = vec![ring("the outer ring".into(), outer, manner)?];
     for (index, hole) in holes.iter().enumerate() {
         rings.push(ring(format!("hole {}", index + 1), hole, manner)?);
@@ -91,11 +91,11 @@ pub(super) fn open(points: &[SectionPoint]) -> Result<Vec<SectionPoint>> {
 }
 
 /// Whether these points are a ring, so far as it can be told of one alone.
-pub(super) fn is_ring(points: &[SectionPoint], manner: &Manner) -> bool {
+pub(super) fn is_ring(points: &[SectionPoint], manner: &OutlineOptions) -> bool {
     ring(String::new(), points, manner).is_ok()
 }
 
-fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<NamedRing> {
+fn ring(name: String, points: &[SectionPoint], manner: &OutlineOptions) -> Result<NamedRing> {
     let owner = manner.owner;
     let mut points = numbered(&name, points, manner)?;
     drop_repeated(&mut points, manner);
@@ -129,11 +129,11 @@ fn ring(name: String, points: &[SectionPoint], manner: &Manner) -> Result<NamedR
     Ok(NamedRing { name, points })
 }
 
-fn numbered(name: &str, points: &[SectionPoint], manner: &Manner) -> Result<Vec<Numbered>> {
+fn numbered(name: &str, points: &[SectionPoint], manner: &OutlineOptions) -> Result<Vec<NumberedPoint>> {
     let owner = manner.owner;
     let number = |(index, &point): (usize, &SectionPoint)| {
         if point.at.is_finite() && point.at.abs().max_element() <= MOST {
-            return Ok(Numbered { point, number: index + 1 });
+            return Ok(NumberedPoint { point, number: index + 1 });
         }
         let (number, DVec2 { x, y }) = (index + 1, point.at);
         Err(Error::geometry(format!("point {number} of {name} of the {owner} is ({x}, {y})"))
@@ -142,17 +142,17 @@ fn numbered(name: &str, points: &[SectionPoint], manner: &Manner) -> Result<Vec<
     points.iter().enumerate().map(number).collect()
 }
 
-fn drop_repeated(points: &mut Vec<Numbered>, manner: &Manner) {
+fn drop_repeated(points: &mut Vec<NumberedPoint>, manner: &OutlineOptions) {
     points.dedup_by(|next, kept| is_same(next, kept, manner));
 }
 
 /// Whether two points are too near to each other to be two.
-fn is_same(a: &Numbered, b: &Numbered, manner: &Manner) -> bool {
+fn is_same(a: &NumberedPoint, b: &NumberedPoint, manner: &OutlineOptions) -> bool {
     a.point.at.distance_squared(b.point.at) <= manner.near * manner.near
 }
 
 /// Drops the sharp points on a straight line between sharp points, which change neither shape nor shading.
-fn drop_straight(points: &mut Vec<Numbered>, closed: bool, manner: &Manner) {
+fn drop_straight(points: &mut Vec<NumberedPoint>, closed: bool, manner: &OutlineOptions) {
     let mut index = usize::from(!closed);
     while points.len() > 2 && index < points.len() - usize::from(!closed) {
         let count = points.len();
@@ -172,7 +172,7 @@ fn drop_straight(points: &mut Vec<Numbered>, closed: bool, manner: &Manner) {
     }
 }
 
-fn is_straight(before: DVec2, here: DVec2, after: DVec2, manner: &Manner) -> bool {
+fn is_straight(before: DVec2, here: DVec2, after: DVec2, manner: &OutlineOptions) -> bool {
     if manner.straight == 0.0 {
         let collinear = orientation(before, here, after) == Orientation::Collinear;
         return collinear && (here - before).dot(after - here) > 0.0;
@@ -186,24 +186,24 @@ fn is_straight(before: DVec2, here: DVec2, after: DVec2, manner: &Manner) -> boo
 }
 
 /// An edge of a ring, by the indices of the ring and of its first point.
-struct Edge {
+struct OutlineEdge {
     ring: usize,
     index: usize,
     line: geo::Line,
 }
 
 /// Fails if two edges have a point in common other than the one where they follow each other.
-fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &Manner) -> Result<()> {
+fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &OutlineOptions) -> Result<()> {
     let owner = manner.owner;
     let mut edges = Vec::new();
     for (ring, NamedRing { points, .. }) in rings.iter().enumerate() {
         for index in 0..points.len() - usize::from(!closed) {
             let [start, end] = [points[index], points[(index + 1) % points.len()]].map(|p| coord(p.point.at));
-            edges.push(Edge { ring, index, line: geo::Line::new(start, end) });
+            edges.push(OutlineEdge { ring, index, line: geo::Line::new(start, end) });
         }
     }
     // From left to right, so that each edge meets only those that begin before it ends.
-    let left = |edge: &Edge| edge.line.start.x.min(edge.line.end.x);
+    let left = |edge: &OutlineEdge| edge.line.start.x.min(edge.line.end.x);
     edges.sort_by(|a, b| left(a).total_cmp(&left(b)));
     for (i, a) in edges.iter().enumerate() {
         let right = a.line.start.x.max(a.line.end.x);
@@ -230,9 +230,10 @@ fn refuse_crossings(rings: &[NamedRing], closed: bool, manner: &Manner) -> Resul
 }
 
 /// Where two edges meet though they should not.
-fn meeting(a: &Edge, b: &Edge, count: usize, closed: bool) -> Option<DVec2> {
-    let follows =
-        |a: &Edge, b: &Edge| b.index == a.index + 1 || (closed && b.index == 0 && a.index + 1 == count);
+fn meeting(a: &OutlineEdge, b: &OutlineEdge, count: usize, closed: bool) -> Option<DVec2> {
+    let follows = |a: &OutlineEdge, b: &OutlineEdge| {
+        b.index == a.index + 1 || (closed && b.index == 0 && a.index + 1 == count)
+    };
     let neighbours = a.ring == b.ring && (follows(a, b) || follows(b, a));
     // Most pairs of edges follow each other around a corner, where they have nothing else in common.
     if neighbours && turns(a.line, b.line) {
@@ -252,13 +253,13 @@ fn turns(a: geo::Line, b: geo::Line) -> bool {
     cross * cross > 1e-18 * u.length_squared() * v.length_squared()
 }
 
-fn edge_name(edge: &Edge, rings: &[NamedRing]) -> String {
+fn edge_name(edge: &OutlineEdge, rings: &[NamedRing]) -> String {
     let points = &rings[edge.ring].points;
     format!("{}-{}", points[edge.index].number, points[(edge.index + 1) % points.len()].number)
 }
 
 /// Fails if a hole is not inside the first ring or is inside another hole; no rings meet.
-fn refuse_misplaced_holes(rings: &[NamedRing], manner: &Manner) -> Result<()> {
+fn refuse_misplaced_holes(rings: &[NamedRing], manner: &OutlineOptions) -> Result<()> {
     for (index, hole) in rings.iter().enumerate().skip(1) {
         let DVec2 { x, y } = hole.points[0].point.at;
         for (other, around) in rings.iter().enumerate().filter(|&(other, _)| other != index) {

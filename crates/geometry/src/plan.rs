@@ -3,19 +3,19 @@
 use glam::DVec3;
 use smallvec::SmallVec;
 
-use super::outline::{Manner, numbered_rings};
+use super::outline::{OutlineOptions, numbered_rings};
 use super::planar::{Polygon, Rings};
-use super::repair::{Repaired, repair};
+use super::repair::{PlanRepair, repair};
 use super::section::{MOST_POINTS, SectionPoint};
 use burgeon_base::error::{Error, Limit, Result};
 
-const PLAN: Manner = Manner { owner: "footprint", near: 0.01, straight: 2e-3 };
+const PLAN: OutlineOptions = OutlineOptions { owner: "footprint", near: 0.01, straight: 2e-3 };
 
 /// The outline of a building: a polygon whose points have heights and whose rings do not meet.
 #[derive(Debug, Clone, Default)]
 pub struct Plan {
     polygon: Polygon<DVec3>,
-    given: Given,
+    given: EdgeOrigin,
     /// How many points the rings had that were given.
     sizes: Vec<usize>,
     repairs: Vec<&'static str>,
@@ -24,14 +24,14 @@ pub struct Plan {
 
 /// What the edges of a plan stand for.
 #[derive(Debug, Clone)]
-enum Given {
+enum EdgeOrigin {
     /// For each point the place, counted from 0, that it had in its ring.
     Places(Vec<Vec<usize>>),
     /// For each edge the edges that were given, counted from 0 over all rings.
     Edges(Vec<Vec<usize>>),
 }
 
-impl Default for Given {
+impl Default for EdgeOrigin {
     fn default() -> Self {
         Self::Places(Vec::new())
     }
@@ -83,11 +83,11 @@ impl Plan {
         let clean = match numbered_rings(&sharp(outer), &holes, &PLAN) {
             Ok(clean) => clean,
             Err(error) => {
-                let Some(Repaired { polygon, given, notes }) = repair(rings, &PLAN) else {
+                let Some(PlanRepair { polygon, given, notes }) = repair(rings, &PLAN) else {
                     return Err(error);
                 };
                 let trouble = error.message().to_owned();
-                return Ok(Self { polygon, given: Given::Edges(given), sizes, repairs: notes, trouble });
+                return Ok(Self { polygon, given: EdgeOrigin::Edges(given), sizes, repairs: notes, trouble });
             }
         };
         let places: Vec<Vec<usize>> =
@@ -97,7 +97,7 @@ impl Plan {
             .zip(&**rings)
             .map(|(places, ring)| places.iter().map(|&place| ring[place]).collect());
         let polygon = Polygon::new(rings.collect::<Rings>())?;
-        Ok(Self { polygon, given: Given::Places(places), sizes, ..Self::default() })
+        Ok(Self { polygon, given: EdgeOrigin::Places(places), sizes, ..Self::default() })
     }
 
     /// The polygon (m), with the heights of the ground.
@@ -109,8 +109,10 @@ impl Plan {
     /// over all of them. An edge goes from its point to the next one.
     pub fn given_edges(&self) -> Vec<SmallVec<[usize; 2]>> {
         let places = match &self.given {
-            Given::Places(places) => places,
-            Given::Edges(edges) => return edges.iter().map(|edges| SmallVec::from_slice(edges)).collect(),
+            EdgeOrigin::Places(places) => places,
+            EdgeOrigin::Edges(edges) => {
+                return edges.iter().map(|edges| SmallVec::from_slice(edges)).collect();
+            }
         };
         let mut given = Vec::with_capacity(self.polygon.size());
         let mut first = 0;

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use super::ring::Ring;
+use super::ring::SectionRing;
 use super::solid::is_flat;
 
 /// A face between two rings: two corners on the first from left to right, then two on the second from right.
@@ -12,7 +12,7 @@ pub(super) struct Quad {
 }
 
 impl Quad {
-    pub(super) fn new(corners: [(&Ring, usize); 4]) -> Self {
+    pub(super) fn new(corners: [(&SectionRing, usize); 4]) -> Self {
         Self {
             exact: corners.map(|(ring, point)| ring.exact[point]),
             points: corners.map(|(ring, point)| ring.points[point]),

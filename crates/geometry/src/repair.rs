@@ -9,7 +9,7 @@ use glam::{DVec2, DVec3};
 use rstar::primitives::{GeomWithData, Line};
 use rstar::{AABB, PointDistance, RTree};
 
-use super::outline::{Manner, is_ring, numbered_rings};
+use super::outline::{OutlineOptions, is_ring, numbered_rings};
 use super::planar::{Polygon, Rings, edges, geo_polygon};
 use super::ring::MOST;
 use super::section::SectionPoint;
@@ -31,7 +31,7 @@ const FEW_MEETINGS: usize = 10_000;
 const LOOPS: &str = "loops of the outer ring left out";
 
 /// Rings that became a plan.
-pub(super) struct Repaired {
+pub(super) struct PlanRepair {
     pub polygon: Polygon<DVec3>,
     /// For each edge of all rings, the edges that were given and that it stands for.
     pub given: Vec<Vec<usize>>,
@@ -41,7 +41,7 @@ pub(super) struct Repaired {
 
 /// The greatest part of what the first ring encloses without the others; `None` if nothing is left that is a plan, or
 /// if the rings meet so often that they are none.
-pub(super) fn repair(given: &Rings, manner: &Manner) -> Option<Repaired> {
+pub(super) fn repair(given: &Rings, manner: &OutlineOptions) -> Option<PlanRepair> {
     let known = |point: &DVec3| point.is_finite() && point.truncate().abs().max_element() <= MOST;
     if !given.iter().flatten().all(known) {
         return None;
@@ -69,7 +69,7 @@ pub(super) fn repair(given: &Rings, manner: &Manner) -> Option<Repaired> {
                 if notes.is_empty() {
                     notes.push("edges that cross or touch untangled");
                 }
-                return Some(Repaired { polygon, given, notes });
+                return Some(PlanRepair { polygon, given, notes });
             }
         }
         let notches = notches(&rings);
@@ -118,7 +118,7 @@ fn meets_too_often(rings: &Rings<DVec2>) -> bool {
 }
 
 /// The points of sound rings that are needed; `None` if the rings meet.
-fn cleaned(rings: &Rings<DVec2>, manner: &Manner) -> Option<Polygon> {
+fn cleaned(rings: &Rings<DVec2>, manner: &OutlineOptions) -> Option<Polygon> {
     let sharp: Vec<Vec<SectionPoint>> =
         rings.iter().map(|ring| ring.iter().copied().map(SectionPoint::sharp).collect()).collect();
     let (outer, holes) = sharp.split_first()?;
@@ -191,7 +191,7 @@ fn greatest(areas: MultiPolygon, notes: &mut Vec<&'static str>) -> Option<geo::P
 }
 
 /// The rings of a polygon, without holes that are none.
-fn rings_of(polygon: &geo::Polygon, manner: &Manner) -> Rings<DVec2> {
+fn rings_of(polygon: &geo::Polygon, manner: &OutlineOptions) -> Rings<DVec2> {
     let is_sound = |ring: &Vec<DVec2>| {
         let sharp: Vec<SectionPoint> = ring.iter().copied().map(SectionPoint::sharp).collect();
         is_ring(&sharp, manner)
@@ -200,10 +200,10 @@ fn rings_of(polygon: &geo::Polygon, manner: &Manner) -> Rings<DVec2> {
     rings.filter(|(number, ring)| *number == 0 || is_sound(ring)).map(|(_, ring)| ring).collect()
 }
 
-type Edge = GeomWithData<Line<[f64; 2]>, usize>;
+type IndexedEdge = GeomWithData<Line<[f64; 2]>, usize>;
 
 /// The edges of rings that have a length, by place, each with its number over all rings.
-fn edge_tree(rings: &Rings<DVec2>) -> RTree<Edge> {
+fn edge_tree(rings: &Rings<DVec2>) -> RTree<IndexedEdge> {
     let ends = rings.iter().flat_map(|ring| edges(ring));
     let lines = ends.enumerate().filter(|(_, [from, to])| from.distance_squared(*to) > 0.0);
     RTree::bulk_load(

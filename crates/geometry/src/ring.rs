@@ -40,7 +40,7 @@ impl Pose {
 
 /// The section at one place.
 #[derive(Debug)]
-pub(super) struct Ring {
+pub(super) struct SectionRing {
     /// The station's number, counted from 1.
     pub(super) station: usize,
     /// As the piece of way that ends here sees it; its heading differs from that of `after` at a mitre.
@@ -57,7 +57,7 @@ pub(super) struct Ring {
     pub(super) sharp: bool,
 }
 
-impl Ring {
+impl SectionRing {
     /// Whether the section has shrunk to one point.
     pub(super) fn is_apex(&self) -> bool {
         self.after.scale == DVec2::ZERO
@@ -73,7 +73,7 @@ impl Ring {
         self.after.frame.position
     }
 
-    fn is_at(&self, other: &Ring) -> bool {
+    fn is_at(&self, other: &SectionRing) -> bool {
         let pairs = self.exact.iter().zip(&other.exact);
         pairs.into_iter().all(|(a, b)| a.distance_squared(*b) <= NOTHING * NOTHING)
     }
@@ -84,12 +84,12 @@ impl Ring {
 /// Stations at one place with different headings are joined by a mitre: their rings lie in the plane halfway.
 /// If `closed`, so are the last and the first, and a last ring that repeats the first is left out.
 /// Fails if a value is not finite or the way turns back on itself.
-pub(super) fn rings(section: &Section, stations: &[Station], closed: bool) -> Result<Vec<Ring>> {
+pub(super) fn rings(section: &Section, stations: &[Station], closed: bool) -> Result<Vec<SectionRing>> {
     for (index, station) in stations.iter().enumerate() {
         refuse_infinite(index + 1, station)?;
     }
     let reach = section.reach();
-    let mut rings: Vec<Ring> = Vec::with_capacity(stations.len());
+    let mut rings: Vec<SectionRing> = Vec::with_capacity(stations.len());
     for (group, normal) in groups(stations, closed) {
         for index in group {
             let ring = ring(section, reach, index + 1, &stations[index], normal)?;
@@ -135,7 +135,13 @@ fn groups(stations: &[Station], closed: bool) -> impl Iterator<Item = (std::ops:
     groups.into_iter().map(|(range, before, after)| (range, (before + after).normalize_or_zero()))
 }
 
-fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, normal: DVec3) -> Result<Ring> {
+fn ring(
+    section: &Section,
+    reach: DVec2,
+    number: usize,
+    station: &Station,
+    normal: DVec3,
+) -> Result<SectionRing> {
     let squeeze = |scale: f64, reach: f64| if scale.abs() * reach <= LEAST_REACH { 0.0 } else { scale };
     let scale = DVec2::new(squeeze(station.scale.x, reach.x), squeeze(station.scale.y, reach.y));
     let pose = Pose { frame: station.frame, scale, twist: station.twist };
@@ -158,7 +164,15 @@ fn ring(section: &Section, reach: DVec2, number: usize, station: &Station, norma
         section.points().map(place).collect()
     };
     let points = exact.iter().copied().map(snapped).collect();
-    Ok(Ring { station: number, before: pose, after: pose, normal, exact, points, sharp: station.sharp })
+    Ok(SectionRing {
+        station: number,
+        before: pose,
+        after: pose,
+        normal,
+        exact,
+        points,
+        sharp: station.sharp,
+    })
 }
 
 /// The point (m) at export precision, on a grid as fine as f32 at one metre.

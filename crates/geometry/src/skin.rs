@@ -11,7 +11,7 @@ use super::section::Knot;
 
 /// One vertex in each row around: a point of the section and the outline's direction there.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Column {
+pub(super) struct SkinColumn {
     pub(super) point: usize,
     pub(super) tangent: Tangent,
 }
@@ -38,7 +38,7 @@ pub(super) type Across = SmallVec<[f64; 2 * FEW]>;
 /// The division of a section's outline.
 #[derive(Debug, Clone)]
 pub(super) struct Skin {
-    pub(super) columns: Vec<Column>,
+    pub(super) columns: Vec<SkinColumn>,
     pub(super) strips: Vec<Strip>,
 }
 
@@ -66,9 +66,9 @@ impl Skin {
         for step in 0..edges {
             let (from, to) = ((start + step) % count, (start + step + 1) % count);
             if self.columns.len() == begin {
-                self.columns.push(Column { point: first + from, tangent: tangents.after(from) });
+                self.columns.push(SkinColumn { point: first + from, tangent: tangents.after(from) });
             }
-            self.columns.push(Column { point: first + to, tangent: tangents.before(to) });
+            self.columns.push(SkinColumn { point: first + to, tangent: tangents.before(to) });
             if step + 1 == edges || is_sharp(&ring[to]) {
                 let columns = begin..self.columns.len();
                 let tangents = || self.columns[columns.clone()].iter().flat_map(|column| column.tangent);

@@ -5,9 +5,9 @@ use rustc_hash::FxHashMap;
 
 use burgeon_scene::Part;
 
-/// What [`check`] found; nothing is wrong with a solid for which [`Check::is_solid`] holds.
+/// What [`check`] found; nothing is wrong with a solid for which [`SolidCheck::is_solid`] holds.
 #[derive(Debug, Clone, Default, PartialEq)]
-pub struct Check {
+pub struct SolidCheck {
     /// Edges (m) with a triangle on one side only, in the order of their first use.
     pub open: Vec<[Vec3; 2]>,
     /// Edges (m) whose triangles run along them the same way, so that one of the two faces inwards.
@@ -18,7 +18,7 @@ pub struct Check {
     pub not_finite: usize,
 }
 
-impl Check {
+impl SolidCheck {
     /// Whether every edge has as many triangles running one way as the other.
     pub fn is_closed(&self) -> bool {
         self.open.is_empty() && self.inconsistent.is_empty()
@@ -34,11 +34,11 @@ impl Check {
 ///
 /// Two corners are one point if their positions are equal to the last bit; -0 equals 0. An edge that several
 /// sheets share is sound if as many triangles run along it one way as the other.
-pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> Check {
-    let mut found = Check::default();
+pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> SolidCheck {
+    let mut found = SolidCheck::default();
     let mut points: Vec<Vec3> = Vec::new();
     let mut known: FxHashMap<[u32; 3], usize> = FxHashMap::default();
-    let mut edges: Vec<Edge> = Vec::new();
+    let mut edges: Vec<SolidEdge> = Vec::new();
     let mut edge_of: FxHashMap<(usize, usize), usize> = FxHashMap::default();
     for part in parts {
         let welded: Vec<usize> = part
@@ -59,7 +59,7 @@ pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> Check {
             for side in 0..3 {
                 let (from, to) = (corners[side], corners[(side + 1) % 3]);
                 let index = *edge_of.entry((from.min(to), from.max(to))).or_insert_with(|| {
-                    edges.push(Edge { from, to, along: 0, against: 0 });
+                    edges.push(SolidEdge { from, to, along: 0, against: 0 });
                     edges.len() - 1
                 });
                 let edge = &mut edges[index];
@@ -76,7 +76,7 @@ pub fn check<'a>(parts: impl IntoIterator<Item = &'a Part>) -> Check {
 }
 
 /// An edge with the number of triangles that run along it each way.
-struct Edge {
+struct SolidEdge {
     from: usize,
     to: usize,
     along: usize,
@@ -226,7 +226,7 @@ mod tests {
     #[test]
     fn a_tetrahedron_is_solid_and_has_its_volume_and_area() {
         let solid = tetrahedron();
-        assert_eq!(check([&solid]), Check::default());
+        assert_eq!(check([&solid]), SolidCheck::default());
         assert!((volume([&solid]) - 1.0 / 6.0).abs() < 1e-12);
         assert!((area([&solid]) - (1.5 + 3f64.sqrt() / 2.0)).abs() < 1e-6);
     }

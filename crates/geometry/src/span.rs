@@ -6,13 +6,13 @@ use glam::{DMat3, DQuat, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
 use super::Section;
-use super::ring::{FEW, NOTHING, Pose, Ring};
+use super::ring::{FEW, NOTHING, Pose, SectionRing};
 use super::skin::{Skin, Tangent};
 use burgeon_base::error::{Error, Result};
 
 /// How normals are spread over a surface.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Shading {
+pub(super) struct NormalSpread {
     pub(super) around: bool,
     pub(super) along: bool,
 }
@@ -38,9 +38,9 @@ impl Span {
     pub(super) fn new(
         section: &Section,
         skin: &Skin,
-        [a, b]: [&Ring; 2],
+        [a, b]: [&SectionRing; 2],
         direction: f64,
-        shading: Shading,
+        shading: NormalSpread,
     ) -> Result<Option<Self>> {
         let (from, to) = (a.after.scale, b.before.scale);
         if from.x * to.x < 0.0 || from.y * to.y < 0.0 {
@@ -59,8 +59,8 @@ impl Span {
         let chord = b.before.frame.position - a.after.frame.position;
         let step = chord.length() <= NOTHING;
         let mut normals = match shading {
-            Shading { around: false, along: false } => flat(skin, a, b),
-            Shading { along, .. } => smooth(section, skin, [a, b], along),
+            NormalSpread { around: false, along: false } => flat(skin, a, b),
+            NormalSpread { along, .. } => smooth(section, skin, [a, b], along),
         };
         if sign < 0.0 {
             normals.iter_mut().flatten().for_each(|normal| *normal = -*normal);
@@ -70,7 +70,7 @@ impl Span {
 }
 
 /// Both columns of a face with the face's own normal.
-fn flat(skin: &Skin, a: &Ring, b: &Ring) -> [Normals; 2] {
+fn flat(skin: &Skin, a: &SectionRing, b: &SectionRing) -> [Normals; 2] {
     let mut normals: Normals = smallvec![DVec3::Z; skin.columns.len()];
     for strip in &skin.strips {
         for column in strip.columns.start..strip.columns.end - 1 {
@@ -84,10 +84,10 @@ fn flat(skin: &Skin, a: &Ring, b: &Ring) -> [Normals; 2] {
 }
 
 /// The normals of the surface that the faces stand for: across the outline and the way of each point.
-fn smooth(section: &Section, skin: &Skin, [a, b]: [&Ring; 2], along: bool) -> [Normals; 2] {
+fn smooth(section: &Section, skin: &Skin, [a, b]: [&SectionRing; 2], along: bool) -> [Normals; 2] {
     let points: Vec<DVec2> = section.points().collect();
     let motion = Motion::new(&a.after, &b.before);
-    let sides = [Side::new(&a.after, &b.before), Side::new(&b.before, &a.after)];
+    let sides = [SpanEnd::new(&a.after, &b.before), SpanEnd::new(&b.before, &a.after)];
     let normal = |side: usize, point: usize, tangent: Tangent| {
         let outwards = sides[side].offset(points[point]).normalize_or(sides[side].heading);
         let (around, way) = if along {
@@ -101,7 +101,7 @@ fn smooth(section: &Section, skin: &Skin, [a, b]: [&Ring; 2], along: bool) -> [N
 }
 
 /// One end of a span.
-struct Side {
+struct SpanEnd {
     x: DVec3,
     y: DVec3,
     heading: DVec3,
@@ -110,7 +110,7 @@ struct Side {
     least: DVec2,
 }
 
-impl Side {
+impl SpanEnd {
     fn new(pose: &Pose, other: &Pose) -> Self {
         let (x, y) = pose.axes();
         let inside = pose.scale.lerp(other.scale, 1e-3);
@@ -155,7 +155,7 @@ impl Motion {
     }
 
     /// The way of a point of the section at one end.
-    fn way(&self, side: usize, ends: &Side, point: DVec2) -> DVec3 {
+    fn way(&self, side: usize, ends: &SpanEnd, point: DVec2) -> DVec3 {
         let offset = ends.x * (ends.scale.x * point.x) + ends.y * (ends.scale.y * point.y);
         let growth = ends.x * (self.scale.x * point.x) + ends.y * (self.scale.y * point.y);
         self.centre[side] + self.turn[side].cross(offset) + growth

@@ -68,12 +68,12 @@ pub struct Strand {
     radius: f32,
     v: f64,
     /// The piece that ends at `position`, if there is one.
-    last: Option<Piece>,
+    last: Option<StrandPiece>,
 }
 
 /// A piece of a strand that has its first ring, not yet its second.
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct StrandPiece {
     direction: Vec3A,
     /// How much the radius shrinks on each metre.
     slope: f32,
@@ -143,7 +143,7 @@ impl Strand {
             None => self.start(part, direction, slope),
             Some(last) => (self.joint(part, last, direction, slope), false),
         };
-        self.last = Some(Piece { direction, slope, ring, tip });
+        self.last = Some(StrandPiece { direction, slope, ring, tip });
         self.position = position;
         self.radius = radius;
         self.v += f64::from(length);
@@ -178,7 +178,7 @@ impl Strand {
 
     /// The ring between the last piece and one that goes on in `direction`, with the last piece's faces.
     #[inline]
-    fn joint(&mut self, part: &mut Part, last: Piece, direction: Vec3A, slope: f32) -> u32 {
+    fn joint(&mut self, part: &mut Part, last: StrandPiece, direction: Vec3A, slope: f32) -> u32 {
         let sum = last.direction + direction;
         let square = sum.length_squared();
         let mut normal = last.direction;

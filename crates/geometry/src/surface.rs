@@ -4,18 +4,18 @@ use glam::{DVec2, DVec3, Vec2, Vec3};
 use smallvec::{SmallVec, smallvec};
 
 use super::quad::Quad;
-use super::ring::{NOTHING, Ring};
+use super::ring::{NOTHING, SectionRing};
 use super::skin::Skin;
-use super::span::{Shading, Span};
-use super::{Lengthwise, Section, SweepOptions, Swept};
+use super::span::{NormalSpread, Span};
+use super::{Lengthwise, Section, SweepOptions, SweepResult};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part};
 
 /// A sweep that is being built.
-pub(super) struct Surface<'a> {
+pub(super) struct SweepSurface<'a> {
     part: &'a mut Part,
     section: &'a Section,
-    rings: &'a [Ring],
+    rings: &'a [SectionRing],
     options: &'a SweepOptions,
     skin: &'a Skin,
     /// From each ring to the next one.
@@ -32,12 +32,12 @@ struct Row {
     first: u32,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> SweepSurface<'a> {
     /// Prepares the surface of `section` through `rings`, which have its points, for `part`.
     pub(super) fn new(
         part: &'a mut Part,
         section: &'a Section,
-        rings: &'a [Ring],
+        rings: &'a [SectionRing],
         options: &'a SweepOptions,
     ) -> Result<Self> {
         let skin = section.skin(options.around);
@@ -46,7 +46,7 @@ impl<'a> Surface<'a> {
             .map(|[a, b]| (b.centre() - a.centre()).dot(a.after.frame.heading + b.before.frame.heading))
             .sum();
         let direction = if forwards < 0.0 { -1.0 } else { 1.0 };
-        let shading = Shading { around: options.around, along: options.along };
+        let shading = NormalSpread { around: options.around, along: options.along };
         let spans =
             pairs().map(|pair| Span::new(section, skin, pair, direction, shading)).collect::<Result<_>>()?;
         Ok(Self {
@@ -63,7 +63,7 @@ impl<'a> Surface<'a> {
     }
 
     /// Adds the sides and the ends.
-    pub(super) fn build(mut self) -> Result<Swept> {
+    pub(super) fn build(mut self) -> Result<SweepResult> {
         self.refuse_too_many()?;
         let (columns, points) = (self.skin.columns.len(), self.section.points().count());
         let (spans, ends) = (self.spans.len(), 2 * points);
@@ -81,7 +81,7 @@ impl<'a> Surface<'a> {
             self.end(self.rings.len() - 1, self.options.end_cap, self.direction);
             self.reach(self.rings.len() - 1);
         }
-        Ok(Swept { v, open: self.open, reached: self.reached })
+        Ok(SweepResult { v, open: self.open, reached: self.reached })
     }
 
     /// Notes that the triangles added last lead to `ring`.
@@ -131,7 +131,7 @@ impl<'a> Surface<'a> {
     }
 
     /// How far (m) the texture runs from one ring to the next.
-    fn advance(&self, a: &Ring, b: &Ring) -> f64 {
+    fn advance(&self, a: &SectionRing, b: &SectionRing) -> f64 {
         let along = a.centre().distance(b.centre());
         if self.options.lengthwise == Lengthwise::Axis && along > NOTHING {
             return along;
@@ -307,19 +307,19 @@ impl<'a> Surface<'a> {
 }
 
 /// Each ring with the next one.
-fn pairs(rings: &[Ring], closed: bool) -> impl Iterator<Item = [&Ring; 2]> {
+fn pairs(rings: &[SectionRing], closed: bool) -> impl Iterator<Item = [&SectionRing; 2]> {
     let count = if closed && rings.len() > 2 { rings.len() } else { rings.len().saturating_sub(1) };
     (0..count).map(|index| [&rings[index], &rings[(index + 1) % rings.len()]])
 }
 
-fn no_area(a: &Ring, b: &Ring, point: usize) -> Error {
+fn no_area(a: &SectionRing, b: &SectionRing, point: usize) -> Error {
     let (from, to) = (a.station, b.station);
     let message = format!("between stations {from} and {to} the face after point {} has no area", point + 1);
     Error::geometry(message)
         .help("leave some length between the stations, or centre the cross-section differently")
 }
 
-fn crossing(a: &Ring, b: &Ring) -> Error {
+fn crossing(a: &SectionRing, b: &SectionRing) -> Error {
     Error::geometry(format!(
         "the outlines at stations {} and {} are at one place and cross",
         a.station, b.station

@@ -4,8 +4,8 @@ use std::borrow::Cow;
 
 use glam::Vec3;
 
-use super::ring::{Ring, rings};
-use super::surface::Surface;
+use super::ring::{SectionRing, rings};
+use super::surface::SweepSurface;
 use super::{Section, Station};
 use burgeon_base::error::{Error, Result};
 use burgeon_scene::Part;
@@ -59,7 +59,7 @@ impl Default for SweepOptions {
 
 /// What a sweep has added.
 #[derive(Debug, Clone, PartialEq, Default)]
-pub struct Swept {
+pub struct SweepResult {
     /// The texture coordinate v (m) at the end, where the next sweep can go on.
     pub v: f64,
     /// The edges (m) where the surface is open: at ends without a cap, and all around a ribbon.
@@ -97,7 +97,7 @@ pub fn sweep(
     section: &Section,
     stations: &[Station],
     options: &SweepOptions,
-) -> Result<Swept> {
+) -> Result<SweepResult> {
     if !options.v.is_finite() {
         return Err(Error::argument(format!("the texture of the sweep begins at {}", options.v))
             .help("give a finite v"));
@@ -106,7 +106,7 @@ pub fn sweep(
     let mut section = Cow::Borrowed(section);
     let mut divided = [false; 2];
     for (axis, divided) in divided.iter_mut().enumerate() {
-        let squeezed = |ring: &Ring| ring.after.scale[1 - axis] == 0.0 && !ring.is_apex();
+        let squeezed = |ring: &SectionRing| ring.after.scale[1 - axis] == 0.0 && !ring.is_apex();
         if !section.is_open() && rings_of.iter().any(squeezed) {
             *divided = true;
             section = Cow::Owned(section.divided_at_levels(axis)?);
@@ -120,7 +120,7 @@ pub fn sweep(
         .help("make two runs, or use a rectangle"));
     }
     let (vertices, triangles) = (part.positions.len(), part.triangles.len());
-    let result = Surface::new(part, &section, &rings_of, options).and_then(Surface::build);
+    let result = SweepSurface::new(part, &section, &rings_of, options).and_then(SweepSurface::build);
     if result.is_err() {
         part.positions.truncate(vertices);
         part.normals.truncate(vertices);

@@ -6,7 +6,7 @@ use super::planar::twice_area;
 
 /// A rectangle between lines, which go by their numbers in order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Cell {
+pub struct UnionCell {
     /// The line below it and the one above it.
     pub y: [u32; 2],
     /// The line on its left and the one on its right.
@@ -22,14 +22,14 @@ pub type Crossing = [u32; 2];
 /// Whatever meets the outline at those places has no T-junction with it, and there is none inside.
 ///
 /// ```
-/// use burgeon_geometry::{Cell, Union};
+/// use burgeon_geometry::{UnionCell, Union};
 ///
 /// // A storey of three panes with a window in the middle: lines 0 to 3 across, 0 to 3 up.
 /// let mut cells = vec![
-///     Cell { y: [0, 1], x: [0, 3] },
-///     Cell { y: [1, 2], x: [0, 1] },
-///     Cell { y: [1, 2], x: [2, 3] },
-///     Cell { y: [2, 3], x: [0, 3] },
+///     UnionCell { y: [0, 1], x: [0, 3] },
+///     UnionCell { y: [1, 2], x: [0, 1] },
+///     UnionCell { y: [1, 2], x: [2, 3] },
+///     UnionCell { y: [2, 3], x: [0, 3] },
 /// ];
 /// cells.sort_unstable();
 /// let mut union = Union::default();
@@ -46,7 +46,7 @@ pub struct Union {
     /// The lines on which something begins, ends or is asked for.
     lines: Vec<u32>,
     /// The rectangles above the present line, from left to right.
-    open: Vec<Cell>,
+    open: Vec<UnionCell>,
     /// Where the union is just below the present line, and just above it.
     below: Vec<[u32; 2]>,
     above: Vec<[u32; 2]>,
@@ -64,7 +64,7 @@ impl Union {
     /// The corners of the union's outline.
     ///
     /// `cells` are in order and do not overlap.
-    pub fn corners(&mut self, cells: &[Cell], mut found: impl FnMut(Crossing)) {
+    pub fn corners(&mut self, cells: &[UnionCell], mut found: impl FnMut(Crossing)) {
         self.begin(cells, &[]);
         let mut rest = cells;
         for line in 0..self.lines.len() {
@@ -81,7 +81,7 @@ impl Union {
     ///
     /// Method: a sweep with a front that is a chain of vertices from left to right, as monotone polygons are
     /// triangulated (M. R. Garey and others, "Triangulating a simple polygon", 1978).
-    pub fn triangulate(&mut self, cells: &[Cell], others: &[Crossing], places: [&[f64]; 2]) {
+    pub fn triangulate(&mut self, cells: &[UnionCell], others: &[Crossing], places: [&[f64]; 2]) {
         self.begin(cells, others);
         let (mut rest, mut others) = (cells, others);
         for line in 0..self.lines.len() {
@@ -94,7 +94,7 @@ impl Union {
         }
     }
 
-    fn begin(&mut self, cells: &[Cell], others: &[Crossing]) {
+    fn begin(&mut self, cells: &[UnionCell], others: &[Crossing]) {
         self.lines.clear();
         self.lines.extend(cells.iter().flat_map(|cell| cell.y).chain(others.iter().map(|at| at[1])));
         self.lines.sort_unstable();
@@ -107,7 +107,7 @@ impl Union {
     }
 
     /// Goes on to line `y`; returns those of the cells `rest` that begin above it.
-    fn advance<'a>(&mut self, y: u32, rest: &'a [Cell]) -> &'a [Cell] {
+    fn advance<'a>(&mut self, y: u32, rest: &'a [UnionCell]) -> &'a [UnionCell] {
         std::mem::swap(&mut self.below, &mut self.above);
         self.open.retain(|cell| cell.y[1] > y);
         let (begun, rest) = rest.split_at(rest.partition_point(|cell| cell.y[0] <= y));
@@ -248,15 +248,15 @@ mod tests {
     type Squares = Vec<Vec<bool>>;
 
     /// The squares as rectangles, each as long as it can be if its number among `long` says so.
-    fn cells(squares: &Squares, long: &[bool]) -> Vec<Cell> {
-        let mut cells: Vec<Cell> = Vec::new();
+    fn cells(squares: &Squares, long: &[bool]) -> Vec<UnionCell> {
+        let mut cells: Vec<UnionCell> = Vec::new();
         for (y, row) in (0u32..).zip(squares) {
             for (x, _) in (0u32..).zip(row).filter(|(_, inside)| **inside) {
-                let beside = |cell: &&mut Cell| cell.y == [y, y + 1] && cell.x[1] == x;
+                let beside = |cell: &&mut UnionCell| cell.y == [y, y + 1] && cell.x[1] == x;
                 let joins = long[cells.len() % long.len()];
                 match cells.last_mut().filter(beside).filter(|_| joins) {
                     Some(cell) => cell.x[1] = x + 1,
-                    None => cells.push(Cell { x: [x, x + 1], y: [y, y + 1] }),
+                    None => cells.push(UnionCell { x: [x, x + 1], y: [y, y + 1] }),
                 }
             }
         }
@@ -327,7 +327,7 @@ mod tests {
                     prop_assert!(sides.insert([triangle[side], triangle[(side + 1) % 3]]), "a side is there twice");
                 }
             }
-            let size = |cell: &Cell| {
+            let size = |cell: &UnionCell| {
                 (place([cell.x[1], cell.y[1]]) - place([cell.x[0], cell.y[0]])).element_product()
             };
             let whole: f64 = cells.iter().map(size).sum();
@@ -347,10 +347,10 @@ mod tests {
     #[test]
     fn a_row_of_windows_takes_six_triangles_for_each_and_two() {
         for count in [1u32, 5, 40] {
-            let mut cells = vec![Cell { x: [2 * count, 2 * count + 1], y: [0, 3] }];
+            let mut cells = vec![UnionCell { x: [2 * count, 2 * count + 1], y: [0, 3] }];
             for left in (0..count).map(|number| 2 * number) {
-                cells.push(Cell { x: [left, left + 1], y: [0, 3] });
-                cells.extend([[0, 1], [2, 3]].map(|y| Cell { x: [left + 1, left + 2], y }));
+                cells.push(UnionCell { x: [left, left + 1], y: [0, 3] });
+                cells.extend([[0, 1], [2, 3]].map(|y| UnionCell { x: [left + 1, left + 2], y }));
             }
             cells.sort_unstable();
             let places: Vec<f64> = (0..2 * count + 2).map(f64::from).collect();

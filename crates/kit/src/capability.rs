@@ -1,9 +1,6 @@
 //! What some types of objects can do and others cannot, as their kinds declare it.
 
-use std::any::Any;
-
-use glam::DVec3;
-
+use super::declare::{as_mut, as_ref};
 use super::{Drawing, Note, Object, Rewriter};
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
@@ -23,7 +20,8 @@ impl<C: ?Sized> Clone for Capability<C> {
 impl<C: ?Sized> Copy for Capability<C> {}
 
 impl<C: ?Sized> Capability<C> {
-    /// The object as one that can; `None` if its type is not the one whose kind declared this.
+    /// The object as one that can; `None` if neither its type nor that of an object it extends is
+    /// the one whose kind declared this.
     pub fn of<'a>(&self, object: &'a dyn Object) -> Option<&'a C> {
         (self.of)(object)
     }
@@ -38,14 +36,8 @@ impl<C: ?Sized> Capability<C> {
 macro_rules! capability {
     ($object:ident: $capability:ident) => {
         Capability {
-            of: |object| {
-                let any: &dyn Any = object;
-                any.downcast_ref::<$object>().map(|it| it as &dyn $capability)
-            },
-            of_mut: |object| {
-                let any: &mut dyn Any = object;
-                any.downcast_mut::<$object>().map(|it| it as &mut dyn $capability)
-            },
+            of: |object| as_ref::<$object>(object).map(|it| it as &dyn $capability),
+            of_mut: |object| as_mut::<$object>(object).map(|it| it as &mut dyn $capability),
         }
     };
 }
@@ -86,18 +78,14 @@ pub trait Show {
     }
 }
 
-/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what.
+/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what. It can be
+/// derived.
 pub trait Draw {
     /// What it has drawn.
     fn drawing(&self) -> &Drawing;
 
     /// The same, to draw more.
     fn drawing_mut(&mut self) -> &mut Drawing;
-
-    /// Where the drawing has its origin (m).
-    fn origin(&self) -> DVec3 {
-        DVec3::ZERO
-    }
 }
 
 impl<T: Draw> Show for T {
@@ -106,13 +94,12 @@ impl<T: Draw> Show for T {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing().clone().show(scene, self.origin(), name, feature);
+        self.drawing().clone().show(scene, name, feature);
         Ok(())
     }
 
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        let origin = self.origin();
-        std::mem::take(self.drawing_mut()).show(scene, origin, name, feature);
+        std::mem::take(self.drawing_mut()).show(scene, name, feature);
         Ok(())
     }
 }

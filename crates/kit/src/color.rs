@@ -1,6 +1,6 @@
 //! Colours as fields and arguments have them.
 
-use super::{Expected, Parameter, Value, colors};
+use super::{Expectation, Parameter, Value, colors};
 
 /// A colour with opacity; scripts give it as sRGB, here it is linear.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -11,16 +11,16 @@ impl Parameter for Color {
         "Color".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || {
-            Expected::new(
+            Expectation::new(
                 "a colour: \"#rrggbb\", a name such as \"lightblue\", or { red, green, blue } from 0 to 1",
             )
         };
         let channels: Vec<f64> = match value {
             Value::Text(text) => match colors::read(&text) {
                 Ok(channels) => channels.map(|channel| f64::from(channel) / 255.0).to_vec(),
-                Err(Some(near)) => return Err(Expected::new(format!("a colour, such as \"{near}\""))),
+                Err(Some(near)) => return Err(Expectation::new(format!("a colour, such as \"{near}\""))),
                 Err(None) => return Err(what()),
             },
             value => Vec::<f64>::from_value(value).map_err(|_| what())?,

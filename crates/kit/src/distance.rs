@@ -7,12 +7,12 @@ use burgeon_scene::Part;
 
 /// Triangles, arranged so that the nearest one to a place is found without asking all.
 pub(super) struct Nearest {
-    tree: RTree<Triangle>,
+    tree: RTree<IndexedTriangle>,
 }
 
-struct Triangle([DVec3; 3]);
+struct IndexedTriangle([DVec3; 3]);
 
-impl RTreeObject for Triangle {
+impl RTreeObject for IndexedTriangle {
     type Envelope = AABB<[f64; 3]>;
 
     fn envelope(&self) -> Self::Envelope {
@@ -21,7 +21,7 @@ impl RTreeObject for Triangle {
     }
 }
 
-impl PointDistance for Triangle {
+impl PointDistance for IndexedTriangle {
     fn distance_2(&self, place: &[f64; 3]) -> f64 {
         let place = DVec3::from_array(*place);
         let [a, b, c] = self.0;
@@ -33,7 +33,7 @@ impl Nearest {
     /// The triangles of `parts`.
     pub(super) fn new(parts: &[Part]) -> Self {
         let corners = |part: &Part, triangle: [u32; 3]| {
-            Triangle(triangle.map(|corner| part.positions[corner as usize].as_dvec3()))
+            IndexedTriangle(triangle.map(|corner| part.positions[corner as usize].as_dvec3()))
         };
         let triangles = parts.iter().flat_map(|part| part.triangles.iter().map(|it| corners(part, it)));
         Self { tree: RTree::bulk_load(triangles.collect()) }

@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::{Key, Kind, Object, Parameter, Prefetch, Table, Value};
+use glam::DVec3;
+
+use super::{Kind, Object, Parameter, Prefetch, Table, TableKey, Value};
 use burgeon_data::{Geometry, Layer};
 
 /// The features of a source. A constructor may take them; no script holds them in this form.
@@ -24,7 +26,7 @@ impl Object for Features {
 
 /// The geometry of a feature. A constructor may take it; scripts see it as a table.
 #[derive(Clone)]
-pub struct Shape {
+pub struct FeatureShape {
     layer: Arc<Layer>,
     index: usize,
     prefetch: Option<Arc<dyn Prefetch>>,
@@ -33,7 +35,7 @@ pub struct Shape {
 static GEOMETRY: LazyLock<Arc<Kind>> =
     LazyLock::new(|| Arc::new(Kind::new("geometry", "The geometry of a feature.")));
 
-impl Shape {
+impl FeatureShape {
     /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
     pub fn new(layer: &Arc<Layer>, index: usize, prefetch: Option<&Arc<dyn Prefetch>>) -> Option<Self> {
         let there = index < layer.features.len();
@@ -52,7 +54,8 @@ impl Shape {
 
     /// The table that scripts see.
     pub fn to_table(&self) -> Value {
-        let points = |points: &[[f64; 3]]| points.iter().map(|point| point.to_vec()).collect::<Vec<_>>();
+        let points =
+            |points: &[DVec3]| points.iter().map(|point| point.to_array().to_vec()).collect::<Vec<_>>();
         let geometry = self.geometry();
         let (name, lists) = match geometry {
             Geometry::Polygon(rings) => {
@@ -62,12 +65,12 @@ impl Shape {
             Geometry::Point(point) => ("points", points(&[*point]).into_value()),
         };
         let kind = Value::Text(geometry.kind().name().into());
-        let entries = vec![(Key::Name("kind".into()), kind), (Key::Name(name.into()), lists)];
+        let entries = vec![(TableKey::Name("kind".into()), kind), (TableKey::Name(name.into()), lists)];
         Value::Table(Arc::new(Table { class: None, entries }))
     }
 }
 
-impl Object for Shape {
+impl Object for FeatureShape {
     fn kind(&self) -> &Arc<Kind> {
         &GEOMETRY
     }

@@ -3,7 +3,7 @@
 use std::marker::PhantomData;
 use std::sync::Arc;
 
-use super::{Expected, Field, Parameter, Table, Value};
+use super::{Expectation, Field, Parameter, Table, Value};
 use burgeon_base::Result;
 
 /// What the attribute `fields` declares: a struct that is read from a script's table.
@@ -47,7 +47,7 @@ impl<T: Fields> Parameter for TableOf<T> {
         T::list()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         Arc::<Table>::from_value(value).map(Self::from)
     }
 

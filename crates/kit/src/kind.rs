@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::capability::{self, Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
-use super::{BeginPrefetch, Loader, Object, Table, Value};
+use super::{BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Text that a built-in type has in the program, and another brings.
@@ -46,6 +46,28 @@ pub struct Kind {
     pub gather: Option<Gather>,
     /// What a thread may prepare of a layer's features before they are asked for.
     pub prefetch: Option<BeginPrefetch>,
+    /// What a script declared of it, if it comes from one.
+    pub script: Option<Arc<ScriptType>>,
+    /// Which of its names will go, and what is used instead.
+    pub deprecated: Vec<Deprecation>,
+}
+
+/// A name that still does what it did, but will go.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Deprecation {
+    /// A field or a method; empty for the type itself.
+    pub name: Text,
+    /// The version of the script API from which on something else is to be used.
+    pub since: Text,
+    /// What is to be used.
+    pub instead: Text,
+}
+
+impl Deprecation {
+    /// What people are told of `name`, as they write it.
+    pub fn message(&self, name: &str) -> String {
+        format!("{name} is deprecated since version {} of the script API", self.since)
+    }
 }
 
 /// Makes an object of the constructor's table.
@@ -108,7 +130,7 @@ pub struct Argument {
 }
 
 /// Calls a method by itself.
-pub type Read = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
+pub type ReadCall = Arc<dyn Fn(&dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
 /// Calls a method that changes the object.
 pub type Write = Arc<dyn Fn(&mut dyn Object, &[Value]) -> Result<Value> + Send + Sync>;
 /// Calls a method that changes the object and takes only numbers.
@@ -118,7 +140,7 @@ pub type WriteNumbers = Arc<dyn Fn(&mut dyn Object, &[f64]) -> Result<()> + Send
 #[derive(Clone)]
 pub enum Call {
     /// It only reads, so rules may call it.
-    Read(Read),
+    Read(ReadCall),
     /// It changes the object, so only interpretation rules may call it.
     Write {
         /// With any values.
@@ -126,6 +148,22 @@ pub enum Call {
         /// With numbers only, where all its arguments are numbers: the fast way.
         numbers: Option<WriteNumbers>,
     },
+    /// It is a function of the script, which the virtual machine runs.
+    Script {
+        /// Whether it changes the object, so that only interpretation rules may call it.
+        changes: bool,
+    },
+}
+
+impl Call {
+    /// Whether it changes the object, so that only interpretation rules may call it.
+    pub fn changes(&self) -> bool {
+        match self {
+            Self::Read(_) => false,
+            Self::Write { .. } => true,
+            Self::Script { changes } => *changes,
+        }
+    }
 }
 
 impl std::fmt::Debug for Kind {
@@ -153,6 +191,8 @@ impl Kind {
             report: None,
             gather: None,
             prefetch: None,
+            script: None,
+            deprecated: Vec::new(),
         }
     }
 
@@ -171,6 +211,24 @@ impl Kind {
     ) -> Self {
         let make = move |table: &Table| make(table).map(|made| Box::new(made) as Box<dyn Object>);
         Self { fields, construct: Construct::Fields(Arc::new(make)), ..self }
+    }
+
+    /// Will do without `name`, a field or a method, or empty for the type itself: scripts that use it are told that
+    /// since this version of the script API they should use `instead`.
+    #[must_use]
+    pub fn deprecates(
+        mut self,
+        name: impl Into<Text>,
+        since: impl Into<Text>,
+        instead: impl Into<Text>,
+    ) -> Self {
+        self.deprecated.push(Deprecation { name: name.into(), since: since.into(), instead: instead.into() });
+        self
+    }
+
+    /// That the field or the method `name` is deprecated, if it is.
+    pub fn deprecation(&self, name: &str) -> Option<&Deprecation> {
+        self.deprecated.iter().find(|known| known.name == name)
     }
 
     /// The field `first` may be given before the table.
@@ -252,6 +310,12 @@ impl Kind {
                 Err(Error::argument(format!("{} is not made of fields", self.name)))
             }
         }
+    }
+
+    /// Whether it is called `name`, or extends a type that is.
+    pub fn is_a(&self, name: &str) -> bool {
+        let base = self.script.as_ref().and_then(|script| script.base.as_ref());
+        self.name == name || base.is_some_and(|base| base.is_a(name))
     }
 
     /// The method called `name`.

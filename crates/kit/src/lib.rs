@@ -8,10 +8,10 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
-mod boxed;
 mod capability;
 mod color;
 mod colors;
+mod column_value;
 mod distance;
 mod drawing;
 mod features;
@@ -29,29 +29,37 @@ pub mod random;
 mod registry;
 mod rewriter;
 pub mod rules;
+mod script_field;
+mod script_object;
+mod script_type;
 mod seed;
 mod value;
 
-pub use boxed::Boxed;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
+pub use column_value::ColumnValue;
 pub use drawing::Drawing;
-pub use features::{Features, Shape};
+pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};
-pub use kind::{Argument, Call, Construct, Field, Kind, Make, Method, Read, Write, WriteNumbers};
-pub use loading::{Loaded, Loader, Loading, Resources};
+pub use kind::{
+    Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
+};
+pub use loading::{LoadRequest, LoadedObject, Loader, Resources};
 pub use makers::Makers;
 pub use model::Model;
 pub use note::Note;
 pub use object::Object;
-pub use parameter::{Answer, Expected, ObjectParameter, Parameter, Vector, object};
+pub use parameter::{Answer, Expectation, ObjectParameter, Parameter, Vector, object};
 pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
+pub use script_field::ScriptField;
+pub use script_object::ScriptObject;
+pub use script_type::ScriptType;
 pub use seed::Seed;
-pub use value::{Key, Table, Value};
+pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
-pub use burgeon_macros::{fields, methods};
+pub use burgeon_macros::{Draw, fields, methods};

@@ -7,7 +7,7 @@ use super::{Object, Table};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
-use burgeon_data::{Cache, Frame};
+use burgeon_data::{Cache, ReferenceFrame};
 
 /// Makes objects of files.
 #[derive(Clone)]
@@ -19,12 +19,12 @@ pub struct Loader {
     /// The same, with fields.
     pub example_with_fields: &'static str,
     /// Makes one of a file, with the fields that the script gives besides.
-    pub load: fn(&mut Loading<'_>, &Table) -> Result<Loaded>,
+    pub load: fn(&mut LoadRequest<'_>, &Table) -> Result<LoadedObject>,
 }
 
 /// An object that was made of a file.
 #[derive(Clone)]
-pub struct Loaded {
+pub struct LoadedObject {
     /// The object.
     pub object: Arc<dyn Object>,
     /// About how much memory (bytes) it takes.
@@ -34,7 +34,7 @@ pub struct Loaded {
 }
 
 /// A file that a script has named, and what may be used to read it.
-pub struct Loading<'a> {
+pub struct LoadRequest<'a> {
     /// The name that the script gave.
     pub name: &'a str,
     /// Where it is.
@@ -44,7 +44,7 @@ pub struct Loading<'a> {
     /// The most triangles that it may hold.
     pub triangles: usize,
     /// The projection and the origin of the run, which the first data decides.
-    pub frame: &'a mut Option<Frame>,
+    pub frame: &'a mut Option<ReferenceFrame>,
     /// What else the run has.
     pub resources: &'a dyn Resources,
 }
@@ -61,7 +61,7 @@ pub trait Resources {
 /// The largest file (bytes) that is read whole.
 const LARGEST: u64 = 1_000_000_000;
 
-impl Loading<'_> {
+impl LoadRequest<'_> {
     /// The content of the file; `remedy` is told where it cannot be read.
     pub fn read(&self, remedy: &str) -> Result<Vec<u8>> {
         self.read_from(self.path, self.name, remedy)

@@ -5,18 +5,18 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Boxed, Field, Key, Object, Table, Value};
+use super::{ColumnValue, Field, Object, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
 #[derive(Debug, Clone)]
-pub struct Expected {
+pub struct Expectation {
     what: String,
     /// What was found instead, where that is only a part of the value.
     found: Option<String>,
 }
 
-impl Expected {
+impl Expectation {
     /// Expected `what`, with its article.
     pub fn new(what: impl Into<String>) -> Self {
         Self { what: what.into(), found: None }
@@ -86,7 +86,7 @@ pub trait Parameter: Sized {
     }
 
     /// Reads a script's value.
-    fn from_value(value: Value) -> Result<Self, Expected>;
+    fn from_value(value: Value) -> Result<Self, Expectation>;
 
     /// Reads a column's number; `None` where [`Parameter::from_value`] is to refuse it.
     fn from_number(_: f64) -> Option<Self> {
@@ -148,10 +148,10 @@ macro_rules! answers {
 answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
 
 /// The object of type `T` that a value is; otherwise `what` was expected.
-pub fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expected> {
-    let Value::Object(object) = value else { return Err(Expected::new(what)) };
+pub fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expectation> {
+    let Value::Object(object) = value else { return Err(Expectation::new(what)) };
     let any: Arc<dyn Any + Send + Sync> = object;
-    any.downcast().map_err(|_| Expected::new(what))
+    any.downcast().map_err(|_| Expectation::new(what))
 }
 
 /// A type of object that fields and arguments may be, shared and unchanging.
@@ -167,7 +167,7 @@ impl<T: ObjectParameter> Parameter for Arc<T> {
         T::LUAU.into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         object(value, T::EXPECTED)
     }
 
@@ -183,11 +183,11 @@ impl Parameter for f64 {
         "number".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Number(number) if number.is_finite() => Ok(number),
-            Value::Number(_) => Err(Expected::new("a finite number")),
-            _ => Err(Expected::new("a number")),
+            Value::Number(_) => Err(Expectation::new("a finite number")),
+            _ => Err(Expectation::new("a number")),
         }
     }
 
@@ -208,12 +208,12 @@ impl Parameter for u32 {
         "number".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Number(number) => {
-                Self::from_number(number).ok_or_else(|| Expected::new("a whole number from 0"))
+                Self::from_number(number).ok_or_else(|| Expectation::new("a whole number from 0"))
             }
-            _ => Err(Expected::new("a whole number from 0")),
+            _ => Err(Expectation::new("a whole number from 0")),
         }
     }
 
@@ -234,16 +234,16 @@ impl Parameter for bool {
         "boolean".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Boolean(value) => Ok(value),
-            _ => Err(Expected::new("true or false")),
+            _ => Err(Expectation::new("true or false")),
         }
     }
 
     fn from_number(number: f64) -> Option<Self> {
-        match Boxed::unpack(number) {
-            Boxed::Boolean(value) => Some(value),
+        match ColumnValue::unpack(number) {
+            ColumnValue::Boolean(value) => Some(value),
             _ => None,
         }
     }
@@ -264,7 +264,7 @@ impl<T: Parameter> Parameter for Option<T> {
         T::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Nil => Ok(None),
             value => T::from_value(value).map(Some),
@@ -275,7 +275,7 @@ impl<T: Parameter> Parameter for Option<T> {
     fn from_number(number: f64) -> Option<Self> {
         match T::from_number(number) {
             Some(value) => Some(Some(value)),
-            None => matches!(Boxed::unpack(number), Boxed::Nil).then_some(None),
+            None => matches!(ColumnValue::unpack(number), ColumnValue::Nil).then_some(None),
         }
     }
 
@@ -289,10 +289,10 @@ impl Parameter for String {
         "string".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Text(text) => Ok(text.to_string()),
-            _ => Err(Expected::new("a string")),
+            _ => Err(Expectation::new("a string")),
         }
     }
 
@@ -306,7 +306,7 @@ impl Parameter for Value {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         Ok(value)
     }
 
@@ -320,10 +320,10 @@ impl Parameter for Arc<Table> {
         "{ [string]: any }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Table(table) => Ok(table),
-            _ => Err(Expected::new("a table of named fields")),
+            _ => Err(Expectation::new("a table of named fields")),
         }
     }
 
@@ -341,8 +341,8 @@ impl<T: Parameter> Parameter for Vec<T> {
         T::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a list");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a list");
         match value {
             Value::Table(table) => {
                 let list = table.list();
@@ -354,7 +354,7 @@ impl<T: Parameter> Parameter for Vec<T> {
                     .map(|(index, value)| {
                         T::from_value(value.clone()).map_err(|inner| {
                             let what = format!("a list whose item {} is {}", index + 1, inner.what);
-                            Expected { what, ..inner }.found(&value)
+                            Expectation { what, ..inner }.found(&value)
                         })
                     })
                     .collect()
@@ -369,7 +369,7 @@ impl<T: Parameter> Parameter for Vec<T> {
 }
 
 fn list(values: impl Iterator<Item = Value>) -> Value {
-    let entries = (1..).map(Key::Index).zip(values).collect();
+    let entries = (1..).map(TableKey::Index).zip(values).collect();
     Value::Table(Arc::new(Table { class: None, entries }))
 }
 
@@ -382,8 +382,8 @@ impl Parameter for Vector {
         "Vector".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a vector: { x, y, z } or vec(x, y, z)");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a vector: { x, y, z } or vec(x, y, z)");
         let Value::Table(table) = value else { return Err(what()) };
         let mut parts = table.list();
         if parts.is_empty() {
@@ -391,7 +391,7 @@ impl Parameter for Vector {
         }
         let number = |part: Value| match part {
             Value::Number(number) if !number.is_finite() => {
-                Err(Expected::new("a vector of finite numbers").found(&Value::Table(Arc::clone(&table))))
+                Err(Expectation::new("a vector of finite numbers").found(&Value::Table(Arc::clone(&table))))
             }
             part => f64::from_value(part).map_err(|_| what()),
         };
@@ -405,7 +405,7 @@ impl Parameter for Vector {
 
     fn into_value(self) -> Value {
         let entries = [("x", self.0.x), ("y", self.0.y), ("z", self.0.z)];
-        let entries = entries.map(|(name, part)| (Key::Name(name.into()), Value::Number(part))).to_vec();
+        let entries = entries.map(|(name, part)| (TableKey::Name(name.into()), Value::Number(part))).to_vec();
         Value::Table(Arc::new(Table { class: Some("vec".into()), entries }))
     }
 
@@ -419,7 +419,7 @@ impl Parameter for DVec3 {
         Vector::luau()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         Vector::from_value(value).map(|vector| vector.0)
     }
 
@@ -434,7 +434,7 @@ mod tests {
 
     #[test]
     fn an_optional_number_may_be_left_out_of_a_column() {
-        assert_eq!(Option::<f64>::from_number(Boxed::Nil.pack()), Some(None));
+        assert_eq!(Option::<f64>::from_number(ColumnValue::Nil.pack()), Some(None));
         assert_eq!(Option::<f64>::from_number(2.0), Some(Some(2.0)));
         assert_eq!(Option::<f64>::from_number(f64::NAN), None);
     }

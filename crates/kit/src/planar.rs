@@ -4,25 +4,20 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Expected, Features, Parameter, Shape, Value, Vector};
+use super::{Expectation, FeatureShape, Features, Parameter, Value, Vector};
 use burgeon_data::Geometry;
 use burgeon_geometry::{Line, Rings};
 
-impl Shape {
+impl FeatureShape {
     /// The rings of its geometry, if that is a polygon.
-    pub fn rings(&self) -> Option<Rings> {
+    pub fn rings(&self) -> Option<&Rings> {
         rings(self.geometry())
     }
 }
 
 /// The rings of a geometry, if it is a polygon.
-pub fn rings(geometry: &Geometry) -> Option<Rings> {
-    let Geometry::Polygon(rings) = geometry else { return None };
-    Some(rings.iter().map(|ring| points(ring)).collect())
-}
-
-fn points(points: &[[f64; 3]]) -> Vec<DVec3> {
-    points.iter().copied().map(DVec3::from).collect()
+pub fn rings(geometry: &Geometry) -> Option<&Rings> {
+    if let Geometry::Polygon(rings) = geometry { Some(rings) } else { None }
 }
 
 /// Points as scripts have them.
@@ -39,18 +34,20 @@ impl Parameter for Rings {
         "Geometry".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || {
-            Expected::new("a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }")
+            Expectation::new(
+                "a polygon: feature.geometry, or { { { x, y }, { x, y }, { x, y } }, hole, ... }",
+            )
         };
         let not_this =
-            |kind: &str| Expected::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
+            |kind: &str| Expectation::new("a polygon").but_was(format!("a geometry of kind {kind:?}"));
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
                 let any: &dyn std::any::Any = &**object;
-                let shape = any.downcast_ref::<Shape>().ok_or_else(what)?;
-                return shape.rings().ok_or_else(|| not_this(shape.geometry().kind().name()));
+                let shape = any.downcast_ref::<FeatureShape>().ok_or_else(what)?;
+                return shape.rings().cloned().ok_or_else(|| not_this(shape.geometry().kind().name()));
             }
             _ => return Err(what()),
         };
@@ -93,7 +90,7 @@ impl Parameter for Lines {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let mut lines = Self::default();
         lines.collect(value, 0)?;
         Ok(lines)
@@ -106,12 +103,12 @@ impl Parameter for Lines {
 
 impl Lines {
     /// Adds the lines of a value: of a source, a feature, a geometry, or a list of these or of points.
-    fn collect(&mut self, value: Value, depth: usize) -> Result<(), Expected> {
-        let what = || Expected::new("a source of lines, a list of lines, or a list of points");
+    fn collect(&mut self, value: Value, depth: usize) -> Result<(), Expectation> {
+        let what = || Expectation::new("a source of lines, a list of lines, or a list of points");
         match value {
             Value::Object(object) => {
                 let any: &dyn std::any::Any = &*object;
-                if let Some(shape) = any.downcast_ref::<Shape>() {
+                if let Some(shape) = any.downcast_ref::<FeatureShape>() {
                     self.add(shape.geometry());
                     return Ok(());
                 }
@@ -163,10 +160,10 @@ impl Lines {
 
     fn add(&mut self, geometry: &Geometry) {
         match geometry {
-            Geometry::Line(line) => self.lines.extend(Line::without_repeats(points(line))),
+            Geometry::Line(line) => self.lines.extend(Line::without_repeats(line.clone())),
             // A square is walked around.
             Geometry::Polygon(rings) => {
-                self.lines.extend(rings.iter().filter_map(|ring| around(points(ring))));
+                self.lines.extend(rings.iter().filter_map(|ring| around(ring.clone())));
             }
             Geometry::Point(_) => {}
         }
@@ -183,7 +180,7 @@ fn around(mut ring: Vec<DVec3>) -> Option<Line<DVec3>> {
 mod tests {
     use super::*;
     use crate::random::Stream;
-    use crate::{Key, Table};
+    use crate::{Table, TableKey};
 
     fn point(random: &mut Stream) -> DVec3 {
         // Few places, so that some are repeated, and heights that a pair of numbers has not.
@@ -202,7 +199,7 @@ mod tests {
             // A list without rings, or whose first ring is empty, is told from a ring by what it holds.
             let there = Rings::from_value(rings.clone().into_value()).expect("rings");
             assert_eq!(there, rings);
-            let table = vec![(Key::Name("rings".into()), rings.clone().into_value())];
+            let table = vec![(TableKey::Name("rings".into()), rings.clone().into_value())];
             let named = Value::Table(Arc::new(Table { class: None, entries: table }));
             assert_eq!(Rings::from_value(named).expect("rings"), rings);
         }
@@ -237,7 +234,7 @@ mod tests {
             let refused = Rings::from_value(value.clone()).map(|rings| rings.0).expect_err("no polygon");
             refused.refuse("footprint", "geometry", &value).message().to_owned()
         };
-        let line = vec![(Key::Name("kind".into()), Value::Text("line".into()))];
+        let line = vec![(TableKey::Name("kind".into()), Value::Text("line".into()))];
         let line = Value::Table(Arc::new(Table { class: None, entries: line }));
         assert_eq!(refuse(line), "footprint: geometry must be a polygon, not a geometry of kind \"line\"");
         assert_eq!(

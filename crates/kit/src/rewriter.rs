@@ -4,7 +4,7 @@ use std::sync::{Arc, LazyLock};
 
 use super::rules::{Chain, Grammar, Values};
 use super::{Kind, Object};
-use burgeon_base::error::{Place, Result};
+use burgeon_base::error::{Result, SourcePlace};
 
 /// A system of the script, handed to an object that applies its rules.
 #[derive(Debug, Clone)]
@@ -33,7 +33,7 @@ pub struct RuleSet {
     /// The parameters of its modules that are not numbers.
     pub values: Arc<Values>,
     /// Where it was made.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     /// Whether it has an object of its own.
     pub has_object: bool,
     /// Symbols that a thread takes at a time: chains are marked so.

@@ -1,7 +1,7 @@
 //! Seeds as scripts give them.
 
-use super::{Expected, Parameter, Value};
-use crate::rules::Key;
+use super::{Expectation, Parameter, Value};
+use crate::rules::ModuleKey;
 
 /// What random numbers come from: 64 bits, as a number or a string.
 ///
@@ -14,17 +14,17 @@ impl Parameter for Seed {
         "number | string".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             #[allow(clippy::cast_possible_truncation, reason = "the number is whole and below 2^53")]
             Value::Number(number) if number.fract() == 0.0 && number.abs() < 9_007_199_254_740_992.0 => {
                 Ok(Self((number as i64).cast_unsigned()))
             }
             Value::Text(text) if text.len() == 16 && text.bytes().all(|byte| byte.is_ascii_hexdigit()) => {
-                u64::from_str_radix(&text, 16).map(Self).map_err(|_| Expected::new("a seed"))
+                u64::from_str_radix(&text, 16).map(Self).map_err(|_| Expectation::new("a seed"))
             }
-            Value::Text(text) => Ok(Self(Key::default().feature(&text).0)),
-            _ => Err(Expected::new("a whole number below 2^53, or a string")),
+            Value::Text(text) => Ok(Self(ModuleKey::default().feature(&text).0)),
+            _ => Err(Expectation::new("a whole number below 2^53, or a string")),
         }
     }
 

@@ -29,12 +29,12 @@ pub struct Table {
     /// The class that gives it operators in scripts, such as the vectors of the standard library.
     pub class: Option<Arc<str>>,
     /// The entries, in the order of their keys.
-    pub entries: Vec<(Key, Value)>,
+    pub entries: Vec<(TableKey, Value)>,
 }
 
 /// The key of a table's entry.
 #[derive(Debug, Clone, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Key {
+pub enum TableKey {
     /// A position, from 1.
     Index(i64),
     /// A name.
@@ -90,7 +90,7 @@ impl Table {
     pub fn get(&self, name: &str) -> Option<&Value> {
         self.entries
             .iter()
-            .find(|(key, _)| matches!(key, Key::Name(known) if **known == *name))
+            .find(|(key, _)| matches!(key, TableKey::Name(known) if **known == *name))
             .map(|(_, value)| value)
     }
 
@@ -98,7 +98,7 @@ impl Table {
     pub fn list(&self) -> Vec<Value> {
         let mut list = Vec::new();
         for (key, value) in &self.entries {
-            if matches!(key, Key::Index(index) if usize::try_from(*index) == Ok(list.len() + 1)) {
+            if matches!(key, TableKey::Index(index) if usize::try_from(*index) == Ok(list.len() + 1)) {
                 list.push(value.clone());
             }
         }
@@ -127,10 +127,10 @@ impl fmt::Display for Value {
                 for (i, (key, value)) in table.entries.iter().enumerate() {
                     f.write_str(if i > 0 { "," } else { "" })?;
                     match key {
-                        Key::Index(index) if *index == listed + 1 => listed += 1,
-                        Key::Index(index) => write!(f, "[{index}]=")?,
-                        Key::Name(name) if is_field(name) => write!(f, "{name}=")?,
-                        Key::Name(name) => write!(f, "[{name:?}]=")?,
+                        TableKey::Index(index) if *index == listed + 1 => listed += 1,
+                        TableKey::Index(index) => write!(f, "[{index}]=")?,
+                        TableKey::Name(name) if is_field(name) => write!(f, "{name}=")?,
+                        TableKey::Name(name) => write!(f, "[{name:?}]=")?,
                     }
                     write!(f, "{value}")?;
                 }
@@ -171,11 +171,11 @@ mod tests {
     #[test]
     fn tables_that_differ_are_written_differently() {
         let text = |text: &str| Value::Text(text.into());
-        let table = |class: Option<&str>, entries: Vec<(Key, Value)>| {
+        let table = |class: Option<&str>, entries: Vec<(TableKey, Value)>| {
             Value::Table(Arc::new(Table { class: class.map(Into::into), entries })).to_string()
         };
-        let index = |index: i64, value: &str| (Key::Index(index), text(value));
-        let name = |name: &str, value: &str| (Key::Name(name.into()), text(value));
+        let index = |index: i64, value: &str| (TableKey::Index(index), text(value));
+        let name = |name: &str, value: &str| (TableKey::Name(name.into()), text(value));
         for (written, expected) in [
             (table(None, vec![index(1, "b")]), r#"{"b"}"#),
             (table(None, vec![index(2, "b")]), r#"{[2]="b"}"#),

@@ -7,32 +7,32 @@ use std::time::Instant;
 use axum::extract::ws::Utf8Bytes;
 use tokio::sync::mpsc::Sender;
 
-use super::message::{self, Cause, Command, Event};
+use super::message::{self, Cause, Event, PageCommand};
 use super::request::seed;
-use super::state::{Due, Inner, State};
+use super::state::{DueRun, LiveState, ServerState};
 use super::{tools, trace};
 use burgeon_base::error::{Error, Result};
 
-impl State {
+impl ServerState {
     /// Does what `text`, a page's message, asks for. Returns what that page alone is answered; what takes longer
     /// comes through `page`.
     pub(super) fn ask(self: &Arc<Self>, text: &str, page: &Sender<Utf8Bytes>) -> Option<Event> {
         let refused = |id: Option<u64>, error: &Error| Some(Event::refused(id, error));
         match message::read(text) {
             Err(refused) => Some(*refused),
-            Ok(Command::Pick(pick)) => Some(trace::pick(self, &pick)),
-            Ok(Command::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
-            Ok(Command::Chain { id, system, chain, module }) => {
+            Ok(PageCommand::Pick(pick)) => Some(trace::pick(self, &pick)),
+            Ok(PageCommand::Highlight { id, file, line }) => Some(trace::highlight(self, id, &file, line)),
+            Ok(PageCommand::Chain { id, system, chain, module }) => {
                 Some(trace::chain(self, id, system, chain, module))
             }
-            Ok(Command::Variations { id, seeds, param, values }) => {
+            Ok(PageCommand::Variations { id, seeds, param, values }) => {
                 tools::variations(self, id, tools::over(seeds.as_deref(), param, values), page.clone())
             }
-            Ok(Command::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
-            Ok(Command::Open { file, line }) => {
+            Ok(PageCommand::Preset { action, name, replace }) => tools::preset(self, &action, &name, replace),
+            Ok(PageCommand::Open { file, line }) => {
                 self.open(&file, line.unwrap_or(1)).err().and_then(|error| refused(None, &error))
             }
-            Ok(Command::Cancel {}) => {
+            Ok(PageCommand::Cancel {}) => {
                 let mut inner = self.lock();
                 let waiting = inner.due.take().is_some();
                 let running = inner.stop("it was cancelled");
@@ -43,18 +43,18 @@ impl State {
                 let idle = !waiting && !running;
                 idle.then(|| Event::refused(None, &Error::unavailable("nothing is running")))
             }
-            Ok(Command::Set { params }) => {
+            Ok(PageCommand::Set { params }) => {
                 self.change(Cause::Parameters, |inner| inner.request.set(&params, inner.params.as_deref()))
             }
-            Ok(Command::Reset {}) => self.change(Cause::Parameters, |inner| {
+            Ok(PageCommand::Reset {}) => self.change(Cause::Parameters, |inner| {
                 inner.request.reset();
                 Ok(())
             }),
-            Ok(Command::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
+            Ok(PageCommand::Seed { seed: wished }) => self.change(Cause::Seed, |inner| {
                 inner.request.set_seed(seed(&wished)?);
                 Ok(())
             }),
-            Ok(Command::Steps { steps }) => self.change(Cause::Steps, |inner| {
+            Ok(PageCommand::Steps { steps }) => self.change(Cause::Steps, |inner| {
                 inner.request.steps = steps;
                 Ok(())
             }),
@@ -65,7 +65,7 @@ impl State {
     pub(super) fn change(
         &self,
         cause: Cause,
-        change: impl FnOnce(&mut Inner) -> Result<()>,
+        change: impl FnOnce(&mut LiveState) -> Result<()>,
     ) -> Option<Event> {
         let mut inner = self.lock();
         if let Err(error) = change(&mut inner) {
@@ -83,7 +83,7 @@ impl State {
             present.iter().for_each(|event| self.send(event));
             return None;
         }
-        inner.post(Due { cause, files: Vec::new(), at: Instant::now() });
+        inner.post(DueRun { cause, files: Vec::new(), at: Instant::now() });
         self.wake.notify_all();
         None
     }

@@ -31,9 +31,9 @@ const PAUSE: Duration = Duration::from_millis(20);
 
 /// Those who have not sent a request with the token yet, in the order in which they came.
 #[derive(Default)]
-pub(super) struct Unproven(Mutex<VecDeque<Arc<Notify>>>);
+pub(super) struct UnprovenConnections(Mutex<VecDeque<Arc<Notify>>>);
 
-impl Unproven {
+impl UnprovenConnections {
     /// Takes a new one in, and sends those away that are too many.
     fn admit(&self, most: usize) -> Arc<Notify> {
         let away = Arc::new(Notify::new());
@@ -57,7 +57,7 @@ impl Unproven {
 
 /// Answers requests until it is dropped.
 pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
-    let unproven = Arc::new(Unproven::default());
+    let unproven = Arc::new(UnprovenConnections::default());
     let most = UNPROVEN.min(files_allowed().unwrap_or(usize::MAX) / 8).max(2);
     let mut notices = false;
     loop {
@@ -85,7 +85,7 @@ pub(super) async fn serve(listener: TcpListener, site: Arc<Site>) {
 }
 
 /// Answers the requests of one connection.
-async fn handle(stream: TcpStream, site: Arc<Site>, unproven: Arc<Unproven>, away: Arc<Notify>) {
+async fn handle(stream: TcpStream, site: Arc<Site>, unproven: Arc<UnprovenConnections>, away: Arc<Notify>) {
     // Messages are small, and none is to wait for the next. A connection that refuses is only slower.
     let _ = stream.set_nodelay(true);
     let service = service_fn(|request: hyper::Request<hyper::body::Incoming>| {
@@ -118,7 +118,7 @@ mod tests {
 
     #[test]
     fn the_unproven_that_have_been_here_longest_go_first_and_those_that_are_known_stay() {
-        let unproven = Unproven::default();
+        let unproven = UnprovenConnections::default();
         let all: Vec<_> = (0..5).map(|_| unproven.admit(3)).collect();
         let known = unproven.admit(3);
         unproven.remove(&known);

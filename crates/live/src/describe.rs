@@ -3,14 +3,14 @@
 use std::time::Duration;
 
 use super::message::{Bounds, ModelMessage, SystemMessage, TimesMessage};
-use super::state::State;
+use super::state::ServerState;
 use super::trace;
-use super::work::{Job, PROBLEMS};
+use super::work::{PROBLEMS, RunJob};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::Session;
 
 /// What pages are told of a run, but for what depends on the request and on the model's bytes.
-pub(super) fn describe(state: &State, job: &Job, session: &Session, run: &Run) -> ModelMessage {
+pub(super) fn describe(state: &ServerState, job: &RunJob, session: &Session, run: &Run) -> ModelMessage {
     let mut files: Vec<String> = session.files().iter().map(|path| state.name(path)).collect();
     let textures = run.scene.materials.iter().filter_map(|material| material.texture.as_ref());
     let textures = textures.filter(|texture| texture.content.is_none());

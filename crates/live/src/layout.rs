@@ -41,7 +41,7 @@ impl Indices<'_> {
         let mut sorted: Vec<&TriangleRun> = runs.iter().collect();
         sorted.sort_by_key(|run| (run.mesh, run.part, run.from));
         let mut ranges: Vec<Range> = Vec::new();
-        let mut parts: BTreeMap<(usize, usize), Option<Written>> = BTreeMap::new();
+        let mut parts: BTreeMap<(usize, usize), Option<DocumentPart>> = BTreeMap::new();
         for run in sorted {
             let written = parts.entry((run.mesh, run.part)).or_insert_with(|| self.written(run));
             let Some(written) = written else { continue };
@@ -91,17 +91,22 @@ impl Indices<'_> {
         ranges
     }
 
-    fn written(&self, run: &TriangleRun) -> Option<Written> {
+    fn written(&self, run: &TriangleRun) -> Option<DocumentPart> {
         let mesh = self.layout.meshes.get(run.mesh).copied().flatten()?;
         let primitive =
             shown_parts(self.scene.meshes.get(run.mesh)?).position(|(part, _)| part == run.part)?;
         let part = self.scene.meshes[run.mesh].parts.get(run.part)?;
-        Some(Written { mesh, primitive, left_out: degenerate(part).collect(), count: part.triangles.len() })
+        Some(DocumentPart {
+            mesh,
+            primitive,
+            left_out: degenerate(part).collect(),
+            count: part.triangles.len(),
+        })
     }
 }
 
 /// A part as it is in the document.
-struct Written {
+struct DocumentPart {
     mesh: usize,
     primitive: usize,
     /// The triangles that are not, in order.
@@ -109,7 +114,7 @@ struct Written {
     count: usize,
 }
 
-impl Written {
+impl DocumentPart {
     /// How many triangles of the document come before triangle `index` of the part.
     fn before(&self, index: usize) -> usize {
         let index = index.min(self.count);
@@ -131,7 +136,7 @@ fn degenerate(part: &Part) -> impl Iterator<Item = usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use burgeon_export::gltf::Place;
+    use burgeon_export::gltf::InstancePlace;
     use burgeon_scene::Instance;
 
     /// Two instances of a mesh whose first part has nothing to show and whose second has a triangle without area.
@@ -154,7 +159,7 @@ mod tests {
             instances: vec![instance(), instance()],
             ..Scene::default()
         };
-        let place = |shared| Some(Place { node: 5, shared: Some(shared) });
+        let place = |shared| Some(InstancePlace { node: 5, shared: Some(shared) });
         (scene, Layout { places: vec![place(0), place(1)], meshes: vec![None, Some(0)] })
     }
 

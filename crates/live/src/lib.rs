@@ -49,7 +49,7 @@ use burgeon_engine::script::RunOptions;
 use burgeon_watch::Watch;
 use message::Cause;
 use server::Site;
-use state::{Due, State};
+use state::{DueRun, ServerState};
 use token::Keep;
 
 /// The port that is taken if it is free and none was named.
@@ -99,7 +99,7 @@ pub enum Notice {
 
 /// A server that runs until it is dropped.
 pub struct Live {
-    state: Arc<State>,
+    state: Arc<ServerState>,
     port: u16,
     token: Token,
     keep: Option<Keep>,
@@ -121,15 +121,15 @@ impl Live {
             (None, Some(keep)) => keep.token()?,
             (None, None) => Token::random()?,
         };
-        let state = Arc::new(State::new(settings));
+        let state = Arc::new(ServerState::new(settings));
         let (seen, complained) = (Arc::clone(&state), Arc::clone(&state));
         let watch = Watch::new(
             work::always(&state),
             move |change| seen.changed(&change),
             move |why| complained.tell(&Notice::Note(why.to_owned())),
         )?;
-        state.lock().post(Due { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
-        let thread = |name: &str, work: Box<dyn FnOnce(&State) + Send>| {
+        state.lock().post(DueRun { cause: Cause::Start, files: Vec::new(), at: Instant::now() });
+        let thread = |name: &str, work: Box<dyn FnOnce(&ServerState) + Send>| {
             let state = Arc::clone(&state);
             let builder = std::thread::Builder::new().name(format!("burgeon {name}"));
             builder.spawn(move || work(&state)).map_err(failed)

@@ -15,7 +15,7 @@ use burgeon_presets::Presets;
 /// What pages have requested.
 #[derive(Debug, Clone, Default)]
 pub(super) struct Request {
-    values: BTreeMap<String, Given>,
+    values: BTreeMap<String, ParamText>,
     seed: u64,
     pub steps: Option<usize>,
     /// The preset that has been loaded or saved, as long as its values and its seed are the present ones.
@@ -24,7 +24,7 @@ pub(super) struct Request {
 
 /// A value that was set.
 #[derive(Debug, Clone)]
-struct Given {
+struct ParamText {
     text: String,
     /// The script's default at that time, once it is known.
     default: Option<Setting>,
@@ -43,7 +43,7 @@ pub(super) struct Inputs {
 impl Request {
     /// What the command line requests.
     pub(super) fn new(options: &RunOptions) -> Self {
-        let given = |text: &String| Given { text: text.clone(), default: None };
+        let given = |text: &String| ParamText { text: text.clone(), default: None };
         let preset = options.preset.as_ref().map(Preset::set).unwrap_or_default();
         let values =
             preset.iter().chain(&options.set).map(|(name, text)| (name.clone(), given(text))).collect();
@@ -92,7 +92,7 @@ impl Request {
         for (name, text, default) in read {
             match text {
                 Some(text) => {
-                    self.values.insert(name, Given { text, default });
+                    self.values.insert(name, ParamText { text, default });
                 }
                 None => {
                     self.values.remove(&name);
@@ -138,7 +138,7 @@ impl Request {
 
     /// Takes the values of a preset in the place of all others, and its seed if it has one.
     pub(super) fn load(&mut self, preset: &Preset) {
-        let given = |(name, text)| (name, Given { text, default: None });
+        let given = |(name, text)| (name, ParamText { text, default: None });
         self.values = preset.set().into_iter().map(given).collect();
         self.seed = preset.seed.unwrap_or(self.seed);
         self.preset = Some(preset.clone());

@@ -15,7 +15,7 @@ use super::Token;
 use super::address::admits;
 use super::export;
 use super::socket;
-use super::state::State;
+use super::state::ServerState;
 use burgeon_base::error::Error;
 use burgeon_base::stop::Stop;
 use burgeon_export::gltf;
@@ -36,16 +36,16 @@ const NEVER: &str = "no-store";
 
 /// What every request needs.
 pub(super) struct Site {
-    pub state: Arc<State>,
+    pub state: Arc<ServerState>,
     pub token: Token,
     /// Exports are made one at a time; those that were given up count until they have ended.
     pub exports: Arc<Semaphore>,
 }
 
 /// Stops what is made for a request when the page has gone and nobody waits for it any more.
-struct Waiting(Arc<Stop>);
+struct RequestGuard(Arc<Stop>);
 
-impl Drop for Waiting {
+impl Drop for RequestGuard {
     fn drop(&mut self) {
         self.0.stop(Error::stopped("nobody waits for it any more"));
     }
@@ -58,7 +58,7 @@ impl Site {
         make: impl FnOnce(&Arc<Stop>) -> T + Send + 'static,
     ) -> Option<T> {
         let turn = Arc::clone(&self.exports).acquire_owned().await.ok()?;
-        let waiting = Waiting(Arc::default());
+        let waiting = RequestGuard(Arc::default());
         let stop = Arc::clone(&waiting.0);
         let made = tokio::task::spawn_blocking(move || {
             let made = export::apart(|| make(&stop));

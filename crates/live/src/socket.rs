@@ -10,7 +10,7 @@ use tokio::sync::mpsc::{Sender, channel};
 use tokio::time::timeout;
 
 use super::message::Event;
-use super::state::State;
+use super::state::ServerState;
 use burgeon_base::error::Error;
 
 /// The largest message (bytes) that a page may send.
@@ -34,7 +34,7 @@ pub(super) fn limited(upgrade: WebSocketUpgrade) -> WebSocketUpgrade {
 }
 
 /// Talks to a page until one side ends it.
-pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
+pub(super) async fn talk(mut socket: WebSocket, state: Arc<ServerState>) {
     let Some(mut said) = greet(&mut socket, &state).await else { return };
     let (later, mut answers) = channel(ANSWERS);
     let mut heartbeat = tokio::time::interval(HEARTBEAT);
@@ -72,7 +72,7 @@ pub(super) async fn talk(mut socket: WebSocket, state: Arc<State>) {
 }
 
 /// Tells the present state. Returns where the rest is heard, unless the page has gone.
-async fn greet(socket: &mut WebSocket, state: &State) -> Option<Receiver<Utf8Bytes>> {
+async fn greet(socket: &mut WebSocket, state: &ServerState) -> Option<Receiver<Utf8Bytes>> {
     let (texts, said) = state.greet();
     for text in texts {
         if !send(socket, text).await {
@@ -84,7 +84,7 @@ async fn greet(socket: &mut WebSocket, state: &State) -> Option<Receiver<Utf8Byt
 
 async fn answer(
     socket: &mut WebSocket,
-    state: &Arc<State>,
+    state: &Arc<ServerState>,
     later: &Sender<Utf8Bytes>,
     text: Utf8Bytes,
 ) -> bool {

@@ -14,7 +14,7 @@ use super::message::{Cause, Event, Hello, ModelMessage};
 use super::open::Editor;
 use super::request::{Inputs, Request};
 use super::{Notice, Settings};
-use burgeon_base::error::{Error, Place};
+use burgeon_base::error::{Error, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::Run;
@@ -42,12 +42,12 @@ const PICTURES: usize = 512;
 const SHORT: Duration = Duration::from_millis(400);
 
 /// What all pages share.
-pub(super) struct State {
+pub(super) struct ServerState {
     pub script: PathBuf,
     pub options: RunOptions,
     pub editor: Option<Editor>,
     tell: Box<dyn Fn(&Notice) + Send + Sync>,
-    inner: Mutex<Inner>,
+    inner: Mutex<LiveState>,
     /// Wakes the worker and whoever tells of progress.
     pub wake: Condvar,
     pages: broadcast::Sender<Utf8Bytes>,
@@ -59,11 +59,11 @@ pub(super) struct State {
     pub tracing: Mutex<()>,
 }
 
-pub(super) struct Inner {
+pub(super) struct LiveState {
     pub request: Request,
-    pub due: Option<Due>,
-    pub running: Option<Running>,
-    pub shown: Option<Arc<Shown>>,
+    pub due: Option<DueRun>,
+    pub running: Option<ActiveRun>,
+    pub shown: Option<Arc<PresentModel>>,
     /// Why there is no newer model: the script is missing or has an error.
     pub trouble: Option<Event>,
     /// That the last run was stopped by a page, so that what is shown is older than what is requested.
@@ -96,7 +96,7 @@ pub(super) struct Inner {
 
 /// A run that is to be made.
 #[derive(Clone)]
-pub(super) struct Due {
+pub(super) struct DueRun {
     pub cause: Cause,
     pub files: Vec<String>,
     /// When its cause was seen.
@@ -104,7 +104,7 @@ pub(super) struct Due {
 }
 
 /// A run that is under way.
-pub(super) struct Running {
+pub(super) struct ActiveRun {
     pub run: u64,
     pub cause: Cause,
     pub files: Vec<String>,
@@ -116,7 +116,7 @@ pub(super) struct Running {
 }
 
 /// The present model.
-pub(super) struct Shown {
+pub(super) struct PresentModel {
     pub run: Arc<Run>,
     /// What it was made from.
     pub inputs: Inputs,
@@ -125,14 +125,14 @@ pub(super) struct Shown {
     pub message: ModelMessage,
 }
 
-impl State {
+impl ServerState {
     pub(super) fn new(mut settings: Settings) -> Self {
         let request = Request::new(&settings.options);
         // Its values are a part of the request from now on.
         settings.options.preset = None;
         settings.options.cache = Some(std::sync::Arc::default());
         let presets = super::tools::presets(&settings.script);
-        let inner = Inner {
+        let inner = LiveState {
             request,
             due: None,
             running: None,
@@ -168,7 +168,7 @@ impl State {
         }
     }
 
-    pub(super) fn lock(&self) -> MutexGuard<'_, Inner> {
+    pub(super) fn lock(&self) -> MutexGuard<'_, LiveState> {
         self.inner.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
@@ -240,7 +240,7 @@ impl State {
         self.placed(warning.to_json(), warning.place())
     }
 
-    fn placed(&self, mut object: serde_json::Value, place: Option<&Place>) -> serde_json::Value {
+    fn placed(&self, mut object: serde_json::Value, place: Option<&SourcePlace>) -> serde_json::Value {
         if let Some(place) = place {
             object["file"] = self.short(&place.file).into();
             let excerpt = place.excerpt(AROUND, AROUND);
@@ -304,7 +304,7 @@ impl State {
         let mut inner = self.lock();
         std::mem::take(&mut inner.aside).stop(Error::stopped("the script has changed"));
         inner.generation += 1;
-        inner.post(Due { cause: Cause::Save, files, at: change.at });
+        inner.post(DueRun { cause: Cause::Save, files, at: change.at });
         self.wake.notify_all();
     }
 
@@ -319,9 +319,9 @@ impl State {
     }
 }
 
-impl Inner {
+impl LiveState {
     /// Has a run made as soon as may be.
-    pub(super) fn post(&mut self, mut due: Due) {
+    pub(super) fn post(&mut self, mut due: DueRun) {
         let soon_over = self.took < SHORT
             && self
                 .running
@@ -347,7 +347,7 @@ impl Inner {
     }
 
     /// Tells that `run` was stopped, and keeps in mind whether the model is older than what is requested.
-    pub(super) fn cancelled(&mut self, state: &State, run: u64) {
+    pub(super) fn cancelled(&mut self, state: &ServerState, run: u64) {
         let stale = self.due.is_none();
         let event = Event::Cancelled { run, stale };
         state.send(&event);

@@ -11,13 +11,13 @@ use tokio::sync::mpsc::Sender;
 
 use super::message::{Cause, Event, json};
 use super::request::seed;
-use super::state::State;
+use super::state::ServerState;
 use burgeon_base::error::{Error, Result};
 use burgeon_engine::script::{Param, Preset, RunOptions};
 use burgeon_export::picture::{Background, Picture, Quality};
 use burgeon_presets::Presets;
 use burgeon_scene::image;
-use burgeon_variations::{Cell, Framing, Over, Variations};
+use burgeon_variations::{Framing, Variation, VariationAxis, Variations};
 
 /// How often a page is told how many scripts of variations have run.
 const TICK: Duration = Duration::from_millis(500);
@@ -36,7 +36,7 @@ fn names(presets: &Presets) -> Vec<String> {
 
 /// Saves, loads or deletes a preset; one that is there is saved over only if it is to be replaced. Returns what the page
 /// that asked is answered.
-pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> Option<Event> {
+pub(super) fn preset(state: &ServerState, action: &str, name: &str, replace: bool) -> Option<Event> {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let done = match action {
         "save" => save(state, name, replace).map(Some),
@@ -68,7 +68,7 @@ pub(super) fn preset(state: &State, action: &str, name: &str, replace: bool) -> 
 }
 
 /// Tells pages of presets that someone has changed in their file.
-pub(super) fn presets_changed(state: &State) {
+pub(super) fn presets_changed(state: &ServerState) {
     let mut known = state.presets.lock().unwrap_or_else(PoisonError::into_inner);
     let read = Presets::read(&state.script);
     let mut inner = state.lock();
@@ -89,7 +89,7 @@ pub(super) fn presets_changed(state: &State) {
 }
 
 /// Saves the values that are set and used, and the seed.
-fn save(state: &State, name: &str, replace: bool) -> Result<Presets> {
+fn save(state: &ServerState, name: &str, replace: bool) -> Result<Presets> {
     if !replace && Presets::read(&state.script)?.names().any(|known| known == name) {
         return Err(Error::argument(format!("there is a preset called {name} already"))
             .help("choose another name, or say that it is to be replaced"));
@@ -115,9 +115,9 @@ fn save(state: &State, name: &str, replace: bool) -> Result<Presets> {
 /// Has small pictures of other values made, and sent to the page that asked through `page`, in place of those
 /// that are being made. Returns why that cannot be.
 pub(super) fn variations(
-    state: &Arc<State>,
+    state: &Arc<ServerState>,
     id: u64,
-    over: Result<Over>,
+    over: Result<VariationAxis>,
     page: Sender<Utf8Bytes>,
 ) -> Option<Event> {
     let begin = || -> Result<Variations> {
@@ -134,7 +134,7 @@ pub(super) fn variations(
             ..state.options.clone()
         };
         let over = over?;
-        if let (Over::Param { name, .. }, Some(params)) = (&over, &params)
+        if let (VariationAxis::Param { name, .. }, Some(params)) = (&over, &params)
             && !params.iter().any(|param| param.name == *name)
         {
             let names = params.iter().map(|param| param.name.as_str());
@@ -200,7 +200,7 @@ pub(super) fn variations(
     }
 }
 
-fn variation(state: &State, id: u64, of: usize, cell: Cell) -> Event {
+fn variation(state: &ServerState, id: u64, of: usize, cell: Variation) -> Event {
     let mut params: BTreeMap<String, serde_json::Value> = BTreeMap::new();
     let picture = cell.made.and_then(|made| {
         params.extend(made.params.iter().map(|param| (param.name.clone(), json(&param.value))));
@@ -230,13 +230,13 @@ pub(super) fn over(
     seeds: Option<&[String]>,
     param: Option<String>,
     values: Option<Vec<String>>,
-) -> Result<Over> {
+) -> Result<VariationAxis> {
     match (seeds, param, values) {
         (Some(seeds), None, None) => {
             let seeds = seeds.iter().map(|text| seed(&text.as_str().into()));
-            Ok(Over::Seeds(seeds.collect::<Result<_>>()?))
+            Ok(VariationAxis::Seeds(seeds.collect::<Result<_>>()?))
         }
-        (None, Some(name), Some(values)) => Ok(Over::Param { name, values }),
+        (None, Some(name), Some(values)) => Ok(VariationAxis::Param { name, values }),
         _ => Err(Error::argument("variations have seeds, or a param and its values")),
     }
 }

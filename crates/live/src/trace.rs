@@ -7,13 +7,13 @@ use std::time::Duration;
 
 use super::layout::Indices;
 use super::message::{
-    AroundMessage, CountMessage, Event, HighlightMessage, ModuleMessage, Named, OriginMessage, PickCommand,
-    PickMessage, RuleAt, RuleMessage, StepMessage,
+    AroundMessage, CountMessage, Event, HighlightMessage, ModuleMessage, NamedValue, OriginMessage,
+    PickCommand, PickMessage, RuleMessage, RulePlace, StepMessage,
 };
-use super::state::{Shown, State};
+use super::state::{PresentModel, ServerState};
 use super::work;
-use burgeon_base::error::{Error, Place, Result};
-use burgeon_engine::results::{Derived, RuleName};
+use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_engine::results::{DerivedSystem, RuleName};
 use burgeon_engine::run::Run;
 use burgeon_engine::script::RunOptions;
 use burgeon_engine::trace as engine;
@@ -23,7 +23,7 @@ use burgeon_kit::rules::END;
 const PATIENCE: Duration = Duration::from_secs(30);
 
 /// The number of modules of each symbol that occurs, the most frequent first.
-pub(super) fn symbols(system: &Derived) -> Vec<CountMessage> {
+pub(super) fn symbols(system: &DerivedSystem) -> Vec<CountMessage> {
     let mut counts = vec![0; system.symbols.arities().len()];
     for symbol in &system.chain.symbols {
         counts[usize::from(*symbol)] += 1;
@@ -37,7 +37,7 @@ pub(super) fn symbols(system: &Derived) -> Vec<CountMessage> {
 }
 
 /// The rules of all systems with what they cost.
-pub(super) fn rules(state: &State, run: &Run) -> Vec<RuleMessage> {
+pub(super) fn rules(state: &ServerState, run: &Run) -> Vec<RuleMessage> {
     let reports = run.systems.iter().flat_map(|system| &system.rules);
     let rules = reports.map(|report| {
         let (file, line) = place(state, report.name.place.as_ref());
@@ -55,12 +55,12 @@ pub(super) fn rules(state: &State, run: &Run) -> Vec<RuleMessage> {
 }
 
 /// A place as pages name it; no file and line 0 if there is none.
-fn place(state: &State, place: Option<&Place>) -> (String, usize) {
+fn place(state: &ServerState, place: Option<&SourcePlace>) -> (String, usize) {
     place.map_or_else(|| (String::new(), 0), |place| (state.short(&place.file), place.line))
 }
 
 /// The module that made a triangle.
-pub(super) fn pick(state: &State, pick: &PickCommand) -> Event {
+pub(super) fn pick(state: &ServerState, pick: &PickCommand) -> Event {
     let find = || -> Result<PickMessage> {
         let (shown, options) = present(state)?;
         let scene = &shown.run.scene;
@@ -79,7 +79,7 @@ pub(super) fn pick(state: &State, pick: &PickCommand) -> Event {
 }
 
 /// What a line of a script made.
-pub(super) fn highlight(state: &State, id: u64, file: &str, line: usize) -> Event {
+pub(super) fn highlight(state: &ServerState, id: u64, file: &str, line: usize) -> Event {
     let find = || -> Result<HighlightMessage> {
         let (shown, options) = present(state)?;
         let path = state.own_file(file)?;
@@ -104,7 +104,7 @@ pub(super) fn highlight(state: &State, id: u64, file: &str, line: usize) -> Even
 }
 
 /// A part of a chain.
-pub(super) fn chain(state: &State, id: u64, system: usize, chain: usize, module: usize) -> Event {
+pub(super) fn chain(state: &ServerState, id: u64, system: usize, chain: usize, module: usize) -> Event {
     let shown = state.lock().shown.clone();
     let derived = shown.as_ref().and_then(|shown| system_of(&shown.run, system));
     match derived.filter(|derived| chain < derived.features.len()) {
@@ -117,7 +117,7 @@ pub(super) fn chain(state: &State, id: u64, system: usize, chain: usize, module:
 }
 
 /// The present model, and how to run the script as it was run for it. Fails if the script has changed since.
-fn present(state: &State) -> Result<(Arc<Shown>, RunOptions)> {
+fn present(state: &ServerState) -> Result<(Arc<PresentModel>, RunOptions)> {
     let inner = state.lock();
     let Some(shown) = inner.shown.clone() else { return Err(Error::unavailable("there is no model yet")) };
     if inner.generation != shown.inputs.generation {
@@ -132,14 +132,14 @@ fn present(state: &State) -> Result<(Arc<Shown>, RunOptions)> {
     Ok((shown, options))
 }
 
-fn system_of(run: &Run, number: usize) -> Option<&Arc<Derived>> {
+fn system_of(run: &Run, number: usize) -> Option<&Arc<DerivedSystem>> {
     run.systems.iter().find(|system| system.system == number)
 }
 
-fn tell_made(state: &State, shown: &Shown, made: &engine::ModuleOrigin) -> OriginMessage {
+fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOrigin) -> OriginMessage {
     let rule_at = |rule: &RuleName| {
         let (file, line) = place(state, rule.place.as_ref());
-        RuleAt { text: rule.text.clone(), file, line }
+        RulePlace { text: rule.text.clone(), file, line }
     };
     let path = made.path.iter().map(|ancestor| {
         let rule = ancestor.rule.as_ref();
@@ -163,7 +163,9 @@ fn tell_made(state: &State, shown: &Shown, made: &engine::ModuleOrigin) -> Origi
         module: ModuleMessage {
             text: made.module.text.clone(),
             symbol: made.module.symbol.clone(),
-            params: params.map(|(name, value)| Named { name: name.clone(), value: value.clone() }).collect(),
+            params: params
+                .map(|(name, value)| NamedValue { name: name.clone(), value: value.clone() })
+                .collect(),
             index: made.index,
         },
         interpretation: made.interpretation.as_ref().map(rule_at),

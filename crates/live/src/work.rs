@@ -10,7 +10,7 @@ use axum::body::Bytes;
 
 use super::message::{Cause, Event, ModelMessage};
 use super::request::Inputs;
-use super::state::{Due, Inner, Running, Shown, State};
+use super::state::{ActiveRun, DueRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
 use burgeon_base::warning::Warning;
@@ -40,14 +40,14 @@ const IDLE_LIMITS: Limits =
     Limits { time: Duration::from_secs(10), memory: 1 << 30, modules: 5_000_000, triangles: 10_000_000 };
 
 /// A run to be made.
-pub(super) struct Job {
+pub(super) struct RunJob {
     pub run: u64,
-    pub due: Due,
+    pub due: DueRun,
     pub inputs: Inputs,
 }
 
 /// What came of a run.
-enum Outcome {
+enum RunOutcome {
     NewModel(Box<NewModel>),
     Missing,
     Failed(Error),
@@ -72,13 +72,13 @@ struct File {
 }
 
 /// Works until the state is over.
-pub(super) fn work(state: &State, watch: &Watch) {
+pub(super) fn work(state: &ServerState, watch: &Watch) {
     let mut followed: Vec<(PathBuf, bool)> = Vec::new();
     while let Some(job) = next(state) {
         let since = SystemTime::now();
         let mut session = None;
         let attempt = catch_unwind(AssertUnwindSafe(|| attempt(state, &job, &mut session)));
-        let outcome = attempt.unwrap_or_else(|panic| Outcome::Failed(internal(panic.as_ref())));
+        let outcome = attempt.unwrap_or_else(|panic| RunOutcome::Failed(internal(panic.as_ref())));
         // Files that were looked for in vain are watched too: the run may succeed once they are there.
         let mut files = session.as_ref().map(|session| session.sought()).unwrap_or_default();
         // These are watched from the beginning.
@@ -86,16 +86,16 @@ pub(super) fn work(state: &State, watch: &Watch) {
         let presets = Presets::path_of(&state.script);
         let there = presets.is_file();
         files.push((presets, there));
-        if matches!(outcome, Outcome::Cancelled) {
+        if matches!(outcome, RunOutcome::Cancelled) {
             // It has not come to all of its files.
             followed.extend(files);
         } else {
             followed = files;
         }
         watch.follow(followed.clone(), since);
-        let failed = matches!(outcome, Outcome::Failed(_) | Outcome::Missing);
+        let failed = matches!(outcome, RunOutcome::Failed(_) | RunOutcome::Missing);
         let outcome = match failed && superseded(state, &job, &followed, watch) {
-            true => Outcome::Cancelled,
+            true => RunOutcome::Cancelled,
             false => outcome,
         };
         finish(state, &job, session.as_deref(), outcome);
@@ -112,7 +112,7 @@ pub(super) fn work(state: &State, watch: &Watch) {
 
 /// Waits until `files`, on which a run has failed, have been as they are for a while. Returns whether something newer is
 /// to be made: what was read may have been the half of what was being written.
-fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
+fn superseded(state: &ServerState, job: &RunJob, files: &[(PathBuf, bool)], watch: &Watch) -> bool {
     let gone = job.due.cause == Cause::Save && files.iter().any(|(path, there)| *there && !path.exists());
     let young = unsettled(files.iter().map(|(path, _)| path.as_path()));
     let wait = young.max(gone.then_some(MISSING)).unwrap_or_default();
@@ -135,7 +135,7 @@ fn superseded(state: &State, job: &Job, files: &[(PathBuf, bool)], watch: &Watch
 }
 
 /// Tells pages how far the run has come, until the state is over.
-pub(super) fn report(state: &State) {
+pub(super) fn report(state: &ServerState) {
     let mut inner = state.lock();
     while !inner.over {
         if inner.running.as_ref().is_none_or(|running| running.background) {
@@ -156,12 +156,12 @@ pub(super) fn report(state: &State) {
 }
 
 /// The files that decide what is made even if the script cannot be read.
-pub(super) fn always(state: &State) -> Vec<PathBuf> {
+pub(super) fn always(state: &ServerState) -> Vec<PathBuf> {
     std::iter::once(state.script.clone()).chain(state.options.stdlib.clone()).collect()
 }
 
 /// Waits for something to do.
-fn next(state: &State) -> Option<Job> {
+fn next(state: &ServerState) -> Option<RunJob> {
     let mut inner = state.lock();
     loop {
         if inner.over {
@@ -172,20 +172,20 @@ fn next(state: &State) -> Option<Job> {
             let run = inner.runs;
             state.send(&Event::Working { run, cause: due.cause, files: due.files.clone() });
             let inputs = inner.request.inputs(inner.generation);
-            return Some(Job { run, due, inputs });
+            return Some(RunJob { run, due, inputs });
         }
         inner = state.wake.wait(inner).unwrap_or_else(std::sync::PoisonError::into_inner);
     }
 }
 
 /// Makes `session` the one that others can stop; pages do not know of one without a job. Returns the flag that tells whether they have.
-fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<AtomicBool> {
+fn register(state: &ServerState, job: Option<&RunJob>, session: &Arc<Session>) -> Arc<AtomicBool> {
     let mut inner = state.lock();
     let cancelled = Arc::new(AtomicBool::new(inner.over || inner.due.is_some()));
     if cancelled.load(Ordering::Acquire) {
         session.stop.stop(Error::stopped("there is something newer"));
     }
-    inner.running = Some(Running {
+    inner.running = Some(ActiveRun {
         run: job.map_or(0, |job| job.run),
         cause: job.map_or(Cause::Steps, |job| job.due.cause),
         files: job.map(|job| job.due.files.clone()).unwrap_or_default(),
@@ -199,7 +199,7 @@ fn register(state: &State, job: Option<&Job>, session: &Arc<Session>) -> Arc<Ato
 }
 
 /// How the script is run with these inputs.
-pub(super) fn options(state: &State, inputs: &Inputs) -> RunOptions {
+pub(super) fn options(state: &ServerState, inputs: &Inputs) -> RunOptions {
     RunOptions {
         set: inputs.set.clone(),
         seed: inputs.seed,
@@ -210,13 +210,13 @@ pub(super) fn options(state: &State, inputs: &Inputs) -> RunOptions {
     }
 }
 
-fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome {
+fn attempt(state: &ServerState, job: &RunJob, kept: &mut Option<Arc<Session>>) -> RunOutcome {
     if std::fs::metadata(&state.script).is_err_and(|error| error.kind() == std::io::ErrorKind::NotFound) {
-        return Outcome::Missing;
+        return RunOutcome::Missing;
     }
     let session = match Session::new(&state.script, options(state, &job.inputs)) {
         Ok(session) => session,
-        Err(error) => return Outcome::Failed(error),
+        Err(error) => return RunOutcome::Failed(error),
     };
     *kept = Some(Arc::clone(&session));
     let cancelled = register(state, Some(job), &session);
@@ -237,9 +237,9 @@ fn attempt(state: &State, job: &Job, kept: &mut Option<Arc<Session>>) -> Outcome
         Ok(NewModel { run, file, message })
     });
     match made {
-        _ if cancelled.load(Ordering::Acquire) => Outcome::Cancelled,
-        Ok(made) => Outcome::NewModel(Box::new(made)),
-        Err(error) => Outcome::Failed(error),
+        _ if cancelled.load(Ordering::Acquire) => RunOutcome::Cancelled,
+        Ok(made) => RunOutcome::NewModel(Box::new(made)),
+        Err(error) => RunOutcome::Failed(error),
     }
 }
 
@@ -272,32 +272,32 @@ fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
 }
 
 /// Takes over what came of a run, and tells everybody.
-fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome) {
+fn finish(state: &ServerState, job: &RunJob, session: Option<&Session>, outcome: RunOutcome) {
     let mut inner = state.lock();
-    if !matches!(outcome, Outcome::Cancelled) {
+    if !matches!(outcome, RunOutcome::Cancelled) {
         inner.doubts = None;
     }
     let quick = inner.running.take().map(|running| running.begin.elapsed());
-    if let Some(session) = session.filter(|_| !matches!(outcome, Outcome::Cancelled)) {
+    if let Some(session) = session.filter(|_| !matches!(outcome, RunOutcome::Cancelled)) {
         inner.files = session.files();
     }
     let mut notices = Vec::new();
     let mut gone = None;
     match outcome {
-        Outcome::Cancelled => inner.cancelled(state, job.run),
-        Outcome::Missing => {
+        RunOutcome::Cancelled => inner.cancelled(state, job.run),
+        RunOutcome::Missing => {
             let text = format!("there is no script {} yet", state.script.display());
             inner.end_badly(state, job, Event::Waiting { text: text.clone() });
             notices.push(Notice::Waiting(text));
         }
-        Outcome::Failed(error) => {
+        RunOutcome::Failed(error) => {
             let number = error.problems().count();
             let errors = error.problems().take(PROBLEMS).map(|problem| state.error_json(problem)).collect();
             let (run, cause) = (job.run, job.due.cause);
             inner.end_badly(state, job, Event::Error { run, cause, text: error.to_string(), errors, number });
             notices.push(Notice::Failed(error));
         }
-        Outcome::NewModel(made) => {
+        RunOutcome::NewModel(made) => {
             let NewModel { run, file, mut message } = *made;
             message.params = inner.request.params(&run.params);
             message.last_step = inner.last_step_of(&job.inputs, message.steps);
@@ -326,7 +326,7 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
                 notices.push(Notice::Note(text));
             }
             let (run, inputs, layout) = (Arc::new(run), job.inputs.clone(), Arc::new(layout));
-            gone = Some((inner.shown.replace(Arc::new(Shown { run, inputs, layout, message })), old));
+            gone = Some((inner.shown.replace(Arc::new(PresentModel { run, inputs, layout, message })), old));
         }
     }
     drop(inner);
@@ -337,8 +337,8 @@ fn finish(state: &State, job: &Job, session: Option<&Session>, outcome: Outcome)
     }
 }
 
-impl Inner {
-    fn end_badly(&mut self, state: &State, job: &Job, event: Event) {
+impl LiveState {
+    fn end_badly(&mut self, state: &ServerState, job: &RunJob, event: Event) {
         self.params = None;
         self.cancelled = None;
         self.finished = Some(job.inputs.clone());
@@ -356,7 +356,7 @@ impl Inner {
     }
 
     /// Tells of values that the script does not take any more, once each.
-    fn tell_left_out(&mut self, state: &State, left_out: &[(String, Error)]) -> Vec<Notice> {
+    fn tell_left_out(&mut self, state: &ServerState, left_out: &[(String, Error)]) -> Vec<Notice> {
         let texts: Vec<String> = left_out
             .iter()
             .map(|(name, error)| format!("the value of {name} is not used: {error}"))
@@ -386,7 +386,7 @@ impl Inner {
 }
 
 /// The inputs of the shown model without their limit, if the number of its steps is not known.
-fn wants_last_step(state: &State) -> Option<Inputs> {
+fn wants_last_step(state: &ServerState) -> Option<Inputs> {
     let inner = state.lock();
     let inputs = inner.finished.as_ref()?;
     if inner.due.is_some() || inner.over || inner.trouble.is_some() || inputs.steps.is_none() {
@@ -397,7 +397,7 @@ fn wants_last_step(state: &State) -> Option<Inputs> {
 }
 
 /// Runs the script without a limit of steps, only to count them; `None` if it was stopped for something newer.
-fn last_step(state: &State, inputs: &Inputs) -> Option<usize> {
+fn last_step(state: &ServerState, inputs: &Inputs) -> Option<usize> {
     let mut options = options(state, inputs);
     options.print = None;
     options.profile = false;
@@ -418,7 +418,7 @@ fn last_step(state: &State, inputs: &Inputs) -> Option<usize> {
     }
 }
 
-fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
+fn note_last_step(state: &ServerState, inputs: Inputs, found: Option<usize>) {
     let mut inner = state.lock();
     inner.running = None;
     let (Some(found), Some(steps)) = (found, inner.shown.as_ref().map(|shown| shown.message.steps)) else {
@@ -429,6 +429,6 @@ fn note_last_step(state: &State, inputs: Inputs, found: Option<usize>) {
     let Some(shown) = inner.shown.as_mut() else { return };
     let message = ModelMessage { last_step, ..shown.message.clone() };
     let (run, layout) = (Arc::clone(&shown.run), Arc::clone(&shown.layout));
-    *shown = Arc::new(Shown { run, inputs: shown.inputs.clone(), layout, message });
+    *shown = Arc::new(PresentModel { run, inputs: shown.inputs.clone(), layout, message });
     inner.present().into_iter().for_each(|model| state.send(&Event::Model(Box::new(model))));
 }

@@ -5,13 +5,13 @@ use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Attribute, Error, Expr, Field, Fields, Ident, ItemStruct, Result, Type, Visibility};
 
-use crate::declared::Declared;
+use crate::attribute::AttributeArguments;
 use crate::doc;
 use crate::methods::{at, option};
 
 /// The struct and how it is read; the struct and an error where scripts could not give all that it has.
 pub(crate) fn expand(
-    declared: &Declared,
+    declared: &AttributeArguments,
     item: TokenStream,
 ) -> std::result::Result<TokenStream, (TokenStream, Error)> {
     let mut table: ItemStruct = match syn::parse2(item.clone()) {
@@ -43,8 +43,8 @@ fn is_default(attribute: &Attribute) -> bool {
     attribute.path().is_ident("default")
 }
 
-fn reading(declared: &Declared, table: &ItemStruct) -> Result<TokenStream> {
-    let Declared { name: kind, kit } = declared;
+fn reading(declared: &AttributeArguments, table: &ItemStruct) -> Result<TokenStream> {
+    let AttributeArguments { name: kind, kit } = declared;
     let options = &table.ident;
     if !table.generics.params.is_empty() {
         return Err(Error::new(table.generics.span(), "a table of fields has no type parameters"));
@@ -158,7 +158,7 @@ impl<'a> Declaration<'a> {
     }
 
     /// The expression of the field's description for scripts.
-    fn describe(&self, declared: &Declared) -> TokenStream {
+    fn describe(&self, declared: &AttributeArguments) -> TokenStream {
         let kit = &declared.kit;
         let Self { text, doc, of, default, .. } = self;
         let unit = option(doc::unit(doc));
@@ -208,7 +208,7 @@ mod tests {
                 "height has a default already",
             ),
         ] {
-            let declared: Declared = parse_str("\"tower\"").unwrap();
+            let declared: AttributeArguments = parse_str("\"tower\"").unwrap();
             let (kept, error) = expand(&declared, text.parse().unwrap()).expect_err(text);
             assert_eq!(error.to_string(), message, "{text}");
             assert!(kept.to_string().contains("Tower") && !kept.to_string().contains("[default"), "{kept}");
@@ -218,7 +218,7 @@ mod tests {
     #[test]
     fn an_attribute_names_what_it_is_for_and_the_contract() {
         let kit = |text: &str| {
-            parse_str::<Declared>(text).map(|declared| {
+            parse_str::<AttributeArguments>(text).map(|declared| {
                 let kit = declared.kit;
                 quote! { #kit }.to_string()
             })

@@ -8,7 +8,7 @@ use syn::{
     Signature, Type, Visibility,
 };
 
-use crate::declared::Declared;
+use crate::attribute::AttributeArguments;
 use crate::doc;
 
 /// Where what is no method for scripts belongs.
@@ -16,7 +16,7 @@ const ELSEWHERE: &str = "put helpers into a second impl block, without #[methods
 
 /// The block and the list of its methods; the block and an error where scripts could not call all that it has.
 pub(crate) fn expand(
-    declared: &Declared,
+    declared: &AttributeArguments,
     item: TokenStream,
 ) -> std::result::Result<TokenStream, (TokenStream, Error)> {
     match syn::parse2(item.clone()).and_then(|block| list(declared, &block)) {
@@ -25,7 +25,7 @@ pub(crate) fn expand(
     }
 }
 
-fn list(declared: &Declared, block: &ItemImpl) -> Result<TokenStream> {
+fn list(declared: &AttributeArguments, block: &ItemImpl) -> Result<TokenStream> {
     if let Some((_, of, _)) = &block.trait_ {
         return Err(Error::new(of.span(), "scripts call a type's own methods: write impl Type { ... }"));
     }
@@ -37,7 +37,7 @@ fn list(declared: &Declared, block: &ItemImpl) -> Result<TokenStream> {
     let mut methods = Vec::new();
     let mut errors: Option<Error> = None;
     for item in &block.items {
-        match Method::read(item) {
+        match MethodSource::read(item) {
             Ok(method) => methods.push(method.describe(declared, object)),
             Err(error) => match &mut errors {
                 Some(errors) => errors.combine(error),
@@ -59,7 +59,7 @@ fn list(declared: &Declared, block: &ItemImpl) -> Result<TokenStream> {
 }
 
 /// A method as it was written.
-struct Method<'a> {
+struct MethodSource<'a> {
     name: &'a Ident,
     doc: String,
     /// Whether it changes the object.
@@ -68,7 +68,7 @@ struct Method<'a> {
     returns: Option<&'a Type>,
 }
 
-impl<'a> Method<'a> {
+impl<'a> MethodSource<'a> {
     fn read(item: &'a ImplItem) -> Result<Self> {
         let ImplItem::Fn(function) = item else {
             return Err(Error::new(item.span(), format!("only methods can stand here: {ELSEWHERE}")));
@@ -101,7 +101,7 @@ impl<'a> Method<'a> {
     }
 
     /// The expression of the method's description for scripts.
-    fn describe(&self, declared: &Declared, object: &Type) -> TokenStream {
+    fn describe(&self, declared: &AttributeArguments, object: &Type) -> TokenStream {
         let kit = &declared.kit;
         let name = self.name.to_string();
         let name = name.trim_start_matches("r#");
@@ -151,8 +151,8 @@ impl<'a> Method<'a> {
     }
 
     /// The closure that calls it with values, or, where `numbers`, with numbers only.
-    fn call(&self, declared: &Declared, object: &Type, name: &str, numbers: bool) -> TokenStream {
-        let Declared { name: kind, kit } = declared;
+    fn call(&self, declared: &AttributeArguments, object: &Type, name: &str, numbers: bool) -> TokenStream {
+        let AttributeArguments { name: kind, kit } = declared;
         let method = self.name;
         // Names of their own, whatever the arguments are called.
         let this = Ident::new("this", Span::mixed_site());
@@ -246,7 +246,7 @@ mod tests {
 
     /// What the errors about `text` say.
     fn errors(text: &str) -> Vec<String> {
-        let declared: Declared = parse_str("\"tower\"").unwrap();
+        let declared: AttributeArguments = parse_str("\"tower\"").unwrap();
         let (_, error) = expand(&declared, text.parse().unwrap()).expect_err(text);
         error.into_iter().map(|error| error.to_string()).collect()
     }
@@ -317,14 +317,14 @@ mod tests {
     fn a_block_stays_as_it_is() {
         let text = "impl Tower { /// Raises it.\n pub fn raise(&mut self, by: f64) { self.height += by; } }";
         let block: TokenStream = text.parse().unwrap();
-        let declared: Declared = parse_str("\"tower\"").unwrap();
+        let declared: AttributeArguments = parse_str("\"tower\"").unwrap();
         let expanded = expand(&declared, block.clone()).unwrap();
         assert!(expanded.to_string().starts_with(&block.to_string()));
         assert!(expanded.to_string().contains(":: burgeon_kit :: Method"));
         // With an error, too: an editor then still completes its methods.
         let block: TokenStream = "impl Tower { fn raise(&self) {} }".parse().unwrap();
         let given = block.to_string();
-        let expanded = crate::declared::expand("\"tower\"".parse().unwrap(), block, expand).to_string();
+        let expanded = crate::attribute::expand("\"tower\"".parse().unwrap(), block, expand).to_string();
         assert!(expanded.starts_with(&given) && expanded.contains("compile_error"), "{expanded}");
     }
 }

@@ -6,10 +6,10 @@ use std::sync::{Arc, LazyLock};
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
-use burgeon_data::elevation::{Raster, Relief, Wanted};
-use burgeon_kit::{Expected, Loaded, Loader, Loading, fields, methods, object};
+use burgeon_data::elevation::{HeightOptions, Raster, Relief};
+use burgeon_kit::{Expectation, LoadRequest, LoadedObject, Loader, fields, methods, object};
 use burgeon_kit::{Kind, Object, Parameter, Table, Value, Vector};
-use burgeon_terrain::Measured;
+use burgeon_terrain::HeightSource;
 
 /// The one encoding of heights as colours that is known.
 const TERRAIN_RGB: &str = "terrain-rgb";
@@ -33,7 +33,7 @@ pub struct ElevationOptions {
 
 impl ElevationOptions {
     /// What is wanted of the file. Fails if the bounds are not four numbers, or the encoding is not known.
-    pub fn wanted(self) -> Result<Wanted> {
+    pub fn wanted(self) -> Result<HeightOptions> {
         let bounds = self.bounds.map(|edges| {
             <[f64; 4]>::try_from(edges).map_err(|edges| {
                 Error::argument(format!("elevation: bounds has {} numbers, not 4", edges.len()))
@@ -44,7 +44,7 @@ impl ElevationOptions {
             return Err(Error::argument(format!("elevation: there is no encoding {encoding:?}"))
                 .help(format!("write encoding = {TERRAIN_RGB:?}, or leave it out")));
         }
-        Ok(Wanted {
+        Ok(HeightOptions {
             crs: self.crs,
             low: self.low,
             high: self.high,
@@ -132,7 +132,7 @@ impl Elevation {
 }
 
 /// Reads the heights of a file, as the options of the script want them.
-fn load(file: &mut Loading<'_>, options: &Table) -> Result<Loaded> {
+fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
     let options = ElevationOptions::from_table(options)?;
     let fill = options.fill;
     let wanted = options.wanted()?;
@@ -148,10 +148,10 @@ fn load(file: &mut Loading<'_>, options: &Table) -> Result<Loaded> {
         warnings.extend(raster.filled_warning());
     }
     let object = Arc::new(Elevation::new(Arc::new(Relief::new(raster, file.frame)?)));
-    Ok(Loaded { object, memory, warnings })
+    Ok(LoadedObject { object, memory, warnings })
 }
 
-impl Measured for Elevation {
+impl HeightSource for Elevation {
     fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)> {
         self.relief.ground(place, smooth)
     }
@@ -174,7 +174,7 @@ impl Parameter for Elevation {
         "Elevation".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = "an elevation, made once before: elevation(\"N43E007.hgt\")";
         object(value, what).map(|elevation: Arc<Self>| (*elevation).clone())
     }

@@ -11,6 +11,7 @@ pub mod facade;
 mod footprint;
 mod import;
 mod line_index;
+mod mesh;
 pub mod planet;
 mod surface;
 pub mod terrain;
@@ -20,10 +21,10 @@ mod universe;
 pub use elevation::{Elevation, ElevationOptions};
 pub use extruder::Extruder;
 pub use facade::{Facade, Template, Templates, Wall};
-pub use footprint::{Detail, EdgeKeywords, Footprint, Roof, Walls};
+pub use footprint::{EdgeKeywords, Footprint, Roof, RoofDetail, Walls};
 pub use line_index::LineIndex;
 pub use planet::Planet;
-pub use surface::Surface;
+pub use surface::MaterialOptions;
 pub use terrain::{EditFile, Terrain};
 pub use turtle::Turtle;
 pub use universe::Universe;
@@ -49,18 +50,14 @@ pub fn registry() -> Registry {
         Elevation::kind(),
         EditFile::kind(),
     ];
-    let mut registry = Registry::default();
-    for kind in own.into_iter().chain(facade::kinds()) {
-        // A test holds that no name stands twice.
-        let _ = registry.add(Arc::clone(kind));
-    }
-    registry
+    own.into_iter().chain(facade::kinds()).map(Arc::clone).collect()
 }
 
 #[cfg(test)]
 mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
+        super::registry().check().expect("each has a name of its own");
         assert_eq!(super::registry().kinds().count(), 12 + super::facade::kinds().len());
     }
 }

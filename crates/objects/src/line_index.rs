@@ -10,7 +10,7 @@ use rstar::{PointDistance, RTree};
 use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::Line;
-use burgeon_kit::{Expected, fields, methods, object};
+use burgeon_kit::{Expectation, fields, methods, object};
 use burgeon_kit::{Kind, Lines, Object, Parameter, Value, Vector};
 
 /// The farthest (m) that a street lies from what faces it.
@@ -111,7 +111,7 @@ impl Parameter for LineIndex {
         "Streets".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         object(value, "streets, made once before: streets(source)")
             .map(|streets: Arc<Self>| (*streets).clone())
     }

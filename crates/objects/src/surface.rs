@@ -12,7 +12,7 @@ const GREY: Color = Color([0.6, 0.6, 0.6, 1.0]);
 
 /// What `material { ... }` takes.
 #[fields("material")]
-pub struct Surface {
+pub struct MaterialOptions {
     /// Base colour, as "#rrggbb" or { red, green, blue } from 0 to 1; if left out, white under a texture, and grey.
     pub color: Option<Color>,
     /// 0 for wood, stone and plaster, 1 for bare metal.
@@ -35,7 +35,7 @@ pub struct Surface {
     pub name: String,
 }
 
-impl Parameter for Surface {
+impl Parameter for MaterialOptions {
     fn luau() -> String {
         "Material".into()
     }
@@ -44,12 +44,12 @@ impl Parameter for Surface {
         Self::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, burgeon_kit::Expected> {
+    fn from_value(value: Value) -> Result<Self, burgeon_kit::Expectation> {
         match value {
             Value::Table(table) => Self::from_table(&table)
-                .map_err(|error| burgeon_kit::Expected::new(format!("a material ({})", error.message()))),
+                .map_err(|error| burgeon_kit::Expectation::new(format!("a material ({})", error.message()))),
             Value::Nil => Ok(Self::default()),
-            _ => Err(burgeon_kit::Expected::new("a table of a material's fields")),
+            _ => Err(burgeon_kit::Expectation::new("a table of a material's fields")),
         }
     }
 
@@ -58,7 +58,7 @@ impl Parameter for Surface {
     }
 }
 
-impl Surface {
+impl MaterialOptions {
     /// The material for the scene.
     pub fn material(&self) -> Result<Material> {
         for (name, factor) in [("metallic", self.metallic), ("roughness", self.roughness)] {
@@ -98,10 +98,10 @@ mod tests {
 
     #[test]
     fn an_image_without_a_colour_is_shown_as_it_is() {
-        let textured = Surface { texture: Some("brick.png".into()), ..Surface::default() };
+        let textured = MaterialOptions { texture: Some("brick.png".into()), ..MaterialOptions::default() };
         assert_eq!(textured.material().unwrap().base_color, [1.0; 4]);
-        let tinted = Surface { color: Some(Color([0.5, 0.4, 0.3, 1.0])), ..textured };
+        let tinted = MaterialOptions { color: Some(Color([0.5, 0.4, 0.3, 1.0])), ..textured };
         assert_eq!(tinted.material().unwrap().base_color, [0.5, 0.4, 0.3, 1.0]);
-        assert_eq!(Surface::default().material().unwrap(), Material::default());
+        assert_eq!(MaterialOptions::default().material().unwrap(), Material::default());
     }
 }

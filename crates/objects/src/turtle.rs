@@ -4,7 +4,8 @@ use std::sync::{Arc, LazyLock};
 
 use glam::{DAffine3, DQuat, DVec3};
 
-use super::Surface;
+use super::MaterialOptions;
+use super::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector, fields, methods};
@@ -51,11 +52,11 @@ pub struct TurtleOptions {
 }
 
 /// A turtle as in *The Algorithmic Beauty of Plants*, which draws round branches in three dimensions.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
 pub struct Turtle {
     options: TurtleOptions,
-    state: State,
-    stack: Vec<State>,
+    state: TurtleState,
+    stack: Vec<TurtleState>,
     drawing: Drawing,
     angles: Angles,
     polygons: Vec<Vec<DVec3>>,
@@ -84,7 +85,7 @@ impl Angles {
 }
 
 #[derive(Clone)]
-struct State {
+struct TurtleState {
     frame: Frame,
     width: f64,
     /// The part of the drawing, and so the material.
@@ -175,7 +176,7 @@ impl Turtle {
     /// Goes to a place (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
         self.lift();
-        self.state.frame.position = position.0 - self.options.position.0;
+        self.state.frame.position = position.0 - self.drawing.origin();
     }
 
     /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
@@ -207,7 +208,7 @@ impl Turtle {
     }
 
     /// Sets the whole material of what is drawn.
-    pub fn material(&mut self, material: Surface) -> Result<()> {
+    pub fn material(&mut self, material: MaterialOptions) -> Result<()> {
         self.state.part = self.drawing.material(&material.material()?);
         Ok(())
     }
@@ -259,9 +260,15 @@ impl Turtle {
         self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
+    /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
+        let part = self.drawing.part(self.state.part);
+        draw_mesh(("turtle", part), &self.state.frame, &points, &faces)
+    }
+
     /// Its place (m).
     pub fn position(&self) -> DVec3 {
-        self.options.position.0 + self.state.frame.position
+        self.drawing.origin() + self.state.frame.position
     }
 
     /// The direction in which it looks.
@@ -281,7 +288,7 @@ impl Turtle {
 
     /// Distance (m) from a place to the nearest point of what it has drawn.
     pub fn distance(&self, place: Vector) -> f64 {
-        self.drawing.distance(place.0 - self.options.position.0)
+        self.drawing.distance(place.0 - self.drawing.origin())
     }
 }
 
@@ -326,8 +333,8 @@ impl Turtle {
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::argument("turtle: heading has no length"));
         }
-        let mut drawing = Drawing::default();
-        let state = State::begin(&options, &mut drawing);
+        let mut drawing = Drawing::at(options.position.0);
+        let state = TurtleState::begin(&options, &mut drawing);
         Ok(Self {
             options,
             state,
@@ -395,7 +402,7 @@ impl Turtle {
     }
 }
 
-impl State {
+impl TurtleState {
     fn begin(options: &TurtleOptions, drawing: &mut Drawing) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
@@ -429,7 +436,7 @@ impl Object for Turtle {
     fn begin(&mut self) {
         self.stack.clear();
         self.drawing.clear();
-        self.state = State::begin(&self.options, &mut self.drawing);
+        self.state = TurtleState::begin(&self.options, &mut self.drawing);
         self.polygons.clear();
     }
 
@@ -459,19 +466,5 @@ impl Object for Turtle {
             .help("end it with EndPolygon()"));
         }
         Ok(())
-    }
-}
-
-impl Draw for Turtle {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.options.position.0
     }
 }

@@ -7,8 +7,8 @@ use glam::DVec3;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::random::Stream;
-use burgeon_kit::rules::Key as Numbers;
-use burgeon_kit::{Expected, Key, Kind, Object, Parameter, Seed, Table, Value, fields, methods};
+use burgeon_kit::rules::ModuleKey;
+use burgeon_kit::{Expectation, Kind, Object, Parameter, Seed, Table, TableKey, Value, fields, methods};
 
 /// What `universe { ... }` takes.
 #[fields("universe")]
@@ -21,7 +21,7 @@ pub struct UniverseOptions {
 /// Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.
 #[derive(Debug, Clone)]
 pub struct Universe {
-    key: Numbers,
+    key: ModuleKey,
 }
 
 #[methods("universe")]
@@ -35,7 +35,7 @@ impl Universe {
             key = key.child(whole(at)?);
         }
         let mut stream = key.stream();
-        let sort = Sort::draw(GALAXIES, |_| true, &mut stream);
+        let sort = BodyClass::draw(GALAXIES, |_| true, &mut stream);
         let radius = sort.size(&mut stream);
         let place = DVec3::new(stream.uniform(), stream.uniform(), stream.uniform());
         // The Milky Way has some 2e11 stars within 5e4 light years.
@@ -48,7 +48,7 @@ impl Universe {
     pub fn star(&self, galaxy: Galaxy, index: f64) -> Result<Value> {
         let key = galaxy.0.key.child(galaxy.0.number("star", index)?);
         let mut stream = key.stream();
-        let sort = Sort::draw(STARS, |_| true, &mut stream);
+        let sort = BodyClass::draw(STARS, |_| true, &mut stream);
         let radius = sort.size(&mut stream);
         let position = galaxy.0.sort.place(&mut stream) * galaxy.0.radius;
         #[allow(clippy::cast_precision_loss, reason = "a small number")]
@@ -68,7 +68,7 @@ impl Universe {
         let (turn, tilt) = (stream.uniform() * TAU, (stream.uniform() - 0.5) * 0.08);
         let position = DVec3::new(turn.cos(), turn.sin(), tilt) * orbit * EARTH_ORBIT;
         let light = star.0.sort.light / (orbit * orbit);
-        let sort = Sort::draw(PLANETS, |sort| sort.lit.0 <= light && light < sort.lit.1, &mut stream);
+        let sort = BodyClass::draw(PLANETS, |sort| sort.lit.0 <= light && light < sort.lit.1, &mut stream);
         let radius = sort.size(&mut stream);
         Ok(sort.table(key, position, radius, ("light", light)))
     }
@@ -95,7 +95,7 @@ impl Universe {
 
     /// The universe of a seed.
     pub fn new(options: &UniverseOptions) -> Self {
-        Self { key: Numbers::seed(options.seed.0) }
+        Self { key: ModuleKey::seed(options.seed.0) }
     }
 }
 
@@ -117,7 +117,7 @@ const EARTH_ORBIT: f64 = 1.496e11;
 
 /// A sort of galaxy, star or planet.
 #[derive(Debug, Clone)]
-struct Sort {
+struct BodyClass {
     name: &'static str,
     /// How many there are, to others.
     weight: f64,
@@ -132,7 +132,7 @@ struct Sort {
     shape: (f64, u32),
 }
 
-const PLAIN: Sort = Sort {
+const PLAIN: BodyClass = BodyClass {
     name: "",
     weight: 1.0,
     radius: (1.0, 1.0),
@@ -142,8 +142,8 @@ const PLAIN: Sort = Sort {
     shape: (1.0, 0),
 };
 
-const GALAXIES: &[Sort] = &[
-    Sort {
+const GALAXIES: &[BodyClass] = &[
+    BodyClass {
         name: "spiral",
         weight: 6.0,
         radius: (2e4, 9e4),
@@ -151,7 +151,7 @@ const GALAXIES: &[Sort] = &[
         shape: (0.04, 2),
         ..PLAIN
     },
-    Sort {
+    BodyClass {
         name: "barred",
         weight: 3.0,
         radius: (2e4, 8e4),
@@ -159,7 +159,7 @@ const GALAXIES: &[Sort] = &[
         shape: (0.04, 4),
         ..PLAIN
     },
-    Sort {
+    BodyClass {
         name: "elliptical",
         weight: 2.0,
         radius: (1e4, 2e5),
@@ -167,7 +167,7 @@ const GALAXIES: &[Sort] = &[
         shape: (0.6, 0),
         ..PLAIN
     },
-    Sort {
+    BodyClass {
         name: "irregular",
         weight: 3.0,
         radius: (3e3, 1.5e4),
@@ -178,26 +178,67 @@ const GALAXIES: &[Sort] = &[
 ];
 
 /// By the classes of Morgan and Keenan, as often as near the sun.
-const STARS: &[Sort] = &[
-    Sort { name: "M", weight: 76.5, radius: (9e7, 4.8e8), color: [255, 180, 107], light: 0.03, ..PLAIN },
-    Sort { name: "K", weight: 12.1, radius: (4.8e8, 6.6e8), color: [255, 214, 170], light: 0.3, ..PLAIN },
-    Sort { name: "G", weight: 7.6, radius: (6.6e8, 8e8), color: [255, 241, 224], light: 1.0, ..PLAIN },
-    Sort { name: "F", weight: 3.0, radius: (8e8, 9.7e8), color: [248, 247, 255], light: 3.0, ..PLAIN },
-    Sort { name: "A", weight: 0.6, radius: (9.7e8, 1.25e9), color: [202, 215, 255], light: 14.0, ..PLAIN },
-    Sort { name: "B", weight: 0.13, radius: (1.25e9, 4.6e9), color: [170, 191, 255], light: 800.0, ..PLAIN },
-    Sort { name: "O", weight: 0.01, radius: (4.6e9, 9e9), color: [155, 176, 255], light: 4e4, ..PLAIN },
+const STARS: &[BodyClass] = &[
+    BodyClass { name: "M", weight: 76.5, radius: (9e7, 4.8e8), color: [255, 180, 107], light: 0.03, ..PLAIN },
+    BodyClass {
+        name: "K",
+        weight: 12.1,
+        radius: (4.8e8, 6.6e8),
+        color: [255, 214, 170],
+        light: 0.3,
+        ..PLAIN
+    },
+    BodyClass { name: "G", weight: 7.6, radius: (6.6e8, 8e8), color: [255, 241, 224], light: 1.0, ..PLAIN },
+    BodyClass { name: "F", weight: 3.0, radius: (8e8, 9.7e8), color: [248, 247, 255], light: 3.0, ..PLAIN },
+    BodyClass {
+        name: "A",
+        weight: 0.6,
+        radius: (9.7e8, 1.25e9),
+        color: [202, 215, 255],
+        light: 14.0,
+        ..PLAIN
+    },
+    BodyClass {
+        name: "B",
+        weight: 0.13,
+        radius: (1.25e9, 4.6e9),
+        color: [170, 191, 255],
+        light: 800.0,
+        ..PLAIN
+    },
+    BodyClass { name: "O", weight: 0.01, radius: (4.6e9, 9e9), color: [155, 176, 255], light: 4e4, ..PLAIN },
 ];
 
-const PLANETS: &[Sort] = &[
-    Sort { name: "molten", radius: (1.5e6, 7e6), color: [110, 62, 48], lit: (4.0, f64::INFINITY), ..PLAIN },
-    Sort { name: "desert", radius: (2e6, 7.5e6), color: [196, 152, 96], lit: (0.6, 6.0), ..PLAIN },
-    Sort { name: "ocean", weight: 1.5, radius: (4e6, 9e6), color: [48, 96, 150], lit: (0.4, 1.6), ..PLAIN },
-    Sort { name: "ice", radius: (1e6, 7e6), color: [214, 230, 238], lit: (0.0, 0.4), ..PLAIN },
-    Sort { name: "rock", weight: 0.7, radius: (1e6, 4e6), color: [134, 126, 118], ..PLAIN },
-    Sort { name: "gas", weight: 1.3, radius: (2e7, 8e7), color: [205, 180, 148], lit: (0.0, 0.35), ..PLAIN },
+const PLANETS: &[BodyClass] = &[
+    BodyClass {
+        name: "molten",
+        radius: (1.5e6, 7e6),
+        color: [110, 62, 48],
+        lit: (4.0, f64::INFINITY),
+        ..PLAIN
+    },
+    BodyClass { name: "desert", radius: (2e6, 7.5e6), color: [196, 152, 96], lit: (0.6, 6.0), ..PLAIN },
+    BodyClass {
+        name: "ocean",
+        weight: 1.5,
+        radius: (4e6, 9e6),
+        color: [48, 96, 150],
+        lit: (0.4, 1.6),
+        ..PLAIN
+    },
+    BodyClass { name: "ice", radius: (1e6, 7e6), color: [214, 230, 238], lit: (0.0, 0.4), ..PLAIN },
+    BodyClass { name: "rock", weight: 0.7, radius: (1e6, 4e6), color: [134, 126, 118], ..PLAIN },
+    BodyClass {
+        name: "gas",
+        weight: 1.3,
+        radius: (2e7, 8e7),
+        color: [205, 180, 148],
+        lit: (0.0, 0.35),
+        ..PLAIN
+    },
 ];
 
-impl Sort {
+impl BodyClass {
     /// One of `sorts` that may be, in proportion to how many there are.
     fn draw(sorts: &'static [Self], may: impl Fn(&Self) -> bool, stream: &mut Stream) -> &'static Self {
         let whole: f64 = sorts.iter().filter(|sort| may(sort)).map(|sort| sort.weight).sum();
@@ -235,15 +276,15 @@ impl Sort {
     }
 
     /// What scripts know of one of it.
-    fn table(&self, key: Numbers, position: DVec3, radius: f64, more: (&str, f64)) -> Value {
+    fn table(&self, key: ModuleKey, position: DVec3, radius: f64, more: (&str, f64)) -> Value {
         let [red, green, blue] = self.color;
         let mut entries = vec![
-            (Key::Name("color".into()), Value::Text(format!("#{red:02x}{green:02x}{blue:02x}").into())),
-            (Key::Name("kind".into()), Value::Text(self.name.into())),
-            (Key::Name(more.0.into()), Value::Number(more.1)),
-            (Key::Name("position".into()), position.into_value()),
-            (Key::Name("radius".into()), Value::Number(radius)),
-            (Key::Name("seed".into()), Seed(key.0).into_value()),
+            (TableKey::Name("color".into()), Value::Text(format!("#{red:02x}{green:02x}{blue:02x}").into())),
+            (TableKey::Name("kind".into()), Value::Text(self.name.into())),
+            (TableKey::Name(more.0.into()), Value::Number(more.1)),
+            (TableKey::Name("position".into()), position.into_value()),
+            (TableKey::Name("radius".into()), Value::Number(radius)),
+            (TableKey::Name("seed".into()), Seed(key.0).into_value()),
         ];
         entries.sort_by(|one, other| one.0.cmp(&other.0));
         Value::Table(Arc::new(Table { class: None, entries }))
@@ -252,17 +293,17 @@ impl Sort {
 
 /// What a galaxy or a star tells of those in it.
 #[derive(Debug)]
-struct Whose {
-    key: Numbers,
-    sort: &'static Sort,
+struct Parentage {
+    key: ModuleKey,
+    sort: &'static BodyClass,
     radius: f64,
     /// How many it has.
     count: f64,
 }
 
-impl Whose {
+impl Parentage {
     /// Reads the table of one of `sorts`, where `count` says how many it has.
-    fn read(value: &Value, sorts: &'static [Sort], count: &str) -> Option<Self> {
+    fn read(value: &Value, sorts: &'static [BodyClass], count: &str) -> Option<Self> {
         let Value::Table(table) = value else { return None };
         let number = |name: &str| match table.get(name) {
             Some(Value::Number(number)) if number.is_finite() => Some(*number),
@@ -271,7 +312,7 @@ impl Whose {
         let kind = String::from_value(table.get("kind")?.clone()).ok()?;
         let seed = Seed::from_value(table.get("seed")?.clone()).ok()?;
         let sort = sorts.iter().find(|sort| sort.name == kind)?;
-        Some(Self { key: Numbers(seed.0), sort, radius: number("radius")?, count: number(count)? })
+        Some(Self { key: ModuleKey(seed.0), sort, radius: number("radius")?, count: number(count)? })
     }
 
     /// A number of a `what` that it has. Fails if it has not so many.
@@ -305,16 +346,16 @@ fn whole(number: f64) -> Result<usize> {
 
 /// A galaxy, as [`Universe::galaxy`] gives it.
 #[derive(Debug)]
-pub struct Galaxy(Whose);
+pub struct Galaxy(Parentage);
 
 impl Parameter for Galaxy {
     fn luau() -> String {
         "{ kind: string, seed: string, radius: number, stars: number }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let found = Whose::read(&value, GALAXIES, "stars");
-        found.map(Self).ok_or_else(|| Expected::new("a galaxy, as universe:galaxy gives it"))
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let found = Parentage::read(&value, GALAXIES, "stars");
+        found.map(Self).ok_or_else(|| Expectation::new("a galaxy, as universe:galaxy gives it"))
     }
 
     fn into_value(self) -> Value {
@@ -324,16 +365,16 @@ impl Parameter for Galaxy {
 
 /// A star, as [`Universe::star`] gives it.
 #[derive(Debug)]
-pub struct Star(Whose);
+pub struct Star(Parentage);
 
 impl Parameter for Star {
     fn luau() -> String {
         "{ kind: string, seed: string, radius: number, planets: number }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let found = Whose::read(&value, STARS, "planets");
-        found.map(Self).ok_or_else(|| Expected::new("a star, as universe:star gives it"))
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let found = Parentage::read(&value, STARS, "planets");
+        found.map(Self).ok_or_else(|| Expectation::new("a star, as universe:star gives it"))
     }
 
     fn into_value(self) -> Value {

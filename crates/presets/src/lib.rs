@@ -24,7 +24,7 @@ use serde::de::{Deserializer, MapAccess, Visitor};
 use serde_json::value::RawValue;
 use serde_json::{Map, Number, Value};
 
-use burgeon_base::error::{Error, Limit, Place, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_engine::script::{Preset, Setting};
 use burgeon_watch::settled;
 
@@ -49,8 +49,12 @@ impl Presets {
 
     /// The presets of `script`; none if there is no file. Fails, with the line, on a file that cannot be understood.
     pub fn read(script: &Path) -> Result<Self> {
-        let path = Self::path_of(script);
-        settled(&path, || Self::read_once(&path))
+        Self::read_file(&Self::path_of(script))
+    }
+
+    /// The presets in the file at `path`; none if there is no file. Fails as [`read`](Self::read) does.
+    pub fn read_file(path: &Path) -> Result<Self> {
+        settled(path, || Self::read_once(path))
     }
 
     fn read_once(path: &Path) -> Result<Self> {
@@ -181,7 +185,7 @@ impl<'a> File<'a> {
         let file: &RawValue = serde_json::from_str(text).map_err(|error| {
             let said = error.to_string();
             let said = said.split(" at line ").next().unwrap_or_default();
-            let place = Place { file: self.name.clone(), line: error.line().max(1) };
+            let place = SourcePlace { file: self.name.clone(), line: error.line().max(1) };
             Error::data(format!("this is not JSON: {said}"))
                 .at(Some(place))
                 .help("mend the file, or move it away")
@@ -255,11 +259,11 @@ impl<'a> File<'a> {
     }
 
     /// The line on which `raw`, a part of the text, begins.
-    fn place(&self, raw: &RawValue) -> Place {
+    fn place(&self, raw: &RawValue) -> SourcePlace {
         let from = (raw.get().as_ptr() as usize).saturating_sub(self.text.as_ptr() as usize);
         let before = self.text.as_bytes().get(..from).unwrap_or_default();
         let line = 1 + before.iter().filter(|byte| **byte == b'\n').count();
-        Place { file: self.name.clone(), line }
+        SourcePlace { file: self.name.clone(), line }
     }
 }
 

@@ -13,7 +13,7 @@ mod triangles;
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
 pub use normal::Normal;
-pub use shared::Shared;
+pub use shared::SharedMeshes;
 pub use triangles::{Iter, Triangles};
 
 use glam::{DAffine3, DVec3};
@@ -31,7 +31,7 @@ pub struct Scene {
     /// Where the meshes stand. A mesh that no instance names is not shown.
     pub instances: Vec<Instance>,
     /// Which meshes are those of placed models; leave it to [`Default`].
-    pub shared: Shared,
+    pub shared: SharedMeshes,
 }
 
 /// A mesh put somewhere.

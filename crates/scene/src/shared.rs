@@ -6,9 +6,9 @@ use super::Scene;
 
 /// Where the meshes of other scenes are among a scene's own, so that each is stored once however often it is placed.
 #[derive(Debug, Clone, Default)]
-pub struct Shared(Vec<(Arc<Scene>, Vec<Option<usize>>)>);
+pub struct SharedMeshes(Vec<(Arc<Scene>, Vec<Option<usize>>)>);
 
-impl PartialEq for Shared {
+impl PartialEq for SharedMeshes {
     /// Scenes that show the same are equal, however they came about.
     fn eq(&self, _: &Self) -> bool {
         true

@@ -18,21 +18,21 @@ use burgeon_base::memory::make_room;
 /// ```
 #[derive(Debug, Clone, Default)]
 pub struct Triangles {
-    runs: Vec<Run>,
+    runs: Vec<TriangleSpan>,
     listed: Vec<[u32; 3]>,
     count: usize,
 }
 
 /// Triangles of one kind, up to the next run; there is at least one.
 #[derive(Debug, Clone, Copy)]
-struct Run {
+struct TriangleSpan {
     /// How many triangles come before.
     first: u32,
-    faces: Faces,
+    faces: FacePattern,
 }
 
 #[derive(Debug, Clone, Copy)]
-enum Faces {
+enum FacePattern {
     /// Those of the list, from a place on.
     Listed(u32),
     Band {
@@ -64,8 +64,8 @@ impl Triangles {
     /// Adds one.
     #[inline]
     pub fn push(&mut self, corners: [u32; 3]) {
-        if !matches!(self.runs.last(), Some(Run { faces: Faces::Listed(_), .. })) {
-            self.begin(Faces::Listed(short(self.listed.len())));
+        if !matches!(self.runs.last(), Some(TriangleSpan { faces: FacePattern::Listed(_), .. })) {
+            self.begin(FacePattern::Listed(short(self.listed.len())));
         }
         self.listed.push(corners);
         self.count += 1;
@@ -76,7 +76,7 @@ impl Triangles {
     #[inline]
     pub fn band(&mut self, from: u32, to: u32, sides: u16) {
         if sides > 0 {
-            self.begin(Faces::Band { from, to, sides });
+            self.begin(FacePattern::Band { from, to, sides });
             self.count += 2 * usize::from(sides);
         }
     }
@@ -85,15 +85,15 @@ impl Triangles {
     #[inline]
     pub fn fan(&mut self, first: u32, corners: u16, turned: bool) {
         if corners > 2 {
-            self.begin(Faces::Fan { first, turned });
+            self.begin(FacePattern::Fan { first, turned });
             self.count += usize::from(corners) - 2;
         }
     }
 
     #[inline]
-    fn begin(&mut self, faces: Faces) {
+    fn begin(&mut self, faces: FacePattern) {
         make_room(&mut self.runs, 1);
-        self.runs.push(Run { first: short(self.count), faces });
+        self.runs.push(TriangleSpan { first: short(self.count), faces });
     }
 
     /// The one at place `index`.
@@ -111,7 +111,7 @@ impl Triangles {
         let after = self.runs.partition_point(|run| run.first as usize <= places.start);
         let end = places.end.min(self.count);
         let next = places.start.min(end);
-        let nothing = Faces::Listed(0);
+        let nothing = FacePattern::Listed(0);
         Iter { of: self, next, end, run: after.saturating_sub(1), first: 0, until: next, faces: nothing }
     }
 
@@ -125,7 +125,7 @@ impl Triangles {
         let first = self.runs[last].first as usize;
         let rest: Vec<[u32; 3]> = self.range(first..count).collect();
         let listed = self.runs[last..].iter().find_map(|run| match run.faces {
-            Faces::Listed(from) => Some(from as usize),
+            FacePattern::Listed(from) => Some(from as usize),
             _ => None,
         });
         self.runs.truncate(last);
@@ -164,7 +164,7 @@ impl PartialEq for Triangles {
 impl From<Vec<[u32; 3]>> for Triangles {
     fn from(listed: Vec<[u32; 3]>) -> Self {
         let count = listed.len();
-        let run = (count > 0).then_some(Run { first: 0, faces: Faces::Listed(0) });
+        let run = (count > 0).then_some(TriangleSpan { first: 0, faces: FacePattern::Listed(0) });
         Self { runs: run.into_iter().collect(), listed, count }
     }
 }
@@ -206,7 +206,7 @@ pub struct Iter<'a> {
     /// The number of the run after the present one.
     run: usize,
     /// What the present run is made of, the place where it begins, and the one where the next goes on.
-    faces: Faces,
+    faces: FacePattern,
     first: usize,
     until: usize,
 }
@@ -229,13 +229,13 @@ impl Iterator for Iter<'_> {
         self.next += 1;
         let side = index as u32;
         Some(match self.faces {
-            Faces::Listed(from) => self.of.listed[from as usize + index],
-            Faces::Band { from, to, sides } => match side.checked_sub(u32::from(sides)) {
+            FacePattern::Listed(from) => self.of.listed[from as usize + index],
+            FacePattern::Band { from, to, sides } => match side.checked_sub(u32::from(sides)) {
                 None => [from + side, from + side + 1, to + side + 1],
                 Some(side) => [from + side, to + side + 1, to + side],
             },
-            Faces::Fan { first, turned: false } => [first, first + side + 1, first + side + 2],
-            Faces::Fan { first, turned: true } => [first, first + side + 2, first + side + 1],
+            FacePattern::Fan { first, turned: false } => [first, first + side + 1, first + side + 2],
+            FacePattern::Fan { first, turned: true } => [first, first + side + 2, first + side + 1],
         })
     }
 
@@ -256,36 +256,37 @@ mod tests {
 
     /// What is added to a list of triangles: a few of them, a band or a fan.
     #[derive(Debug, Clone)]
-    enum Added {
+    enum TriangleAddition {
         Listed(Vec<[u32; 3]>),
         Band(u32, u32, u16),
         Fan(u32, u16, bool),
     }
 
-    fn added() -> impl Strategy<Value = Added> {
+    fn added() -> impl Strategy<Value = TriangleAddition> {
         prop_oneof![
-            prop::collection::vec(prop::array::uniform3(0u32..99), 0..4).prop_map(Added::Listed),
-            (0u32..99, 0u32..99, 0u16..5).prop_map(|(from, to, sides)| Added::Band(from, to, sides)),
+            prop::collection::vec(prop::array::uniform3(0u32..99), 0..4).prop_map(TriangleAddition::Listed),
+            (0u32..99, 0u32..99, 0u16..5)
+                .prop_map(|(from, to, sides)| TriangleAddition::Band(from, to, sides)),
             (0u32..99, 0u16..6, any::<bool>())
-                .prop_map(|(first, corners, turned)| Added::Fan(first, corners, turned)),
+                .prop_map(|(first, corners, turned)| TriangleAddition::Fan(first, corners, turned)),
         ]
     }
 
-    fn both(all: &[Added]) -> (Triangles, Vec<[u32; 3]>) {
+    fn both(all: &[TriangleAddition]) -> (Triangles, Vec<[u32; 3]>) {
         let (mut triangles, mut plain) = (Triangles::default(), Vec::new());
         for added in all {
             match added {
-                Added::Listed(listed) => {
+                TriangleAddition::Listed(listed) => {
                     triangles.extend(listed.iter().copied());
                     plain.extend(listed);
                 }
-                Added::Band(from, to, sides) => {
+                TriangleAddition::Band(from, to, sides) => {
                     triangles.band(*from, *to, *sides);
                     let sides = u32::from(*sides);
                     plain.extend((0..sides).map(|i| [from + i, from + i + 1, to + i + 1]));
                     plain.extend((0..sides).map(|i| [from + i, to + i + 1, to + i]));
                 }
-                Added::Fan(first, corners, turned) => {
+                TriangleAddition::Fan(first, corners, turned) => {
                     triangles.fan(*first, *corners, *turned);
                     let fan = (2..u32::from(*corners)).map(|i| [*first, first + i - 1, first + i]);
                     plain.extend(fan.map(|[a, b, c]| if *turned { [a, c, b] } else { [a, b, c] }));
@@ -297,8 +298,11 @@ mod tests {
 
     #[test]
     fn what_is_kept_as_bands_equals_a_plain_list() {
-        let (bands, plain) =
-            both(&[Added::Band(0, 6, 5), Added::Listed(vec![[1, 2, 3]]), Added::Fan(12, 5, true)]);
+        let (bands, plain) = both(&[
+            TriangleAddition::Band(0, 6, 5),
+            TriangleAddition::Listed(vec![[1, 2, 3]]),
+            TriangleAddition::Fan(12, 5, true),
+        ]);
         assert_eq!(bands, Triangles::from(plain.clone()));
         assert_eq!(bands.len(), 14);
         let mut other = plain;

@@ -1,6 +1,6 @@
 //! A rectangle of cells of one level, in columns.
 
-use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::rules::{ModuleKey, Symbol};
 
 /// A rectangle of cells, by column from the west and row from the north.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -155,7 +155,7 @@ pub struct Block {
     /// How many other parameters each has.
     pub stride: usize,
     /// The random key of each; empty where no rule draws.
-    pub keys: Vec<Key>,
+    pub keys: Vec<ModuleKey>,
     /// What is added to the height (m) of each as it is, without smoothing; empty for nothing.
     pub forms: Vec<f64>,
     /// The height (m) of the smooth surface at the middle of each; empty for the cells' own heights.

@@ -9,7 +9,7 @@ use rustc_hash::FxHashMap;
 use super::block::{Area, Block};
 use super::world::{Begin, Divide};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Boxed, Chain, END, FIRST_SYMBOL, Key, Mark, module_brief};
+use burgeon_kit::rules::{Chain, ColumnValue, END, FIRST_SYMBOL, Mark, ModuleKey, module_brief};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 
 /// The parameter of a module that is its cell's height.
@@ -23,11 +23,11 @@ const STRIP: usize = 1 << 17;
 /// Divides cells by the rules of the systems of a script.
 pub struct Cells<'a> {
     rewriter: &'a dyn Rewriter,
-    systems: RefCell<FxHashMap<usize, Arc<System>>>,
+    systems: RefCell<FxHashMap<usize, Arc<CellSystem>>>,
 }
 
 /// A system whose rules divide cells.
-struct System {
+struct CellSystem {
     index: usize,
     rules: Arc<RuleSet>,
     begin: Begin,
@@ -44,11 +44,11 @@ impl<'a> Cells<'a> {
     }
 
     /// System `index`, which is made ready the first time.
-    fn system(&self, index: usize) -> Result<Arc<System>> {
+    fn system(&self, index: usize) -> Result<Arc<CellSystem>> {
         if let Some(system) = self.systems.borrow().get(&index) {
             return Ok(Arc::clone(system));
         }
-        let system = Arc::new(System::new(self.rewriter, index)?);
+        let system = Arc::new(CellSystem::new(self.rewriter, index)?);
         self.systems.borrow_mut().insert(index, Arc::clone(&system));
         Ok(system)
     }
@@ -64,7 +64,7 @@ impl Divide for Cells<'_> {
     }
 }
 
-impl System {
+impl CellSystem {
     fn new(rewriter: &dyn Rewriter, index: usize) -> Result<Self> {
         let rules = rewriter.rules(index)?;
         let named = |error: Error| error.rather_at(rules.place.clone());
@@ -98,7 +98,7 @@ impl System {
                 let height = rest.remove(height);
                 let stride =
                     grammar.arities().iter().max().map_or(0, |most| usize::from(*most).saturating_sub(1));
-                rest.resize(stride, Boxed::Nil.pack());
+                rest.resize(stride, ColumnValue::Nil.pack());
                 let reserved = (0..FIRST_SYMBOL).map(|_| String::new());
                 let names = reserved.chain(signatures.names().map(str::to_owned)).collect();
                 Begin { symbol: *symbol, height, rest, names }
@@ -124,7 +124,7 @@ impl System {
             heights: vec![0.0; count],
             rest: vec![0.0; if last { 0 } else { count * stride }],
             stride,
-            keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            keys: vec![ModuleKey::default(); if last || !random { 0 } else { count }],
             forms: vec![0.0; if self.forms.iter().any(Option::is_some) { count } else { 0 }],
             smooth: Vec::new(),
         };
@@ -161,7 +161,7 @@ impl System {
         }
         chain.symbols.push(END);
         if random {
-            chain.keys.push(Key::default());
+            chain.keys.push(ModuleKey::default());
         }
         chain.mark(self.rules.batch, arities);
         let step = cells.level as usize + 1;

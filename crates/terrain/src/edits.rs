@@ -130,18 +130,18 @@ impl Edit {
 }
 
 /// The smallest cell that holds what an edit reaches: level, row and column.
-type Cell = (u32, i64, i64);
+type EditCell = (u32, i64, i64);
 
 /// Changes of the ground, by cell.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Edits {
-    cells: BTreeMap<Cell, Vec<Kept>>,
+    cells: BTreeMap<EditCell, Vec<EditRecord>>,
     count: usize,
 }
 
 /// An edit and when it was made.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-struct Kept {
+struct EditRecord {
     order: usize,
     /// A number for what it is.
     #[serde(skip)]
@@ -155,14 +155,14 @@ struct Kept {
 #[serde(deny_unknown_fields)]
 struct File {
     format: String,
-    world: Stamp,
-    cells: BTreeMap<String, Vec<Kept>>,
+    world: WorldStamp,
+    cells: BTreeMap<String, Vec<EditRecord>>,
 }
 
 /// What tells the world that edits are of.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct Stamp {
+struct WorldStamp {
     corner: [f64; 2],
     size: f64,
     /// The key that all that is drawn comes from, in hexadecimal; none where nothing is.
@@ -196,7 +196,7 @@ impl Edits {
         let cell = smallest(world, low, high);
         let mut hasher = FxHasher::default();
         (self.count, serde_json::to_string(&edit).unwrap_or_default()).hash(&mut hasher);
-        let kept = Kept { order: self.count, mark: hasher.finish(), edit };
+        let kept = EditRecord { order: self.count, mark: hasher.finish(), edit };
         self.cells.entry(cell).or_default().push(kept);
         self.count += 1;
         Ok(())
@@ -227,7 +227,7 @@ impl Edits {
     }
 
     /// The edits that reach cells of `area` at `level`, in their order.
-    fn met(&self, world: &World, level: u32, area: Area) -> Vec<&Kept> {
+    fn met(&self, world: &World, level: u32, area: Area) -> Vec<&EditRecord> {
         if self.is_empty() || area.is_empty() {
             return Vec::new();
         }
@@ -236,11 +236,11 @@ impl Edits {
         let (east, south) = area.at(area.len() - 1);
         let (a, b) = (world.middle(level, west, north), world.middle(level, east, south));
         let (low, high) = (a.min(b) - half, a.max(b) + half);
-        let reaches = |kept: &&Kept| {
+        let reaches = |kept: &&EditRecord| {
             let (from, to) = kept.edit.bounds();
             from.cmple(high).all() && to.cmpge(low).all()
         };
-        let mut met: Vec<&Kept> = self.cells.values().flatten().filter(reaches).collect();
+        let mut met: Vec<&EditRecord> = self.cells.values().flatten().filter(reaches).collect();
         met.sort_by_key(|kept| kept.order);
         met
     }
@@ -248,7 +248,7 @@ impl Edits {
     /// The text of a file that holds them.
     pub fn to_json(&self, world: &World) -> String {
         let cells = self.cells.iter().map(|((level, y, x), kept)| (format!("{level}/{x}/{y}"), kept.clone()));
-        let file = File { format: FORMAT.into(), world: Stamp::of(world), cells: cells.collect() };
+        let file = File { format: FORMAT.into(), world: WorldStamp::of(world), cells: cells.collect() };
         serde_json::to_string_pretty(&file).unwrap_or_default() + "\n"
     }
 
@@ -261,26 +261,26 @@ impl Edits {
         if file.format != FORMAT {
             return Err(Error::data(format!("{name} is of the kind {:?}, not {FORMAT:?}", file.format)));
         }
-        let here = Stamp::of(world);
+        let here = WorldStamp::of(world);
         if file.world != here {
-            let shown = |stamp: &Stamp| {
+            let shown = |stamp: &WorldStamp| {
                 let key = stamp.key.as_ref().map(|key| format!(", drawn from {key}")).unwrap_or_default();
                 format!("{} m from ({}, {}) on{key}", stamp.size, stamp.corner[0], stamp.corner[1])
             };
             return Err(Error::data(format!("{name} holds edits of another world: {}", shown(&file.world)))
                 .help(format!("this one is {}", shown(&here))));
         }
-        let mut kept: Vec<Kept> = file.cells.into_values().flatten().collect();
+        let mut kept: Vec<EditRecord> = file.cells.into_values().flatten().collect();
         kept.sort_by_key(|kept| kept.order);
         let mut edits = Self::default();
-        for Kept { edit, .. } in kept {
+        for EditRecord { edit, .. } in kept {
             edits.add(world, edit).map_err(|error| Error::data(format!("{name}: {}", error.message())))?;
         }
         Ok(edits)
     }
 }
 
-impl Stamp {
+impl WorldStamp {
     fn of(world: &World) -> Self {
         let key = world.key.map(|key| format!("{:016x}", key.0));
         Self { corner: world.corner.to_array(), size: world.size, key }
@@ -289,7 +289,7 @@ impl Stamp {
 
 /// The smallest cell of `world` that holds the box from `low` to `high` (m); the whole where it reaches outside.
 #[allow(clippy::cast_possible_truncation, reason = "columns are below 2^31")]
-fn smallest(world: &World, low: DVec2, high: DVec2) -> Cell {
+fn smallest(world: &World, low: DVec2, high: DVec2) -> EditCell {
     let north = world.corner.y + world.size;
     let mut found = (0, 0, 0);
     for level in 1..=DEEPEST {

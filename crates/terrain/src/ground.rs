@@ -12,8 +12,8 @@ use rayon::prelude::*;
 
 use super::block::{Area, Block};
 use super::edits::Edits;
-use super::tile::{Place, Tile};
-use super::view::{Fit, MOST_HEIGHTS, View, too_many};
+use super::tile::{Tile, TilePlace};
+use super::view::{MOST_HEIGHTS, View, ViewCells, too_many};
 use super::world::{Divide, Tables, World};
 use burgeon_base::error::Result;
 
@@ -34,7 +34,7 @@ pub struct Ground {
 
 /// Heights in the middle of cells of one size.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Map {
+pub struct GroundMap {
     /// Cells from west to east.
     pub columns: usize,
     /// Cells from north to south.
@@ -78,7 +78,7 @@ impl Ground {
         self.edits = Arc::clone(edits);
     }
 
-    fn expand(&mut self, fit: &Fit, divide: &dyn Divide) -> Result<()> {
+    fn expand(&mut self, fit: &ViewCells, divide: &dyn Divide) -> Result<()> {
         let mut tiles = vec![None; fit.details.len()];
         let mut missing = Vec::new();
         for (index, &detail) in fit.details.iter().enumerate() {
@@ -114,7 +114,7 @@ impl Ground {
     fn make(
         &self,
         coarse: &Block,
-        (index, place, detail): (usize, Place, u32),
+        (index, place, detail): (usize, TilePlace, u32),
         divide: &dyn Divide,
     ) -> Result<(usize, Tile)> {
         let wanted = Tile::wanted(place, detail);
@@ -140,7 +140,7 @@ impl Ground {
 
     /// The heights of the surface in the middle of the smallest cells of all that is expanded. Where tiles have larger
     /// cells, heights lie between theirs. Fails if there are too many.
-    pub fn map(&self) -> Result<Map> {
+    pub fn map(&self) -> Result<GroundMap> {
         let [[west, north], [east, south]] = self.rim();
         let count = |low: i64, high: i64| usize::try_from(high - low).unwrap_or(0);
         let area = Area { x: west, y: north, columns: count(west, east), rows: count(north, south) };
@@ -156,7 +156,7 @@ impl Ground {
             }
         };
         let heights: Vec<f64> = (0..area.len()).into_par_iter().map(|index| height(area.at(index))).collect();
-        Ok(Map {
+        Ok(GroundMap {
             columns: area.columns,
             rows: area.rows,
             corner: self.place(west, south),
@@ -185,7 +185,7 @@ impl Ground {
         self.finest
     }
 
-    fn tile(&self, place: Place) -> Option<&Arc<Tile>> {
+    fn tile(&self, place: TilePlace) -> Option<&Arc<Tile>> {
         let known = place.level == self.level && self.window.contains(place.x, place.y);
         known.then(|| self.tiles.get(self.window.index(place.x, place.y))).flatten()
     }
@@ -313,7 +313,7 @@ impl Ground {
         };
         let x = of(along.x, window.x, window.columns);
         let y = of(along.y, window.y, window.rows);
-        let tile = self.tile(Place { level: self.level, y, x })?;
+        let tile = self.tile(TilePlace { level: self.level, y, x })?;
         let step = world.cell(tile.level());
         let last = (1i64 << tile.detail) - 1;
         let first = (x << tile.detail, y << tile.detail);

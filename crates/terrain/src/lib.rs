@@ -1,7 +1,7 @@
 //! Terrain: quadtrees of cells by rewriting, expanded where someone looks, and the surface over them.
 //!
 //! Comes in: a [`World`] with its rules, and what a [`View`] shows of it. Goes out: [`Ground`] with heights at any
-//! place, and a [`Mesh`] of it. A cell's height depends on the world and its place alone, never on the way to it.
+//! place, and a [`GroundMesh`] of it. A cell's height depends on the world and its place alone, never on the way to it.
 //!
 //! Source: Fitzpatrick, "Procedurally Generated Surfaces Using L-Systems".
 
@@ -11,7 +11,7 @@ mod edits;
 pub mod fit;
 pub mod globe;
 mod ground;
-mod measured;
+mod height_source;
 mod mesh;
 mod noise;
 mod river;
@@ -27,12 +27,12 @@ mod world;
 pub use block::{Area, Block};
 pub use cells::Cells;
 pub use edits::{Edit, Edits};
-pub use ground::{Ground, Map};
-pub use measured::Measured;
-pub use mesh::Mesh;
+pub use ground::{Ground, GroundMap};
+pub use height_source::HeightSource;
+pub use mesh::GroundMesh;
 pub use noise::{octaves, octaves_around};
 pub use river::{Drainage, Dry};
-pub use table::{Draw, Quadrants, RuleTable};
-pub use tile::{Place, Tile};
-pub use view::{DEEPEST, MOST_HEIGHTS, Ring, View};
-pub use world::{Begin, Divide, Layer, Rules, Tables, World};
+pub use table::{NumberRange, Quadrants, RuleTable};
+pub use tile::{Tile, TilePlace};
+pub use view::{DEEPEST, MOST_HEIGHTS, TileRing, View};
+pub use world::{Begin, Divide, LevelRules, Rules, Tables, World};

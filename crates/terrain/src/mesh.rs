@@ -11,45 +11,45 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::ground::Ground;
-use super::samples::{Samples, Vertex};
-use super::tile::{Place, Tile};
+use super::samples::{TileSamples, Vertex};
+use super::tile::{Tile, TilePlace};
 use burgeon_scene::Part;
 
 /// A corner of the smallest cells: column from the west and row from the north.
-pub(super) type Corner = [i64; 2];
+pub(super) type GridCorner = [i64; 2];
 
 /// A triangle with its right angle at `apex`.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Triangle {
-    pub a: Corner,
-    pub b: Corner,
-    pub apex: Corner,
+pub(super) struct RightTriangle {
+    pub a: GridCorner,
+    pub b: GridCorner,
+    pub apex: GridCorner,
 }
 
-impl Triangle {
+impl RightTriangle {
     /// The middle of its longest side, where it is halved; `None` for one that cannot be halved.
-    pub(super) fn middle(&self) -> Option<Corner> {
+    pub(super) fn middle(&self) -> Option<GridCorner> {
         let sum = [self.a[0] + self.b[0], self.a[1] + self.b[1]];
         (sum[0] & 1 == 0 && sum[1] & 1 == 0).then(|| [sum[0] >> 1, sum[1] >> 1])
     }
 
-    pub(super) fn halves(&self, middle: Corner) -> [Self; 2] {
+    pub(super) fn halves(&self, middle: GridCorner) -> [Self; 2] {
         [Self { a: self.apex, b: self.a, apex: middle }, Self { a: self.b, b: self.apex, apex: middle }]
     }
 }
 
 /// The heights (m) at all corners of the cells of a tile.
-pub(super) struct Grid {
+pub(super) struct HeightGrid {
     pub heights: Vec<f64>,
     /// Corners along a side.
     pub across: usize,
     /// The first of its corners.
-    pub first: Corner,
+    pub first: GridCorner,
     /// How many times its cells are as large as the smallest: this power of two.
     pub shift: u32,
 }
 
-impl Grid {
+impl HeightGrid {
     fn new(ground: &Ground, tile: &Tile) -> Self {
         let shift = ground.finest() - tile.level();
         let own = Tile::own(tile.place, tile.detail);
@@ -73,8 +73,8 @@ impl Grid {
 
     /// Whether the ground is anywhere farther than `error` (m) from a triangle, all of whose corners are its own.
     #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
-    pub(super) fn is_far(&self, triangle: &Triangle, error: f64) -> bool {
-        let own = |corner: Corner| {
+    pub(super) fn is_far(&self, triangle: &RightTriangle, error: f64) -> bool {
+        let own = |corner: GridCorner| {
             let [x, y] = [0, 1].map(|axis| usize::try_from((corner[axis] - self.first[axis]) >> self.shift));
             (x.unwrap_or(0), y.unwrap_or(0))
         };
@@ -121,27 +121,27 @@ impl Grid {
 }
 
 /// A triangulation of expanded ground.
-pub struct Mesh<'a> {
+pub struct GroundMesh<'a> {
     ground: &'a Ground,
     /// One for each tile.
-    grids: Vec<Grid>,
+    grids: Vec<HeightGrid>,
     /// What was measured on each tile.
-    samples: Vec<Samples>,
+    samples: Vec<TileSamples>,
     /// The corners where triangles are halved.
     halved: FxHashSet<u64>,
     error: f64,
 }
 
-fn key([x, y]: Corner) -> u64 {
+fn key([x, y]: GridCorner) -> u64 {
     (x.cast_unsigned() << 32) | (y.cast_unsigned() & 0xFFFF_FFFF)
 }
 
-impl<'a> Mesh<'a> {
+impl<'a> GroundMesh<'a> {
     /// The fewest triangles from which the ground is nowhere farther than `error` (m) at a corner of its cells, nor at a
     /// sample of measured ground where its cells are not larger than the distance of these.
     pub fn new(ground: &'a Ground, error: f64) -> Self {
-        let grids = ground.tiles().par_iter().map(|tile| Grid::new(ground, tile)).collect();
-        let samples = ground.tiles().par_iter().map(|tile| Samples::new(ground, tile)).collect();
+        let grids = ground.tiles().par_iter().map(|tile| HeightGrid::new(ground, tile)).collect();
+        let samples = ground.tiles().par_iter().map(|tile| TileSamples::new(ground, tile)).collect();
         let mut mesh = Self { ground, grids, samples, halved: FxHashSet::default(), error };
         let mut wanted = Vec::new();
         for tile in ground.tiles() {
@@ -157,9 +157,9 @@ impl<'a> Mesh<'a> {
     }
 
     /// Where a triangle has to be halved, if it has.
-    fn want(&self, triangle: &Triangle) -> Option<Corner> {
+    fn want(&self, triangle: &RightTriangle) -> Option<GridCorner> {
         let middle = triangle.middle()?;
-        let inside = |at: Corner, to: Corner| [at[0] * 2 + to[0], at[1] * 2 + to[1]];
+        let inside = |at: GridCorner, to: GridCorner| [at[0] * 2 + to[0], at[1] * 2 + to[1]];
         // A point within it, in thirds, tells whose it is.
         let [x, y] = inside(middle, triangle.apex);
         let holder = self.ground.holder(x.div_euclid(3), y.div_euclid(3))?;
@@ -182,19 +182,19 @@ impl<'a> Mesh<'a> {
     }
 
     /// The heights (m) at the corners of a triangle.
-    fn heights(&self, triangle: &Triangle) -> [f64; 3] {
+    fn heights(&self, triangle: &RightTriangle) -> [f64; 3] {
         [triangle.a, triangle.b, triangle.apex].map(|[x, y]| self.ground.corner(x, y).unwrap_or(0.0))
     }
 
     /// Halves the triangles at `corner`; adds to `wanted` where others have to be halved for it, or because of it.
-    fn halve(&mut self, corner: Corner, wanted: &mut Vec<Corner>) {
+    fn halve(&mut self, corner: GridCorner, wanted: &mut Vec<GridCorner>) {
         if !self.halved.insert(key(corner)) {
             return;
         }
         let Some((parents, ends)) = diamond(corner, 1 << self.ground.finest()) else { return };
         wanted.extend(parents);
         for apex in parents {
-            let triangle = Triangle { a: ends[0], b: ends[1], apex };
+            let triangle = RightTriangle { a: ends[0], b: ends[1], apex };
             for half in triangle.halves(corner) {
                 wanted.extend(self.want(&half));
             }
@@ -216,7 +216,8 @@ impl<'a> Mesh<'a> {
             }));
         };
         let samples = &self.samples[number];
-        let mut open: Vec<Triangle> = roots(tile.place, self.ground.finest()).into_iter().rev().collect();
+        let mut open: Vec<RightTriangle> =
+            roots(tile.place, self.ground.finest()).into_iter().rev().collect();
         while let Some(triangle) = open.pop() {
             match triangle.middle().filter(|middle| self.halved.contains(&key(*middle))) {
                 Some(middle) => open.extend(triangle.halves(middle).into_iter().rev()),
@@ -295,7 +296,7 @@ impl<'a> Mesh<'a> {
 
 /// The two corners at the right angles of the triangles that are halved at a corner, and the ends of their longest side;
 /// `None` for the corners of a world of `across` smallest cells.
-pub(super) fn diamond([x, y]: Corner, across: i64) -> Option<([Corner; 2], [Corner; 2])> {
+pub(super) fn diamond([x, y]: GridCorner, across: i64) -> Option<([GridCorner; 2], [GridCorner; 2])> {
     let step = (x | y) & -(x | y);
     if step == 0 || step >= across {
         return None;
@@ -315,25 +316,25 @@ pub(super) fn diamond([x, y]: Corner, across: i64) -> Option<([Corner; 2], [Corn
 }
 
 /// The corners of a tile, in cells of the level `finest`: north-west, north-east, south-west and south-east.
-pub(super) fn corners(place: Place, finest: u32) -> [Corner; 4] {
+pub(super) fn corners(place: TilePlace, finest: u32) -> [GridCorner; 4] {
     let size = 1i64 << (finest - place.level);
     let [x, y] = [place.x * size, place.y * size];
     [[x, y], [x + size, y], [x, y + size], [x + size, y + size]]
 }
 
 /// The two triangles that a tile begins with, counter-clockwise from above.
-pub(super) fn roots(place: Place, finest: u32) -> [Triangle; 2] {
+pub(super) fn roots(place: TilePlace, finest: u32) -> [RightTriangle; 2] {
     let [a, b, c, d] = corners(place, finest);
     if (place.x + place.y) & 1 == 0 {
-        [Triangle { a, b: d, apex: b }, Triangle { a: d, b: a, apex: c }].map(turned)
+        [RightTriangle { a, b: d, apex: b }, RightTriangle { a: d, b: a, apex: c }].map(turned)
     } else {
-        [Triangle { a: b, b: c, apex: a }, Triangle { a: c, b, apex: d }].map(turned)
+        [RightTriangle { a: b, b: c, apex: a }, RightTriangle { a: c, b, apex: d }].map(turned)
     }
 }
 
 /// The triangle counter-clockwise as seen from above, where rows run to the south.
-fn turned(triangle: Triangle) -> Triangle {
-    let Triangle { a, b, apex } = triangle;
+fn turned(triangle: RightTriangle) -> RightTriangle {
+    let RightTriangle { a, b, apex } = triangle;
     let [u, v] = [[b[0] - a[0], b[1] - a[1]], [apex[0] - a[0], apex[1] - a[1]]];
-    if u[0] * v[1] - u[1] * v[0] < 0 { triangle } else { Triangle { a: b, b: a, apex } }
+    if u[0] * v[1] - u[1] * v[0] < 0 { triangle } else { RightTriangle { a: b, b: a, apex } }
 }

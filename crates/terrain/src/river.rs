@@ -8,7 +8,7 @@ use std::collections::BinaryHeap;
 
 use glam::{DVec2, DVec3};
 
-use super::ground::Map;
+use super::ground::GroundMap;
 
 /// The cells of a map and the way down from each.
 #[derive(Clone)]
@@ -38,7 +38,7 @@ const MOST: usize = 1024;
 
 impl Drainage {
     /// The ways down on `map`, to its rim and to all ground below `water` (m).
-    pub fn new(map: &Map, water: Option<f64>) -> Self {
+    pub fn new(map: &GroundMap, water: Option<f64>) -> Self {
         let every = map.columns.max(map.rows).div_ceil(MOST).max(1);
         let (columns, rows) = (map.columns.div_ceil(every), map.rows.div_ceil(every));
         let at = |cell: usize| {

@@ -7,7 +7,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::ground::Ground;
-use super::mesh::{Corner, Triangle};
+use super::mesh::{GridCorner, RightTriangle};
 use super::tile::Tile;
 
 /// The least distance (m) between a sample and the triangles that is worth a corner.
@@ -29,7 +29,7 @@ pub(super) struct Sample {
 
 /// The samples on a tile, by the rows of its cells.
 #[derive(Default)]
-pub(super) struct Samples {
+pub(super) struct TileSamples {
     all: Vec<Sample>,
     /// Where each row begins among all; from west to east in a row.
     rows: Vec<usize>,
@@ -43,11 +43,11 @@ pub(super) struct Samples {
 /// A corner of a triangle: of cells, or a sample of its tile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Vertex {
-    Corner(Corner),
+    Corner(GridCorner),
     Sample(usize),
 }
 
-impl Samples {
+impl TileSamples {
     /// Those that the cells of `tile` can show; none where these are too large, or where no ground was measured.
     pub(super) fn new(ground: &Ground, tile: &Tile) -> Self {
         let world = ground.world();
@@ -106,7 +106,7 @@ impl Samples {
     }
 
     /// Whether one in `triangle`, whose corners have the heights (m) `heights`, is farther than `error` (m) from it.
-    pub(super) fn is_far(&self, triangle: &Triangle, heights: [f64; 3], error: f64) -> bool {
+    pub(super) fn is_far(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> bool {
         let error = error.max(LEAST);
         let mut far = false;
         self.each(triangle, |_, sample, distances| {
@@ -118,7 +118,7 @@ impl Samples {
 
     /// The triangles that `triangle` becomes where samples in it are farther than `error` (m) from it; none if there
     /// is none.
-    pub(super) fn divide(&self, triangle: &Triangle, heights: [f64; 3], error: f64) -> Vec<[Vertex; 3]> {
+    pub(super) fn divide(&self, triangle: &RightTriangle, heights: [f64; 3], error: f64) -> Vec<[Vertex; 3]> {
         let error = error.max(LEAST);
         let mut within = Vec::new();
         self.each(triangle, |index, sample, distances| {
@@ -163,7 +163,7 @@ impl Samples {
 
     /// Tells those in a triangle, its rim included but not its corners, where the ground is as it was measured, with
     /// their distances from its sides, until `tell` has enough.
-    fn each(&self, triangle: &Triangle, mut tell: impl FnMut(usize, &Sample, [f64; 3]) -> bool) {
+    fn each(&self, triangle: &RightTriangle, mut tell: impl FnMut(usize, &Sample, [f64; 3]) -> bool) {
         if self.all.is_empty() {
             return;
         }
@@ -192,7 +192,7 @@ impl Samples {
 }
 
 /// How far (m) above or below a triangle a sample is; on one of its sides only the ends of that count.
-fn off(triangle: &Triangle, heights: [f64; 3], sample: &Sample, distances: [f64; 3], near: f64) -> f64 {
+fn off(triangle: &RightTriangle, heights: [f64; 3], sample: &Sample, distances: [f64; 3], near: f64) -> f64 {
     let corners = [triangle.a, triangle.b, triangle.apex];
     let height = match distances.iter().position(|distance| *distance <= near) {
         Some(side) => {
@@ -234,7 +234,7 @@ fn distance(from: DVec2, to: DVec2, at: DVec2) -> f64 {
 }
 
 #[allow(clippy::cast_precision_loss, reason = "columns are below 2^31")]
-fn spot(corner: Corner) -> DVec2 {
+fn spot(corner: GridCorner) -> DVec2 {
     DVec2::new(corner[0] as f64, corner[1] as f64)
 }
 

@@ -2,17 +2,17 @@
 
 use std::sync::Arc;
 
-use crate::{Ring, View};
-use burgeon_kit::{Expected, Key, Parameter, Table, Value};
+use crate::{TileRing, View};
+use burgeon_kit::{Expectation, Parameter, Table, TableKey, Value};
 
 impl Parameter for View {
     fn luau() -> String {
         "{ cell: number, rings: { { number } } }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || {
-            Expected::new(
+            Expectation::new(
                 "a view: { cell = 512, rings = { { 4, 8 }, { 8, 6 } } }, which divides the nearest 4 x 4 cells 8 times",
             )
         };
@@ -20,7 +20,7 @@ impl Parameter for View {
         if table
             .entries
             .iter()
-            .any(|(key, _)| !matches!(key, Key::Name(name) if matches!(&**name, "cell" | "rings")))
+            .any(|(key, _)| !matches!(key, TableKey::Name(name) if matches!(&**name, "cell" | "rings")))
         {
             return Err(what());
         }
@@ -29,7 +29,9 @@ impl Parameter for View {
         let cell = cell.filter(|cell| *cell > 0.0).ok_or_else(what)?;
         let rings = Vec::<Vec<u32>>::from_value(table.get("rings").cloned().unwrap_or(Value::Nil));
         let rings = rings.map_err(|_| what())?.into_iter().map(|ring| match ring.as_slice() {
-            [across, levels] if (1..=1024).contains(across) => Ok(Ring { across: *across, levels: *levels }),
+            [across, levels] if (1..=1024).contains(across) => {
+                Ok(TileRing { across: *across, levels: *levels })
+            }
             _ => Err(what()),
         });
         let rings = rings.collect::<Result<Vec<_>, _>>()?;
@@ -37,16 +39,20 @@ impl Parameter for View {
             return Err(what());
         }
         if rings.windows(2).any(|pair| pair[0].across >= pair[1].across || pair[0].levels < pair[1].levels) {
-            return Err(Expected::new("a view whose rings grow, and are divided less the farther they are"));
+            return Err(Expectation::new(
+                "a view whose rings grow, and are divided less the farther they are",
+            ));
         }
         Ok(Self { cell, rings })
     }
 
     fn into_value(self) -> Value {
-        let ring = |ring: &Ring| vec![f64::from(ring.across), f64::from(ring.levels)];
+        let ring = |ring: &TileRing| vec![f64::from(ring.across), f64::from(ring.levels)];
         let rings = self.rings.iter().map(ring).collect::<Vec<_>>().into_value();
-        let entries =
-            vec![(Key::Name("cell".into()), Value::Number(self.cell)), (Key::Name("rings".into()), rings)];
+        let entries = vec![
+            (TableKey::Name("cell".into()), Value::Number(self.cell)),
+            (TableKey::Name("rings".into()), rings),
+        ];
         Value::Table(Arc::new(Table { class: None, entries }))
     }
 }

@@ -4,18 +4,18 @@ use rayon::prelude::*;
 
 use super::block::{Area, Block};
 use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::rules::{ModuleKey, Symbol};
 
 /// A number, or the range that it is drawn from.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Draw {
+pub struct NumberRange {
     /// The least.
     pub low: f64,
     /// The greatest; the same for a number that is not drawn.
     pub high: f64,
 }
 
-impl Draw {
+impl NumberRange {
     /// A number that is not drawn.
     pub fn exactly(number: f64) -> Self {
         Self { low: number, high: number }
@@ -39,9 +39,9 @@ pub struct Quadrants {
     /// The symbol of each.
     pub symbols: [Symbol; 4],
     /// What is added to the cell's height, as a multiple of its decay.
-    pub change: [Draw; 4],
+    pub change: [NumberRange; 4],
     /// What the cell's decay is multiplied by.
-    pub decay: [Draw; 4],
+    pub decay: [NumberRange; 4],
 }
 
 /// The rules of all symbols, by number.
@@ -78,7 +78,7 @@ impl RuleTable {
             heights: vec![0.0; count],
             rest: vec![0.0; if last { 0 } else { count }],
             stride: 1,
-            keys: vec![Key::default(); if last || !random { 0 } else { count }],
+            keys: vec![ModuleKey::default(); if last || !random { 0 } else { count }],
             forms: Vec::new(),
             smooth: Vec::new(),
         };
@@ -92,12 +92,17 @@ impl RuleTable {
         let mut keys = block.keys.chunks_mut(two);
         let rows: Vec<_> = rows
             .map(|(y, (symbols, heights))| {
-                let into =
-                    Into { symbols, heights, decays: decays.next(), keys: keys.next(), across: made.columns };
+                let into = QuadrantRows {
+                    symbols,
+                    heights,
+                    decays: decays.next(),
+                    keys: keys.next(),
+                    across: made.columns,
+                };
                 (cells.area.index(area.x, y), into)
             })
             .collect();
-        let work = |(first, into): (usize, Into<'_>)| self.row(cells, first, area.columns, into);
+        let work = |(first, into): (usize, QuadrantRows<'_>)| self.row(cells, first, area.columns, into);
         if count > 1 << 14 {
             rows.into_par_iter().with_min_len(16).for_each(work);
         } else {
@@ -106,7 +111,7 @@ impl RuleTable {
         block
     }
 
-    fn row(&self, cells: &Block, first: usize, columns: usize, mut into: Into<'_>) {
+    fn row(&self, cells: &Block, first: usize, columns: usize, mut into: QuadrantRows<'_>) {
         for column in 0..columns {
             let from = first + column;
             let (height, decay) = (cells.heights[from], cells.rest[from]);
@@ -141,11 +146,11 @@ impl RuleTable {
 }
 
 /// Two rows of quadrants.
-struct Into<'a> {
+struct QuadrantRows<'a> {
     symbols: &'a mut [Symbol],
     heights: &'a mut [f64],
     decays: Option<&'a mut [f64]>,
-    keys: Option<&'a mut [Key]>,
+    keys: Option<&'a mut [ModuleKey]>,
     /// The length of one row.
     across: usize,
 }

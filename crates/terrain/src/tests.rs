@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 
 use super::*;
 use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::rules::{ModuleKey, Symbol};
 use burgeon_scene::Part;
 
 /// A rule table of four symbols.
@@ -16,13 +16,13 @@ fn table(seed: u64, drawn: bool) -> RuleTable {
     let mut rule = || {
         let mut change = || {
             let low = stream.uniform() * 2.0 - 1.0;
-            Draw { low, high: if drawn { low + 0.5 } else { low } }
+            NumberRange { low, high: if drawn { low + 0.5 } else { low } }
         };
         Quadrants {
             weight: 1.0,
             change: std::array::from_fn(|_| change()),
             symbols: std::array::from_fn(|_| Symbol::try_from(stream.below(4)).unwrap()),
-            decay: std::array::from_fn(|_| Draw::exactly(0.4 + 0.2 * stream.uniform())),
+            decay: std::array::from_fn(|_| NumberRange::exactly(0.4 + 0.2 * stream.uniform())),
         }
     };
     RuleTable {
@@ -35,7 +35,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
     World {
         corner: DVec2::new(-1000.0, 500.0),
         size: 65_536.0,
-        layers: vec![Layer {
+        layers: vec![LevelRules {
             from: 0,
             rules: Rules::Table(Arc::new(table(seed, drawn))),
             start: 0,
@@ -44,7 +44,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
             names: Arc::default(),
         }],
         smooth,
-        key: drawn.then(|| Key::seed(seed)),
+        key: drawn.then(|| ModuleKey::seed(seed)),
         remap: Vec::new(),
         measured: None,
     }
@@ -52,7 +52,7 @@ fn world(seed: u64, drawn: bool, smooth: bool) -> World {
 
 /// Tiles of 512 m: 4 x 4 of 5 levels, 8 x 8 of 3, 12 x 12 of 2 and 16 x 16 of 1.
 fn view() -> View {
-    let ring = |(across, levels)| Ring { across, levels };
+    let ring = |(across, levels)| TileRing { across, levels };
     View { cell: 512.0, rings: [(4, 5), (8, 3), (12, 2), (16, 1)].map(ring).to_vec() }
 }
 
@@ -145,7 +145,7 @@ fn a_rule_table_gives_what_its_text_says() {
 fn the_reference_view_has_the_heights_of_the_paper() {
     let size = 512.0 * 65_536.0;
     let world = World { size, corner: DVec2::ZERO, ..world(1, true, true) };
-    let ring = |(across, levels)| Ring { across, levels };
+    let ring = |(across, levels)| TileRing { across, levels };
     let view = View { cell: 512.0, rings: [(4, 8), (8, 6), (12, 4), (16, 2)].map(ring).to_vec() };
     let mut ground = Ground::new(Arc::new(world));
     ground.focus(DVec2::new(10_000_300.0, 9_000_200.0), &view, &Tables).unwrap();
@@ -181,7 +181,7 @@ fn triangles_leave_no_gap_and_stay_within_the_error() {
         let mut ground = Ground::new(Arc::clone(&world));
         ground.focus(eye(&mut stream), &view(), &Tables).unwrap();
         let error = [0.0, 0.5, 5.0, 40.0][round as usize % 4];
-        let mesh = Mesh::new(&ground, error);
+        let mesh = GroundMesh::new(&ground, error);
         let (low, high) = ground
             .tiles()
             .iter()
@@ -321,11 +321,11 @@ fn edits_act_in_their_order_whatever_is_expanded_and_come_back_from_a_file() {
 fn cells_are_called_as_the_rules_of_their_level_call_them() {
     let mut world = world(3, false, false);
     let named = |names: [&str; 4]| Arc::new(names.map(str::to_owned).to_vec());
-    let first = Layer { names: named(["A", "B", "C", "D"]), ..world.layers[0].clone() };
-    let fine = Layer { from: 9, start: 2, names: named(["E", "F", "G", "H"]), ..first.clone() };
+    let first = LevelRules { names: named(["A", "B", "C", "D"]), ..world.layers[0].clone() };
+    let fine = LevelRules { from: 9, start: 2, names: named(["E", "F", "G", "H"]), ..first.clone() };
     world.layers = vec![first, fine];
     let mut ground = Ground::new(Arc::new(world));
-    let ring = |(across, levels)| Ring { across, levels };
+    let ring = |(across, levels)| TileRing { across, levels };
     let view = View { cell: 512.0, rings: [(2, 3), (4, 1)].map(ring).to_vec() };
     let eye = ground.world().corner + 20_000.0;
     ground.focus(eye, &view, &Tables).unwrap();

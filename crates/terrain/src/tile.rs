@@ -10,7 +10,7 @@ use burgeon_kit::rules::Symbol;
 
 /// Which cell of the world a tile is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct Place {
+pub struct TilePlace {
     /// How often the world is divided.
     pub level: u32,
     /// Its row from the north.
@@ -23,7 +23,7 @@ pub struct Place {
 #[derive(Debug, Clone)]
 pub struct Tile {
     /// Which cell it is.
-    pub place: Place,
+    pub place: TilePlace,
     /// How often it is divided.
     pub detail: u32,
     /// A number for the edits that it has; 0 without any.
@@ -41,19 +41,19 @@ pub struct Tile {
 
 impl Tile {
     /// Its own cells at `detail` levels below it.
-    pub fn own(place: Place, detail: u32) -> Area {
+    pub fn own(place: TilePlace, detail: u32) -> Area {
         let across = 1usize << detail;
         Area { x: place.x << detail, y: place.y << detail, columns: across, rows: across }
     }
 
     /// The cells that a tile has to know.
-    pub fn wanted(place: Place, detail: u32) -> Area {
+    pub fn wanted(place: TilePlace, detail: u32) -> Area {
         Self::own(place, detail).widened(1, World::across(place.level + detail))
     }
 
     /// The tile at `place` out of `cells`, which are those that it has to know; `heights` (m) are those of the surface
     /// of the cells.
-    pub fn new(place: Place, detail: u32, cells: &Block, wanted: Area, heights: Vec<f64>) -> Self {
+    pub fn new(place: TilePlace, detail: u32, cells: &Block, wanted: Area, heights: Vec<f64>) -> Self {
         let own = Self::own(place, detail);
         let mut symbols = Vec::with_capacity(own.len());
         for y in (own.y..).take(own.rows) {

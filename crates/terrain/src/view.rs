@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::block::Area;
-use super::tile::Place;
+use super::tile::TilePlace;
 use super::world::World;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -12,7 +12,7 @@ pub const MOST_HEIGHTS: u64 = 1 << 26;
 
 /// A square of tiles around the eye.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Ring {
+pub struct TileRing {
     /// How many tiles it has along a side, those of smaller rings among them.
     pub across: u32,
     /// How often each of its tiles is divided.
@@ -25,11 +25,11 @@ pub struct View {
     /// The length (m) of the sides of tiles.
     pub cell: f64,
     /// From the smallest ring to the largest.
-    pub rings: Vec<Ring>,
+    pub rings: Vec<TileRing>,
 }
 
 /// The cells of a world that a view makes tiles.
-pub(super) struct Fit {
+pub(super) struct ViewCells {
     pub level: u32,
     pub window: Area,
     /// By cell of the window: how often it is divided.
@@ -39,7 +39,7 @@ pub(super) struct Fit {
 impl View {
     /// All of a world as one tile that is divided `levels` times.
     pub fn whole(world: &World, levels: u32) -> Self {
-        Self { cell: world.size, rings: vec![Ring { across: 1, levels }] }
+        Self { cell: world.size, rings: vec![TileRing { across: 1, levels }] }
     }
 
     /// Fails if it cannot be seen of `world` from `eye` (m): outside, or where it would be too much.
@@ -49,7 +49,7 @@ impl View {
 
     /// The cells that are tiles when seen from `eye` (m). At the rim of the world there are fewer.
     #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "columns are below 2^40")]
-    pub(super) fn fit(&self, world: &World, eye: DVec2) -> Result<Fit> {
+    pub(super) fn fit(&self, world: &World, eye: DVec2) -> Result<ViewCells> {
         let to = eye - world.corner;
         if !(0.0..=world.size).contains(&to.x) || !(0.0..=world.size).contains(&to.y) {
             let (low, high) = (world.corner, world.corner + world.size);
@@ -60,7 +60,7 @@ impl View {
         let across = World::across(level);
         let cell = world.cell(level);
         let along = DVec2::new(to.x, world.size - to.y) / cell;
-        let ring = |ring: &Ring| {
+        let ring = |ring: &TileRing| {
             let begin = |at: f64| (at - f64::from(ring.across) / 2.0 + 0.5).floor() as i64;
             let span = |at: f64| {
                 let begin = begin(at);
@@ -81,7 +81,7 @@ impl View {
         if heights > MOST_HEIGHTS {
             return Err(too_many(heights));
         }
-        Ok(Fit { level, window, details })
+        Ok(ViewCells { level, window, details })
     }
 
     /// The level of its tiles.
@@ -125,10 +125,10 @@ pub(super) fn too_many(heights: u64) -> Error {
     .help(format!("at most {MOST_HEIGHTS} are expanded at once: use fewer levels, or focus on a part"))
 }
 
-impl Fit {
+impl ViewCells {
     /// Which tile the cell with this number in the window is.
-    pub(super) fn place(&self, index: usize) -> Place {
+    pub(super) fn place(&self, index: usize) -> TilePlace {
         let (x, y) = self.window.at(index);
-        Place { level: self.level, y, x }
+        TilePlace { level: self.level, y, x }
     }
 }

@@ -6,10 +6,10 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
-use super::measured::Measured;
+use super::height_source::HeightSource;
 use super::table::RuleTable;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::rules::{ModuleKey, Symbol};
 
 /// What divides cells.
 #[derive(Clone)]
@@ -24,7 +24,7 @@ pub enum Rules {
 
 /// The rules from one level on.
 #[derive(Clone)]
-pub struct Layer {
+pub struct LevelRules {
     /// The level of the cells that are divided first.
     pub from: u32,
     /// What divides them.
@@ -83,16 +83,16 @@ pub struct World {
     /// The length (m) of its sides.
     pub size: f64,
     /// What divides its cells, by level; the first is from level 0.
-    pub layers: Vec<Layer>,
+    pub layers: Vec<LevelRules>,
     /// Whether the surface runs smoothly through the cells.
     pub smooth: bool,
     /// The key of the whole world's cell, if anything is drawn.
-    pub key: Option<Key>,
+    pub key: Option<ModuleKey>,
     /// What the heights (m) of the surface are changed to: pairs of heights, in order, with straight lines in between.
     /// Empty for no change.
     pub remap: Vec<[f64; 2]>,
     /// What the heights of the rules are added to.
-    pub measured: Option<Arc<dyn Measured>>,
+    pub measured: Option<Arc<dyn HeightSource>>,
 }
 
 impl World {
@@ -131,7 +131,7 @@ impl World {
     /// The world once it is known what the systems begin with that divide its cells; `None` where there is nothing to
     /// learn.
     pub fn begun(&self, divide: &dyn Divide) -> Result<Option<Self>> {
-        let unknown = |layer: &Layer| matches!(layer.rules, Rules::System(_)) && layer.names.is_empty();
+        let unknown = |layer: &LevelRules| matches!(layer.rules, Rules::System(_)) && layer.names.is_empty();
         if !self.layers.iter().any(unknown) {
             return Ok(None);
         }
@@ -236,7 +236,7 @@ impl World {
         }
     }
 
-    fn layer(&self, level: u32) -> &Layer {
+    fn layer(&self, level: u32) -> &LevelRules {
         let known = self.layers.iter().rev().find(|layer| layer.from <= level);
         known.unwrap_or(&self.layers[0])
     }

@@ -1,15 +1,15 @@
 //! Variations of a script: many runs that differ in the seed or in one parameter, as thumbnails to choose from.
 //!
-//! Comes in: a script and what changes from run to run ([`Over`]). Goes out: a [`Cell`] for each, in order, with
+//! Comes in: a script and what changes from run to run ([`VariationAxis`]). Goes out: a [`Variation`] for each, in order, with
 //! its picture or its error; [`sheet`] puts the pictures side by side. The same input gives the same bytes for
 //! any number of threads. An error in one run never touches the others.
 
+mod axis;
 mod letters;
-mod over;
 mod sheet;
 
-pub use over::{MOST, Over};
-pub use sheet::{Sheet, sheet};
+pub use axis::{MOST, VariationAxis};
+pub use sheet::{SheetLayout, sheet};
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ pub enum Framing {
 
 /// One variation.
 #[derive(Debug)]
-pub struct Cell {
+pub struct Variation {
     /// Its number, from 0.
     pub index: usize,
     /// What it is, for people: `seed 7`, `twist 30 deg`.
@@ -76,19 +76,19 @@ pub struct Variations {
     pub stop: Arc<Stop>,
     script: PathBuf,
     options: RunOptions,
-    plans: Vec<Plan>,
+    plans: Vec<VariationPlan>,
     ran: AtomicUsize,
 }
 
 /// A cell before it is made.
-struct Plan {
+struct VariationPlan {
     label: String,
     seed: u64,
     set: Option<(String, String)>,
 }
 
 /// A script that has run, before its picture is made.
-struct Ran {
+struct VariationRun {
     scene: Option<Scene>,
     extent: Extent,
     params: Vec<Param>,
@@ -102,26 +102,26 @@ impl Variations {
     ///
     /// Fails if there are none or more than [`MOST`], without the feature `pictures`, and if the script has no such
     /// parameter or refuses one of the values. A script that fails is told by its cells.
-    pub fn new(script: &Path, options: &RunOptions, over: &Over) -> Result<Self> {
+    pub fn new(script: &Path, options: &RunOptions, over: &VariationAxis) -> Result<Self> {
         image::check()?;
         let options = RunOptions { print: None, ..options.clone() };
-        let plans: Vec<Plan> = match over {
-            Over::Seeds(seeds) => seeds
+        let plans: Vec<VariationPlan> = match over {
+            VariationAxis::Seeds(seeds) => seeds
                 .iter()
-                .map(|seed| Plan { label: format!("seed {seed}"), seed: *seed, set: None })
+                .map(|seed| VariationPlan { label: format!("seed {seed}"), seed: *seed, set: None })
                 .collect(),
-            Over::Param { name, values } => {
+            VariationAxis::Param { name, values } => {
                 let param = find(script, &options, name)?;
                 let all = if values.is_empty() { every_value(&param)? } else { values.clone() };
                 all.into_iter()
                     .map(|value| {
                         let label = label(&param, &param.accept(&value)?);
-                        Ok(Plan { label, seed: options.seed, set: Some((name.clone(), value)) })
+                        Ok(VariationPlan { label, seed: options.seed, set: Some((name.clone(), value)) })
                     })
                     .collect::<Result<_>>()?
             }
         };
-        over::check_count(plans.len() as f64, "take fewer of them")?;
+        axis::check_count(plans.len() as f64, "take fewer of them")?;
         let script = script.to_path_buf();
         Ok(Self { stop: Arc::default(), script, options, plans, ran: AtomicUsize::new(0) })
     }
@@ -142,7 +142,7 @@ impl Variations {
     /// `picture` is what is asked of each cell; a draft is rendered at twice the size, so that its edges are smooth.
     /// Fails if a stop was asked for, with its reason, and if `picture`
     /// cannot be.
-    pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Cell)) -> Result<()> {
+    pub fn make(&self, picture: &Picture, framing: Framing, mut take: impl FnMut(Variation)) -> Result<()> {
         picture.check()?;
         self.ran.store(0, Ordering::Relaxed);
         match framing {
@@ -179,13 +179,13 @@ impl Variations {
         }
     }
 
-    fn cell(&self, index: usize, made: Result<Thumbnail>) -> Cell {
-        let Plan { label, seed, set } = &self.plans[index];
-        Cell { index, label: label.clone(), seed: *seed, set: set.clone(), made }
+    fn cell(&self, index: usize, made: Result<Thumbnail>) -> Variation {
+        let VariationPlan { label, seed, set } = &self.plans[index];
+        Variation { index, label: label.clone(), seed: *seed, set: set.clone(), made }
     }
 
     /// Runs the script for a cell. Keeps the scene unless those that are `held` take too much memory.
-    fn run(&self, number: usize, held: Option<&AtomicUsize>) -> Result<Ran> {
+    fn run(&self, number: usize, held: Option<&AtomicUsize>) -> Result<VariationRun> {
         let plan = &self.plans[number];
         let mut options = self.options.clone();
         options.seed = plan.seed;
@@ -208,16 +208,22 @@ impl Variations {
             held.fetch_add(size, Ordering::Relaxed).saturating_add(size) < HELD
         });
         let scene = room.then_some(run.scene);
-        Ok(Ran { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
+        Ok(VariationRun { scene, extent, params: run.params, modules, triangles, warnings: run.warnings })
     }
 
-    fn render(&self, number: usize, ran: Ran, extent: &Extent, picture: &Picture) -> Result<Thumbnail> {
+    fn render(
+        &self,
+        number: usize,
+        ran: VariationRun,
+        extent: &Extent,
+        picture: &Picture,
+    ) -> Result<Thumbnail> {
         let scene = match ran.scene {
             Some(scene) => scene,
             None => self.run(number, None)?.scene.unwrap_or_default(),
         };
         let picture = thumbnail(&scene, extent, picture, &self.stop)?;
-        let Ran { params, modules, triangles, warnings, .. } = ran;
+        let VariationRun { params, modules, triangles, warnings, .. } = ran;
         Ok(Thumbnail { picture, params, modules, triangles, warnings })
     }
 
@@ -343,7 +349,7 @@ end)
 s:derive()
 "#;
 
-    fn made(over: &Over, threads: usize, framing: Framing) -> Vec<Cell> {
+    fn made(over: &VariationAxis, threads: usize, framing: Framing) -> Vec<Variation> {
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
         std::fs::write(&script, SCRIPT).unwrap();
@@ -360,14 +366,14 @@ s:derive()
         cells
     }
 
-    fn pixels(cell: &Cell) -> Option<&[u8]> {
+    fn pixels(cell: &Variation) -> Option<&[u8]> {
         cell.made.as_ref().ok().map(|made| made.picture.bytes())
     }
 
     #[test]
     fn cells_come_in_order_and_are_the_same_for_any_number_of_threads() {
         for framing in [Framing::Together, Framing::Each] {
-            let over = Over::seeds("1..5").unwrap();
+            let over = VariationAxis::seeds("1..5").unwrap();
             let (one, three) = (made(&over, 1, framing), made(&over, 3, framing));
             for (index, (a, b)) in one.iter().zip(&three).enumerate() {
                 assert_eq!(
@@ -382,7 +388,7 @@ s:derive()
 
     #[test]
     fn a_run_that_fails_leaves_the_others_alone() {
-        let cells = made(&Over::sweep("n=1..5").unwrap(), 2, Framing::Together);
+        let cells = made(&VariationAxis::sweep("n=1..5").unwrap(), 2, Framing::Together);
         let labels: Vec<&str> = cells.iter().map(|cell| cell.label.as_str()).collect();
         assert_eq!(labels, ["n 1 m", "n 2 m", "n 3 m", "n 4 m", "n 5 m"]);
         for cell in &cells {
@@ -395,7 +401,7 @@ s:derive()
 
     #[test]
     fn a_parameter_alone_takes_every_choice() {
-        let cells = made(&Over::sweep("kind").unwrap(), 2, Framing::Each);
+        let cells = made(&VariationAxis::sweep("kind").unwrap(), 2, Framing::Each);
         let labels: Vec<&str> = cells.iter().map(|cell| cell.label.as_str()).collect();
         assert_eq!(labels, ["kind a", "kind b"]);
     }
@@ -405,7 +411,7 @@ s:derive()
         let folder = tempfile::tempdir().unwrap();
         let script = folder.path().join("s.lua");
         std::fs::write(&script, "while true do end\n").unwrap();
-        let over = Over::seeds("1..9").unwrap();
+        let over = VariationAxis::seeds("1..9").unwrap();
         let variations = Variations::new(
             &script,
             &RunOptions { registry: burgeon_objects::registry(), ..RunOptions::default() },

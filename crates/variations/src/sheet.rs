@@ -10,7 +10,7 @@ const ASPECT: f64 = 1.5;
 
 /// How a sheet is divided.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Sheet {
+pub struct SheetLayout {
     /// Cells in a row.
     pub columns: usize,
     /// Rows of cells.
@@ -23,7 +23,7 @@ pub struct Sheet {
     letters: f32,
 }
 
-impl Sheet {
+impl SheetLayout {
     /// A sheet for `count` cells of the size of `picture`, in so many `columns` or in as many as look well.
     ///
     /// Fails if it would be wider or higher than a picture can be.
@@ -75,7 +75,7 @@ impl Sheet {
 
 /// The `cells` on one sheet: labels, and pictures or what is told in the place of one.
 pub fn sheet<'a>(
-    layout: &Sheet,
+    layout: &SheetLayout,
     background: Background,
     cells: impl IntoIterator<Item = (&'a str, Result<&'a Image, &'a str>)>,
 ) -> Image {
@@ -120,24 +120,24 @@ mod tests {
 
     #[test]
     fn columns_make_a_sheet_that_is_full_and_not_too_long() {
-        let columns = |count| Sheet::new(count, None, &picture(320, 320)).unwrap().columns;
+        let columns = |count| SheetLayout::new(count, None, &picture(320, 320)).unwrap().columns;
         assert_eq!([1, 2, 4, 6, 9, 10, 12, 16].map(columns), [1, 2, 2, 3, 3, 5, 4, 4]);
-        let given = Sheet::new(10, Some(4), &picture(100, 50)).unwrap();
+        let given = SheetLayout::new(10, Some(4), &picture(100, 50)).unwrap();
         assert_eq!((given.columns, given.rows), (4, 3));
-        assert_eq!(Sheet::new(2, Some(9), &picture(100, 50)).unwrap().columns, 2);
+        assert_eq!(SheetLayout::new(2, Some(9), &picture(100, 50)).unwrap().columns, 2);
     }
 
     #[test]
     fn a_sheet_beyond_the_largest_picture_is_refused() {
-        let error = Sheet::new(256, Some(256), &picture(320, 320)).unwrap_err();
+        let error = SheetLayout::new(256, Some(256), &picture(320, 320)).unwrap_err();
         assert!(error.message().starts_with("the sheet would be "), "{error}");
-        assert!(Sheet::new(256, None, &picture(16384, 16384)).is_err());
-        assert!(Sheet::new(256, None, &picture(1, 1)).is_ok());
+        assert!(SheetLayout::new(256, None, &picture(16384, 16384)).is_err());
+        assert!(SheetLayout::new(256, None, &picture(1, 1)).is_ok());
     }
 
     #[test]
     fn every_cell_is_within_the_sheet_and_touches_no_other() {
-        let layout = Sheet::new(7, Some(3), &picture(60, 40)).unwrap();
+        let layout = SheetLayout::new(7, Some(3), &picture(60, 40)).unwrap();
         let red = Image::filled(60, 40, [255, 0, 0, 255]);
         let cells = (0..7).map(|_| ("", Ok(&red)));
         let image = sheet(&layout, Background::Light, cells);
@@ -147,7 +147,7 @@ mod tests {
 
     #[test]
     fn a_cell_without_a_picture_says_why() {
-        let layout = Sheet::new(1, None, &picture(120, 90)).unwrap();
+        let layout = SheetLayout::new(1, None, &picture(120, 90)).unwrap();
         let long = "a very long reason ".repeat(60);
         for message in ["s.lua:3: no", &long] {
             let image = sheet(&layout, Background::Clear, [("seed 1", Err(message))]);

@@ -14,16 +14,16 @@ const GRAIN: Duration = Duration::from_millis(100);
 
 /// Watched files with what they held when last seen.
 #[derive(Default)]
-pub(super) struct Files {
-    known: BTreeMap<PathBuf, Seen>,
+pub(super) struct WatchedFiles {
+    known: BTreeMap<PathBuf, FileState>,
     /// Every path whose change may matter: the files, and the links that lead to them.
     spellings: Vec<PathBuf>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-struct Seen {
+struct FileState {
     content: Content,
-    stamp: Option<Stamp>,
+    stamp: Option<FileStamp>,
 }
 
 #[derive(Debug, Clone, PartialEq)]
@@ -37,18 +37,18 @@ enum Content {
     /// A regular file, by the place that links lead to and the hash of its content.
     File { place: PathBuf, hash: blake3::Hash, empty: bool },
     /// A regular file that is too large to be read again and again.
-    Large { place: PathBuf, stamp: Stamp },
+    Large { place: PathBuf, stamp: FileStamp },
 }
 
 /// What tells most changes of a file without reading it.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Stamp {
+pub(super) struct FileStamp {
     length: u64,
     modified: Option<SystemTime>,
     file: u64,
 }
 
-impl Stamp {
+impl FileStamp {
     /// Whether the file may have been written again since, in the same moment as far as times of files tell.
     fn is_new(&self) -> bool {
         self.modified.is_some_and(|modified| modified + GRAIN > SystemTime::now())
@@ -56,14 +56,14 @@ impl Stamp {
 }
 
 /// A file that holds something else than before.
-pub(super) struct Found {
+pub(super) struct FileChange {
     path: PathBuf,
-    now: Seen,
+    now: FileState,
     /// Whether it held something before.
     was_there: bool,
 }
 
-impl Found {
+impl FileChange {
     /// The file.
     pub(super) fn path(&self) -> &Path {
         &self.path
@@ -79,7 +79,7 @@ impl Found {
     }
 }
 
-impl Seen {
+impl FileState {
     /// Where a regular file lies.
     fn place(&self) -> Option<&PathBuf> {
         match &self.content {
@@ -96,14 +96,14 @@ impl Seen {
     }
 }
 
-impl Files {
+impl WatchedFiles {
     /// Watches `files` from now on. Returns whether one that is new has changed since someone looked at it, at the
     /// time `since`, when it was there or not.
     pub(super) fn follow(&mut self, files: Vec<(PathBuf, bool)>, since: Option<SystemTime>) -> bool {
         let mut late = false;
         let mut known = BTreeMap::new();
         // The same file by another name is no new one.
-        let places: BTreeMap<PathBuf, Seen> =
+        let places: BTreeMap<PathBuf, FileState> =
             self.known.values().filter_map(|seen| Some((seen.place()?.clone(), seen.clone()))).collect();
         for (path, there) in files {
             if known.contains_key(&path) {
@@ -119,7 +119,7 @@ impl Files {
                     }
                     if since.is_some_and(|since| seen.is_newer(since, there)) {
                         late = true;
-                        seen = Seen { content: Content::Unknown, stamp: None };
+                        seen = FileState { content: Content::Unknown, stamp: None };
                     }
                     seen
                 }
@@ -133,7 +133,7 @@ impl Files {
 
     /// The files that hold something else than before; `by_stamp` trusts times and sizes where they are the same, unless
     /// they are so new that the next save may have the same ones.
-    pub(super) fn changed(&self, by_stamp: bool) -> Vec<Found> {
+    pub(super) fn changed(&self, by_stamp: bool) -> Vec<FileChange> {
         let mut found = Vec::new();
         for (path, seen) in &self.known {
             let settled = seen.content != Content::Unknown && !seen.stamp.is_some_and(|stamp| stamp.is_new());
@@ -146,16 +146,16 @@ impl Files {
                     seen.content,
                     Content::File { empty: false, .. } | Content::Large { .. } | Content::Unknown
                 );
-                found.push(Found { path: path.clone(), now, was_there });
+                found.push(FileChange { path: path.clone(), now, was_there });
             }
         }
         found
     }
 
     /// Takes what was found for known. Returns the paths.
-    pub(super) fn accept(&mut self, found: Vec<Found>) -> Vec<PathBuf> {
+    pub(super) fn accept(&mut self, found: Vec<FileChange>) -> Vec<PathBuf> {
         let paths = found.iter().map(|found| found.path.clone()).collect();
-        for Found { path, now, .. } in found {
+        for FileChange { path, now, .. } in found {
             self.known.insert(path, now);
         }
         self.spell();
@@ -199,8 +199,10 @@ pub(super) fn hops(path: &Path) -> Vec<PathBuf> {
     hops
 }
 
-fn look(path: &Path) -> Seen {
-    let Ok(metadata) = fs::metadata(path) else { return Seen { content: Content::Missing, stamp: None } };
+fn look(path: &Path) -> FileState {
+    let Ok(metadata) = fs::metadata(path) else {
+        return FileState { content: Content::Missing, stamp: None };
+    };
     let stamp = stamp(&metadata);
     let content = if !metadata.is_file() {
         Content::NoFile
@@ -214,7 +216,7 @@ fn look(path: &Path) -> Seen {
             Err(_) => Content::Missing,
         }
     };
-    Seen { content, stamp: Some(stamp) }
+    FileState { content, stamp: Some(stamp) }
 }
 
 /// Where `path` leads; a link that leads elsewhere is a change, since what lies beside the file changes too.
@@ -222,12 +224,12 @@ fn place(path: &Path) -> PathBuf {
     path.canonicalize().unwrap_or_else(|_| path.to_path_buf())
 }
 
-pub(super) fn stamp_of(path: &Path) -> Option<Stamp> {
+pub(super) fn stamp_of(path: &Path) -> Option<FileStamp> {
     fs::metadata(path).ok().map(|metadata| stamp(&metadata))
 }
 
-fn stamp(metadata: &Metadata) -> Stamp {
-    Stamp {
+fn stamp(metadata: &Metadata) -> FileStamp {
+    FileStamp {
         length: metadata.len(),
         modified: metadata.modified().ok(),
         file: super::folders::identity(metadata),
@@ -238,7 +240,7 @@ fn stamp(metadata: &Metadata) -> Stamp {
 mod tests {
     use super::*;
 
-    fn changed(files: &mut Files) -> usize {
+    fn changed(files: &mut WatchedFiles) -> usize {
         let found = files.changed(false);
         files.accept(found).len()
     }
@@ -248,7 +250,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.lua");
         fs::write(&path, "one").unwrap();
-        let mut files = Files::default();
+        let mut files = WatchedFiles::default();
         files.follow(vec![(path.clone(), true)], None);
         fs::write(&path, "one").unwrap();
         assert_eq!(changed(&mut files), 0);
@@ -265,11 +267,11 @@ mod tests {
     fn a_file_that_vanishes_or_becomes_empty_looks_unfinished_and_a_new_one_does_not() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("a.lua");
-        let mut files = Files::default();
+        let mut files = WatchedFiles::default();
         files.follow(vec![(path.clone(), true)], None);
         let mut unfinished = || {
             let found = files.changed(false);
-            let answer = found.iter().any(Found::looks_unfinished);
+            let answer = found.iter().any(FileChange::looks_unfinished);
             files.accept(found);
             answer
         };
@@ -291,16 +293,16 @@ mod tests {
         let path = folder.path().join("a.lua");
         let before = SystemTime::now();
         fs::write(&path, "one").unwrap();
-        let mut files = Files::default();
+        let mut files = WatchedFiles::default();
         assert!(files.follow(vec![(path.clone(), true)], Some(before)));
         assert_eq!((changed(&mut files), changed(&mut files)), (1, 0));
-        let mut files = Files::default();
+        let mut files = WatchedFiles::default();
         let later = Some(SystemTime::now() + Duration::from_secs(1));
         let none = folder.path().join("none");
         assert!(!files.follow(vec![(path.clone(), true), (none.clone(), false)], later));
         // Whatever their times are, one that came and one that went have changed.
-        assert!(Files::default().follow(vec![(path, false)], later));
-        assert!(Files::default().follow(vec![(none, true)], later));
+        assert!(WatchedFiles::default().follow(vec![(path, false)], later));
+        assert!(WatchedFiles::default().follow(vec![(none, true)], later));
     }
 
     #[test]
@@ -308,7 +310,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let at = |name: &str| folder.path().join(name);
         fs::create_dir(at("sub")).unwrap();
-        let mut files = Files::default();
+        let mut files = WatchedFiles::default();
         files.follow(vec![(at("sub/a.lua"), true)], None);
         assert!(files.concerned_by(&[at("sub/a.lua")]) && files.concerned_by(&[at("sub")]));
         assert!(files.concerned_by(&[]));
@@ -326,7 +328,7 @@ mod tests {
         }
         std::os::unix::fs::symlink("one/a.lua", at("link")).unwrap();
         std::os::unix::fs::symlink("link", at("chain")).unwrap();
-        let mut files = Files::default();
+        let mut files = WatchedFiles::default();
         files.follow(vec![(at("chain"), true)], None);
         assert!(files.concerned_by(&[at("one/a.lua")]) && files.concerned_by(&[at("link")]));
         fs::remove_file(at("link")).unwrap();

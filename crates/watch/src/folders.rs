@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use notify::event::{AccessKind, AccessMode, ModifyKind, RenameMode};
 use notify::{Event, EventKind, RecursiveMode, Watcher};
 
-use super::files::Files;
+use super::files::WatchedFiles;
 
 /// What an event tells of a file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -67,7 +67,7 @@ impl Folders {
     }
 
     /// Watches what `files` need, and nothing else.
-    pub(super) fn cover(&mut self, files: &Files) {
+    pub(super) fn cover(&mut self, files: &WatchedFiles) {
         let Ok(watcher) = &mut self.watcher else { return };
         let wanted: BTreeSet<PathBuf> = files.spellings().iter().flat_map(|path| around(path)).collect();
         self.watched.retain(|folder, known| {

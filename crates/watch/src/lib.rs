@@ -16,7 +16,7 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant, SystemTime};
 
 use burgeon_base::error::{Error, Result};
-use files::Files;
+use files::WatchedFiles;
 use folders::{AnyWatcher, Folders, Handler, Sign};
 
 /// How long it must be quiet after an event until files are compared, unless it is what comes at the end of a save:
@@ -100,7 +100,7 @@ enum Signal {
 type Complain = dyn FnOnce(&str) + Send;
 
 struct Watcher {
-    files: Files,
+    files: WatchedFiles,
     folders: Folders,
     /// Is told once that only polling is left.
     complain: Option<Box<Complain>>,
@@ -135,7 +135,7 @@ impl Watch {
             let _ = events.send(Signal::Event(paths, Instant::now(), sign));
         };
         let mut watcher = Watcher {
-            files: Files::default(),
+            files: WatchedFiles::default(),
             folders: Folders::new(make, seen),
             complain: Some(Box::new(complain)),
             first: None,
@@ -255,11 +255,11 @@ impl Watcher {
             return None;
         }
         let first = *self.first.get_or_insert_with(Instant::now);
-        if found.iter().any(files::Found::looks_unfinished) && first.elapsed() < PATIENCE {
+        if found.iter().any(files::FileChange::looks_unfinished) && first.elapsed() < PATIENCE {
             return Some(Instant::now() + QUIET);
         }
         if TELLS_ENDS && first.elapsed() < SAVE {
-            let open = |it: &files::Found| {
+            let open = |it: &files::FileChange| {
                 files::hops(it.path()).iter().find_map(|path| self.open.get(path)).copied()
             };
             if found.iter().any(|it| open(it) == Some(true)) {

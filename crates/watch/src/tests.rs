@@ -14,9 +14,9 @@ struct Trial {
 }
 
 /// A system that has no more folders to watch.
-struct Full;
+struct FullSystem;
 
-impl notify::Watcher for Full {
+impl notify::Watcher for FullSystem {
     fn new<F: notify::EventHandler>(_: F, _: notify::Config) -> notify::Result<Self> {
         Ok(Self)
     }
@@ -154,7 +154,7 @@ fn polls(make: impl FnOnce(Handler) -> notify::Result<AnyWatcher>, why: &str) {
 #[test]
 fn files_are_polled_where_folders_cannot_be_watched_and_that_is_told_once() {
     polls(|_| Err(notify::Error::generic("no watcher")), "no watcher");
-    polls(|_| Ok(Box::new(Full)), "OS file watch limit reached");
+    polls(|_| Ok(Box::new(FullSystem)), "OS file watch limit reached");
 }
 
 #[test]

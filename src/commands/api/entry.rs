@@ -1,13 +1,13 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Call, Construct, Field, Kind, Method, Registry};
-use burgeon::script::{Name, Part, Sort};
+use burgeon::kit::{Construct, Field, Kind, Method, Registry};
+use burgeon::script::{Name, NameKind, NameMember};
 use serde_json::{Value, json};
 
 /// A name that scripts can use.
 pub(super) struct Entry {
     pub name: String,
-    pub group: Group,
+    pub group: EntryGroup,
     /// How it is written; empty where scripts cannot make it.
     pub usage: String,
     pub doc: String,
@@ -19,7 +19,7 @@ pub(super) struct Entry {
 
 /// What a name is, in the order in which people are told.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Group {
+pub(super) enum EntryGroup {
     /// A type of object.
     Type,
     /// A function or a value.
@@ -35,10 +35,10 @@ pub(super) enum Group {
 /// A field or a method.
 pub(super) struct Member {
     pub name: String,
-    pub what: What,
+    pub what: MemberKind,
     /// The type of a field, or of what a method returns.
     pub luau: String,
-    pub arguments: Vec<Argument>,
+    pub arguments: Vec<EntryArgument>,
     /// The value of a field that is left out.
     pub default: String,
     pub unit: Option<String>,
@@ -49,7 +49,7 @@ pub(super) struct Member {
 
 /// What a member is.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum What {
+pub(super) enum MemberKind {
     /// A field of the table that its owner is made of.
     Field,
     /// A method that only reads.
@@ -61,7 +61,7 @@ pub(super) enum What {
 }
 
 /// An argument of a method.
-pub(super) struct Argument {
+pub(super) struct EntryArgument {
     pub name: String,
     pub luau: String,
     pub unit: Option<String>,
@@ -80,24 +80,24 @@ impl Entry {
         let fields = kind.fields.iter().map(Member::of_field);
         let members = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
         let (name, doc) = (kind.name.to_string(), kind.doc.to_string());
-        Self { name, group: Group::Type, usage, doc, members, example: kind.example.to_string() }
+        Self { name, group: EntryGroup::Type, usage, doc, members, example: kind.example.to_string() }
     }
 
     /// A name that every script has; a module does what the method of a type of object does.
     pub(super) fn of_name(name: &Name, registry: &Registry) -> Self {
         let group = match name.sort {
-            Sort::Global => Group::Global,
-            Sort::Module { .. } => Group::Module,
-            Sort::Given => Group::Given,
-            Sort::Luau => Group::Luau,
+            NameKind::Global => EntryGroup::Global,
+            NameKind::Module { .. } => EntryGroup::Module,
+            NameKind::Given => EntryGroup::Given,
+            NameKind::Luau => EntryGroup::Luau,
         };
         let usage = match &*name.luau {
-            _ if group == Group::Given => String::new(),
+            _ if group == EntryGroup::Given => String::new(),
             call if call.starts_with('(') => format!("{}{call}", name.name),
             luau => format!("{}: {luau}", name.name),
         };
         let mut doc = name.doc.to_string();
-        if let Sort::Module { kind, method } = name.sort
+        if let NameKind::Module { kind, method } = name.sort
             && let Some(method) = registry.get(kind).and_then(|kind| kind.method(method))
         {
             doc = format!("{} {doc}", method.doc);
@@ -107,21 +107,21 @@ impl Entry {
     }
 
     /// Those of its members that are `what`.
-    pub(super) fn members(&self, what: What) -> impl Iterator<Item = &Member> {
+    pub(super) fn members(&self, what: MemberKind) -> impl Iterator<Item = &Member> {
         self.members.iter().filter(move |member| member.what == what)
     }
 
     pub(super) fn to_json(&self) -> Value {
-        let fields: Vec<_> = self.members(What::Field).map(|field| field.to_json(&self.name)).collect();
-        let methods: Vec<_> = self.members.iter().filter(|member| member.what != What::Field).collect();
+        let fields: Vec<_> = self.members(MemberKind::Field).map(|field| field.to_json(&self.name)).collect();
+        let methods: Vec<_> = self.members.iter().filter(|member| member.what != MemberKind::Field).collect();
         let methods: Vec<_> = methods.into_iter().map(|method| method.to_json(&self.name)).collect();
         let what = match self.group {
-            Group::Type => "type",
-            Group::Global if self.usage.contains('(') => "function",
-            Group::Global => "value",
-            Group::Module => "module",
-            Group::Given => "given",
-            Group::Luau => "luau",
+            EntryGroup::Type => "type",
+            EntryGroup::Global if self.usage.contains('(') => "function",
+            EntryGroup::Global => "value",
+            EntryGroup::Module => "module",
+            EntryGroup::Given => "given",
+            EntryGroup::Luau => "luau",
         };
         json!({
             "name": self.name, "what": what, "usage": self.usage, "doc": self.doc,
@@ -134,7 +134,7 @@ impl Member {
     fn of_field(field: &Field) -> Self {
         Self {
             name: field.name.to_string(),
-            what: What::Field,
+            what: MemberKind::Field,
             luau: field.luau.clone(),
             arguments: Vec::new(),
             default: field.default.clone(),
@@ -144,10 +144,10 @@ impl Member {
         }
     }
 
-    fn of_part(part: &Part) -> Self {
+    fn of_part(part: &NameMember) -> Self {
         Self {
             name: part.name.to_owned(),
-            what: if part.is_method { What::Declares } else { What::Field },
+            what: if part.is_method { MemberKind::Declares } else { MemberKind::Field },
             luau: part.luau.to_owned(),
             arguments: Vec::new(),
             default: part.default.to_owned(),
@@ -158,14 +158,14 @@ impl Member {
     }
 
     fn of_method(method: &Method) -> Self {
-        let arguments = method.arguments.iter().map(|argument| Argument {
+        let arguments = method.arguments.iter().map(|argument| EntryArgument {
             name: argument.name.to_string(),
             luau: argument.luau.clone(),
             unit: argument.unit.as_ref().map(ToString::to_string),
         });
         Self {
             name: method.name.to_string(),
-            what: if matches!(method.call, Call::Read(_)) { What::Reads } else { What::Changes },
+            what: if method.call.changes() { MemberKind::Changes } else { MemberKind::Reads },
             luau: method.returns.clone(),
             arguments: arguments.collect(),
             default: String::new(),
@@ -177,7 +177,7 @@ impl Member {
 
     /// Its name after that of its `owner`, as `burgeon api` takes it.
     pub(super) fn full_name(&self, owner: &str) -> String {
-        let separator = if self.what == What::Field { '.' } else { ':' };
+        let separator = if self.what == MemberKind::Field { '.' } else { ':' };
         format!("{owner}{separator}{}", self.name)
     }
 
@@ -185,10 +185,10 @@ impl Member {
     pub(super) fn usage(&self) -> String {
         let Self { name, luau, default, .. } = self;
         match self.what {
-            What::Field if default == "nil" || default.is_empty() => format!("{name}: {luau}"),
-            What::Field => format!("{name}: {luau} = {default}"),
-            What::Declares => format!("{name}{luau}"),
-            What::Reads | What::Changes => {
+            MemberKind::Field if default == "nil" || default.is_empty() => format!("{name}: {luau}"),
+            MemberKind::Field => format!("{name}: {luau} = {default}"),
+            MemberKind::Declares => format!("{name}{luau}"),
+            MemberKind::Reads | MemberKind::Changes => {
                 let arguments: Vec<String> =
                     self.arguments.iter().map(|it| format!("{}: {}", it.name, it.luau)).collect();
                 let returns = if luau.is_empty() { String::new() } else { format!(" -> {luau}") };
@@ -200,13 +200,13 @@ impl Member {
     /// What machines are told; `owner` is what has it.
     pub(super) fn to_json(&self, owner: &str) -> Value {
         let fields: Vec<_> = self.fields.iter().map(|field| field.to_json(&self.full_name(owner))).collect();
-        if self.what == What::Field {
+        if self.what == MemberKind::Field {
             return json!({
                 "name": self.name, "what": "field", "of": owner, "type": self.luau, "unit": self.unit,
                 "default": self.default, "doc": self.doc, "fields": fields,
             });
         }
-        if self.what == What::Declares {
+        if self.what == MemberKind::Declares {
             return json!({
                 "name": self.name, "what": "method", "of": owner, "type": self.luau, "doc": self.doc,
             });
@@ -217,7 +217,7 @@ impl Member {
             .map(|argument| json!({ "name": argument.name, "type": argument.luau, "unit": argument.unit }))
             .collect();
         json!({
-            "name": self.name, "what": "method", "of": owner, "changes": self.what == What::Changes,
+            "name": self.name, "what": "method", "of": owner, "changes": self.what == MemberKind::Changes,
             "arguments": arguments, "returns": self.luau, "doc": self.doc, "fields": fields,
         })
     }

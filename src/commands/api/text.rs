@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::entry::{Entry, Group, Member, What};
+use super::entry::{Entry, EntryGroup, Member, MemberKind};
 
 /// The longest line of a doc.
 const WIDTH: usize = 100;
@@ -11,11 +11,11 @@ const WIDTH: usize = 100;
 pub(super) fn list(entries: &[Entry]) -> String {
     let mut text = String::new();
     for (group, title) in [
-        (Group::Type, "Types of objects"),
-        (Group::Global, "Functions and values"),
-        (Group::Module, "Modules that come with a meaning"),
-        (Group::Given, "What these give and take"),
-        (Group::Luau, "Luau itself"),
+        (EntryGroup::Type, "Types of objects"),
+        (EntryGroup::Global, "Functions and values"),
+        (EntryGroup::Module, "Modules that come with a meaning"),
+        (EntryGroup::Given, "What these give and take"),
+        (EntryGroup::Luau, "Luau itself"),
     ] {
         let of_group = || entries.iter().filter(|entry| entry.group == group);
         let widest = of_group().map(|entry| entry.name.chars().count()).max().unwrap_or(0);
@@ -36,10 +36,10 @@ pub(super) fn entry(entry: &Entry) -> String {
     let _ = writeln!(text, "{}", if entry.usage.is_empty() { &entry.name } else { &entry.usage });
     wrap(&mut text, &entry.doc, 2);
     for (what, title) in [
-        (What::Field, "Fields"),
-        (What::Declares, "Methods"),
-        (What::Reads, "Methods that read: rules and interpretations may call them"),
-        (What::Changes, "Methods that change it: only interpretations may call them"),
+        (MemberKind::Field, "Fields"),
+        (MemberKind::Declares, "Methods"),
+        (MemberKind::Reads, "Methods that read: rules and interpretations may call them"),
+        (MemberKind::Changes, "Methods that change it: only interpretations may call them"),
     ] {
         for (index, member) in entry.members(what).enumerate() {
             if index == 0 {
@@ -59,13 +59,13 @@ pub(super) fn entry(entry: &Entry) -> String {
 
 /// A field or a method by itself; `owner` is what has it.
 pub(super) fn member(owner: &str, member: &Member) -> String {
-    let separator = if member.what == What::Field { '.' } else { ':' };
+    let separator = if member.what == MemberKind::Field { '.' } else { ':' };
     let mut text = format!("{owner}{separator}{}\n", member.usage());
     wrap(&mut text, &member.doc, 2);
     match member.what {
-        What::Field | What::Declares => {}
-        What::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
-        What::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
+        MemberKind::Field | MemberKind::Declares => {}
+        MemberKind::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
+        MemberKind::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
     }
     for (index, field) in member.fields.iter().enumerate() {
         if index == 0 {

@@ -4,20 +4,21 @@ use std::path::Path;
 use std::sync::Arc;
 
 use burgeon::export::{self, Files, Format, heights::HeightMap};
+use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
-use burgeon::results::{Derived, Report};
+use burgeon::results::{DerivedSystem, FeatureReport};
 use burgeon::script::Session;
-use burgeon::terrain::{Map, Place};
+use burgeon::terrain::{GroundMap, TilePlace};
 use burgeon::{Error, Result};
 
 use super::super::report;
-use super::Run;
+use super::RunCommand;
 
 /// Standard output.
 const STANDARD: &str = "-";
 
-impl Run {
+impl RunCommand {
     /// Refuses, before any work, files that could not be written when it is done.
     pub(super) fn check_files(&self) -> Result<()> {
         self.output.iter().try_for_each(|output| Format::of(output)?.check())?;
@@ -91,7 +92,7 @@ impl Run {
         self.check_inputs(session)?;
         let mut files = Files::new(&session.stop);
         if let Some(path) = &self.heights {
-            let Map { columns, rows, corner, step, heights } = terrain(run)?.map()?;
+            let GroundMap { columns, rows, corner, step, heights } = terrain(run)?.map()?;
             let map = HeightMap { columns, rows, corner, step, heights, frame: run.frame.clone() };
             export::heights::write(&map, path, &mut files)?;
         }
@@ -130,7 +131,7 @@ fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<(
     let tiles = terrain(run)?.ground().tiles();
     files.folder(folder)?;
     for tile in tiles {
-        let Place { level, x, y } = tile.place;
+        let TilePlace { level, x, y } = tile.place;
         let name = format!("{level}/{x}/{y}");
         let scene = run.scene.only(|instance| instance.name.rsplit(' ').next() == Some(name.as_str()));
         files.scene(&scene, &folder.join(format!("{level}_{x}_{y}.glb")), &Picture::default())?;
@@ -141,10 +142,7 @@ fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<(
 /// The terrain of a run; there has to be one.
 fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     let objects = run.systems.iter().flat_map(|system| &system.objects);
-    let mut terrains = objects.filter_map(|object| {
-        let any: &dyn std::any::Any = &**object;
-        any.downcast_ref::<Terrain>()
-    });
+    let mut terrains = objects.filter_map(|object| as_ref::<Terrain>(&**object));
     match (terrains.next(), terrains.next()) {
         (Some(terrain), None) => Ok(terrain),
         (None, _) => Err(Error::script("there is no terrain to write the heights or the edits of")
@@ -155,7 +153,7 @@ fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
 }
 
 /// Writes what was skipped or simplified.
-fn write_report(path: &Path, report: &Report, files: &mut Files) -> Result<()> {
+fn write_report(path: &Path, report: &FeatureReport, files: &mut Files) -> Result<()> {
     if path == Path::new(STANDARD) {
         return report::print_all(|out| report.write_json(out));
     }
@@ -163,7 +161,7 @@ fn write_report(path: &Path, report: &Report, files: &mut Files) -> Result<()> {
 }
 
 /// Writes the chains of all systems, in the order in which they were derived.
-fn write_chains(path: &Path, systems: &[Arc<Derived>], files: &mut Files) -> Result<()> {
+fn write_chains(path: &Path, systems: &[Arc<DerivedSystem>], files: &mut Files) -> Result<()> {
     if path == Path::new(STANDARD) {
         return report::print_all(|out| systems.iter().try_for_each(|system| system.write_chains(out)));
     }

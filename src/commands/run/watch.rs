@@ -12,21 +12,21 @@ use burgeon::{Error, Result};
 
 use super::super::report;
 use super::super::shared::on_interrupt;
-use super::Run;
+use super::RunCommand;
 
 /// How long failures may be kept back because files change.
 const DOUBT: Duration = Duration::from_secs(2);
 
 /// What the watcher and the interrupt share with the run that is under way.
 #[derive(Clone, Default)]
-struct Now {
+struct WatchState {
     session: Arc<Mutex<Option<Arc<Session>>>>,
     /// Whether files have changed since the run read them.
     stale: Arc<AtomicBool>,
     over: Arc<AtomicBool>,
 }
 
-impl Now {
+impl WatchState {
     /// Stops the run that is under way, and wakes whoever waits for the next one.
     fn stop(&self, wake: &Sender<()>) {
         self.stale.store(true, Ordering::Release);
@@ -45,8 +45,8 @@ impl Now {
 /// Runs, writes and says what came of it, and again after every change, until interrupted.
 ///
 /// A run that fails says so and leaves what an earlier one wrote.
-pub(super) fn again_and_again(command: &Run) -> Result<()> {
-    let now = Now::default();
+pub(super) fn again_and_again(command: &RunCommand) -> Result<()> {
+    let now = WatchState::default();
     let (wake, changes) = channel();
     let (seen, waker) = (now.clone(), wake.clone());
     let mut files: Vec<(PathBuf, bool)> = Vec::new();

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::super::formats::{geotiff, png, zipped};
-use super::raster::Found;
-use super::{Wanted, ascii, hgt, raw};
+use crate::formats::{geotiff, png, zipped};
+use crate::heights::{HeightOptions, RasterHeader, ascii, hgt, raw};
 use burgeon_base::error::{Error, Result};
 
 /// The formats that are read.
@@ -14,7 +13,11 @@ const KNOWN: &str = "heights are read from .hgt (also zipped), GeoTIFF (.tif), E
 /// Reads `bytes`, the content of the file called `name`.
 ///
 /// What begins as a zip, a TIFF, a PNG or an ASCII grid is read as that; the extension tells the others.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
+pub(super) fn read<'a>(
+    bytes: &'a [u8],
+    name: &'a str,
+    wanted: &'a HeightOptions,
+) -> Result<RasterHeader<'a>> {
     if bytes.is_empty() {
         return Err(Error::data(format!("{name} is empty")).help("get it again"));
     }

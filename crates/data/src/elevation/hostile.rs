@@ -32,7 +32,7 @@ fn a_zip_bomb_is_refused_before_it_is_unpacked() {
             bomb[at..at + 4].copy_from_slice(&told);
         }
     }
-    let error = Raster::read(&bomb, "b.zip", &Wanted::default(), &small(20)).unwrap_err();
+    let error = Raster::read(&bomb, "b.zip", &HeightOptions::default(), &small(20)).unwrap_err();
     assert!(error.message().contains("cannot be unpacked"), "{error}");
     assert!(bomb.len() < 1 << 20 && begin.elapsed() < Duration::from_secs(5));
 }
@@ -79,7 +79,7 @@ fn a_file_that_says_it_has_more_than_it_can_hold_is_refused_before_there_is_room
             ];
             let bytes = claiming(&tags, true);
             assert!(bytes.len() < 300);
-            let error = Raster::read(&bytes, "a.tif", &Wanted::default(), &small(1)).unwrap_err();
+            let error = Raster::read(&bytes, "a.tif", &HeightOptions::default(), &small(1)).unwrap_err();
             assert!(error.message().contains("cannot hold"), "{compression}: {error}");
         }
     }
@@ -88,8 +88,12 @@ fn a_file_that_says_it_has_more_than_it_can_hold_is_refused_before_there_is_room
     encoder.set_color(::png::ColorType::Grayscale);
     encoder.set_depth(::png::BitDepth::Sixteen);
     drop(encoder.write_header().unwrap());
-    let wanted =
-        Wanted { low: Some(0.0), high: Some(1.0), bounds: Some([0.0, 0.0, 1.0, 1.0]), ..Wanted::default() };
+    let wanted = HeightOptions {
+        low: Some(0.0),
+        high: Some(1.0),
+        bounds: Some([0.0, 0.0, 1.0, 1.0]),
+        ..HeightOptions::default()
+    };
     let error = Raster::read(&bytes, "a.png", &wanted, &small(1)).unwrap_err();
     assert!(error.message().contains("cannot hold 14000 x 14000"), "{error}");
 }
@@ -115,12 +119,12 @@ fn the_place_is_asked_for_and_memory_taken_before_heights_are_unpacked() {
     let packing = begin.elapsed();
     let begin = Instant::now();
     // No room for anything: it is not asked for.
-    let error = Raster::read(&without, "a.tif", &Wanted::default(), &small(0)).unwrap_err();
+    let error = Raster::read(&without, "a.tif", &HeightOptions::default(), &small(0)).unwrap_err();
     assert_eq!(error.message(), "a.tif does not tell where it lies");
-    let error = Raster::read(&with, "a.tif", &Wanted::default(), &small(30)).unwrap_err();
+    let error = Raster::read(&with, "a.tif", &HeightOptions::default(), &small(30)).unwrap_err();
     assert_eq!(error.message(), "reading takes more than 30 MB of memory");
     assert!(begin.elapsed() < packing.max(Duration::from_millis(200)));
-    let raster = Raster::read(&with, "a.tif", &Wanted::default(), &small(90)).unwrap();
+    let raster = Raster::read(&with, "a.tif", &HeightOptions::default(), &small(90)).unwrap();
     assert!(raster.heights.len() == 9_000_000 && raster.heights.iter().all(|height| *height == 7.0));
     // And no time.
     let over = Budget::new(usize::MAX, || {

@@ -4,8 +4,9 @@ use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-use super::super::Crs;
-use super::{MOST, Wanted, fill, format};
+use super::{fill, format};
+use crate::Crs;
+use crate::heights::{HeightOptions, RasterHeader, SampleGrid, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::warning::{Warning, WarningKind};
@@ -31,7 +32,7 @@ pub struct Raster {
     /// The heights (m), row by row, each from the west.
     pub heights: Vec<f32>,
     /// Where the samples lie.
-    pub grid: Grid,
+    pub grid: SampleGrid,
     /// Its coordinate system; without one, its coordinates are metres of the run.
     pub crs: Option<Crs>,
     /// How many heights were missing and were filled from the rims of their holes.
@@ -40,67 +41,13 @@ pub struct Raster {
     pub surplus: usize,
 }
 
-/// Where samples lie, in the units of a coordinate system.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Grid {
-    /// The centre of the sample in the north-west.
-    pub first: [f64; 2],
-    /// The distances of samples towards the east and the south; both are positive.
-    pub step: [f64; 2],
-}
-
-impl Grid {
-    /// That of `columns` by `rows` samples between outer edges: west, south, east and north.
-    pub(super) fn between([west, south, east, north]: [f64; 4], columns: usize, rows: usize) -> Self {
-        let step = [(east - west) / count(columns), (north - south) / count(rows)];
-        Self { first: [west + step[0] / 2.0, north - step[1] / 2.0], step }
-    }
-}
-
-/// A number of samples as a factor.
-#[allow(clippy::cast_precision_loss, reason = "counts are far below 2^53")]
-pub(crate) fn count(number: usize) -> f64 {
-    number as f64
-}
-
-/// What a reader found in the beginning of a file, and how to read the rest.
-pub(crate) struct Found<'a> {
-    pub columns: usize,
-    pub rows: usize,
-    /// Where the heights lie.
-    pub grid: Option<Grid>,
-    /// An error if it names a coordinate system that is not known, for which options can stand in.
-    pub crs: Result<Option<Crs>>,
-    /// Reads the heights, of which some may be missing (NaN). Nobody asks before all else is known to be right.
-    pub heights: ReadHeights<'a>,
-}
-
-/// Reads all heights of a file, row by row.
-pub(crate) type ReadHeights<'a> = Box<dyn FnOnce(&Budget) -> Result<Vec<f32>> + 'a>;
-
-/// Refuses sizes that cannot be meant, before room is made for them.
-pub(crate) fn check_size(name: &str, columns: usize, rows: usize) -> Result<()> {
-    if columns < 2 || rows < 2 {
-        return Err(Error::data(format!("{name} has {columns} x {rows} heights"))
-            .help("at least 2 x 2 are needed to know what is in between"));
-    }
-    if columns.checked_mul(rows).is_none_or(|all| all > MOST) {
-        return Err(Error::limit(
-            Limit::Size,
-            format!("{name} has {columns} x {rows} heights, more than {} million", MOST / 1_000_000),
-        )
-        .help("cut out a part: gdal_translate -srcwin LEFT TOP COLUMNS ROWS"));
-    }
-    Ok(())
-}
-
 impl Raster {
     /// Reads the file at `path`, which messages call `name`. Its content and its extension tell the format.
     ///
     /// Fails if it cannot be read, is in no known format, is cut short or too large, or has no heights; if it does not
     /// tell where it lies and `wanted` does not either, which is known before any heights are read; and if reading takes
     /// more than the `budget`.
-    pub fn open(path: &Path, name: &str, wanted: &Wanted, budget: &Budget) -> Result<Self> {
+    pub fn open(path: &Path, name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
         let cannot = |error: std::io::Error| Error::file(path, format!("cannot read {name}: {error}"));
         let meta = path.metadata().map_err(cannot)?;
         if meta.is_dir() {
@@ -122,8 +69,8 @@ impl Raster {
     }
 
     /// Reads `bytes`, the content of a file called `name`. Fails as [`Raster::open`] does.
-    pub fn read(bytes: &[u8], name: &str, wanted: &Wanted, budget: &Budget) -> Result<Self> {
-        let Found { columns, rows, grid, crs, heights } = format::read(bytes, name, wanted)?;
+    pub fn read(bytes: &[u8], name: &str, wanted: &HeightOptions, budget: &Budget) -> Result<Self> {
+        let RasterHeader { columns, rows, grid, crs, heights } = format::read(bytes, name, wanted)?;
         let crs = match wanted.crs {
             Some(code) => Some(Crs::epsg(code).map_err(|error| {
                 Error::not_found("coordinate system", code, [], format!("elevation: {}", error.message()))
@@ -132,7 +79,7 @@ impl Raster {
             None => crs?,
         };
         let grid = match wanted.bounds {
-            Some(bounds) => Some(Grid::between(check_bounds(bounds)?, columns, rows)),
+            Some(bounds) => Some(SampleGrid::between(check_bounds(bounds)?, columns, rows)),
             None => grid,
         };
         let grid = grid.ok_or_else(|| {
@@ -154,7 +101,7 @@ impl Raster {
 
     /// Its outer edges: west, south, east and north. A sample stands for the area half a step around it.
     pub fn bounds(&self) -> [f64; 4] {
-        let Grid { first, step } = self.grid;
+        let SampleGrid { first, step } = self.grid;
         let (west, north) = (first[0] - step[0] / 2.0, first[1] + step[1] / 2.0);
         [west, north - step[1] * count(self.rows), west + step[0] * count(self.columns), north]
     }
@@ -199,7 +146,7 @@ fn check_bounds(bounds: [f64; 4]) -> Result<[f64; 4]> {
 }
 
 /// Refuses coordinates that cannot be.
-fn check_grid(name: &str, grid: &Grid, columns: usize, rows: usize, crs: Option<&Crs>) -> Result<()> {
+fn check_grid(name: &str, grid: &SampleGrid, columns: usize, rows: usize, crs: Option<&Crs>) -> Result<()> {
     let [x, y] = grid.first;
     let [dx, dy] = grid.step;
     let last = [x + dx * count(columns - 1), y - dy * count(rows - 1)];

@@ -5,10 +5,11 @@ use std::sync::Arc;
 
 use glam::{DMat2, DVec2, DVec3};
 
-use super::super::Frame;
+use super::super::ReferenceFrame;
 use super::super::frame::FARTHEST;
 use super::lattice::Lattice;
-use super::raster::{Grid, Raster, count};
+use super::raster::Raster;
+use crate::heights::{SampleGrid, count};
 use burgeon_base::error::{Error, Result};
 
 /// Into how many pieces each edge is divided to find the box around it.
@@ -22,7 +23,7 @@ const MOST_STEPS: usize = 12;
 /// Measured heights over the ground of a run. It never changes.
 pub struct Relief {
     raster: Arc<Raster>,
-    way: Way,
+    way: RasterMapping,
     low: DVec3,
     high: DVec3,
     step: f64,
@@ -31,7 +32,7 @@ pub struct Relief {
 }
 
 /// From places (m) to columns and rows of the raster, counted from the centre of the first sample.
-enum Way {
+enum RasterMapping {
     /// Where both have the same axes.
     Straight { first: DVec2, step: DVec2 },
     /// Where a projection is in between.
@@ -49,28 +50,31 @@ impl Relief {
     /// system lies in the metres of the run as it is, and makes no frame.
     ///
     /// Fails if it cannot be projected, or lies too far away.
-    pub fn new(raster: Arc<Raster>, frame: &mut Option<Frame>) -> Result<Self> {
+    pub fn new(raster: Arc<Raster>, frame: &mut Option<ReferenceFrame>) -> Result<Self> {
         let Some(crs) = &raster.crs else {
-            let Grid { first, step } = raster.grid;
-            let way = Way::Straight { first: first.into(), step: step.into() };
+            let SampleGrid { first, step } = raster.grid;
+            let way = RasterMapping::Straight { first: first.into(), step: step.into() };
             return Self::along(Arc::clone(&raster), way, corners(&raster, 1), step.into());
         };
         let [west, south, east, north] = raster.bounds();
         let middle = [(west + east) / 2.0, (south + north) / 2.0];
         let frame = match frame {
             Some(frame) => frame,
-            None => frame.insert(Frame::around(crs, middle, &raster.name)?),
+            None => frame.insert(ReferenceFrame::around(crs, middle, &raster.name)?),
         };
         let passage = frame.passage(crs)?;
         let edge: Vec<DVec2> = corners(&raster, PIECES);
         let edge: Vec<DVec2> = edge.into_iter().map(|at| passage.enter(at.into()).into()).collect();
-        let Grid { first, step } = raster.grid;
+        let SampleGrid { first, step } = raster.grid;
         let at = |x: f64, y: f64| DVec2::from(passage.enter([x, y]));
         let begin = at(middle[0], middle[1]);
         let steps = [at(middle[0] + step[0], middle[1]), at(middle[0], middle[1] + step[1])];
         let unit = DVec2::from(steps.map(|end| end.distance(begin)));
         let way = if passage.stays {
-            Way::Straight { first: DVec2::from(first) - DVec2::from(frame.origin), step: step.into() }
+            RasterMapping::Straight {
+                first: DVec2::from(first) - DVec2::from(frame.origin),
+                step: step.into(),
+            }
         } else {
             let (low, high) = around(&edge);
             check_near(&raster, low, high)?;
@@ -82,7 +86,7 @@ impl Relief {
                 }
                 DVec2::new((x - first[0]) / step[0], (first[1] - y) / step[1])
             };
-            Way::Bent(Lattice::over(low, high, unit, exact).ok_or_else(|| {
+            RasterMapping::Bent(Lattice::over(low, high, unit, exact).ok_or_else(|| {
                 Error::data(format!(
                     "{} cannot be projected from {} to {}",
                     raster.name,
@@ -96,7 +100,7 @@ impl Relief {
     }
 
     /// A raster whose edge (m) and way are known.
-    fn along(raster: Arc<Raster>, way: Way, edge: Vec<DVec2>, unit: DVec2) -> Result<Self> {
+    fn along(raster: Arc<Raster>, way: RasterMapping, edge: Vec<DVec2>, unit: DVec2) -> Result<Self> {
         let (low, high) = around(&edge);
         check_near(&raster, low, high)?;
         let [lowest, highest] = raster.range().map(f64::from);
@@ -222,8 +226,10 @@ impl Relief {
     /// Where (m) a column and a row are, which is found from a place (m) that is near.
     fn place(&self, at: DVec2, near: DVec2) -> DVec2 {
         match &self.way {
-            Way::Straight { first, step } => DVec2::new(first.x + at.x * step.x, first.y - at.y * step.y),
-            Way::Bent(lattice) => {
+            RasterMapping::Straight { first, step } => {
+                DVec2::new(first.x + at.x * step.x, first.y - at.y * step.y)
+            }
+            RasterMapping::Bent(lattice) => {
                 // By Newton's steps: the lattice is nearly straight.
                 let mut place = near;
                 for _ in 0..MOST_STEPS {
@@ -253,10 +259,10 @@ impl Relief {
     /// The column and the row of a place (m); `None` far outside, where the lattice knows nothing.
     fn find(&self, place: DVec2) -> Option<DVec2> {
         match &self.way {
-            Way::Straight { first, step } => {
+            RasterMapping::Straight { first, step } => {
                 Some(DVec2::new((place.x - first.x) / step.x, (first.y - place.y) / step.y))
             }
-            Way::Bent(lattice) => {
+            RasterMapping::Bent(lattice) => {
                 let (low, high) = (self.low.truncate() - self.step, self.high.truncate() + self.step);
                 (place.cmpge(low).all() && place.cmple(high).all()).then(|| lattice.at(place))
             }
@@ -329,7 +335,7 @@ mod tests {
     /// A raster of `columns` by `rows` heights, at `first` with `step`, of which `height` gives each.
     fn raster(
         (columns, rows): (usize, usize),
-        grid: Grid,
+        grid: SampleGrid,
         code: Option<u32>,
         height: impl Fn(f64, f64) -> f64,
     ) -> Arc<Raster> {
@@ -348,7 +354,7 @@ mod tests {
 
     #[test]
     fn a_slope_goes_on_between_samples_and_ends_level_at_the_edge() {
-        let grid = Grid { first: [100.0, 50.0], step: [10.0, 5.0] };
+        let grid = SampleGrid { first: [100.0, 50.0], step: [10.0, 5.0] };
         let relief = Relief::new(raster((8, 9), grid, None, |x, y| 3.0 * x - 2.0 * y), &mut None).unwrap();
         let at = |x: f64, y: f64| relief.height(DVec2::new(x, y));
         // Column 2.5 and row 3.2.
@@ -365,7 +371,7 @@ mod tests {
 
     #[test]
     fn a_step_does_not_overshoot() {
-        let grid = Grid { first: [0.0, 0.0], step: [1.0; 2] };
+        let grid = SampleGrid { first: [0.0, 0.0], step: [1.0; 2] };
         let cliff = raster((10, 10), grid, None, |x, _| if x < 5.0 { 0.0 } else { 100.0 });
         let relief = Relief::new(cliff, &mut None).unwrap();
         for tenth in 0..90 {
@@ -376,10 +382,10 @@ mod tests {
     }
 
     /// The greatest distance (m) between where a relief finds places and where they are.
-    fn worst(relief: &Relief, frame: &Frame) -> f64 {
+    fn worst(relief: &Relief, frame: &ReferenceFrame) -> f64 {
         let crs = relief.raster.crs.clone().unwrap();
         let passage = frame.passage(&crs).unwrap();
-        let Grid { first, step } = relief.raster.grid;
+        let SampleGrid { first, step } = relief.raster.grid;
         let (low, size) = (relief.low.truncate(), (relief.high - relief.low).truncate());
         let mut worst = 0.0;
         for at in 0..97 * 89 {
@@ -396,7 +402,7 @@ mod tests {
     fn the_lattice_is_within_a_millimetre_of_the_projection() {
         let step = 1.0 / 1200.0;
         let tile = |[x, y]: [f64; 2], side: usize| {
-            let grid = Grid { first: [x, y + step * count(side - 1)], step: [step; 2] };
+            let grid = SampleGrid { first: [x, y + step * count(side - 1)], step: [step; 2] };
             raster((side, side), grid, Some(4326), |x, _| x)
         };
         // A tile in the middle, one beside it, one far north, and one across the date line.
@@ -415,8 +421,8 @@ mod tests {
             assert!(relief.height(middle).is_some());
         }
         // A projected raster in the frame of another projection.
-        let mut frame = Some(Frame::around(&Crs::epsg(4326).unwrap(), [7.5, 43.5], "b").unwrap());
-        let grid = Grid { first: [360_000.0, 4_850_000.0], step: [25.0; 2] };
+        let mut frame = Some(ReferenceFrame::around(&Crs::epsg(4326).unwrap(), [7.5, 43.5], "b").unwrap());
+        let grid = SampleGrid { first: [360_000.0, 4_850_000.0], step: [25.0; 2] };
         let relief = Relief::new(raster((1000, 800), grid, Some(32632), |x, _| x), &mut frame).unwrap();
         let worst = worst(&relief, frame.as_ref().unwrap());
         assert!(worst < 1e-3, "{worst} m");
@@ -424,7 +430,7 @@ mod tests {
 
     #[test]
     fn places_far_outside_have_no_height() {
-        let grid = Grid { first: [7.0, 44.0], step: [0.01; 2] };
+        let grid = SampleGrid { first: [7.0, 44.0], step: [0.01; 2] };
         let relief = Relief::new(raster((101, 101), grid, Some(4326), |x, _| x), &mut None).unwrap();
         for far in [1e5, 1e6, 1e9, 1e300, f64::INFINITY, f64::NAN] {
             for place in [DVec2::new(far, 0.0), DVec2::new(-far, far), DVec2::new(0.0, -far)] {
@@ -438,12 +444,12 @@ mod tests {
 
     #[test]
     fn a_raster_in_the_frames_own_projection_is_not_bent() {
-        let grid = Grid { first: [385_405.0, 6_671_595.0], step: [10.0; 2] };
+        let grid = SampleGrid { first: [385_405.0, 6_671_595.0], step: [10.0; 2] };
         let mut frame = None;
         let relief = Relief::new(raster((20, 20), grid, Some(3067), |x, y| x + y), &mut frame).unwrap();
         let frame = frame.unwrap();
         assert_eq!((frame.epsg(), frame.origin), (Some(3067), [385_500.0, 6_671_500.0]));
-        assert!(matches!(relief.way, Way::Straight { .. }));
+        assert!(matches!(relief.way, RasterMapping::Straight { .. }));
         assert_eq!((relief.low().x, relief.high().y), (-100.0, 100.0));
         assert_eq!(relief.height(DVec2::new(-95.0, 95.0)), Some(0.0));
     }

@@ -65,12 +65,13 @@ fn geotiff_saying(
 }
 
 pub(super) fn read(bytes: &[u8], name: &str) -> Result<Raster, burgeon_base::error::Error> {
-    Raster::read(bytes, name, &Wanted::default(), &Budget::default())
+    Raster::read(bytes, name, &HeightOptions::default(), &Budget::default())
 }
 
 /// Reads what does not tell where it lies.
 fn read_square(bytes: &[u8], name: &str) -> Result<Raster, burgeon_base::error::Error> {
-    let wanted = Wanted { bounds: Some([7.0, 43.0, 8.0, 44.0]), crs: Some(4326), ..Wanted::default() };
+    let wanted =
+        HeightOptions { bounds: Some([7.0, 43.0, 8.0, 44.0]), crs: Some(4326), ..HeightOptions::default() };
     Raster::read(bytes, name, &wanted, &Budget::default())
 }
 
@@ -138,7 +139,7 @@ fn tags_tell_where_a_geotiff_lies() {
     let area = [1, 1, 0, 3, 1024, 0, 1, 1, 1025, 0, 1, 1, 3072, 0, 1, 3067];
     let raster = read(&geotiff(&area, &[SCALE, TIE], Some("5")), "a.tif").unwrap();
     assert_eq!((raster.columns, raster.rows, raster.filled), (6, 4, 1));
-    assert_eq!(raster.grid, Grid { first: [385_005.0, 6_670_990.0], step: [10.0, 20.0] });
+    assert_eq!(raster.grid, SampleGrid { first: [385_005.0, 6_670_990.0], step: [10.0, 20.0] });
     assert_eq!(raster.bounds(), [385_000.0, 6_670_920.0, 385_060.0, 6_671_000.0]);
     assert_eq!((raster.heights[4], raster.heights[23]), (4.0, 23.0));
     assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
@@ -216,7 +217,8 @@ fn options_win_over_what_a_file_says() {
     let other = [1, 1, 0, 2, 1024, 0, 1, 1, 3072, 0, 1, 32767];
     let bytes = geotiff(&other, &[SCALE, TIE], None);
     assert!(read(&bytes, "a.tif").unwrap_err().message().contains("none of EPSG's"));
-    let wanted = Wanted { crs: Some(3067), bounds: Some([0.0, 0.0, 60.0, 40.0]), ..Wanted::default() };
+    let wanted =
+        HeightOptions { crs: Some(3067), bounds: Some([0.0, 0.0, 60.0, 40.0]), ..HeightOptions::default() };
     let raster = Raster::read(&bytes, "a.tif", &wanted, &Budget::default()).unwrap();
     assert_eq!((raster.grid.first, raster.bounds()), ([5.0, 35.0], [0.0, 0.0, 60.0, 40.0]));
     assert_eq!(raster.crs.and_then(|crs| crs.code), Some(3067));
@@ -305,7 +307,7 @@ fn grey_and_colours_become_heights() {
         ::png::BitDepth::Sixteen,
         &[0, 0, 255, 255, 128, 0, 0, 1, 0, 0, 0, 0],
     );
-    let wanted = Wanted { low: Some(100.0), high: Some(755.35), bounds, ..Wanted::default() };
+    let wanted = HeightOptions { low: Some(100.0), high: Some(755.35), bounds, ..HeightOptions::default() };
     let raster = Raster::read(&grey, "a.png", &wanted, &Budget::default()).unwrap();
     for (found, height) in raster.heights.iter().zip([100.0, 755.35, 427.68, 100.01]) {
         assert!((found - height).abs() < 1e-3, "{found} {height}");
@@ -314,7 +316,7 @@ fn grey_and_colours_become_heights() {
     // 1 134 240 tenths above -10 000 m are 103 424 m, which is too high; 1, 134, 160 is 0 m.
     let colors = [[1, 134, 160]; 6].concat();
     let colored = picture(::png::ColorType::Rgb, ::png::BitDepth::Eight, &colors);
-    let wanted = Wanted { terrain_rgb: true, bounds, ..Wanted::default() };
+    let wanted = HeightOptions { terrain_rgb: true, bounds, ..HeightOptions::default() };
     assert_eq!(Raster::read(&colored, "a.png", &wanted, &Budget::default()).unwrap().heights, [0.0; 6]);
     assert!(Raster::read(&grey, "a.png", &wanted, &Budget::default()).is_err());
     assert!(read(&colored, "a.png").unwrap_err().remedy().unwrap().contains("terrain-rgb"));
@@ -340,12 +342,14 @@ pub(super) fn samples() -> Vec<(&'static str, Vec<u8>)> {
 }
 
 /// What makes each of them readable.
-pub(super) fn wanted(name: &str) -> Wanted {
+pub(super) fn wanted(name: &str) -> HeightOptions {
     let bounds = Some([0.0, 0.0, 30.0, 20.0]);
     match name {
-        "a.png" => Wanted { low: Some(0.0), high: Some(9.0), bounds, ..Wanted::default() },
-        "a.r32" | "a.r64" | "N43E007.hgt" | "N43E007.hgt.zip" => Wanted { bounds, ..Wanted::default() },
-        _ => Wanted::default(),
+        "a.png" => HeightOptions { low: Some(0.0), high: Some(9.0), bounds, ..HeightOptions::default() },
+        "a.r32" | "a.r64" | "N43E007.hgt" | "N43E007.hgt.zip" => {
+            HeightOptions { bounds, ..HeightOptions::default() }
+        }
+        _ => HeightOptions::default(),
     }
 }
 

@@ -6,11 +6,11 @@ use tiff::TiffError;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::super::Crs;
-use super::super::elevation::names::tiff_key as keys;
-use super::super::elevation::raster::{Found, Grid, check_size, count};
 use super::meaning::Meaning;
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use crate::Crs;
+use crate::heights::names::tiff_key as keys;
+use crate::heights::{RasterHeader, SampleGrid, check_size, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -29,7 +29,7 @@ pub(super) type Tiff<'a> = Decoder<Cursor<&'a [u8]>>;
 /// Reads a file called `name`.
 ///
 /// Fails if it is damaged or cut short, has bytes or several bands instead of heights, or is turned.
-pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
     let damaged = |error: TiffError| damaged(name, &error);
     if !texts_fit(bytes) {
         return Err(damaged(TiffError::LimitsExceeded));
@@ -65,7 +65,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
         }
         Ok(heights)
     };
-    Ok(Found { columns, rows, grid, crs: keys.crs(name), heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs: keys.crs(name), heights: Box::new(heights) })
 }
 
 /// Whether no text in the first directory is longer than the file: the decoder writes to the terminal where one is.
@@ -205,7 +205,7 @@ fn numbers(values: DecodingResult, meaning: &Meaning, name: &str) -> Result<Vec<
 /// Where the samples lie; `None` if no tag tells. The step to the south is negative where rows come from the south.
 ///
 /// Fails if the raster is turned.
-fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>> {
+fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<SampleGrid>> {
     let scale = tiff.get_tag_f64_vec(Tag::ModelPixelScaleTag).unwrap_or_default();
     let tie = tiff.get_tag_f64_vec(Tag::ModelTiepointTag).unwrap_or_default();
     let matrix = tiff.get_tag_f64_vec(Tag::ModelTransformationTag).unwrap_or_default();
@@ -222,7 +222,7 @@ fn grid(tiff: &mut Tiff<'_>, name: &str, is_point: bool) -> Result<Option<Grid>>
         _ => return Ok(None),
     };
     let half = if is_point { 0.0 } else { 0.5 };
-    Ok(Some(Grid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
+    Ok(Some(SampleGrid { first: [corner[0] + half * step[0], corner[1] - half * step[1]], step }))
 }
 
 /// The keys of a GeoTIFF that are numbers.

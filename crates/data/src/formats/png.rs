@@ -4,11 +4,9 @@ use std::io::Cursor;
 
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
 
-use super::super::elevation::names::png_text as text;
-use super::super::elevation::raster::{Found, check_size};
-use super::super::elevation::raw::narrow;
-use super::super::elevation::{MOST, Wanted};
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use crate::heights::names::png_text as text;
+use crate::heights::{HeightOptions, MOST, RasterHeader, check_size, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 
@@ -19,7 +17,11 @@ type Png<'a> = Decoder<Cursor<&'a [u8]>>;
 ///
 /// Fails on 8 bits of grey, and on colours unless `wanted` says what they mean; if the heights of black and white are
 /// neither in the file nor in `wanted`; if it is damaged or cut short.
-pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Result<Found<'a>> {
+pub(crate) fn read<'a>(
+    bytes: &'a [u8],
+    name: &'a str,
+    wanted: &'a HeightOptions,
+) -> Result<RasterHeader<'a>> {
     let mut decoder = Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MOST * 8 });
     decoder.set_transformations(Transformations::IDENTITY);
     let info = decoder.read_header_info().map_err(|error| damaged(name, bytes, &error))?;
@@ -38,7 +40,7 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &'a Wanted) -> Re
         }
         Ok(heights)
     };
-    Ok(Found { columns, rows, grid: None, crs: Ok(None), heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid: None, crs: Ok(None), heights: Box::new(heights) })
 }
 
 /// How samples stand in a row.
@@ -54,7 +56,7 @@ impl Samples {
         &self,
         decoder: Png<'_>,
         bytes: &[u8],
-        (name, wanted): (&str, &Wanted),
+        (name, wanted): (&str, &HeightOptions),
         count: usize,
         budget: &Budget,
     ) -> Result<(Vec<f32>, Option<[f64; 2]>)> {
@@ -111,7 +113,7 @@ impl Samples {
 }
 
 /// The number of bytes of a sample. Fails if they are not as `wanted` needs them.
-fn parts(name: &str, form: (ColorType, BitDepth), wanted: &Wanted) -> Result<usize> {
+fn parts(name: &str, form: (ColorType, BitDepth), wanted: &HeightOptions) -> Result<usize> {
     let colored = matches!(form.0, ColorType::Rgb | ColorType::Rgba | ColorType::Indexed);
     match (wanted.terrain_rgb, form) {
         (true, (ColorType::Rgb, BitDepth::Eight)) => Ok(3),

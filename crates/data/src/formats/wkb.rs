@@ -5,6 +5,8 @@
 //! The reader is our own, since it must be bounded: 13 bytes that claim 2^32 points make geozero ask for the memory
 //! of all of them, which ends the program. Here room is made for what is there.
 
+use glam::DVec3;
+
 use super::super::{DEEPEST, Geometry};
 use super::arc;
 use burgeon_base::budget::Budget;
@@ -31,7 +33,7 @@ pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<
     };
     let body = bytes.get(8 + envelope..).ok_or(ENDS)?;
     // The flag of an empty geometry says nothing that its content does not say.
-    let mut reader = Reader { bytes: body, little: true, near, budget };
+    let mut reader = WkbReader { bytes: body, little: true, near, budget };
     let mut parts = Vec::new();
     reader.geometry(&mut parts, |_| true, 0)?;
     Ok(parts)
@@ -40,9 +42,9 @@ pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<
 const ENDS: &str = "ends too early";
 
 /// The types that may stand in a place.
-type Allowed = fn(u32) -> bool;
+type TypeFilter = fn(u32) -> bool;
 
-struct Reader<'a> {
+struct WkbReader<'a> {
     bytes: &'a [u8],
     little: bool,
     near: f64,
@@ -51,13 +53,13 @@ struct Reader<'a> {
 
 /// What stands before each geometry: its type, and whether its points have Z and M.
 #[derive(Clone, Copy)]
-struct Head {
+struct GeometryHeader {
     kind: u32,
     z: bool,
     m: bool,
 }
 
-impl Reader<'_> {
+impl WkbReader<'_> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
         let (taken, rest) = self.bytes.split_first_chunk::<N>().ok_or(ENDS)?;
         self.bytes = rest;
@@ -83,28 +85,28 @@ impl Reader<'_> {
         Ok(count)
     }
 
-    fn point(&mut self, head: Head) -> Result<[f64; 3], String> {
-        let point = [self.f64()?, self.f64()?, if head.z { self.f64()? } else { 0.0 }];
+    fn point(&mut self, head: GeometryHeader) -> Result<DVec3, String> {
+        let point = DVec3::new(self.f64()?, self.f64()?, if head.z { self.f64()? } else { 0.0 });
         if head.m {
             self.f64()?;
         }
         // Some programs write a height that is not known so.
-        Ok(if point[2].is_nan() { [point[0], point[1], 0.0] } else { point })
+        Ok(if point.z.is_nan() { point.with_z(0.0) } else { point })
     }
 
-    fn points(&mut self, head: Head) -> Result<Vec<[f64; 3]>, String> {
+    fn points(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
         let count = self.count(size)?;
         (0..count).map(|_| self.point(head)).collect()
     }
 
-    fn rings(&mut self, head: Head) -> Result<Vec<Vec<[f64; 3]>>, String> {
+    fn rings(&mut self, head: GeometryHeader) -> Result<Vec<Vec<DVec3>>, String> {
         let count = self.count(4)?;
         (0..count).map(|_| self.points(head)).collect()
     }
 
     /// The head of a geometry of a type that is `allowed` here.
-    fn head(&mut self, allowed: Allowed) -> Result<Head, String> {
+    fn head(&mut self, allowed: TypeFilter) -> Result<GeometryHeader, String> {
         self.little = match self.take::<1>()? {
             [0] => false,
             [1] => true,
@@ -121,11 +123,16 @@ impl Reader<'_> {
         }
         let (z, m) =
             (flags & 0x8000_0000 != 0 || thousands & 1 != 0, flags & 0x4000_0000 != 0 || thousands & 2 != 0);
-        Ok(Head { kind, z, m })
+        Ok(GeometryHeader { kind, z, m })
     }
 
     /// Adds the parts of one geometry.
-    fn geometry(&mut self, parts: &mut Vec<Geometry>, allowed: Allowed, depth: usize) -> Result<(), String> {
+    fn geometry(
+        &mut self,
+        parts: &mut Vec<Geometry>,
+        allowed: TypeFilter,
+        depth: usize,
+    ) -> Result<(), String> {
         self.budget.tick().map_err(|error| error.message().to_owned())?;
         if depth > DEEPEST {
             return Err(format!("is nested more than {DEEPEST} deep"));
@@ -135,7 +142,7 @@ impl Reader<'_> {
             1 => {
                 let point = self.point(head)?;
                 // So is an empty point written.
-                if !(point[0].is_nan() && point[1].is_nan()) {
+                if !(point.x.is_nan() && point.y.is_nan()) {
                     parts.push(Geometry::Point(point));
                 }
             }
@@ -147,7 +154,7 @@ impl Reader<'_> {
                 parts.extend(Geometry::polygon(rings));
             }
             4..=7 | 11 | 12 | 15 | 16 => {
-                let allowed: Allowed = match head.kind {
+                let allowed: TypeFilter = match head.kind {
                     4 => |kind| kind == 1,
                     5 => |kind| kind == 2,
                     6 | 15 => |kind| kind == 3,
@@ -166,13 +173,13 @@ impl Reader<'_> {
     }
 
     /// The points of a curve of a type that is `allowed` here.
-    fn curve(&mut self, allowed: Allowed) -> Result<Vec<[f64; 3]>, String> {
+    fn curve(&mut self, allowed: TypeFilter) -> Result<Vec<DVec3>, String> {
         let head = self.head(allowed)?;
         self.curve_of(head)
     }
 
     /// The points of a line, a circular string or a compound of these, whose head has been read.
-    fn curve_of(&mut self, head: Head) -> Result<Vec<[f64; 3]>, String> {
+    fn curve_of(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         match head.kind {
             8 => {
                 let given = self.points(head)?;
@@ -194,7 +201,7 @@ impl Reader<'_> {
                 Ok(points)
             }
             9 => {
-                let mut points: Vec<[f64; 3]> = Vec::new();
+                let mut points: Vec<DVec3> = Vec::new();
                 for _ in 0..self.count(9)? {
                     let part = self.curve(|kind| matches!(kind, 2 | 8))?;
                     // Each begins where the one before it ends.
@@ -252,7 +259,11 @@ mod tests {
             for (envelope, size) in [(0, 0), (1, 32), (2, 48), (3, 48), (4, 64)] {
                 for (code, words, z) in &cases {
                     let read = read_blob(&blob(envelope << 1, size, &body(little, *code, words)));
-                    assert_eq!(read, Ok(vec![Geometry::Point([1.0, 2.0, *z])]), "{code} {envelope}");
+                    assert_eq!(
+                        read,
+                        Ok(vec![Geometry::Point(DVec3::new(1.0, 2.0, *z))]),
+                        "{code} {envelope}"
+                    );
                 }
             }
         }
@@ -303,7 +314,7 @@ mod tests {
         let half = of_points(8, &[[4.0, 0.0], [2.0, 2.0], [0.0, 0.0]]);
         let compound = of_parts(9, &[straight.clone(), half.clone()]);
         let [Geometry::Line(line)] = &read(&compound)[..] else { panic!("a line") };
-        assert_eq!((line[0], line[1], line.last()), ([0.0; 3], [4.0, 0.0, 0.0], Some(&[0.0; 3])));
+        assert_eq!((line[0], line[1], line.last()), (DVec3::ZERO, DVec3::X * 4.0, Some(&DVec3::ZERO)));
         assert!(
             line.len() > 10 && line[1..].iter().all(|it| ((it[0] - 2.0).hypot(it[1]) - 2.0).abs() < 1e-9)
         );

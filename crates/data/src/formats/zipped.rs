@@ -2,17 +2,16 @@
 
 use std::io::{Cursor, Read};
 
-use super::super::elevation::Wanted;
-use super::super::elevation::hgt::{height, place, size};
-use super::super::elevation::raster::Found;
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use crate::heights::hgt::{height, place, size};
+use crate::heights::{HeightOptions, RasterHeader};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
 /// Reads the one tile in a zip, and unpacks nothing else.
 ///
-/// Fails if it is damaged, holds no tile or several, and as [`read`](super::super::elevation::hgt::read) does.
-pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Result<Found<'a>> {
+/// Fails if it is damaged, holds no tile or several, and as [`read`](crate::heights::hgt::read) does.
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let damaged = move || {
         Error::data(format!("{name} cannot be unpacked"))
             .help("the file is damaged or cut short; get it again")
@@ -57,5 +56,5 @@ pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &Wanted) -> Resul
             _ => Err(damaged()),
         }
     };
-    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs, heights: Box::new(heights) })
 }

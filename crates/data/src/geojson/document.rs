@@ -6,11 +6,11 @@ use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, V
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::Reader;
+use super::reader::FeatureReader;
 
 /// What a text says besides the features of its collection.
 #[derive(Default)]
-pub(super) struct Head<'t> {
+pub(super) struct DocumentHeader<'t> {
     /// Its type, whatever stands there.
     pub kind: Option<Value>,
     /// Whether it has a list of features, which the reader has taken.
@@ -27,39 +27,42 @@ pub(super) struct Head<'t> {
 
 /// Reads the text that `text` begins with; gives what it says and what follows it.
 pub(super) fn document<'t>(
-    reader: &mut Reader<'_>,
+    reader: &mut FeatureReader<'_>,
     text: &'t str,
-) -> Result<(Head<'t>, &'t str), serde_json::Error> {
+) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
     let mut parser = serde_json::Deserializer::from_str(text);
     let head = Members(reader).deserialize(&mut parser)?;
     let end = parser.into_iter::<IgnoredAny>().byte_offset();
     Ok((head, text.get(end..).unwrap_or_default()))
 }
 
-struct Members<'r, 'a>(&'r mut Reader<'a>);
+struct Members<'r, 'a>(&'r mut FeatureReader<'a>);
 
 impl<'t> DeserializeSeed<'t> for Members<'_, '_> {
-    type Value = Head<'t>;
+    type Value = DocumentHeader<'t>;
 
-    fn deserialize<D: serde::Deserializer<'t>>(self, deserializer: D) -> Result<Head<'t>, D::Error> {
+    fn deserialize<D: serde::Deserializer<'t>>(
+        self,
+        deserializer: D,
+    ) -> Result<DocumentHeader<'t>, D::Error> {
         deserializer.deserialize_map(self)
     }
 }
 
 impl<'t> Visitor<'t> for Members<'_, '_> {
-    type Value = Head<'t>;
+    type Value = DocumentHeader<'t>;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("an object")
     }
 
-    fn visit_map<A: MapAccess<'t>>(self, mut map: A) -> Result<Head<'t>, A::Error> {
-        let mut head = Head::default();
+    fn visit_map<A: MapAccess<'t>>(self, mut map: A) -> Result<DocumentHeader<'t>, A::Error> {
+        let mut head = DocumentHeader::default();
         while let Some(key) = map.next_key::<std::borrow::Cow<'t, str>>()? {
             match &*key {
                 "type" => head.kind = Some(map.next_value()?),
                 "features" => {
-                    map.next_value_seed(Features(&mut *self.0))?;
+                    map.next_value_seed(FeatureList(&mut *self.0))?;
                     head.features = true;
                 }
                 "crs" => head.crs = Some(map.next_value()?),
@@ -77,9 +80,9 @@ impl<'t> Visitor<'t> for Members<'_, '_> {
 }
 
 /// The list of a collection's features.
-struct Features<'r, 'a>(&'r mut Reader<'a>);
+struct FeatureList<'r, 'a>(&'r mut FeatureReader<'a>);
 
-impl<'t> DeserializeSeed<'t> for Features<'_, '_> {
+impl<'t> DeserializeSeed<'t> for FeatureList<'_, '_> {
     type Value = ();
 
     fn deserialize<D: serde::Deserializer<'t>>(self, deserializer: D) -> Result<(), D::Error> {
@@ -87,7 +90,7 @@ impl<'t> DeserializeSeed<'t> for Features<'_, '_> {
     }
 }
 
-impl<'t> Visitor<'t> for Features<'_, '_> {
+impl<'t> Visitor<'t> for FeatureList<'_, '_> {
     type Value = ();
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -2,12 +2,13 @@
 
 use std::fmt;
 
+use glam::DVec3;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::{LARGE, Wanted, words};
-use crate::{DEEPEST, Geometry};
+use super::reader::{LARGE, words};
+use crate::{DEEPEST, Geometry, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::text::shown;
 
@@ -69,7 +70,7 @@ pub(super) fn is_known(kind: &str) -> bool {
 }
 
 /// The parts of the geometry in `text`. Fails with the reason.
-pub(super) fn read(text: &RawValue, wanted: &Wanted) -> Result<Vec<Geometry>, String> {
+pub(super) fn read(text: &RawValue, wanted: &SourceOptions) -> Result<Vec<Geometry>, String> {
     let mut parts = Vec::new();
     geometry(text, wanted, 0, &mut parts)?;
     Ok(parts)
@@ -80,14 +81,19 @@ pub(super) fn of_members(
     kind: &str,
     coordinates: Option<&RawValue>,
     geometries: Option<&RawValue>,
-    wanted: &Wanted,
+    wanted: &SourceOptions,
 ) -> Result<Vec<Geometry>, String> {
     let mut parts = Vec::new();
     members(kind, coordinates, geometries, wanted, 0, &mut parts)?;
     Ok(parts)
 }
 
-fn geometry(text: &RawValue, wanted: &Wanted, depth: usize, parts: &mut Vec<Geometry>) -> Result<(), String> {
+fn geometry(
+    text: &RawValue,
+    wanted: &SourceOptions,
+    depth: usize,
+    parts: &mut Vec<Geometry>,
+) -> Result<(), String> {
     let raw: RawGeometry<'_> = serde_json::from_str(text.get())
         .map_err(|error| format!("has a geometry that is none: {}", words(&error)))?;
     let kind: String = raw
@@ -101,7 +107,7 @@ fn members(
     kind: &str,
     coordinates: Option<&RawValue>,
     geometries: Option<&RawValue>,
-    wanted: &Wanted,
+    wanted: &SourceOptions,
     depth: usize,
     parts: &mut Vec<Geometry>,
 ) -> Result<(), String> {
@@ -164,23 +170,23 @@ fn read_as<'t, S: DeserializeSeed<'t>>(text: &'t str, seed: S) -> Result<S::Valu
 struct One<'b>(&'b Budget);
 
 impl<'t> DeserializeSeed<'t> for One<'_> {
-    type Value = [f64; 3];
+    type Value = DVec3;
 
-    fn deserialize<D: Deserializer<'t>>(self, deserializer: D) -> Result<[f64; 3], D::Error> {
+    fn deserialize<D: Deserializer<'t>>(self, deserializer: D) -> Result<DVec3, D::Error> {
         self.0.tick().map_err(|error| D::Error::custom(error.message()))?;
         deserializer.deserialize_any(self)
     }
 }
 
 impl<'t> Visitor<'t> for One<'_> {
-    type Value = [f64; 3];
+    type Value = DVec3;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a point")
     }
 
-    fn visit_seq<A: SeqAccess<'t>>(self, mut list: A) -> Result<[f64; 3], A::Error> {
-        let mut point = [0.0; 3];
+    fn visit_seq<A: SeqAccess<'t>>(self, mut list: A) -> Result<DVec3, A::Error> {
+        let mut point = DVec3::ZERO;
         let mut count = 0;
         while count < 3
             && let Some(Number(number)) = list.next_element()?
@@ -195,7 +201,7 @@ impl<'t> Visitor<'t> for One<'_> {
         Ok(point)
     }
 
-    no_list!('t, [f64; 3]);
+    no_list!('t, DVec3);
 }
 
 /// A number of a point.
@@ -203,13 +209,13 @@ struct Number(f64);
 
 impl<'t> Deserialize<'t> for Number {
     fn deserialize<D: Deserializer<'t>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_any(Numbers)
+        deserializer.deserialize_any(NumberVisitor)
     }
 }
 
-struct Numbers;
+struct NumberVisitor;
 
-impl<'t> Visitor<'t> for Numbers {
+impl<'t> Visitor<'t> for NumberVisitor {
     type Value = Number;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -1,18 +1,22 @@
 //! Documents, sequences, and features that are wrong among others that are not.
 
-use super::super::{Geometry, Kind};
+use super::super::{Geometry, GeometryKind};
 use super::*;
+use crate::{FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+use std::path::Path;
+use std::sync::Arc;
 
-fn read_as(text: &str, name: &str) -> Result<Table> {
-    read(text.as_bytes(), Path::new(name), name, &Wanted::default())
+fn read_as(text: &str, name: &str) -> Result<FeatureTable> {
+    read(text.as_bytes(), Path::new(name), name, &SourceOptions::default())
 }
 
-fn table(text: &str) -> Table {
+fn table(text: &str) -> FeatureTable {
     read_as(text, "a.geojson").unwrap()
 }
 
-fn told(table: &Table) -> Vec<String> {
+fn told(table: &FeatureTable) -> Vec<String> {
     table.refused.iter().map(|(id, error)| format!("{id}: {}", error.message())).collect()
 }
 
@@ -66,7 +70,7 @@ fn a_collection_gives_a_feature_for_each_part() {
     let table =
         table(&feature(&format!(r#"{{"type":"GeometryCollection","geometries":[{point},{inner}]}}"#)));
     let kinds: Vec<_> = table.features.iter().map(|part| (part.id.as_str(), part.geometry.kind())).collect();
-    assert_eq!(kinds, [("1", Kind::Point), ("1.2", Kind::Line)]);
+    assert_eq!(kinds, [("1", GeometryKind::Point), ("1.2", GeometryKind::Line)]);
     let mut deep = point.to_owned();
     for _ in 0..60 {
         deep = format!(r#"{{"type":"GeometryCollection","geometries":[{deep}]}}"#);
@@ -156,7 +160,7 @@ fn memory_is_asked_for_before_it_is_taken_and_time_is_kept() {
     let points = vec!["[1,2]"; 400_000].join(",");
     let text = feature(&format!(r#"{{"type":"LineString","coordinates":[{points}]}}"#));
     let with = |budget: Arc<Budget>| {
-        let wanted = Wanted { budget, ..Wanted::default() };
+        let wanted = SourceOptions { budget, ..SourceOptions::default() };
         read(text.as_bytes(), Path::new("a"), "a", &wanted).map(|table| table.features.len())
     };
     let minute = std::time::Duration::from_secs(60);
@@ -182,7 +186,7 @@ fn changed_bytes_never_make_it_panic() {
         for byte in *b"\0 \n\x1e\"[]{},:-0e9n\xff" {
             let mut changed = text.clone().into_bytes();
             changed[at] = byte;
-            match read(&changed, Path::new("a"), "a", &Wanted::default()) {
+            match read(&changed, Path::new("a"), "a", &SourceOptions::default()) {
                 Ok(table) => {
                     good += usize::from(
                         table.features.iter().any(|it| matches!(it.geometry, Geometry::Polygon(_))),
@@ -191,7 +195,7 @@ fn changed_bytes_never_make_it_panic() {
                 Err(_) => bad += 1,
             }
         }
-        assert!(read(&text.as_bytes()[..at], Path::new("a"), "a", &Wanted::default()).is_err());
+        assert!(read(&text.as_bytes()[..at], Path::new("a"), "a", &SourceOptions::default()).is_err());
     }
     assert!(good > 500 && bad > 500, "{good} {bad}");
 }

@@ -8,28 +8,29 @@ use super::paths::{is_absolute, lead};
 use super::session::Session;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Cache, Frame, Layer, Source, Wanted, nearest_file, split_name};
-use burgeon_kit::{Loaded, Loader, Loading, Resources, Table};
+use burgeon_data::{Cache, Layer, ReferenceFrame, Source, SourceOptions, nearest_file, split_name};
+use burgeon_kit::{LoadRequest, LoadedObject, Loader, Resources, Table};
+use burgeon_packages::Package;
 
 /// The data of a run. All virtual machines call `source` in the same order, so whoever comes first decides nothing
 /// that another would decide otherwise; and what was read once is not read again.
 #[derive(Default)]
 pub(crate) struct Data {
-    known: Mutex<Known>,
+    known: Mutex<LayerStore>,
 }
 
 #[derive(Default)]
-struct Known {
+struct LayerStore {
     /// The projection and the origin, which the first source decides.
-    frame: Option<Frame>,
+    frame: Option<ReferenceFrame>,
     loaded: BTreeMap<String, Result<Arc<Layer>>>,
     /// What was made of files, by type, file and fields.
-    objects: BTreeMap<String, Result<Loaded>>,
+    objects: BTreeMap<String, Result<LoadedObject>>,
     /// What all reading of the run may take.
     budget: Option<Arc<Budget>>,
 }
 
-impl Known {
+impl LayerStore {
     fn budget(&mut self, session: &Session) -> Arc<Budget> {
         let make = || {
             let stop = Arc::clone(&session.stop);
@@ -40,16 +41,22 @@ impl Known {
 }
 
 impl Data {
-    /// The features that `source(text, wanted)` means.
-    pub(crate) fn load(&self, session: &Arc<Session>, text: &str, mut wanted: Wanted) -> Result<Arc<Layer>> {
+    /// The features that `source(text, wanted)` means where a file of `asker` says it.
+    pub(crate) fn load(
+        &self,
+        session: &Arc<Session>,
+        asker: Option<&Package>,
+        text: &str,
+        mut wanted: SourceOptions,
+    ) -> Result<Arc<Layer>> {
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = format!("{text:?} {wanted:?}");
+        let key = format!("{:?} {text:?} {wanted:?}", asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.loaded.get(&key) {
             return loaded.clone();
         }
         wanted.budget = known.budget(session);
         let before = wanted.budget.taken();
-        let loaded = read(session, text, wanted, &mut known);
+        let loaded = read(session, asker, text, wanted, &mut known);
         session.stop.check()?;
         let kept = loaded.as_ref().map_or(0, |layer| layer.size());
         known.budget(session).settle(before, kept);
@@ -59,33 +66,36 @@ impl Data {
 }
 
 impl Data {
-    /// What `loader` makes of the file that a script calls `name`: the same each time. It is for type `kind`.
+    /// What `loader` makes of the file that a script, or a file of the package `asker`, calls `name`: the same each time.
+    /// It is for type `kind`.
     pub(crate) fn object(
         &self,
         session: &Session,
+        asker: Option<&Package>,
         (kind, loader): (&str, &Loader),
         name: &str,
         fields: &Table,
-    ) -> Result<Loaded> {
+    ) -> Result<LoadedObject> {
         if name.is_empty() {
             return Err(Error::argument(format!("{kind} needs the name of a file"))
                 .help(format!("write {}", loader.example)));
         }
-        let path = find(session, loader.what, name)?;
+        let path = find(session, asker, loader.what, name)?;
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
-        let key = format!("{kind} {} {fields:?}", path.display());
+        let key =
+            format!("{kind} {} {:?} {fields:?}", path.display(), asker.map(|asker| &asker.manifest.name));
         if let Some(loaded) = known.objects.get(&key) {
             return loaded.clone();
         }
         let budget = known.budget(session);
         let before = budget.taken();
-        let mut file = Loading {
+        let mut file = LoadRequest {
             name,
             path: &path,
             budget: &budget,
             triangles: session.options.limits.triangles,
             frame: &mut known.frame,
-            resources: session,
+            resources: &FileAccess { session, asker },
         };
         let loaded = (loader.load)(&mut file, fields);
         session.stop.check()?;
@@ -95,22 +105,34 @@ impl Data {
     }
 
     /// The projection and the origin of the run, if any data has decided them.
-    pub(crate) fn frame(&self) -> Option<Frame> {
+    pub(crate) fn frame(&self) -> Option<ReferenceFrame> {
         self.known.lock().unwrap_or_else(PoisonError::into_inner).frame.clone()
     }
 }
 
-impl Resources for Session {
+/// The files of a run, for the script or for a package.
+struct FileAccess<'a> {
+    session: &'a Session,
+    asker: Option<&'a Package>,
+}
+
+impl Resources for FileAccess<'_> {
     fn find(&self, what: &'static str, name: &str) -> Result<PathBuf> {
-        find(self, what, name)
+        find(self.session, self.asker, what, name)
     }
 
     fn cache(&self) -> Option<&Cache> {
-        self.options.cache.as_deref()
+        self.session.options.cache.as_deref()
     }
 }
 
-fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) -> Result<Arc<Layer>> {
+fn read(
+    session: &Session,
+    asker: Option<&Package>,
+    text: &str,
+    mut wanted: SourceOptions,
+    known: &mut LayerStore,
+) -> Result<Arc<Layer>> {
     let (name, layer) = split_name(text);
     wanted.layer = wanted.layer.or_else(|| layer.map(str::to_owned));
     if name.is_empty() {
@@ -118,7 +140,7 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
             Error::argument("source needs the name of a file").help("write source(\"village.geojson\")")
         );
     }
-    let path = find(session, "data file", name)?;
+    let path = find(session, asker, "data file", name)?;
     let cache = session.options.cache.as_deref();
     let key = cache.and_then(|_| Cache::key(&path, &wanted, known.frame.as_ref()));
     let kept = cache.zip(key.as_deref()).and_then(|(cache, key)| cache.get(key));
@@ -145,8 +167,11 @@ fn read(session: &Session, text: &str, mut wanted: Wanted, known: &mut Known) ->
 }
 
 /// The file that a script means by `name`, which is to be a `what`: in its own folder, or in one of those given with
-/// `--data`.
-fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
+/// `--data`, or in a package's if `name` says so, for the package `asker` if it is one that asks.
+fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &str) -> Result<PathBuf> {
+    if let Some(found) = session.package_file(what, name, asker) {
+        return found;
+    }
     let outside = || {
         Error::file(name, format!("the {what} {name} lies outside the script's folder")).help(
             "a script reads data in its own folder and below it, and in those that are given: --data FOLDER",
@@ -186,7 +211,7 @@ fn find(session: &Session, what: &'static str, name: &str) -> Result<PathBuf> {
         return Err(outside());
     }
     let error = Error::not_found(what, name, near.as_deref(), format!("there is no {what} {name}"));
-    Err(error.help(match session.data_roots().is_empty() {
+    Err(session.propose_packages(name, error).help(match session.data_roots().is_empty() {
         true => "it is looked for from the script's folder; other folders are given with --data FOLDER",
         false => "it is looked for from the script's folder and from those given with --data",
     }))

@@ -4,17 +4,22 @@
 //! share, with the parameters, the data and the analysis of every file. It never runs Lua.
 
 pub(crate) mod analysis;
+mod api;
 mod data;
+mod deprecations;
 pub(crate) mod names;
 mod options;
+mod packages;
 mod param;
 pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
 
-pub use names::{Name, Part, Sort, names};
-pub use options::{Limits, Print, RunOptions, Traced};
+pub(crate) use api::has_name;
+pub use api::{API_VERSION, api_version};
+pub use names::{Name, NameKind, NameMember, names};
+pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
-pub use session::{Progress, Session};
+pub use session::{RunProgress, Session};

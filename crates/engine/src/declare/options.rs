@@ -52,7 +52,7 @@ impl fmt::Debug for Print {
 
 /// The chains that a run is to trace.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Traced {
+pub struct TraceRequest {
     /// The system's place in the script, from 0. The run ends once it is derived.
     pub system: usize,
     /// The chain's number in the system; all of them if `None`.
@@ -86,6 +86,10 @@ pub struct RunOptions {
     pub stop: Option<Arc<Stop>>,
     /// Folders besides the script's whose data files it may read.
     pub data: Vec<PathBuf>,
+    /// Folders besides `mods` beside the script that packages are in, or that are packages.
+    pub mods: Vec<PathBuf>,
+    /// The user's own folder of packages, which need not be there.
+    pub user_mods: Option<PathBuf>,
     /// Layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
     /// The types of objects that scripts can use.
@@ -100,12 +104,12 @@ pub struct RunOptions {
     /// Whether to measure the time of each interpretation rule, which takes about a twentieth of it.
     pub profile: bool,
     /// Whether warnings end the run as errors, and bad data does; otherwise its features are left out, and
-    /// [`Derived::remarks`] tells which.
+    /// [`DerivedSystem::remarks`] tells which.
     ///
-    /// [`Derived::remarks`]: crate::results::Derived::remarks
+    /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
     pub strict: bool,
     /// The chains to note the lineage of; see [`trace`](crate::trace).
-    pub trace: Option<Traced>,
+    pub trace: Option<TraceRequest>,
 }
 
 /// How many threads can run at once. Asking the system reads files, which takes longer than a step of a small chain.
@@ -134,6 +138,8 @@ impl Default for RunOptions {
             print: None,
             stop: None,
             data: Vec::new(),
+            mods: Vec::new(),
+            user_mods: None,
             cache: None,
             registry: Registry::default(),
             stdlib: None,

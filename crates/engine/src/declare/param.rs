@@ -90,8 +90,8 @@ impl Param {
     pub fn declare(name: &str, options: &Table) -> Result<Self> {
         for (key, _) in &options.entries {
             let key = match key {
-                burgeon_kit::Key::Name(name) => name.to_string(),
-                burgeon_kit::Key::Index(index) => index.to_string(),
+                burgeon_kit::TableKey::Name(name) => name.to_string(),
+                burgeon_kit::TableKey::Index(index) => index.to_string(),
             };
             let known = PARAM.part_names();
             if !known.contains(&key.as_str()) {

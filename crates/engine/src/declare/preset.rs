@@ -1,7 +1,7 @@
 //! A preset: values of a script's parameters and a seed, under a name.
 
 use super::param::{Param, Setting};
-use burgeon_base::error::{Error, Place};
+use burgeon_base::error::{Error, SourcePlace};
 
 /// Values of a script's parameters and a seed, under a name.
 ///
@@ -15,9 +15,9 @@ pub struct Preset {
     /// Values by the parameters' names, in the order of the file.
     pub params: Vec<(String, Setting)>,
     /// Where it begins in its file, if it came from one.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     /// Where each of `params` stands; empty if it came from no file.
-    pub places: Vec<Place>,
+    pub places: Vec<SourcePlace>,
 }
 
 impl Preset {
@@ -32,7 +32,7 @@ impl Preset {
     }
 
     /// Where the value of the parameter `name` stands.
-    pub(crate) fn place_of(&self, name: &str) -> Option<Place> {
+    pub(crate) fn place_of(&self, name: &str) -> Option<SourcePlace> {
         let index = self.params.iter().position(|(known, _)| known == name)?;
         self.places.get(index).or(self.place.as_ref()).cloned()
     }

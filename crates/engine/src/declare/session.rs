@@ -1,6 +1,6 @@
 //! What all virtual machines of one run share: source files, parameters, the reason to stop.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -8,29 +8,32 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, Reading, has_metatables};
+use super::analysis::{Analysis, Globals, ScriptReader, has_metatables};
+use super::api::api_version;
 use super::data::Data;
+use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
-use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
+use burgeon_packages::{PackageSearch, Packages};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
 const LARGEST: u64 = 4_000_000;
 
 /// How far a run has come, for those who wait.
 #[derive(Debug, Default)]
-pub struct Progress {
+pub struct RunProgress {
     step: AtomicUsize,
     steps: AtomicUsize,
     modules: AtomicUsize,
     total: AtomicUsize,
 }
 
-impl Progress {
+impl RunProgress {
     /// Notes that `step` of at most `steps` has made a chain of `modules`.
     pub(crate) fn note(&self, step: usize, steps: usize, modules: usize) {
         self.step.store(step, Ordering::Relaxed);
@@ -69,7 +72,7 @@ impl Progress {
 
 /// A source file, read once, as every virtual machine runs it.
 #[derive(Debug)]
-pub(crate) struct Source {
+pub(crate) struct SourceFile {
     /// The name in messages, relative to where the script was called.
     pub name: String,
     /// What reading it gave.
@@ -83,24 +86,29 @@ pub struct Session {
     /// Asks the run to stop.
     pub stop: Arc<Stop>,
     /// How far the run has come.
-    pub progress: Progress,
+    pub progress: RunProgress,
     /// The parameters of modules that are not numbers.
     pub(crate) values: Arc<Values>,
     script: PathBuf,
     root: PathBuf,
     data_roots: Vec<PathBuf>,
+    packages: Packages,
+    /// The packages whose files were asked for, by name.
+    pub(super) used: Mutex<BTreeSet<String>>,
     /// The data files that were read.
     pub(crate) data: Data,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     stdlib: Option<(String, String)>,
-    sources: Mutex<FxHashMap<PathBuf, Arc<Source>>>,
+    sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
     /// The main file while it is read ahead, and its path.
-    ahead: Mutex<Option<(PathBuf, Reading)>>,
+    ahead: Mutex<Option<(PathBuf, ScriptReader)>>,
     sought: Mutex<BTreeMap<PathBuf, bool>>,
     params: Mutex<Vec<Param>>,
     left_out: Mutex<Vec<(String, Error)>>,
     warnings: Warnings,
+    /// The names that will go, all of them and those that scripts have used.
+    pub(super) deprecated: Deprecations,
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
@@ -112,18 +120,30 @@ pub struct Session {
 impl Session {
     /// A run of the file `script`.
     pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
+        options.registry.check()?;
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;
         let data_roots = options.data.iter().map(|folder| data_root(folder)).collect::<Result<_>>()?;
+        let search = PackageSearch {
+            script: script.parent().map(Path::to_path_buf),
+            given: options.mods.clone(),
+            user: options.user_mods.clone(),
+        };
+        let packages = Packages::find(&search, &api_version());
+        let warnings = Warnings::default();
+        packages.warnings.iter().cloned().for_each(|warning| warnings.add(warning));
+        let deprecated = Deprecations::new(&options.registry);
         Ok(Arc::new(Self {
             stop: Arc::new(Stop::under(options.stop.clone())),
             options,
-            progress: Progress::default(),
+            progress: RunProgress::default(),
             values: Arc::default(),
             script: script.to_path_buf(),
             root,
             data_roots,
+            packages,
+            used: Mutex::default(),
             data: Data::default(),
             drawn: RandomPositions::default(),
             stdlib,
@@ -132,7 +152,8 @@ impl Session {
             sought: Mutex::default(),
             params: Mutex::default(),
             left_out: Mutex::default(),
-            warnings: Warnings::default(),
+            warnings,
+            deprecated,
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
             peeking: AtomicBool::new(false),
@@ -156,6 +177,11 @@ impl Session {
         &self.data_roots
     }
 
+    /// The packages that its scripts may use.
+    pub fn packages(&self) -> &Packages {
+        &self.packages
+    }
+
     /// Every file that was read, in the order of their paths.
     pub fn files(&self) -> Vec<PathBuf> {
         let mut files: Vec<PathBuf> =
@@ -169,7 +195,7 @@ impl Session {
     pub fn sought(&self) -> Vec<(PathBuf, bool)> {
         let mut files = self.sought.lock().unwrap_or_else(PoisonError::into_inner).clone();
         let read = self.files().into_iter().chain([self.script.clone()]).chain(self.options.stdlib.clone());
-        files.extend(read.map(|path| (path, true)));
+        files.extend(read.chain(self.packages.manifests()).map(|path| (path, true)));
         files.into_iter().collect()
     }
 
@@ -207,7 +233,10 @@ impl Session {
 
     /// What people should know of the run so far, in the order of files and lines.
     pub fn warnings(&self) -> Vec<Warning> {
-        self.warnings.list()
+        let mut warnings = self.warnings.list();
+        warnings.extend(self.deprecated.warnings());
+        warnings.sort_by(|a, b| (a.place().is_none(), a.place()).cmp(&(b.place().is_none(), b.place())));
+        warnings
     }
 
     /// The parameters that the script declared, in order.
@@ -248,7 +277,15 @@ impl Session {
         self.source_called(file)?.analysis.lost.get(&line).copied()
     }
 
-    fn source_called(&self, file: &str) -> Option<Arc<Source>> {
+    /// How people find a file that was read.
+    pub(crate) fn name_of(&self, path: &Path) -> String {
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let known = sources.get(path).filter(|_| !path.starts_with(&self.root));
+        let inner = path.strip_prefix(&self.root).unwrap_or(path);
+        known.map_or_else(|| inner.display().to_string(), |source| source.name.clone())
+    }
+
+    fn source_called(&self, file: &str) -> Option<Arc<SourceFile>> {
         let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         sources.values().find(|source| source.name == file).cloned()
     }
@@ -291,7 +328,7 @@ impl Session {
     }
 
     /// The source of the file at `path`, which lies in the script's folder; `name` is for messages.
-    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<Source>> {
+    pub(crate) fn source(&self, path: &Path, name: &str, globals: &Globals) -> Result<Arc<SourceFile>> {
         let mut sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some(source) = sources.get(path) {
             return Ok(Arc::clone(source));
@@ -302,23 +339,31 @@ impl Session {
             Some((_, reading)) => reading,
             None => begin_reading(path, name)?,
         };
-        let analysis = reading.finish(globals);
+        let mut analysis = reading.finish(globals);
         self.note(&analysis);
-        let source = Arc::new(Source { name: name.to_owned(), analysis });
+        for (used, line) in &analysis.deprecated {
+            if let Some(deprecation) = globals.deprecated.get(used) {
+                let place = SourcePlace { file: name.to_owned(), line: *line };
+                self.use_deprecated(used, deprecation, Some(place));
+            }
+        }
+        let undeclared = self.undeclared(name, &analysis.packages);
+        analysis.problems.extend(undeclared);
+        let source = Arc::new(SourceFile { name: name.to_owned(), analysis });
         sources.insert(path.to_path_buf(), Arc::clone(&source));
         Ok(source)
     }
 }
 
 /// Begins to read the file at `path`; `name` is for messages.
-fn begin_reading(path: &Path, name: &str) -> Result<Reading> {
+fn begin_reading(path: &Path, name: &str) -> Result<ScriptReader> {
     let bytes =
         burgeon_base::files::read(path, LARGEST).map_err(|error| unreadable(Path::new(name), &error))?;
     let text = String::from_utf8(bytes).map_err(|_| {
         Error::file(path, format!("{name} is not a text file"))
             .help("scripts are UTF-8 text; check the file's name")
     })?;
-    Ok(Reading::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
+    Ok(ScriptReader::begin(name, text.strip_prefix('\u{feff}').unwrap_or(&text)))
 }
 
 /// A folder of data files, without links in its path.
@@ -373,7 +418,7 @@ mod tests {
 
     #[test]
     fn progress_tells_the_time_left_once_there_is_some() {
-        let progress = Progress::default();
+        let progress = RunProgress::default();
         progress.note(5, 20, 1_000_000);
         let after = |seconds: f64| progress.message(Duration::from_secs_f64(seconds));
         assert_eq!(after(0.2), "step 5 of 20, 1000000 modules, 5.0 M modules/s");

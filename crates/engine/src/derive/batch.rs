@@ -3,18 +3,18 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::Plan;
 use super::functions::{Applications, Failure, RuleFunctions};
-use super::group::{Arranged, Group};
+use super::group::{ModuleOrder, RuleGroup};
 use super::output::Output;
+use super::plan::DerivationPlan;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::{Around, Bindings, Chain, Key, Links, Mark, Values, module_brief};
+use burgeon_kit::rules::{Bindings, Chain, ContextMatcher, Links, Mark, ModuleKey, Values, module_brief};
 
 /// No rule.
 pub(super) const NONE: u16 = burgeon_kit::RewriteOutcome::NONE;
 /// A piece of the chain: from a mark up to another symbol.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Piece {
+pub(crate) struct ChainPiece {
     pub begin: Mark,
     pub end: usize,
 }
@@ -24,12 +24,12 @@ pub(crate) struct Piece {
 pub(crate) struct Scratch {
     pub(super) active: Vec<Active>,
     /// One for each rule.
-    pub(super) groups: Vec<Group>,
+    pub(super) groups: Vec<RuleGroup>,
     arguments: Vec<f64>,
     pub(super) bindings: Bindings,
     chains: Vec<u32>,
-    keys: Vec<Key>,
-    pub(super) arranged: Arranged,
+    keys: Vec<ModuleKey>,
+    pub(super) arranged: ModuleOrder,
 }
 
 /// A module that has rules.
@@ -44,7 +44,7 @@ pub(super) struct Active {
 /// The step at hand, for one thread.
 pub(crate) struct Batch<'a> {
     pub functions: &'a dyn RuleFunctions,
-    pub plan: &'a Arc<Plan>,
+    pub plan: &'a Arc<DerivationPlan>,
     /// The parameters that are not numbers.
     pub values: &'a Values,
     pub chain: &'a Chain,
@@ -54,9 +54,9 @@ pub(crate) struct Batch<'a> {
 
 impl Batch<'_> {
     /// Rewrites `piece`; `spare` is an emptied output whose memory is used again.
-    pub(crate) fn rewrite(&self, piece: Piece, scratch: &mut Scratch, spare: Output) -> Result<Output> {
+    pub(crate) fn rewrite(&self, piece: ChainPiece, scratch: &mut Scratch, spare: Output) -> Result<Output> {
         let rules = self.plan.grammar.rules().len();
-        scratch.groups.resize_with(rules, Group::default);
+        scratch.groups.resize_with(rules, RuleGroup::default);
         self.choose(piece, scratch)?;
         self.apply(scratch)?;
         let applied = if self.plan.traced { self.applied(piece, scratch) } else { Vec::new() };
@@ -65,8 +65,8 @@ impl Batch<'_> {
 
     /// The contexts of the chain's modules.
     #[inline]
-    pub(super) fn around(&self) -> Around<'_> {
-        Around { chain: self.chain, links: self.links, grammar: &self.plan.grammar }
+    pub(super) fn around(&self) -> ContextMatcher<'_> {
+        ContextMatcher { chain: self.chain, links: self.links, grammar: &self.plan.grammar }
     }
 
     /// Gathers what the functions of `rule` are run for: the applications `members`.

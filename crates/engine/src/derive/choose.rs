@@ -1,12 +1,12 @@
 //! Chooses the rule of each module: by its contexts, its guard and its weight.
 
-use super::batch::{Active, Batch, NONE, Piece, Scratch, narrow};
+use super::batch::{Active, Batch, ChainPiece, NONE, Scratch, narrow};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Candidates, Choice, END, Symbol};
 
 impl Batch<'_> {
     /// Chooses the rules of all modules of `piece`.
-    pub(super) fn choose(&self, piece: Piece, scratch: &mut Scratch) -> Result<()> {
+    pub(super) fn choose(&self, piece: ChainPiece, scratch: &mut Scratch) -> Result<()> {
         let grammar = &self.plan.grammar;
         let arities = grammar.arities();
         scratch.active.clear();

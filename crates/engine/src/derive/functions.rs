@@ -5,10 +5,10 @@
 
 use std::cell::Ref;
 
-use super::group::Group;
-use crate::machine::{Declared, Machine, ReturnShape, read_column, write_column};
+use super::group::RuleGroup;
+use crate::machine::{Machine, ReturnShape, SystemFunctions, read_column, write_column};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::Key;
+use burgeon_kit::rules::ModuleKey;
 
 /// The applications of one rule that its function is run for at once.
 pub(super) struct Applications<'a> {
@@ -21,7 +21,7 @@ pub(super) struct Applications<'a> {
     /// The chain of each; empty where there is only one chain.
     pub chains: &'a [u32],
     /// The random key of each; empty where nothing draws.
-    pub keys: &'a [Key],
+    pub keys: &'a [ModuleKey],
     /// Whether the choice among weighted rules has taken the first number of each stream.
     pub weighted: bool,
 }
@@ -43,7 +43,7 @@ impl From<Error> for Failure {
 /// Runs the functions of a system's rules, in one thread.
 pub(super) trait RuleFunctions {
     /// Runs the successor of a rule; `made` takes the modules.
-    fn apply(&self, applications: &Applications<'_>, made: &mut Group) -> Result<(), Failure>;
+    fn apply(&self, applications: &Applications<'_>, made: &mut RuleGroup) -> Result<(), Failure>;
 
     /// Asks the guard of a rule; `holds` takes a number for each application, 0 where it does not hold.
     fn ask(&self, applications: &Applications<'_>, holds: &mut Vec<u32>) -> Result<(), Failure>;
@@ -55,7 +55,7 @@ pub(super) trait RuleFunctions {
 /// The functions of a script in a virtual machine.
 pub(super) struct LuaFunctions<'a> {
     pub machine: &'a Machine,
-    pub declared: &'a Declared,
+    pub declared: &'a SystemFunctions,
 }
 
 impl LuaFunctions<'_> {
@@ -106,7 +106,7 @@ impl LuaFunctions<'_> {
 }
 
 impl RuleFunctions for LuaFunctions<'_> {
-    fn apply(&self, applications: &Applications<'_>, made: &mut Group) -> Result<(), Failure> {
+    fn apply(&self, applications: &Applications<'_>, made: &mut RuleGroup) -> Result<(), Failure> {
         let lua = |error: mlua::Error| self.machine.translate(error);
         let (prelude, current) = (self.machine.prelude(), &self.machine.current);
         self.prepare(applications)?;

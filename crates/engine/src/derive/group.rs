@@ -41,7 +41,7 @@ impl Product {
 
 /// The modules that one rule is applied to, and what it made of them.
 #[derive(Default)]
-pub(super) struct Group {
+pub(super) struct RuleGroup {
     pub members: Vec<u32>,
     pub symbols: Vec<Symbol>,
     pub params: Vec<f64>,
@@ -59,13 +59,19 @@ pub(super) struct Group {
     pub time: Duration,
 }
 
-impl Group {
+impl RuleGroup {
     pub(super) fn rewind(&mut self) {
         (self.next, self.symbol_at, self.param_at, self.order_at, self.made) = (0, 0, 0, 0, 0);
     }
 
     /// The successor of the application whose modules end at `end`: its symbols, and its parameters behind `params`.
-    pub(super) fn arrange(&mut self, end: usize, arities: &[u8], to: &mut Arranged, params: &mut Vec<f64>) {
+    pub(super) fn arrange(
+        &mut self,
+        end: usize,
+        arities: &[u8],
+        to: &mut ModuleOrder,
+        params: &mut Vec<f64>,
+    ) {
         let arity = |symbol: Symbol| usize::from(arities[usize::from(symbol)]);
         let made = &self.symbols[self.symbol_at..end];
         self.symbol_at = end;
@@ -96,7 +102,7 @@ impl Group {
 
 /// A successor whose modules are in another order than they were made.
 #[derive(Default)]
-pub(super) struct Arranged {
+pub(super) struct ModuleOrder {
     pub symbols: Vec<Symbol>,
     /// Where the parameters of each module that was made begin.
     starts: Vec<usize>,

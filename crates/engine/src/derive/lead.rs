@@ -5,14 +5,14 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use super::interpret::InterpretationPass;
-use super::plan::{Derivation, Plan};
+use super::plan::{Derivation, DerivationPlan};
 use super::rewriter::SystemRewriter;
 use super::step::Stepper;
 use super::threads::ThreadPool;
-use crate::declare::Traced;
+use crate::declare::TraceRequest;
 use crate::machine::{Axiom, Machine, Objects};
-use crate::results::{Derived, Remark, RuleName, RuleReport, Step, Times, Trace, Use};
-use burgeon_base::error::{Error, Place, Result};
+use crate::results::{DerivedSystem, Remark, RuleName, RuleReport, Step, Times, Trace, Use};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::Object;
 use burgeon_kit::rules::Chain;
@@ -20,7 +20,7 @@ use burgeon_kit::rules::Chain;
 /// How a derivation has ended.
 pub(super) enum Ending {
     /// With a system as the script asked for it.
-    Derived(Derived),
+    Derived(DerivedSystem),
     /// With the lineage that the options of the run ask for.
     Traced(Trace),
 }
@@ -54,7 +54,7 @@ struct Growth<'a> {
 }
 
 /// What the steps of a derivation gave.
-struct Steps {
+struct StepResults {
     chain: Chain,
     done: usize,
     times: Times,
@@ -80,7 +80,7 @@ impl<'a> Growth<'a> {
     }
 
     /// Makes steps from the first `chain` on, until nothing can change or there have been enough.
-    fn grow(mut self, mut chain: Chain) -> Result<Steps> {
+    fn grow(mut self, mut chain: Chain) -> Result<StepResults> {
         let (derivation, session) = (self.derivation, &self.machine.session);
         let plan = &derivation.plan;
         chain.mark(plan.batch, plan.grammar.arities());
@@ -115,7 +115,7 @@ impl<'a> Growth<'a> {
         }
         let said = self.said;
         self.first.retain(|warning| said.iter().all(|later| later.message() != warning.message()));
-        Ok(Steps {
+        Ok(StepResults {
             chain,
             done,
             times: self.times,
@@ -126,11 +126,11 @@ impl<'a> Growth<'a> {
     }
 
     /// Makes step number `step`, and notes it where the lineage is asked for.
-    fn step(&mut self, chain: Chain, step: usize) -> Result<(Chain, Change)> {
+    fn step(&mut self, chain: Chain, step: usize) -> Result<(Chain, StepChange)> {
         let begin = Instant::now();
         self.times.read += chain.symbols.len();
         let before = match self.derivation.traced {
-            Some(Traced { chain: Some(_), .. }) => chain.clone(),
+            Some(TraceRequest { chain: Some(_), .. }) => chain.clone(),
             _ => Chain::default(),
         };
         let outcome =
@@ -139,7 +139,7 @@ impl<'a> Growth<'a> {
         if self.derivation.traced.is_some() {
             self.steps.push(Step { chain: before, applied: outcome.applied });
         }
-        Ok((outcome.chain, Change { ran: outcome.ran, changed: outcome.changed }))
+        Ok((outcome.chain, StepChange { ran: outcome.ran, changed: outcome.changed }))
     }
 
     /// Has the chain interpreted as it stands after `step` steps, and gives it back.
@@ -160,7 +160,7 @@ impl<'a> Growth<'a> {
 }
 
 /// What a step did.
-struct Change {
+struct StepChange {
     /// Whether any rule ran.
     ran: bool,
     /// Whether any rule that ran replaced or erased its module.
@@ -168,7 +168,7 @@ struct Change {
 }
 
 /// Takes leave of the machine: tells what is to be told, and gives the objects to who looks at them.
-fn settle(machine: &Machine, derivation: Derivation, grown: Steps) -> Result<Ending> {
+fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Result<Ending> {
     let session = &machine.session;
     let Derivation { mut axiom, plan, declared, traced, place, axiom_place, draws, .. } = derivation;
     for warning in grown.warnings {
@@ -180,13 +180,14 @@ fn settle(machine: &Machine, derivation: Derivation, grown: Steps) -> Result<End
     machine.current.objects.replace(None);
     session.keep(&grown.chain.params);
     let plan = Arc::try_unwrap(plan).map_err(|_| Error::internal("a worker still holds the plan"))?;
-    let Plan { system, grammar, interpretations, objects, .. } = plan;
+    let DerivationPlan { system, grammar, interpretations, objects, .. } = plan;
     let objects = objects.map(Arc::try_unwrap).transpose();
     let objects = objects.map_err(|_| Error::internal("a worker still holds the objects"))?;
     if traced.is_some()
         && let Some(objects) = objects
     {
-        let named = |text: &str, place: &Option<Place>| RuleName { text: text.into(), place: place.clone() };
+        let named =
+            |text: &str, place: &Option<SourcePlace>| RuleName { text: text.into(), place: place.clone() };
         let rules = grammar.rules().iter().map(|rule| named(&rule.pattern.text, &rule.place));
         let interpreters = interpretations.list.iter().map(|known| named(&known.name, &known.place));
         let shared = (grammar.symbols(), &session.values);
@@ -207,7 +208,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: Steps) -> Result<End
         }
         None => Vec::new(),
     };
-    let mut derived = Derived::new(
+    let mut derived = DerivedSystem::new(
         system,
         grown.chain,
         Arc::clone(grammar.symbols()),
@@ -248,7 +249,7 @@ fn shared(objects: Objects, axiom: &Axiom, remarks: &mut Vec<Remark>) -> Result<
 }
 
 /// What the rules and interpretation rules have done, in the order of their declaration.
-fn reports(plan: &Plan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
+fn reports(plan: &DerivationPlan, rules: &[Use], interpretations: &[Use]) -> Vec<RuleReport> {
     let rules = plan.grammar.rules().iter().zip(rules).map(|(rule, done)| RuleReport {
         name: RuleName { text: rule.pattern.text.clone(), place: rule.place.clone() },
         interprets: false,

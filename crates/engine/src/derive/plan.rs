@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use super::rewriter::SystemRewriter;
-use crate::declare::Traced;
-use crate::machine::{Axiom, Declared, Interpretations, Machine, Objects};
-use burgeon_base::error::{Place, Result};
+use crate::declare::TraceRequest;
+use crate::machine::{Axiom, Interpretations, Machine, Objects, SystemFunctions};
+use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
-use burgeon_kit::rules::{Grammar, Key};
+use burgeon_kit::rules::{Grammar, ModuleKey};
 
 /// What does not change while a system derives; shared by all threads.
-pub(crate) struct Plan {
+pub(crate) struct DerivationPlan {
     /// The system's place among those of the script.
     pub system: usize,
     pub grammar: Grammar,
@@ -26,7 +26,7 @@ pub(crate) struct Plan {
     pub profiled: bool,
 }
 
-impl Plan {
+impl DerivationPlan {
     /// Tells objects that expand by themselves that the script is only checked.
     pub(super) fn sketch(&self) -> Result<()> {
         let Some(objects) = &self.objects else { return Ok(()) };
@@ -59,15 +59,15 @@ impl Plan {
 pub(super) struct Derivation {
     /// The first chains, whose objects the plan has.
     pub axiom: Axiom,
-    pub plan: Arc<Plan>,
+    pub plan: Arc<DerivationPlan>,
     /// The functions of its rules in the leading machine.
-    pub declared: Declared,
+    pub declared: SystemFunctions,
     /// The chains whose lineage is asked for.
-    pub traced: Option<Traced>,
+    pub traced: Option<TraceRequest>,
     /// Where the system was made.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     /// Where its axiom was set.
-    pub axiom_place: Option<Place>,
+    pub axiom_place: Option<SourcePlace>,
     /// Whether only the last pass is made, as nobody could see the others.
     pub last_only: bool,
     /// Whether what passes drew before the last one is gone after it.
@@ -90,7 +90,7 @@ impl Derivation {
         let systems = machine.library.systems.borrow();
         let system = &systems[index];
         let grammar = system.grammar(&machine.library, session.draws_random());
-        let key = Key::seed(system.seed.unwrap_or(options.seed));
+        let key = ModuleKey::seed(system.seed.unwrap_or(options.seed));
         let mut axiom = system.axiom(machine, key, grammar.draws_random())?;
         if let Some(chain) = traced.and_then(|traced| traced.chain) {
             axiom = axiom.only(chain, grammar.arities());
@@ -99,7 +99,7 @@ impl Derivation {
         // Where nothing else would be built, the error tells more.
         let forgiving = axiom.given > 1 && !options.strict;
         let objects = (!objects.is_empty()).then(|| Arc::new(Objects::new(objects, forgiving)));
-        let plan = Arc::new(Plan {
+        let plan = Arc::new(DerivationPlan {
             system: index,
             grammar,
             interpretations: system.interpretations(&machine.library),

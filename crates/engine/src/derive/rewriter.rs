@@ -5,12 +5,12 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::Plan;
-use super::step::{Outcome, Stepper};
+use super::plan::DerivationPlan;
+use super::step::{StepOutcome, Stepper};
 use super::threads::ThreadPool;
-use crate::machine::{Declared, Interpretations, Machine};
+use crate::machine::{Interpretations, Machine, SystemFunctions};
 use burgeon_base::error::Result;
-use burgeon_kit::rules::{Chain, Key};
+use burgeon_kit::rules::{Chain, ModuleKey};
 use burgeon_kit::{RewriteOutcome, Rewriter, RuleSet};
 
 /// The systems of a machine's script whose rules objects apply.
@@ -24,7 +24,7 @@ pub(super) struct SystemRewriter<'a> {
 
 /// A system whose rules have been applied.
 struct Ready {
-    declared: Declared,
+    declared: SystemFunctions,
     stepper: Stepper,
 }
 
@@ -42,7 +42,7 @@ impl<'a> SystemRewriter<'a> {
     /// Makes system `index` ready to be derived.
     fn prepare(&self, index: usize) -> Result<Ready> {
         let rules = self.rules(index)?;
-        let plan = Arc::new(Plan {
+        let plan = Arc::new(DerivationPlan {
             system: index,
             grammar: rules.grammar.clone(),
             interpretations: Interpretations::default(),
@@ -83,7 +83,7 @@ impl Rewriter for SystemRewriter<'_> {
         }
         let random = self.rules(index)?.grammar.draws_random();
         let axiom =
-            self.machine.library.systems.borrow()[index].axiom(self.machine, Key::default(), random)?;
+            self.machine.library.systems.borrow()[index].axiom(self.machine, ModuleKey::default(), random)?;
         self.axioms.borrow_mut().insert(index, axiom.chain.clone());
         Ok(axiom.chain)
     }
@@ -94,7 +94,7 @@ impl Rewriter for SystemRewriter<'_> {
             std::collections::hash_map::Entry::Occupied(entry) => entry.into_mut(),
             std::collections::hash_map::Entry::Vacant(entry) => entry.insert(self.prepare(index)?),
         };
-        let Outcome { chain, applied, .. } =
+        let StepOutcome { chain, applied, .. } =
             ready.stepper.step((self.machine, self.threads), &ready.declared, chain, step)?;
         Ok(RewriteOutcome { chain, applied })
     }

@@ -1,14 +1,14 @@
 //! Splices what the rules made of a piece into the next chain.
 
-use super::batch::{Batch, NONE, Piece, Scratch, narrow, narrow_rule};
+use super::batch::{Batch, ChainPiece, NONE, Scratch, narrow, narrow_rule};
 use super::group::Product;
 use super::output::Output;
 use crate::results::Use;
-use burgeon_kit::rules::{Chain, END, Key, Symbol};
+use burgeon_kit::rules::{Chain, END, ModuleKey, Symbol};
 
 impl Batch<'_> {
     /// The next chain where `piece` was.
-    pub(super) fn splice(&self, piece: Piece, scratch: &mut Scratch, mut output: Output) -> Output {
+    pub(super) fn splice(&self, piece: ChainPiece, scratch: &mut Scratch, mut output: Output) -> Output {
         let grammar = &self.plan.grammar;
         let random = grammar.draws_random();
         let shapes = self.functions.shapes();
@@ -70,7 +70,7 @@ impl Batch<'_> {
                 out.keys.extend(symbols.iter().map(|symbol| {
                     let key = parent.child(ordinal);
                     ordinal += usize::from(*symbol > END);
-                    if *symbol > END { key } else { Key::default() }
+                    if *symbol > END { key } else { ModuleKey::default() }
                 }));
             }
             group.param_at += params;
@@ -96,7 +96,7 @@ impl Batch<'_> {
     }
 
     /// For each symbol of `piece`, the rule that ran and how many symbols come of it.
-    pub(super) fn applied(&self, piece: Piece, scratch: &Scratch) -> Vec<(u16, u32)> {
+    pub(super) fn applied(&self, piece: ChainPiece, scratch: &Scratch) -> Vec<(u16, u32)> {
         let shapes = self.functions.shapes();
         let mut applied = vec![(NONE, 1); piece.end - piece.begin.module];
         let mut read = vec![(0, 0, 0); scratch.groups.len()];

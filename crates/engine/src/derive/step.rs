@@ -3,12 +3,12 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
-use super::Plan;
-use super::batch::{Batch, Piece, Scratch};
+use super::batch::{Batch, ChainPiece, Scratch};
 use super::functions::LuaFunctions;
 use super::output::Output;
-use super::threads::{Job, ThreadPool};
-use crate::machine::{Declared, Machine};
+use super::plan::DerivationPlan;
+use super::threads::{ThreadJob, ThreadPool};
+use crate::machine::{Machine, SystemFunctions};
 use crate::results::Use;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::rules::{Chain, Links, Mark};
@@ -18,11 +18,11 @@ const MANY: usize = 16;
 
 /// The work of one step, shared by the threads.
 pub(crate) struct RewritingStep {
-    pub plan: Arc<Plan>,
+    pub plan: Arc<DerivationPlan>,
     pub chain: Chain,
     pub links: Links,
     pub step: usize,
-    pieces: Vec<Piece>,
+    pieces: Vec<ChainPiece>,
     next: AtomicUsize,
     /// The first piece that failed; later ones are not begun.
     failed: AtomicUsize,
@@ -34,7 +34,7 @@ pub(crate) struct RewritingStep {
 
 impl RewritingStep {
     /// Takes a piece and rewrites it; `false` when none is left.
-    pub(crate) fn work(&self, machine: &Machine, declared: &Declared, scratch: &mut Scratch) -> bool {
+    pub(crate) fn work(&self, machine: &Machine, declared: &SystemFunctions, scratch: &mut Scratch) -> bool {
         let index = self.next.fetch_add(1, Ordering::Relaxed);
         if index >= self.pieces.len() || index > self.failed.load(Ordering::Relaxed) {
             return false;
@@ -80,7 +80,7 @@ impl RewritingStep {
 }
 
 /// What a step gave.
-pub(crate) struct Outcome {
+pub(crate) struct StepOutcome {
     pub chain: Chain,
     pub ran: bool,
     pub changed: bool,
@@ -89,7 +89,7 @@ pub(crate) struct Outcome {
 }
 
 /// What all pieces together gave, besides their chain.
-struct Merged {
+struct StepTotals {
     ran: bool,
     changed: bool,
     applied: Vec<(u16, u32)>,
@@ -97,7 +97,7 @@ struct Merged {
 
 /// Makes steps; keeps the memory of the last chain for the next.
 pub(crate) struct Stepper {
-    plan: Arc<Plan>,
+    plan: Arc<DerivationPlan>,
     spare: Chain,
     links: Links,
     scratch: Scratch,
@@ -107,7 +107,7 @@ pub(crate) struct Stepper {
 }
 
 impl Stepper {
-    pub(crate) fn new(plan: Arc<Plan>) -> Self {
+    pub(crate) fn new(plan: Arc<DerivationPlan>) -> Self {
         Self {
             uses: vec![Use::default(); plan.grammar.rules().len()],
             plan,
@@ -122,10 +122,10 @@ impl Stepper {
     pub(crate) fn step(
         &mut self,
         (machine, threads): (&Machine, &ThreadPool),
-        declared: &Declared,
+        declared: &SystemFunctions,
         chain: Chain,
         step: usize,
-    ) -> Result<Outcome> {
+    ) -> Result<StepOutcome> {
         self.links.build(&chain, &self.plan.grammar);
         let pieces = pieces(&chain, self.plan.batch);
         let count = pieces.len();
@@ -144,17 +144,17 @@ impl Stepper {
             results: Mutex::new(std::iter::repeat_with(|| None).take(count).collect()),
             ready: Condvar::new(),
         });
-        threads.hand_out(machine, count, MANY, || Job::Rewrite(Arc::downgrade(&rewriting)))?;
+        threads.hand_out(machine, count, MANY, || ThreadJob::Rewrite(Arc::downgrade(&rewriting)))?;
         let result = self.merge(machine, declared, &rewriting);
         if result.is_err() {
             rewriting.abandon();
         }
         let rewriting = threads.reclaim(rewriting);
-        let Merged { ran, changed, applied } = result?;
+        let StepTotals { ran, changed, applied } = result?;
         self.links = rewriting.links;
         self.outputs = rewriting.spare.into_inner().unwrap_or_else(PoisonError::into_inner);
         let made = std::mem::replace(&mut self.spare, rewriting.chain);
-        Ok(Outcome { chain: made, ran, changed, applied })
+        Ok(StepOutcome { chain: made, ran, changed, applied })
     }
 
     /// Takes back a chain that nobody needs any more, for its memory.
@@ -165,7 +165,12 @@ impl Stepper {
     }
 
     /// Works on pieces and puts the results together as they come, in order.
-    fn merge(&mut self, machine: &Machine, declared: &Declared, rewriting: &RewritingStep) -> Result<Merged> {
+    fn merge(
+        &mut self,
+        machine: &Machine,
+        declared: &SystemFunctions,
+        rewriting: &RewritingStep,
+    ) -> Result<StepTotals> {
         let limit = machine.session.options.limits.modules;
         let made = &mut self.spare;
         made.clear();
@@ -209,7 +214,7 @@ impl Stepper {
                 return Err(self.runaway(&growth, limit, rewriting.step));
             }
         }
-        Ok(Merged { ran, changed, applied })
+        Ok(StepTotals { ran, changed, applied })
     }
 
     /// What each rule has done so far.
@@ -231,16 +236,16 @@ impl Stepper {
 }
 
 /// Joins the chain's marks to pieces of at least `size` symbols.
-fn pieces(chain: &Chain, size: usize) -> Vec<Piece> {
-    let mut pieces: Vec<Piece> = Vec::new();
+fn pieces(chain: &Chain, size: usize) -> Vec<ChainPiece> {
+    let mut pieces: Vec<ChainPiece> = Vec::new();
     for mark in &chain.marks {
         match pieces.last_mut() {
             Some(piece) if mark.module - piece.begin.module < size => {}
             Some(piece) => {
                 piece.end = mark.module;
-                pieces.push(Piece { begin: *mark, end: mark.module });
+                pieces.push(ChainPiece { begin: *mark, end: mark.module });
             }
-            None => pieces.push(Piece { begin: *mark, end: mark.module }),
+            None => pieces.push(ChainPiece { begin: *mark, end: mark.module }),
         }
     }
     if let Some(piece) = pieces.last_mut() {

@@ -12,25 +12,25 @@ use rustc_hash::FxHashMap;
 
 use super::batch::Scratch;
 use super::interpret::InterpretationPass;
+use super::lead::{Ending, lead};
 use super::step::RewritingStep;
-use super::{Ending, lead};
 use crate::declare::Session;
-use crate::machine::{Declared, Driver, Machine, Watchdog};
-use crate::results::{Derived, Trace};
+use crate::machine::{Driver, Machine, SystemFunctions, Watchdog};
+use crate::results::{DerivedSystem, Trace};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Prefetch;
 
 /// Work for all threads, unless it is done before they come to it: a helper that is still starting keeps nobody waiting.
 #[derive(Clone)]
-pub(crate) enum Job {
+pub(crate) enum ThreadJob {
     Rewrite(Weak<RewritingStep>),
     Interpret(Weak<InterpretationPass>),
     Prefetch(Weak<dyn Prefetch>),
 }
 
 enum Message {
-    Work(Job),
-    Derived(Result<Arc<Derived>>),
+    Work(ThreadJob),
+    Derived(Result<Arc<DerivedSystem>>),
 }
 
 struct Helper {
@@ -44,13 +44,13 @@ const STARTING: Duration = Duration::from_millis(20);
 /// The threads of a run, as one machine sees them: it leads the others, or follows.
 pub(crate) struct ThreadPool {
     /// What each derivation has given so far, in order.
-    done: RefCell<Vec<Result<Arc<Derived>>>>,
-    role: RefCell<Role>,
+    done: RefCell<Vec<Result<Arc<DerivedSystem>>>>,
+    role: RefCell<ThreadRole>,
     /// The lineage that was asked for, once it is known.
     trace: RefCell<Option<Trace>>,
 }
 
-enum Role {
+enum ThreadRole {
     /// With the time when there was work for helpers first.
     Lead {
         helpers: Vec<Helper>,
@@ -59,17 +59,17 @@ enum Role {
     },
     Follow {
         inbox: Rc<Receiver<Message>>,
-        recorded: Vec<Result<Arc<Derived>>>,
+        recorded: Vec<Result<Arc<DerivedSystem>>>,
     },
 }
 
 impl ThreadPool {
     /// The threads as the machine sees them whose result counts.
     pub(crate) fn leading(watchdog: &Arc<Watchdog>) -> Self {
-        Self::new(Role::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog), since: None })
+        Self::new(ThreadRole::Lead { helpers: Vec::new(), watchdog: Arc::clone(watchdog), since: None })
     }
 
-    fn new(role: Role) -> Self {
+    fn new(role: ThreadRole) -> Self {
         Self { done: RefCell::default(), role: RefCell::new(role), trace: RefCell::default() }
     }
 
@@ -79,10 +79,10 @@ impl ThreadPool {
     }
 
     /// In a following machine: works for the leader until system `index` is derived, and returns the result.
-    fn follow(&self, machine: &Machine, index: usize) -> Result<Option<Arc<Derived>>> {
+    fn follow(&self, machine: &Machine, index: usize) -> Result<Option<Arc<DerivedSystem>>> {
         let (inbox, known) = match &*self.role.borrow() {
-            Role::Lead { .. } => return Ok(None),
-            Role::Follow { inbox, recorded } => {
+            ThreadRole::Lead { .. } => return Ok(None),
+            ThreadRole::Follow { inbox, recorded } => {
                 (Rc::clone(inbox), recorded.get(self.done.borrow().len()).cloned())
             }
         };
@@ -98,8 +98,8 @@ impl ThreadPool {
     }
 
     /// In the leading machine: tells the others what a system became, or why it did not.
-    fn finished(&self, derived: &Result<Arc<Derived>>) {
-        if let Role::Lead { helpers, .. } = &*self.role.borrow() {
+    fn finished(&self, derived: &Result<Arc<DerivedSystem>>) {
+        if let ThreadRole::Lead { helpers, .. } = &*self.role.borrow() {
             for helper in helpers {
                 // A helper that has ended needs no news.
                 let _ = helper.outbox.send(Message::Derived(derived.clone()));
@@ -116,11 +116,11 @@ impl ThreadPool {
         machine: &Machine,
         pieces: usize,
         many: usize,
-        job: impl Fn() -> Job,
+        job: impl Fn() -> ThreadJob,
     ) -> Result<()> {
         let useful = machine.session.options.worker_threads().min(pieces).saturating_sub(1);
         let mut role = self.role.borrow_mut();
-        let Role::Lead { helpers, watchdog, since } = &mut *role else { return Ok(()) };
+        let ThreadRole::Lead { helpers, watchdog, since } = &mut *role else { return Ok(()) };
         if useful == 0 {
             return Ok(());
         }
@@ -152,7 +152,7 @@ impl ThreadPool {
 }
 
 impl Driver for ThreadPool {
-    fn derive(&self, machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<Derived>> {
+    fn derive(&self, machine: &Machine, index: usize, steps: Option<usize>) -> Result<Arc<DerivedSystem>> {
         let problems: Vec<Error> = machine.library.problems.borrow_mut().drain(..).collect();
         if !problems.is_empty() {
             return Err(Error::several(problems));
@@ -173,7 +173,7 @@ impl Driver for ThreadPool {
         derived
     }
 
-    fn derived(&self) -> Vec<Result<Arc<Derived>>> {
+    fn derived(&self) -> Vec<Result<Arc<DerivedSystem>>> {
         self.done.borrow().clone()
     }
 
@@ -182,17 +182,17 @@ impl Driver for ThreadPool {
     }
 
     fn leads(&self) -> bool {
-        matches!(&*self.role.borrow(), Role::Lead { .. })
+        matches!(&*self.role.borrow(), ThreadRole::Lead { .. })
     }
 
     fn prefetch(&self, machine: &Machine, prefetch: &Arc<dyn Prefetch>) -> Result<()> {
-        self.hand_out(machine, 2, 2, || Job::Prefetch(Arc::downgrade(prefetch)))
+        self.hand_out(machine, 2, 2, || ThreadJob::Prefetch(Arc::downgrade(prefetch)))
     }
 }
 
 impl Drop for ThreadPool {
     fn drop(&mut self) {
-        if let Role::Lead { helpers, .. } = self.role.get_mut() {
+        if let ThreadRole::Lead { helpers, .. } = self.role.get_mut() {
             for Helper { outbox, thread } in helpers.drain(..) {
                 drop(outbox);
                 // A helper that panicked has been left out of the result already.
@@ -206,12 +206,12 @@ impl Helper {
     fn start(
         session: &Arc<Session>,
         watchdog: &Arc<Watchdog>,
-        recorded: Vec<Result<Arc<Derived>>>,
+        recorded: Vec<Result<Arc<DerivedSystem>>>,
     ) -> Result<Self> {
         let (outbox, inbox) = channel();
         let (session, watchdog) = (Arc::clone(session), Arc::clone(watchdog));
         let follow = move || {
-            let threads = ThreadPool::new(Role::Follow { inbox: Rc::new(inbox), recorded });
+            let threads = ThreadPool::new(ThreadRole::Follow { inbox: Rc::new(inbox), recorded });
             if let Ok(machine) = Machine::new(&session, &watchdog, Rc::new(threads)) {
                 machine.silence();
                 // What goes wrong here goes wrong in the leading machine as well, which tells of it.
@@ -227,10 +227,10 @@ impl Helper {
 }
 
 /// Works on jobs for system `index` until the leader has derived it.
-fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Result<Arc<Derived>>> {
+fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<Result<Arc<DerivedSystem>>> {
     // What was declared since the last derivation holds as well.
     machine.current.system.set(None);
-    let mut known: FxHashMap<usize, Declared> = FxHashMap::default();
+    let mut known: FxHashMap<usize, SystemFunctions> = FxHashMap::default();
     let mut scratch = Scratch::default();
     loop {
         let job = match inbox.recv() {
@@ -240,7 +240,7 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
         };
         // Everything that belongs to a job is let go of before the job itself, for which the leader waits.
         match job {
-            Job::Rewrite(rewriting) => {
+            ThreadJob::Rewrite(rewriting) => {
                 let Some(rewriting) = rewriting.upgrade() else { continue };
                 let system = rewriting.plan.system;
                 let declared = prepared(machine, &mut known, system)?;
@@ -250,12 +250,12 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
                 while rewriting.work(machine, declared, &mut scratch) {}
                 machine.current.objects.replace(None);
             }
-            Job::Prefetch(prefetch) => {
+            ThreadJob::Prefetch(prefetch) => {
                 if let Some(prefetch) = prefetch.upgrade() {
                     prefetch.work();
                 }
             }
-            Job::Interpret(interpreting) => {
+            ThreadJob::Interpret(interpreting) => {
                 let Some(interpreting) = interpreting.upgrade() else { continue };
                 prepared(machine, &mut known, index)?;
                 machine.enter(index)?;
@@ -271,9 +271,9 @@ fn serve(machine: &Machine, inbox: &Receiver<Message>, index: usize) -> Result<R
 /// A system ready to derive in this machine, whose tables stay frozen as long as it is known.
 fn prepared<'a>(
     machine: &Machine,
-    known: &'a mut FxHashMap<usize, Declared>,
+    known: &'a mut FxHashMap<usize, SystemFunctions>,
     system: usize,
-) -> Result<&'a Declared> {
+) -> Result<&'a SystemFunctions> {
     Ok(match known.entry(system) {
         Entry::Occupied(entry) => entry.into_mut(),
         Entry::Vacant(entry) => entry.insert(machine.library.systems.borrow()[system].prepare(machine)?),

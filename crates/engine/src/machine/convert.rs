@@ -7,7 +7,7 @@ use mlua::{Lua, LuaString, Value as LuaValue};
 use super::handles::{DerivedHandle, ObjectHandle};
 use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::{Key, Shape, System, Table, Value};
+use burgeon_kit::{FeatureShape, System, Table, TableKey, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
@@ -15,7 +15,7 @@ const DEEPEST: usize = 64;
 
 /// How values are copied.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Manner {
+enum CopyMode {
     /// As they are.
     Plain,
     /// Tables are made read-only on the way.
@@ -26,16 +26,16 @@ enum Manner {
 
 /// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
 pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
-    convert(value, if freeze { Manner::Freeze } else { Manner::Plain }, 0)
+    convert(value, if freeze { CopyMode::Freeze } else { CopyMode::Plain }, 0)
 }
 
 /// Copies what a constructor takes to Rust, where it may find sources and geometries as
-/// [`Features`](burgeon_kit::Features) and [`Shape`](burgeon_kit::Shape).
+/// [`Features`](burgeon_kit::Features) and [`FeatureShape`](burgeon_kit::FeatureShape).
 pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
-    convert(value, Manner::Field, 0)
+    convert(value, CopyMode::Field, 0)
 }
 
-fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
+fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
     Ok(match value {
         LuaValue::Nil => Value::Nil,
         LuaValue::Boolean(value) => Value::Boolean(*value),
@@ -53,16 +53,16 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
             let metatable = table.metatable();
             if let Some(shape) = metatable.as_ref().and_then(|metatable| shape_of(table, metatable)) {
                 return Ok(match manner {
-                    Manner::Field => Value::Object(Arc::new(shape)),
+                    CopyMode::Field => Value::Object(Arc::new(shape)),
                     _ => shape.to_table(),
                 });
             }
             if let Some((shape, mut entries)) = metatable.as_ref().and_then(|it| feature_of(table, it)) {
                 let geometry = match manner {
-                    Manner::Field => Value::Object(Arc::new(shape)),
+                    CopyMode::Field => Value::Object(Arc::new(shape)),
                     _ => shape.to_table(),
                 };
-                entries.push((Key::Name("geometry".into()), geometry));
+                entries.push((TableKey::Name("geometry".into()), geometry));
                 entries.sort_by(|a, b| a.0.cmp(&b.0));
                 return Ok(Value::Table(Arc::new(Table { class: None, entries })));
             }
@@ -70,12 +70,12 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
             for pair in table.pairs::<LuaValue, LuaValue>() {
                 let (key, value) = pair.map_err(|error| Error::internal(error.to_string()))?;
                 let key = match key {
-                    LuaValue::Integer(index) => Key::Index(index),
+                    LuaValue::Integer(index) => TableKey::Index(index),
                     #[allow(clippy::cast_possible_truncation, reason = "whole numbers that fit are kept")]
                     LuaValue::Number(number) if number.fract() == 0.0 && number.abs() < 9e15 => {
-                        Key::Index(number as i64)
+                        TableKey::Index(number as i64)
                     }
-                    LuaValue::String(name) => Key::Name(owned(&name)),
+                    LuaValue::String(name) => TableKey::Name(owned(&name)),
                     other => {
                         return Err(Error::argument(format!("a table has a {} as a key", other.type_name()))
                             .help("keys of such tables are names or whole numbers"));
@@ -97,7 +97,7 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                 },
                 None => None,
             };
-            if manner == Manner::Freeze {
+            if manner == CopyMode::Freeze {
                 table.set_readonly(true);
             }
             Value::Table(Arc::new(Table { class, entries }))
@@ -107,9 +107,9 @@ fn convert(value: &LuaValue, manner: Manner, depth: usize) -> Result<Value> {
                 Value::Object(Arc::clone(&handle.0))
             } else if let Ok(handle) = data.borrow::<DerivedHandle>() {
                 Value::Object(handle.model()?)
-            } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), manner == Manner::Freeze) {
+            } else if let (Ok(source), false) = (data.borrow::<SourceHandle>(), manner == CopyMode::Freeze) {
                 source.value()?
-            } else if let (Ok(system), Manner::Field) = (data.borrow::<SystemHandle>(), manner) {
+            } else if let (Ok(system), CopyMode::Field) = (data.borrow::<SystemHandle>(), manner) {
                 Value::Object(Arc::new(System { index: system.give() }))
             } else {
                 return Err(Error::argument("this object cannot be passed on"));
@@ -141,7 +141,7 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
         Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
         Value::Object(object) => {
             let any: &dyn std::any::Any = &**object;
-            match any.downcast_ref::<Shape>() {
+            match any.downcast_ref::<FeatureShape>() {
                 Some(shape) => to_lua(lua, &shape.to_table(), freeze)?,
                 None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
             }
@@ -151,8 +151,8 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
             for (key, value) in &table.entries {
                 let value = to_lua(lua, value, freeze)?;
                 match key {
-                    Key::Index(index) => made.raw_set(*index, value)?,
-                    Key::Name(name) => made.raw_set(&**name, value)?,
+                    TableKey::Index(index) => made.raw_set(*index, value)?,
+                    TableKey::Name(name) => made.raw_set(&**name, value)?,
                 }
             }
             if let Some(class) = &table.class {

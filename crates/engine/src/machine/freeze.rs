@@ -3,20 +3,20 @@
 use mlua::{Function, Lua, Table, Value, ffi};
 use rustc_hash::FxHashSet;
 
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 
 /// A function that rules run, and where it was declared.
 #[derive(Clone)]
-pub(crate) struct Reached {
+pub(crate) struct ReachableFunction {
     pub function: Function,
     pub name: String,
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
 }
 
 /// Tables that were writable before; they are so again when this is dropped.
-pub(crate) struct Frozen(Vec<Table>);
+pub(crate) struct TableFreeze(Vec<Table>);
 
-impl Drop for Frozen {
+impl Drop for TableFreeze {
     fn drop(&mut self) {
         for table in &self.0 {
             table.set_readonly(false);
@@ -31,10 +31,10 @@ impl Drop for Frozen {
 pub(crate) fn freeze<'a>(
     lua: &Lua,
     stateless: &FxHashSet<usize>,
-    functions: impl IntoIterator<Item = &'a Reached>,
-) -> Result<Frozen> {
+    functions: impl IntoIterator<Item = &'a ReachableFunction>,
+) -> Result<TableFreeze> {
     let unexpected = |error: mlua::Error| Error::internal(error.to_string());
-    let mut frozen = Frozen(Vec::new());
+    let mut frozen = TableFreeze(Vec::new());
     let mut seen = FxHashSet::default();
     for reached in functions {
         let refuse = |what: &str| {

@@ -1,48 +1,76 @@
 //! Types of objects as scripts see them: a constructor and a table of methods for each.
 
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 
 use mlua::{Function, MultiValue, Table, Value as LuaValue};
 
-use super::Machine;
 use super::convert::to_field;
 use super::handles::{ObjectHandle, methods_key};
 use super::system::is_unread_geometry;
+use super::{Machine, compile};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Call, Construct, Key, Kind, Table as ValueTable, Value};
+use burgeon_kit::{Call, Construct, Deprecation, Kind, Table as ValueTable, TableKey, Value};
 
 /// Makes the constructor of a type of object and its table of methods.
 pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>) -> mlua::Result<()> {
+    let methods = install_methods(machine, kind)?;
+    let unknown = machine.lua().create_table()?;
+    let of = Arc::clone(kind);
+    unknown.raw_set(
+        "__index",
+        machine.lua().create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            Err(mlua::Error::external(of.unknown_method(&name)))
+        })?,
+    )?;
+    methods.set_metatable(Some(unknown))?;
+    match constructor(machine, kind)? {
+        Some(constructor) => globals.raw_set(&*kind.name, constructor),
+        None => Ok(()),
+    }
+}
+
+/// Makes the table of the methods of a type that run in Rust.
+pub(super) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
     let lua = machine.lua();
     let methods = lua.create_table()?;
     for (index, method) in kind.methods.iter().enumerate() {
         let name = format!("{}:{}", kind.name, method.name);
         let function: Function = match &method.call {
+            Call::Script { .. } => continue,
             Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
                 machine.prelude().recorder.call((index, name, method.arguments.len()))?
             }
-            Call::Write { .. } => machine.prelude().direct.call((index, name, true))?,
-            Call::Read(_) => machine.prelude().direct.call((index, name, false))?,
+            Call::Write { .. } | Call::Read(_) => {
+                machine.prelude().direct.call((index, name, method.call.changes()))?
+            }
+        };
+        let function = match kind.deprecation(&method.name) {
+            None => function,
+            Some(deprecation) => {
+                telling(machine, &format!("{}:{}", kind.name, method.name), deprecation, function)?
+            }
         };
         methods.raw_set(&*method.name, function)?;
     }
-    let unknown = lua.create_table()?;
-    let of = Arc::clone(kind);
-    unknown.raw_set(
-        "__index",
-        lua.create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
-            Err(mlua::Error::external(of.unknown_method(&name)))
-        })?,
-    )?;
-    methods.set_metatable(Some(unknown))?;
     lua.set_named_registry_value(&methods_key(&kind.name), &methods)?;
+    Ok(methods)
+}
+
+/// The function that makes objects of a type, if scripts can make them.
+pub(super) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Option<Function>> {
+    let lua = machine.lua();
     let library = std::rc::Rc::clone(&machine.library);
     let constructor = match &kind.construct {
-        Construct::Given => return Ok(()),
+        Construct::Given => return Ok(None),
         Construct::Fields(make) => {
             let (kind, make) = (Arc::clone(kind), Arc::clone(make));
-            lua.create_function(move |_, given: MultiValue| {
+            let session = Arc::clone(&machine.session);
+            lua.create_function(move |lua, given: MultiValue| {
                 let table = constructor_fields(&kind, given).map_err(mlua::Error::external)?;
+                for deprecation in kind.deprecated.iter().filter(|known| table.get(&known.name).is_some()) {
+                    let name = format!("{}.{}", kind.name, deprecation.name);
+                    session.use_deprecated(&name, deprecation, Machine::place(lua));
+                }
                 // What one feature has in place of a number, another may have right.
                 let mut object = make(&table).map_err(|error| mlua::Error::external(error.of_data()))?;
                 for warning in object.take_warnings() {
@@ -54,7 +82,7 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
         Construct::File(loader) => {
             let (kind, loader) = (Arc::clone(kind), loader.clone());
             let session = Arc::clone(&machine.session);
-            lua.create_function(move |_, (name, fields): (LuaValue, LuaValue)| {
+            lua.create_function(move |lua, (name, fields): (LuaValue, LuaValue)| {
                 let name = match name {
                     LuaValue::String(name) => name.to_string_lossy(),
                     _ => String::new(),
@@ -76,7 +104,9 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
                         return Err(Error::argument(format!("{} takes no options", kind.name))
                             .help(format!("write {}", loader.example)));
                     }
-                    let loaded = session.data.object(&session, (&kind.name, &loader), &name, &fields)?;
+                    let asker = Machine::asker(lua, &session);
+                    let loaded =
+                        session.data.object(&session, asker, (&kind.name, &loader), &name, &fields)?;
                     let machine = library.machine()?;
                     loaded.warnings.into_iter().for_each(|warning| machine.warn(warning));
                     Ok(ObjectHandle(loaded.object))
@@ -85,7 +115,27 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
             })?
         }
     };
-    globals.raw_set(&*kind.name, constructor)
+    machine.library.note_constructor(&constructor, kind);
+    Ok(Some(constructor))
+}
+
+/// A function that does what `method` does, and takes notice of where it was used.
+fn telling(
+    machine: &Machine,
+    name: &str,
+    deprecation: &Deprecation,
+    method: Function,
+) -> mlua::Result<Function> {
+    let (session, name, deprecation) = (Arc::clone(&machine.session), name.to_owned(), deprecation.clone());
+    let tell = machine.lua().create_function(move |lua, ()| {
+        session.use_deprecated(&name, &deprecation, Machine::place(lua));
+        Ok(())
+    })?;
+    static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+        compile("local tell, method = ...\nreturn function(...)\n  tell()\n  return method(...)\nend")
+    });
+    let wrap = machine.load_compiled(&COMPILED).map_err(mlua::Error::external)?;
+    wrap.call((tell, method))
 }
 
 /// The named fields that a constructor takes: a table, before which one of them may stand by itself.
@@ -110,7 +160,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     if table.get(first).is_some() {
         return Err(Error::argument(format!("{} is given its {first} twice", kind.name)));
     }
-    table.entries.push((Key::Name(first.into()), to_field(&one)?));
+    table.entries.push((TableKey::Name(first.into()), to_field(&one)?));
     Ok(Arc::new(table))
 }
 

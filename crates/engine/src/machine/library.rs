@@ -10,23 +10,24 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::convert::{class_key, to_lua};
 use super::kinds::{install_kind, named_fields, no_table};
 use super::require::require;
-use super::system::{Eager, SourceHandle, System, SystemHandle, install_lazy};
+use super::script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};
+use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::{Machine, compile, native};
-use crate::declare::Param;
-use crate::declare::Print;
 use crate::declare::analysis::Globals;
 use crate::declare::names::LOCKED;
-use burgeon_base::error::{Error, Place, Result};
+use crate::declare::{API_VERSION, Param, Print, has_name};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::Construct;
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
+use burgeon_kit::{Construct, Kind};
+use burgeon_packages::FileName;
 
 /// The standard library, which every script has, compiled once for all machines.
 static STANDARD_COMPILED: LazyLock<Vec<u8>> =
     LazyLock::new(|| compile(include_str!("../../../../stdlib.lua")));
 
 /// An interpretation that the standard library gives to modules of every system with a type of object.
-pub(crate) struct Standard {
+pub(crate) struct StandardInterpretation {
     pub kind: String,
     pub symbol: Symbol,
     /// The place of a method among those of the type, called with the module's parameters.
@@ -37,11 +38,11 @@ pub(crate) struct Standard {
 #[derive(Default)]
 pub(crate) struct Library {
     pub symbols: RefCell<Symbols>,
-    pub systems: RefCell<Vec<System>>,
-    pub standard: RefCell<Vec<Standard>>,
+    pub systems: RefCell<Vec<SystemDeclaration>>,
+    pub standard: RefCell<Vec<StandardInterpretation>>,
     pub problems: RefCell<Vec<Error>>,
     /// Where the script declared its modules.
-    pub places: RefCell<FxHashMap<Symbol, Place>>,
+    pub places: RefCell<FxHashMap<Symbol, SourcePlace>>,
     /// Constructors of modules, by symbol.
     pub constructors: RefCell<FxHashMap<Symbol, Function>>,
     /// The files that are being required, from the main one on.
@@ -54,21 +55,30 @@ pub(crate) struct Library {
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
+    /// The types of objects by the addresses of their constructors.
+    constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
+    /// The types of objects that the script declared, and the functions that it added to others.
+    pub script_types: RefCell<Vec<ScriptTypeEntry>>,
+    pub extensions: RefCell<Vec<ScriptFunction>>,
     /// The constructors of objects, by name.
     kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
-    params: RefCell<Vec<(Param, Option<Place>)>>,
+    params: RefCell<Vec<(Param, Option<SourcePlace>)>>,
     machine: RefCell<Option<std::rc::Weak<Machine>>>,
 }
 
 impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
-        let shapes = self.machine().map(|machine| Arc::clone(&machine.session.shapes)).unwrap_or_default();
+        let session = self.machine().map(|machine| Arc::clone(&machine.session));
+        let (shapes, deprecated) = session
+            .map(|session| (Arc::clone(&session.shapes), Arc::clone(session.deprecated_names())))
+            .unwrap_or_default();
         Globals {
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),
+            deprecated,
             shapes,
         }
     }
@@ -83,13 +93,23 @@ impl Library {
         *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
     }
 
+    /// Notes what `constructor` makes.
+    pub(super) fn note_constructor(&self, constructor: &Function, kind: &Arc<Kind>) {
+        self.constructed.borrow_mut().insert(constructor.to_pointer() as usize, Arc::clone(kind));
+    }
+
+    /// The type of what `constructor` makes, if it makes objects.
+    pub(super) fn kind_of(&self, constructor: &Function) -> Option<Arc<Kind>> {
+        self.constructed.borrow().get(&(constructor.to_pointer() as usize)).cloned()
+    }
+
     /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
     /// line once more, share it.
-    fn add_param(&self, param: Param, place: Option<Place>) -> Result<()> {
+    fn add_param(&self, param: Param, place: Option<SourcePlace>) -> Result<()> {
         let machine = self.machine()?;
         let mut params = self.params.borrow_mut();
         if let Some((known, first)) = params.iter().find(|(known, _)| known.name == param.name) {
-            let in_file = |place: &Option<Place>| place.as_ref().map(|place| place.file.clone());
+            let in_file = |place: &Option<SourcePlace>| place.as_ref().map(|place| place.file.clone());
             let shared = *known == param && (*first == place || in_file(first) != in_file(&place));
             if !shared {
                 let first = first.as_ref().map_or_else(String::new, |first| format!(" in {first}"));
@@ -214,7 +234,7 @@ impl Library {
         coroutine.raw_set("resume", globals.raw_get::<LuaValue>("resume")?)?;
         globals.raw_set("resume", LuaValue::Nil)?;
         self.install_plain(machine, &globals)?;
-        lua.set_app_data(Eager(Arc::clone(&machine.session)));
+        lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
         for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
@@ -233,7 +253,7 @@ impl Library {
                 let method = method.ok_or_else(|| {
                     mlua::Error::external(Error::internal(format!("{kind} has no such method")))
                 })?;
-                library.standard.borrow_mut().push(Standard { kind, symbol, method });
+                library.standard.borrow_mut().push(StandardInterpretation { kind, symbol, method });
                 Ok(())
             })?,
         )?;
@@ -278,12 +298,14 @@ impl Library {
                 let options =
                     named_fields(&format!("param {name}"), options).map_err(mlua::Error::external)?;
                 let mut param = Param::declare(&name, &options).map_err(mlua::Error::external)?;
+                let place = Machine::place(lua);
+                session.redefault(&mut param, place.as_ref()).map_err(mlua::Error::external)?;
                 match param.given(&session.options.set, session.options.preset.as_ref()) {
                     Ok(value) => param.value = value,
                     Err(error) => session.forgive(&name, error).map_err(mlua::Error::external)?,
                 }
                 let value = param.value.to_value();
-                library.add_param(param, Machine::place(lua)).map_err(mlua::Error::external)?;
+                library.add_param(param, place).map_err(mlua::Error::external)?;
                 to_lua(lua, &value, false)
             })?,
         )?;
@@ -314,6 +336,22 @@ impl Library {
         )?;
         let library = std::rc::Rc::clone(&machine.library);
         globals.raw_set(
+            "object",
+            lua.create_function(move |_, (name, declared): (LuaValue, LuaValue)| {
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                declare_type(&machine, &name, &declared).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "extend",
+            lua.create_function(move |_, (constructor, declared): (LuaValue, LuaValue)| {
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                extend_type(&machine, &constructor, &declared).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
             "source",
             lua.create_function(move |_, (what, options): (LuaValue, LuaValue)| {
                 let made = library
@@ -325,16 +363,35 @@ impl Library {
         let (library, session) = (std::rc::Rc::clone(&machine.library), Arc::clone(&machine.session));
         globals.raw_set(
             "require",
-            lua.create_function(move |_, name: LuaValue| {
+            lua.create_function(move |lua, name: LuaValue| {
                 let name = match name {
                     LuaValue::String(name) => name.to_string_lossy(),
                     _ => String::new(),
                 };
                 let required =
-                    library.at_top_level("require").and_then(|()| require(&library, &session, &name));
+                    library.at_top_level("require").and_then(|()| require(&library, &session, lua, &name));
                 required.map_err(mlua::Error::external)
             })?,
-        )
+        )?;
+        let api = lua.create_table()?;
+        api.raw_set("version", API_VERSION)?;
+        let session = Arc::clone(&machine.session);
+        api.raw_set(
+            "has",
+            lua.create_function(move |_, name: LuaValue| {
+                let LuaValue::String(name) = name else {
+                    return Err(mlua::Error::external(
+                        Error::argument("api.has takes a name").help("write api.has(\"extruder.bend\")"),
+                    ));
+                };
+                let name = name.to_string_lossy();
+                Ok(match FileName::parse(&name) {
+                    Ok(file) if file.path.is_empty() => session.has_package(&file.package),
+                    _ => has_name(&name, &session.options.registry),
+                })
+            })?,
+        )?;
+        globals.raw_set("api", api)
     }
 }
 
@@ -353,7 +410,7 @@ fn declare(library: &Library, name: &str, parameters: &[String]) -> Result<(Symb
 }
 
 fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
-    if lua.app_data_ref::<Silence>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
+    if lua.app_data_ref::<PrintSwitch>().is_some_and(|quiet| quiet.0.call::<u8>(()).unwrap_or(0) == 0) {
         return Ok(());
     }
     let tostring: Function = lua.globals().get("tostring")?;
@@ -364,4 +421,4 @@ fn print(lua: &Lua, values: &MultiValue, hook: &Print) -> mlua::Result<()> {
 
 /// Marks a machine whose script another machine runs, too, so that its top level prints nothing. Holds the
 /// function that tells whether the top level is running.
-pub(crate) struct Silence(pub Function);
+pub(crate) struct PrintSwitch(pub Function);

@@ -6,16 +6,17 @@ use std::ffi::{CStr, c_int};
 
 use mlua::{Lua, ffi};
 
-use super::{Machine, OUT_OF_MEMORY_IN_LUA};
-use burgeon_base::error::Place;
+use super::Machine;
+use super::virtual_machine::OUT_OF_MEMORY_IN_LUA;
+use burgeon_base::error::SourcePlace;
 
 thread_local! {
     /// Where memory ran out last.
-    static EXHAUSTED: RefCell<Option<Place>> = const { RefCell::new(None) };
+    static EXHAUSTED: RefCell<Option<SourcePlace>> = const { RefCell::new(None) };
 }
 
 /// Where memory ran out, if that has not been asked since.
-pub(super) fn exhausted() -> Option<Place> {
+pub(super) fn exhausted() -> Option<SourcePlace> {
     EXHAUSTED.take()
 }
 
@@ -91,7 +92,7 @@ unsafe extern "C-unwind" fn note(state: *mut ffi::lua_State) -> c_int {
 
 /// The innermost line of the script that is being run. Takes no memory of Lua's.
 #[allow(unsafe_code, reason = "Luau's functions take raw states")]
-unsafe fn place(state: *mut ffi::lua_State) -> Option<Place> {
+unsafe fn place(state: *mut ffi::lua_State) -> Option<SourcePlace> {
     // SAFETY: lua_getinfo fills the fields that "s" and "l" stand for, wherever it finds a function at the level.
     unsafe {
         let mut debug: ffi::lua_Debug = std::mem::zeroed();
@@ -101,7 +102,7 @@ unsafe fn place(state: *mut ffi::lua_State) -> Option<Place> {
             }
             let source = CStr::from_ptr(debug.source).to_string_lossy();
             if let (Some(file), Ok(line)) = (source.strip_prefix('@'), usize::try_from(debug.currentline)) {
-                return Some(Place { file: file.to_owned(), line });
+                return Some(SourcePlace { file: file.to_owned(), line });
             }
         }
         None

@@ -1,38 +1,82 @@
-//! `require`: other files of the script's folder, each run once.
+//! `require`: other files of the script's folder and of packages, each run once.
 
 use std::path::{Path, PathBuf};
 
-use mlua::Value as LuaValue;
+use mlua::{Lua, Value as LuaValue};
 
+use super::Machine;
 use super::library::Library;
 use crate::declare::Session;
 use crate::declare::paths::{is_absolute, lead};
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
+use burgeon_packages::{FileName, Package};
 
-/// Runs another file of the script's folder once and gives what it returns.
-pub(super) fn require(library: &Library, session: &Session, name: &str) -> Result<LuaValue> {
+/// Runs another file once and gives what it returns.
+pub(super) fn require(library: &Library, session: &Session, lua: &Lua, name: &str) -> Result<LuaValue> {
     let machine = library.machine()?;
-    let from = library
-        .loading
-        .borrow()
-        .last()
-        .and_then(|file| file.parent())
-        .map_or_else(|| session.root().to_path_buf(), Path::to_path_buf);
-    let (path, shown) = find(session, &from, name)?;
+    let bare = name.strip_suffix(".lua").unwrap_or(name);
+    if bare.is_empty() || bare.ends_with(['/', '.']) {
+        return Err(Error::argument("require needs the name of a file")
+            .help("write require(\"facade\") for facade.lua"));
+    }
+    let asker = Machine::asker(lua, session);
+    let (path, shown) = match asker {
+        _ if FileName::is_meant(name) => {
+            let name = match FileName::parse(bare)? {
+                name if name.path.is_empty() => FileName { path: "init.lua".to_owned(), ..name },
+                name => FileName { path: format!("{}.lua", name.path), ..name },
+            };
+            located(session, &name, asker)?
+        }
+        Some(package) => find_in_package(session, package, &caller(lua), bare)?,
+        None => {
+            let loading = library.loading.borrow();
+            let folder = loading.last().and_then(|file| file.parent()).unwrap_or(session.root());
+            find(session, folder, name, bare)?
+        }
+    };
     if let Some(value) = library.loaded.borrow().get(&path) {
         return Ok(value.clone());
     }
     if let Some(position) = library.loading.borrow().iter().position(|file| *file == path) {
         let loading = library.loading.borrow();
-        let cycle: Vec<String> = loading[position..]
-            .iter()
-            .chain([&path])
-            .map(|file| file.strip_prefix(session.root()).unwrap_or(file).display().to_string())
-            .collect();
+        let cycle: Vec<String> =
+            loading[position..].iter().chain([&path]).map(|file| session.name_of(file)).collect();
         return Err(Error::script(format!("files require each other in a circle: {}", cycle.join(" -> ")))
             .help("move what both need into a third file"));
     }
-    let source = session.source(&path, &shown, &library.globals())?;
+    load(library, session, &machine, path, &shown)
+}
+
+impl Machine {
+    /// Runs every Lua file of `package`, and looks for the files of packages that they name.
+    pub(crate) fn run_package(&self, package: &Package) -> Result<()> {
+        let (library, session) = (&self.library, &self.session);
+        let mut problems = session.packages().check_files(package);
+        for script in package.scripts() {
+            let (path, shown) = (package.folder.join(&script), package.shown.join(&script));
+            let known = library.loaded.borrow().contains_key(&path);
+            let shown = shown.display().to_string();
+            if !known && let Err(error) = load(library, session, self, path.clone(), &shown) {
+                problems.extend(error.problems().map(Error::alone));
+            }
+            if let Ok(source) = session.source(&path, &shown, &library.globals()) {
+                problems.extend(session.missing(package, &shown, &source.analysis.packages));
+            }
+        }
+        if problems.is_empty() { Ok(()) } else { Err(Error::several(problems)) }
+    }
+}
+
+/// Runs the file at `path`, which people find as `shown`.
+fn load(
+    library: &Library,
+    session: &Session,
+    machine: &Machine,
+    path: PathBuf,
+    shown: &str,
+) -> Result<LuaValue> {
+    let source = session.source(&path, shown, &library.globals())?;
     if !source.analysis.problems.is_empty() && !session.options.check {
         machine.load(&source.name, &source.analysis.text)?;
         return Err(Error::several(source.analysis.problems.clone()));
@@ -47,17 +91,58 @@ pub(super) fn require(library: &Library, session: &Session, name: &str) -> Resul
     Ok(value)
 }
 
+/// The folder of the file that is being run, as people find it.
+fn caller(lua: &Lua) -> PathBuf {
+    let place = Machine::place(lua);
+    place.and_then(|place| Some(Path::new(&place.file).parent()?.to_path_buf())).unwrap_or_default()
+}
+
+/// The file of a package and its name for messages.
+fn located(session: &Session, name: &FileName, asker: Option<&Package>) -> Result<(PathBuf, String)> {
+    let located = session.locate("file", name, asker)?;
+    Ok((located.path, located.shown.display().to_string()))
+}
+
+/// The file that `require(bare)` means in a file of `package` in the folder `from`: from that folder, or from the
+/// package's.
+fn find_in_package(
+    session: &Session,
+    package: &Package,
+    from: &Path,
+    bare: &str,
+) -> Result<(PathBuf, String)> {
+    let name = &package.manifest.name;
+    let relative = PathBuf::from(format!("{bare}.lua"));
+    let inner = from.strip_prefix(&package.shown).unwrap_or(Path::new(""));
+    let outside = || {
+        Error::file(bare, format!("require(\"{bare}\") leads outside the package {name}"))
+            .help("a file of another package is named with it: require(\"@castle/towers\")")
+    };
+    if is_absolute(&relative) {
+        return Err(outside());
+    }
+    let mut missing = None;
+    for folder in [inner, Path::new("")] {
+        let path = lead(&package.folder.join(folder), &relative);
+        let path = path.strip_prefix(&package.folder).map_err(|_| outside())?;
+        let parts: Vec<_> = path.iter().map(|part| part.to_string_lossy()).collect();
+        let file = FileName { package: name.clone(), path: parts.join("/") };
+        match located(session, &file, Some(package)) {
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound { .. }) => {
+                missing.get_or_insert(error);
+            }
+            found => return found,
+        }
+    }
+    Err(missing.unwrap_or_else(outside))
+}
+
 /// The file that `require(name)` means, and its name for messages.
-fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)> {
+fn find(session: &Session, from: &Path, name: &str, bare: &str) -> Result<(PathBuf, String)> {
     let outside = || {
         Error::file(name, format!("require(\"{name}\") leads outside the script's folder"))
             .help("a script reads only files in its own folder and below it")
     };
-    let bare = name.strip_suffix(".lua").unwrap_or(name);
-    if bare.is_empty() || bare.ends_with(['/', '.']) {
-        return Err(Error::argument("require needs the name of a file")
-            .help("write require(\"facade\") for facade.lua"));
-    }
     let relative = PathBuf::from(format!("{bare}.lua"));
     if is_absolute(&relative) {
         return Err(outside());
@@ -80,6 +165,8 @@ fn find(session: &Session, from: &Path, name: &str) -> Result<(PathBuf, String)>
         }
     }
     let message = format!("require(\"{name}\") finds no file {}", relative.display());
-    Err(Error::not_found("file", name, [], message)
+    let error = Error::not_found("file", name, [], message);
+    Err(session
+        .propose_packages(&format!("{bare}.lua"), error)
         .help("the name is a path from the requiring file or from the script's folder"))
 }

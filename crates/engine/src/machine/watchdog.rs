@@ -19,40 +19,40 @@ const PERIOD: Duration = Duration::from_millis(20);
 /// A machine polls for an interrupt at loops and calls in any case. As long as none is set, that costs nothing;
 /// once it is set it raises an error again and again, so that `pcall` cannot swallow it.
 pub struct Watchdog {
-    shared: Arc<Shared>,
+    shared: Arc<WatchdogLock>,
     thread: Option<JoinHandle<()>>,
 }
 
 #[derive(Default)]
-struct Shared {
-    inner: Mutex<Inner>,
+struct WatchdogLock {
+    inner: Mutex<WatchdogState>,
     wake: Condvar,
 }
 
 #[derive(Default)]
-struct Inner {
-    states: Vec<State>,
+struct WatchdogState {
+    states: Vec<StatePointer>,
     stopped: bool,
     over: bool,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-struct State(*mut ffi::lua_State);
+struct StatePointer(*mut ffi::lua_State);
 
 #[allow(unsafe_code, reason = "the watchdog sets a callback of machines that run in other threads")]
 // SAFETY: the pointer is only used to set the interrupt callback, while the machine is registered and so alive.
-unsafe impl Send for State {}
+unsafe impl Send for StatePointer {}
 
 /// Keeps a machine on the watchdog's list; must go before the machine's state does.
 pub(crate) struct Registration {
-    shared: Arc<Shared>,
-    state: State,
+    shared: Arc<WatchdogLock>,
+    state: StatePointer,
 }
 
 impl Watchdog {
     /// Watches over `session` from now on.
     pub fn new(session: &Arc<Session>) -> Self {
-        let shared = Arc::new(Shared::default());
+        let shared = Arc::new(WatchdogLock::default());
         let (theirs, stop) = (Arc::clone(&shared), Arc::clone(&session.stop));
         let deadline = Instant::now() + session.options.limits.time;
         let watched = Arc::clone(session);
@@ -78,7 +78,7 @@ impl Watchdog {
         #[allow(unsafe_code, reason = "mlua gives the state only to raw functions")]
         // SAFETY: the function neither reads nor changes the stack.
         let taken: mlua::Result<()> = unsafe { lua.exec_raw((), |raw| state = raw) };
-        let state = State(if taken.is_ok() { state } else { std::ptr::null_mut() });
+        let state = StatePointer(if taken.is_ok() { state } else { std::ptr::null_mut() });
         let mut inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
         inner.states.push(state);
         if inner.stopped {
@@ -125,7 +125,7 @@ impl Drop for Registration {
     }
 }
 
-fn interrupt(state: State) {
+fn interrupt(state: StatePointer) {
     if state.0.is_null() {
         return;
     }

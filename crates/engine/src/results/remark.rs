@@ -66,7 +66,7 @@ impl Remark {
 
 /// How many features a run had, and what became of those that it could not build as asked.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
-pub struct Report {
+pub struct FeatureReport {
     /// The features of all systems that were shown or placed.
     pub features: usize,
     /// How many of them were left out.
@@ -79,7 +79,7 @@ pub struct Report {
     pub remarks: Vec<Remark>,
 }
 
-impl Report {
+impl FeatureReport {
     /// Adds a system of `features` features, with what became of some of them.
     pub(crate) fn add(&mut self, features: usize, remarks: &[Remark]) {
         self.features += features;
@@ -123,7 +123,7 @@ impl Report {
     }
 }
 
-impl fmt::Display for Report {
+impl fmt::Display for FeatureReport {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let what = if self.features == 1 { "feature" } else { "features" };
         let all = grouped(self.features);
@@ -155,11 +155,11 @@ mod tests {
             Remark::simplified("a:b", Some("2"), &note("repeated points dropped")),
             Remark::simplified("a:b", Some("7"), &note("repeated points dropped")),
         ];
-        let mut report = Report::default();
+        let mut report = FeatureReport::default();
         report.add(15_608, &remarks);
         assert_eq!(report.to_string(), "1 of 15,608 features skipped, 2 simplified");
         assert_eq!(report.counts["repeated points dropped"], 2);
-        let mut alone = Report::default();
+        let mut alone = FeatureReport::default();
         alone.add(0, &[Remark::simplified("", None, &note("repeated points dropped"))]);
         assert_eq!(alone.to_string(), "1 chain simplified");
         let mut text = Vec::new();

@@ -5,7 +5,7 @@
 
 use std::sync::Arc;
 
-use burgeon_base::error::{Place, shortened};
+use burgeon_base::error::{SourcePlace, shortened};
 use burgeon_kit::rules::{Chain, END, Symbol, Symbols, Values, module_brief};
 use burgeon_kit::{Makers, RewriteOutcome};
 
@@ -27,7 +27,7 @@ pub struct RuleName {
     /// Its pattern.
     pub text: String,
     /// Where it was declared.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
 }
 
 /// A module as people see it.
@@ -56,7 +56,7 @@ pub struct Ancestor {
 
 /// What a rule, an interpretation rule or the axiom has made.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MadeBy {
+pub struct RuleProducts {
     /// Its pattern, or "axiom".
     pub name: String,
     /// The line where it begins.
@@ -76,7 +76,7 @@ pub struct Trace {
     interpretations: Vec<RuleName>,
     /// By symbol: the number of its interpretation rule, or [`RewriteOutcome::NONE`].
     interpreted: Vec<u16>,
-    axiom: Option<Place>,
+    axiom: Option<SourcePlace>,
 }
 
 impl Trace {
@@ -86,7 +86,7 @@ impl Trace {
         rules: Vec<RuleName>,
         interpretations: Vec<RuleName>,
         interpreted: Vec<u16>,
-        axiom: Option<Place>,
+        axiom: Option<SourcePlace>,
     ) -> Self {
         Self {
             steps: Vec::new(),
@@ -102,7 +102,7 @@ impl Trace {
     }
 
     /// Where the axiom was set.
-    pub fn axiom(&self) -> Option<&Place> {
+    pub fn axiom(&self) -> Option<&SourcePlace> {
         self.axiom.as_ref()
     }
 
@@ -189,12 +189,13 @@ impl Trace {
 
     /// What line `line` of `file` says, if it is a rule, an interpretation rule or the axiom: the last of them that
     /// begins there or above.
-    fn line(&self, file: &str, line: usize) -> Option<(Line, usize)> {
-        let rules = (0u16..).zip(&self.rules).map(|(index, rule)| (Line::Rule(index), rule.place.as_ref()));
+    fn line(&self, file: &str, line: usize) -> Option<(LineSubject, usize)> {
+        let rules =
+            (0u16..).zip(&self.rules).map(|(index, rule)| (LineSubject::Rule(index), rule.place.as_ref()));
         let interpretations = (0u16..)
             .zip(&self.interpretations)
-            .map(|(index, rule)| (Line::Interpretation(index), rule.place.as_ref()));
-        let axiom = std::iter::once((Line::Axiom, self.axiom.as_ref()));
+            .map(|(index, rule)| (LineSubject::Interpretation(index), rule.place.as_ref()));
+        let axiom = std::iter::once((LineSubject::Axiom, self.axiom.as_ref()));
         axiom
             .chain(rules)
             .chain(interpretations)
@@ -206,16 +207,16 @@ impl Trace {
 
     /// What the rule, interpretation rule or axiom at a line, or the last one above it, has made in the end. `None` if
     /// there is none.
-    pub fn made_by(&self, file: &str, line: usize) -> Option<MadeBy> {
+    pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts> {
         let (what, line) = self.line(file, line)?;
         let (name, made) = match what {
-            Line::Axiom => ("axiom".to_owned(), vec![true; self.chain.symbols.len()]),
-            Line::Interpretation(wanted) => {
+            LineSubject::Axiom => ("axiom".to_owned(), vec![true; self.chain.symbols.len()]),
+            LineSubject::Interpretation(wanted) => {
                 let made = |symbol: &Symbol| self.interpreted[usize::from(*symbol)] == wanted;
                 let name = self.interpretations[usize::from(wanted)].text.clone();
                 (name, self.chain.symbols.iter().map(made).collect())
             }
-            Line::Rule(wanted) => {
+            LineSubject::Rule(wanted) => {
                 let first = self.steps.first().map_or(0, |step| step.applied.len());
                 let mut made = vec![false; first];
                 for step in &self.steps {
@@ -230,7 +231,7 @@ impl Trace {
                 (self.rules[usize::from(wanted)].text.clone(), made)
             }
         };
-        Some(MadeBy { name, line, made })
+        Some(RuleProducts { name, line, made })
     }
 
     /// For each traced chain, where its symbols begin in the final chain.
@@ -246,7 +247,7 @@ impl Trace {
 }
 
 /// What a line of a script says.
-enum Line {
+enum LineSubject {
     Axiom,
     Rule(u16),
     Interpretation(u16),

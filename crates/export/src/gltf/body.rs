@@ -1,8 +1,8 @@
 //! The binary part of a glTF: planned first, so that its description can be written, then written piece by piece.
 
 use super::super::check::shown;
-use super::corners::Corners;
-use super::weld::Welded;
+use super::corners::FaceCorners;
+use super::weld::FlatPart;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{Normal, Part};
@@ -30,7 +30,7 @@ const AHEAD: usize = 16;
 
 /// Arrays that share a buffer view, since thousands of small views make a file slow to open.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shared {
+pub(super) enum ArrayKind {
     Positions,
     Normals,
     /// Normals as four i8, of which the last is nothing.
@@ -45,7 +45,7 @@ pub(super) enum Shared {
 }
 
 /// An array of the body.
-pub(super) enum Block<'a> {
+pub(super) enum BodyArray<'a> {
     Positions(&'a Part),
     Normals(&'a Part),
     ByteNormals(&'a Part),
@@ -56,21 +56,21 @@ pub(super) enum Block<'a> {
     Short(&'a Part, usize, u16),
     Long(&'a Part, usize),
     /// The positions of a welded part.
-    Places(Arc<Welded>),
+    Places(Arc<FlatPart>),
     /// The normals of a welded part as four i8.
-    FaceNormals(Arc<Welded>),
+    FaceNormals(Arc<FlatPart>),
     /// The indices of a welded part whose vertices begin with this number, as u16.
-    ShortCorners(Arc<Welded>, u16),
-    LongCorners(Arc<Welded>),
+    ShortCorners(Arc<FlatPart>, u16),
+    LongCorners(Arc<FlatPart>),
     /// The positions of corners.
-    CornerPlaces(Arc<Corners<'a>>),
+    CornerPlaces(Arc<FaceCorners<'a>>),
     /// The texture coordinates of corners.
-    CornerTexCoords(Arc<Corners<'a>>),
+    CornerTexCoords(Arc<FaceCorners<'a>>),
     /// The normals of corners.
-    CornerNormals(Arc<Corners<'a>>),
+    CornerNormals(Arc<FaceCorners<'a>>),
     /// The indices of faces among corners, by their number, with this many triangles to be written, as u16.
-    ShortFaces(Arc<Corners<'a>>, usize, usize),
-    LongFaces(Arc<Corners<'a>>, usize, usize),
+    ShortFaces(Arc<FaceCorners<'a>>, usize, usize),
+    LongFaces(Arc<FaceCorners<'a>>, usize, usize),
     Floats(Vec<f32>),
     Shorts(Vec<i16>),
     Bytes(&'a [u8]),
@@ -79,24 +79,24 @@ pub(super) enum Block<'a> {
 /// What the buffer views of a document show, in order.
 #[derive(Default)]
 pub(super) struct Body<'a> {
-    sections: Vec<Section<'a>>,
+    sections: Vec<BufferSection<'a>>,
     /// The corners that the sections of each batch show, and how many there are in the last one.
-    batches: Vec<Vec<Arc<Corners<'a>>>>,
+    batches: Vec<Vec<Arc<FaceCorners<'a>>>>,
     corners: usize,
 }
 
 /// What one buffer view shows.
-struct Section<'a> {
-    shared: Option<Shared>,
+struct BufferSection<'a> {
+    shared: Option<ArrayKind>,
     /// The number of its batch.
     batch: usize,
-    blocks: Vec<Block<'a>>,
+    blocks: Vec<BodyArray<'a>>,
     length: u64,
 }
 
 /// Some blocks, or a part of one.
 struct Stretch<'a> {
-    blocks: &'a [Block<'a>],
+    blocks: &'a [BodyArray<'a>],
     /// What is taken of each block.
     items: Range<usize>,
     /// Zeros behind it (bytes).
@@ -107,7 +107,7 @@ struct Stretch<'a> {
 
 impl<'a> Body<'a> {
     /// Adds `block` to the view of its kind. Returns the view and the offset in it (bytes).
-    pub(super) fn share(&mut self, kind: Shared, block: Block<'a>) -> (u32, u64) {
+    pub(super) fn share(&mut self, kind: ArrayKind, block: BodyArray<'a>) -> (u32, u64) {
         let batch = self.batches.len();
         let mut sections = self.sections.iter().enumerate().rev().take_while(|(_, it)| it.batch == batch);
         let index = match sections.find(|(_, section)| section.shared == Some(kind)) {
@@ -122,7 +122,7 @@ impl<'a> Body<'a> {
     }
 
     /// Adds `block` as a view of its own.
-    pub(super) fn add(&mut self, block: Block<'a>) -> u32 {
+    pub(super) fn add(&mut self, block: BodyArray<'a>) -> u32 {
         let index = self.section(None);
         self.sections[index].length = block.length();
         self.sections[index].blocks.push(block);
@@ -139,7 +139,7 @@ impl<'a> Body<'a> {
     }
 
     /// Takes notice of corners that blocks of this batch will show.
-    pub(super) fn show(&mut self, corners: &Arc<Corners<'a>>) {
+    pub(super) fn show(&mut self, corners: &Arc<FaceCorners<'a>>) {
         if self.batches.is_empty() {
             self.batches.push(Vec::new());
         }
@@ -149,9 +149,9 @@ impl<'a> Body<'a> {
         }
     }
 
-    fn section(&mut self, shared: Option<Shared>) -> usize {
+    fn section(&mut self, shared: Option<ArrayKind>) -> usize {
         let batch = self.batches.len();
-        self.sections.push(Section { shared, batch, blocks: Vec::new(), length: 0 });
+        self.sections.push(BufferSection { shared, batch, blocks: Vec::new(), length: 0 });
         self.sections.len() - 1
     }
 
@@ -238,7 +238,7 @@ impl<'a> Body<'a> {
                     continue;
                 }
                 let mut sum = 0;
-                let fits = |block: &&Block<'_>| {
+                let fits = |block: &&BodyArray<'_>| {
                     sum += block.items();
                     sum <= STRETCH
                 };
@@ -266,10 +266,10 @@ impl Stretch<'_> {
     }
 }
 
-impl Section<'_> {
+impl BufferSection<'_> {
     fn target(&self) -> Option<Target> {
         Some(match self.shared? {
-            Shared::Short | Shared::Long => Target::ElementArrayBuffer,
+            ArrayKind::Short | ArrayKind::Long => Target::ElementArrayBuffer,
             _ => Target::ArrayBuffer,
         })
     }
@@ -277,15 +277,15 @@ impl Section<'_> {
     /// Bytes from one vertex to the next; several accessors may share a view only if it says so.
     fn stride(&self) -> Option<usize> {
         match self.shared? {
-            Shared::Positions | Shared::Normals => Some(12),
-            Shared::TexCoords | Shared::ShortNormals => Some(8),
-            Shared::ByteNormals => Some(4),
-            Shared::Short | Shared::Long => None,
+            ArrayKind::Positions | ArrayKind::Normals => Some(12),
+            ArrayKind::TexCoords | ArrayKind::ShortNormals => Some(8),
+            ArrayKind::ByteNormals => Some(4),
+            ArrayKind::Short | ArrayKind::Long => None,
         }
     }
 }
 
-impl Block<'_> {
+impl BodyArray<'_> {
     fn length(&self) -> u64 {
         let bytes = match self {
             Self::Positions(part) | Self::Normals(part) => part.positions.len() * 12,

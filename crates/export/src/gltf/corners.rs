@@ -27,16 +27,16 @@ const FLAT: f32 = 0.999_85;
 
 /// Faces of a part.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Faces<'a> {
+pub(super) struct PartFaces<'a> {
     pub(super) part: &'a Part,
     /// The width and height (m) of the part's texture, if it has texture coordinates.
     pub(super) texture: Option<[f64; 2]>,
-    pub(super) which: Which,
+    pub(super) which: FaceChoice,
 }
 
 /// Which of the faces of a part are meant.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Which {
+pub(super) enum FaceChoice {
     /// All, which are flat.
     All,
     /// Those that are flat.
@@ -46,9 +46,9 @@ pub(super) enum Which {
 }
 
 /// The corners of faces of some parts of a mesh.
-pub(super) struct Corners<'a> {
+pub(super) struct FaceCorners<'a> {
     /// The faces; those with texture coordinates come first.
-    faces: Vec<Faces<'a>>,
+    faces: Vec<PartFaces<'a>>,
     textured: CornerRange,
     all: CornerRange,
     /// They themselves, while they are needed: what a city has is too much to be kept.
@@ -95,21 +95,21 @@ fn is_flat(part: &Part, corners: [u32; 3]) -> bool {
     across.dot(normal.vector()) >= FLAT * area || area < THIN * longest
 }
 
-impl<'a> Faces<'a> {
+impl<'a> PartFaces<'a> {
     /// Those among some triangles of the part.
     pub(super) fn triangles(self, places: Range<usize>) -> impl Iterator<Item = [u32; 3]> {
         let Self { part, which, .. } = self;
         shown(part.triangles.range(places)).filter(move |corners| match which {
-            Which::All => true,
-            Which::Flat => is_flat(part, *corners),
-            Which::Shaded => !is_flat(part, *corners),
+            FaceChoice::All => true,
+            FaceChoice::Flat => is_flat(part, *corners),
+            FaceChoice::Shaded => !is_flat(part, *corners),
         })
     }
 }
 
-impl<'a> Corners<'a> {
+impl<'a> FaceCorners<'a> {
     /// Those of `faces`, of which those with texture coordinates come first. All of them are shaded, or none is.
-    pub(super) fn of(faces: Vec<Faces<'a>>) -> Self {
+    pub(super) fn of(faces: Vec<PartFaces<'a>>) -> Self {
         let list = CornerList::of(&faces);
         let range = |positions: &[Vec3]| CornerRange {
             count: positions.len(),
@@ -122,7 +122,7 @@ impl<'a> Corners<'a> {
 
     /// Whether they have normals.
     pub(super) fn are_shaded(&self) -> bool {
-        self.faces.iter().any(|faces| faces.which == Which::Shaded)
+        self.faces.iter().any(|faces| faces.which == FaceChoice::Shaded)
     }
 
     /// Those that a part refers to: one with texture coordinates to the first ones, the others to all.
@@ -136,7 +136,7 @@ impl<'a> Corners<'a> {
     }
 
     /// The faces of a part, by their number among those that were given.
-    pub(super) fn faces(&self, number: usize) -> Faces<'a> {
+    pub(super) fn faces(&self, number: usize) -> PartFaces<'a> {
         self.faces[number]
     }
 
@@ -153,19 +153,19 @@ impl<'a> Corners<'a> {
 }
 
 impl CornerList {
-    fn of(all: &[Faces<'_>]) -> Self {
+    fn of(all: &[PartFaces<'_>]) -> Self {
         let vertices: usize = all.iter().map(|faces| faces.part.positions.len()).sum();
         // Corners by place; at most two thirds of it are taken.
         let mut places = vec![NONE; (vertices + vertices / 2 + 1).next_power_of_two()];
         let mut list = Self::default();
         for faces in all {
-            let Faces { part, texture, which } = *faces;
+            let PartFaces { part, texture, which } = *faces;
             let mut of = vec![NONE; part.positions.len()];
             for corner in faces.triangles(0..usize::MAX).flatten() {
                 let vertex = corner as usize;
                 if of[vertex] == NONE {
                     let uv = texture.map(|size| tex_coord(part.uvs[vertex], size));
-                    let normal = (which == Which::Shaded).then(|| part.normals[vertex]);
+                    let normal = (which == FaceChoice::Shaded).then(|| part.normals[vertex]);
                     of[vertex] = list.corner(y_up(part.positions[vertex]), uv, normal, &mut places);
                 }
             }
@@ -209,8 +209,8 @@ mod tests {
     use glam::Vec2;
     use proptest::prelude::*;
 
-    fn faces(part: &Part, which: Which) -> Faces<'_> {
-        Faces { part, texture: None, which }
+    fn faces(part: &Part, which: FaceChoice) -> PartFaces<'_> {
+        PartFaces { part, texture: None, which }
     }
 
     #[test]
@@ -218,7 +218,7 @@ mod tests {
         let scene = samples::boxes(1);
         let part = &scene.meshes[0].parts[0];
         assert_eq!((flat_faces(part), part.positions.len()), (12, 24));
-        assert_eq!(Corners::of(vec![faces(part, Which::All)]).range(false).count, 8);
+        assert_eq!(FaceCorners::of(vec![faces(part, FaceChoice::All)]).range(false).count, 8);
         assert_eq!(flat_faces(&samples::hill(3).meshes[0].parts[0]), 0);
     }
 
@@ -229,9 +229,9 @@ mod tests {
             *normal = Normal::from(normal.vector() + Vec3::splat(0.1));
         }
         assert_eq!(flat_faces(&part), 10);
-        let (flat, shaded) = (faces(&part, Which::Flat), faces(&part, Which::Shaded));
+        let (flat, shaded) = (faces(&part, FaceChoice::Flat), faces(&part, FaceChoice::Shaded));
         assert_eq!((flat.triangles(0..99).count(), shaded.triangles(0..99).count()), (10, 2));
-        let corners = Corners::of(vec![shaded]);
+        let corners = FaceCorners::of(vec![shaded]);
         let list = corners.list();
         assert!(corners.are_shaded() && list.positions.len() == 4);
         assert!(list.normals.iter().all(|normal| *normal == part.normals[0]));
@@ -262,9 +262,9 @@ mod tests {
             let size = [2.0, 4.0];
             let parts: Vec<_> = textured.iter().map(|part| (part, Some(size)))
                 .chain(plain.iter().map(|part| (part, None))).collect();
-            let which = Which::All;
-            let corners = Corners::of(parts.iter().map(|(part, texture)| {
-                Faces { part, texture: *texture, which }
+            let which = FaceChoice::All;
+            let corners = FaceCorners::of(parts.iter().map(|(part, texture)| {
+                PartFaces { part, texture: *texture, which }
             }).collect());
             let list = corners.list();
             prop_assert_eq!(corners.range(true).count, list.tex_coords.len());

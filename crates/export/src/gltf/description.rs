@@ -20,7 +20,7 @@ pub(super) struct Description<'a> {
     /// What there are few of; it has no accessors, meshes and nodes.
     pub(super) root: json::Root,
     pub(super) accessors: Vec<Accessor>,
-    pub(super) meshes: Vec<Mesh<'a>>,
+    pub(super) meshes: Vec<MeshDescription<'a>>,
     pub(super) nodes: Vec<Node<'a>>,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Accessor {
 }
 
 #[derive(Serialize)]
-pub(super) struct Mesh<'a> {
+pub(super) struct MeshDescription<'a> {
     #[serde(skip_serializing_if = "str::is_empty")]
     pub(super) name: &'a str,
     pub(super) primitives: Vec<Primitive>,
@@ -57,7 +57,7 @@ pub(super) struct Mesh<'a> {
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
     #[serde(rename = "extras", skip_serializing_if = "Option::is_none")]
-    pub(super) shading: Option<Shading>,
+    pub(super) shading: Option<ShadingExtras>,
     pub(super) indices: usize,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) material: Option<json::Index<json::Material>>,
@@ -65,7 +65,7 @@ pub(super) struct Primitive {
 
 /// What a viewer of Burgeon's own is told of a primitive.
 #[derive(Clone, Copy, Serialize)]
-pub(super) struct Shading {
+pub(super) struct ShadingExtras {
     /// Whether each triangle has the normal of its last corner.
     pub(super) flat: bool,
 }
@@ -90,7 +90,7 @@ pub(super) struct Node<'a> {
     pub(super) extensions: Option<serde_json::Value>,
     /// In the extras and not in the name, since viewers change names that repeat or have unusual letters.
     #[serde(rename = "extras", skip_serializing_if = "Option::is_none")]
-    pub(super) feature: Option<Feature<'a>>,
+    pub(super) feature: Option<FeatureExtras<'a>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) mesh: Option<usize>,
     #[serde(skip_serializing_if = "str::is_empty")]
@@ -105,29 +105,29 @@ pub(super) struct Node<'a> {
 
 /// The id of the feature that a node shows.
 #[derive(Clone, Copy, Serialize)]
-pub(super) struct Feature<'a> {
+pub(super) struct FeatureExtras<'a> {
     pub(super) feature: &'a str,
 }
 
 /// Everything, in gltf-json's order.
 #[derive(Serialize)]
-struct Whole<'a> {
+struct WholeDocument<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     accessors: &'a [Accessor],
     #[serde(flatten)]
-    before: Before<'a>,
+    before: DocumentHead<'a>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
-    meshes: &'a [Mesh<'a>],
+    meshes: &'a [MeshDescription<'a>],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     nodes: &'a [Node<'a>],
     #[serde(flatten)]
-    after: After<'a>,
+    after: DocumentTail<'a>,
 }
 
 /// What stands between the accessors and the meshes.
 #[derive(Serialize)]
 #[serde(rename_all = "camelCase")]
-struct Before<'a> {
+struct DocumentHead<'a> {
     asset: &'a json::Asset,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     buffers: &'a [json::Buffer],
@@ -146,7 +146,7 @@ struct Before<'a> {
 
 /// What stands behind the nodes.
 #[derive(Serialize)]
-struct After<'a> {
+struct DocumentTail<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     samplers: &'a [json::texture::Sampler],
     scenes: &'a [json::Scene],
@@ -167,11 +167,11 @@ impl<'a> Description<'a> {
         self.nodes.len() - 1
     }
 
-    fn whole(&self) -> Whole<'_> {
+    fn whole(&self) -> WholeDocument<'_> {
         let root = &self.root;
-        Whole {
+        WholeDocument {
             accessors: &self.accessors,
-            before: Before {
+            before: DocumentHead {
                 asset: &root.asset,
                 buffers: &root.buffers,
                 buffer_views: &root.buffer_views,
@@ -183,7 +183,7 @@ impl<'a> Description<'a> {
             },
             meshes: &self.meshes,
             nodes: &self.nodes,
-            after: After { samplers: &root.samplers, scenes: &root.scenes, textures: &root.textures },
+            after: DocumentTail { samplers: &root.samplers, scenes: &root.scenes, textures: &root.textures },
         }
     }
 
@@ -194,7 +194,7 @@ impl<'a> Description<'a> {
 
     /// As text without a blank, in pieces to be put one after another.
     pub(super) fn text(&self) -> Result<Vec<Vec<u8>>> {
-        let Whole { accessors, before, meshes, nodes, after } = self.whole();
+        let WholeDocument { accessors, before, meshes, nodes, after } = self.whole();
         let written = || -> serde_json::Result<Vec<Vec<u8>>> {
             let mut text = vec![b"{".to_vec()];
             text.extend(list("accessors", accessors)?);
@@ -267,7 +267,11 @@ mod tests {
                 max: None,
             });
         }
-        description.node(Node { name: "a", feature: Some(Feature { feature: "way/1" }), ..Node::default() });
+        description.node(Node {
+            name: "a",
+            feature: Some(FeatureExtras { feature: "way/1" }),
+            ..Node::default()
+        });
         let mut pretty = Vec::new();
         description.write_pretty(&mut pretty).unwrap();
         let said: serde_json::Value = serde_json::from_slice(&pretty).unwrap();

@@ -1,10 +1,10 @@
 //! Materials, textures and images.
 
-use super::super::check::Checked;
+use super::super::check::SceneCheck;
 use super::super::color::fraction;
 use super::super::texture::Images;
-use super::body::{Block, Body};
-use super::{Textures, name, uri};
+use super::body::{Body, BodyArray};
+use super::document::{Textures, name, uri};
 use burgeon_scene::Material;
 use gltf_json as json;
 use json::material::{AlphaMode, EmissiveFactor, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
@@ -13,7 +13,7 @@ use json::validation::Checked::Valid;
 
 /// Adds the materials that are shown. Returns where each material of the scene is.
 pub(super) fn write<'a>(
-    checked: &Checked<'_>,
+    checked: &SceneCheck<'_>,
     images: &'a Images,
     textures: &Textures,
     root: &mut json::Root,
@@ -52,7 +52,7 @@ fn write_images<'a>(
     let mut written = Vec::new();
     for (i, file) in images.files.iter().enumerate() {
         let (view, address) = match textures {
-            Textures::Embedded => (Some(body.add(Block::Bytes(&file.bytes))), None),
+            Textures::Embedded => (Some(body.add(BodyArray::Bytes(&file.bytes))), None),
             Textures::Beside(names) => (None, Some(uri(&names[i]))),
         };
         let source = root.push(json::Image {

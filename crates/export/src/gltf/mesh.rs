@@ -1,10 +1,10 @@
 //! Meshes and the accessors of their arrays.
 
-use super::super::check::{Checked, Measured};
-use super::body::{Block, Body, Shared, y_up};
-use super::corners::{self, CornerRange, Corners, Faces, Which, flat_faces};
-use super::description::{Accessor, Attributes, Description, Mesh, Primitive, Shading};
-use super::weld::Welded;
+use super::super::check::{PartExtent, SceneCheck};
+use super::body::{ArrayKind, Body, BodyArray, y_up};
+use super::corners::{self, CornerRange, FaceChoice, FaceCorners, PartFaces, flat_faces};
+use super::description::{Accessor, Attributes, Description, MeshDescription, Primitive, ShadingExtras};
+use super::weld::FlatPart;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Part;
 use glam::Vec3;
@@ -17,7 +17,7 @@ use std::sync::Arc;
 ///
 /// Texture coordinates are left out where no texture needs them, unless `arrays` says that they are metres there.
 pub(super) fn write<'a>(
-    checked: &Checked<'a>,
+    checked: &SceneCheck<'a>,
     arrays: Arrays,
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
@@ -25,21 +25,21 @@ pub(super) fn write<'a>(
     stop: &Stop,
 ) -> Vec<Option<usize>> {
     let scene = checked.scene;
-    let measure = |(part, measured): (&'a Part, &Measured)| {
+    let measure = |(part, measured): (&'a Part, &PartExtent)| {
         let texture = scene.materials[part.material].texture.as_ref();
         let size = texture.map(|texture| texture.size).or(arrays.measured.then_some([1.0, 1.0]));
-        let welded = (arrays.small && size.is_none()).then(|| Welded::of(part)).flatten().map(Arc::new);
-        Shown { part, texture: size, measured: *measured, welded, which: None, corners: None }
+        let welded = (arrays.small && size.is_none()).then(|| FlatPart::of(part)).flatten().map(Arc::new);
+        PartView { part, texture: size, measured: *measured, welded, which: None, corners: None }
     };
     let shown = scene.meshes.par_iter().zip(&checked.parts).map(|(mesh, parts)| {
-        let is_shown = |(_, measured): &(&Part, &Measured)| measured.triangles > 0;
+        let is_shown = |(_, measured): &(&Part, &PartExtent)| measured.triangles > 0;
         match arrays.small {
             _ if stop.is_stopped() => Vec::new(),
             true => mesh.parts.par_iter().zip(parts).filter(is_shown).map(measure).collect(),
             false => divide(mesh.parts.iter().zip(parts).filter(is_shown).map(measure).collect()),
         }
     });
-    let shown: Vec<Vec<Shown<'a>>> = shown.collect();
+    let shown: Vec<Vec<PartView<'a>>> = shown.collect();
     let parts: usize = shown.iter().map(Vec::len).sum();
     description.accessors.reserve(2 * scene.meshes.len() + parts);
     description.meshes.reserve(scene.meshes.len());
@@ -54,7 +54,7 @@ pub(super) fn write<'a>(
                     shown.primitive(vertices, materials[shown.part.material], description, body)
                 })
                 .collect();
-            description.meshes.push(Mesh { name: &mesh.name, primitives });
+            description.meshes.push(MeshDescription { name: &mesh.name, primitives });
             description.meshes.len() - 1
         }));
     }
@@ -66,26 +66,26 @@ pub(super) fn write<'a>(
 pub(super) struct Arrays {
     /// Whether surfaces without a texture have texture coordinates too, in metres.
     pub(super) measured: bool,
-    /// Whether normals are integers, which `KHR_mesh_quantization` allows, and parts of flat triangles are [`Welded`]
+    /// Whether normals are integers, which `KHR_mesh_quantization` allows, and parts of flat triangles are [`FlatPart`]
     /// unless they have texture coordinates: a viewer waits for each byte. It reads turns of instances as they are.
     pub(super) small: bool,
 }
 
 /// A part, and the width and height (m) of its texture if it has texture coordinates.
-struct Shown<'a> {
+struct PartView<'a> {
     part: &'a Part,
     texture: Option<[f64; 2]>,
-    measured: Measured,
+    measured: PartExtent,
     /// What is written in the part's place.
-    welded: Option<Arc<Welded>>,
+    welded: Option<Arc<FlatPart>>,
     /// Which of the part's faces are meant, if they have corners.
-    which: Option<Which>,
+    which: Option<FaceChoice>,
     /// Where their corners are, and their number among the faces that share them.
-    corners: Option<(Arc<Corners<'a>>, usize)>,
+    corners: Option<(Arc<FaceCorners<'a>>, usize)>,
 }
 
 /// The parts of a mesh; one with mostly flat faces is divided into these and the others, if there are any.
-fn divide(parts: Vec<Shown<'_>>) -> Vec<Shown<'_>> {
+fn divide(parts: Vec<PartView<'_>>) -> Vec<PartView<'_>> {
     let mut divided = Vec::with_capacity(parts.len());
     for shown in parts {
         let (part, all) = (shown.part, shown.measured.triangles);
@@ -94,32 +94,40 @@ fn divide(parts: Vec<Shown<'_>>) -> Vec<Shown<'_>> {
             divided.push(shown);
             continue;
         }
-        let some = |which: Which, triangles: usize| {
-            let measured = Measured { triangles, ..shown.measured };
-            Shown { part, texture: shown.texture, measured, welded: None, which: Some(which), corners: None }
+        let some = |which: FaceChoice, triangles: usize| {
+            let measured = PartExtent { triangles, ..shown.measured };
+            PartView {
+                part,
+                texture: shown.texture,
+                measured,
+                welded: None,
+                which: Some(which),
+                corners: None,
+            }
         };
-        divided.push(some(if flat == all { Which::All } else { Which::Flat }, flat));
+        divided.push(some(if flat == all { FaceChoice::All } else { FaceChoice::Flat }, flat));
         if flat < all {
-            divided.push(some(Which::Shaded, all - flat));
+            divided.push(some(FaceChoice::Shaded, all - flat));
         }
     }
     for shaded in [false, true] {
-        let alike =
-            |shown: &&mut Shown<'_>| shown.which.is_some_and(|which| (which == Which::Shaded) == shaded);
+        let alike = |shown: &&mut PartView<'_>| {
+            shown.which.is_some_and(|which| (which == FaceChoice::Shaded) == shaded)
+        };
         share_corners(divided.iter_mut().filter(alike).collect());
     }
     divided
 }
 
 /// Lets parts of a mesh share their corners, or each its own if they are too many for short indices.
-fn share_corners(mut parts: Vec<&mut Shown<'_>>) {
+fn share_corners(mut parts: Vec<&mut PartView<'_>>) {
     if parts.is_empty() {
         return;
     }
     parts.sort_by_key(|shown| shown.texture.is_none());
     let vertices: usize = parts.iter().map(|shown| shown.part.positions.len()).sum();
     let faces = parts.iter().filter_map(|shown| shown.faces()).collect();
-    let together = (vertices <= corners::MOST).then(|| Corners::of(faces));
+    let together = (vertices <= corners::MOST).then(|| FaceCorners::of(faces));
     match together.filter(|together| together.range(false).count <= SHORT).map(Arc::new) {
         Some(together) => {
             for (number, shown) in parts.into_iter().enumerate() {
@@ -128,7 +136,7 @@ fn share_corners(mut parts: Vec<&mut Shown<'_>>) {
         }
         None => {
             for shown in parts {
-                shown.corners = shown.faces().map(|faces| (Arc::new(Corners::of(vec![faces])), 0));
+                shown.corners = shown.faces().map(|faces| (Arc::new(FaceCorners::of(vec![faces])), 0));
             }
         }
     }
@@ -151,13 +159,13 @@ impl Vertices {
     /// Adds the vertices of the parts of a mesh. Small parts of a kind share their arrays: what describes an array
     /// takes as much as four vertices, and cities have many small parts.
     fn of<'a>(
-        parts: &[Shown<'a>],
+        parts: &[PartView<'a>],
         arrays: Arrays,
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> Vec<Self> {
         let mut found: Vec<Option<Self>> = vec![None; parts.len()];
-        let mut known: Vec<(&Arc<Corners<'a>>, [Option<Self>; 2])> = Vec::new();
+        let mut known: Vec<(&Arc<FaceCorners<'a>>, [Option<Self>; 2])> = Vec::new();
         for (shown, found) in parts.iter().zip(&mut found) {
             let Some((corners, _)) = &shown.corners else { continue };
             let place = known.iter().position(|(known, _)| Arc::ptr_eq(known, corners));
@@ -168,7 +176,7 @@ impl Vertices {
             *found = known[place].1[usize::from(shown.texture.is_some())];
         }
         for kind in [(false, false), (false, true), (true, false)] {
-            let is_alike = |shown: &Shown<'_>| {
+            let is_alike = |shown: &PartView<'_>| {
                 shown.corners.is_none() && (shown.texture.is_some(), shown.welded.is_some()) == kind
             };
             let alike: Vec<usize> = (0..parts.len()).filter(|index| is_alike(&parts[*index])).collect();
@@ -176,7 +184,7 @@ impl Vertices {
             let groups: Vec<&[usize]> =
                 if sum <= SHORT { vec![alike.as_slice()] } else { alike.chunks(1).collect() };
             for group in groups.into_iter().filter(|group| !group.is_empty()) {
-                let members: Vec<&Shown<'a>> = group.iter().map(|index| &parts[*index]).collect();
+                let members: Vec<&PartView<'a>> = group.iter().map(|index| &parts[*index]).collect();
                 let mut vertices = Self::together(&members, arrays, description, body);
                 for index in group {
                     found[*index] = Some(vertices);
@@ -190,15 +198,15 @@ impl Vertices {
     /// Adds corners: for parts without and with texture coordinates, as far as there are such. Parts without refer to
     /// those of the others, too.
     fn at_corners<'a>(
-        corners: &Arc<Corners<'a>>,
+        corners: &Arc<FaceCorners<'a>>,
         description: &mut Description<'a>,
         body: &mut Body<'a>,
     ) -> [Option<Self>; 2] {
         body.show(corners);
-        let places = body.share(Shared::Positions, Block::CornerPlaces(Arc::clone(corners)));
+        let places = body.share(ArrayKind::Positions, BodyArray::CornerPlaces(Arc::clone(corners)));
         let normals = corners
             .are_shaded()
-            .then(|| body.share(Shared::Normals, Block::CornerNormals(Arc::clone(corners))));
+            .then(|| body.share(ArrayKind::Normals, BodyArray::CornerNormals(Arc::clone(corners))));
         [false, true].map(|textured| {
             let CornerRange { count, low, high } = corners.range(textured);
             corners.has_parts(textured).then(|| {
@@ -210,7 +218,8 @@ impl Vertices {
                     description.accessor(accessor(place, ComponentType::F32, Type::Vec3, count))
                 });
                 let tex_coords = textured.then(|| {
-                    let place = body.share(Shared::TexCoords, Block::CornerTexCoords(Arc::clone(corners)));
+                    let place =
+                        body.share(ArrayKind::TexCoords, BodyArray::CornerTexCoords(Arc::clone(corners)));
                     description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
                 });
                 let accessors = Attributes { positions, normals, tex_coords };
@@ -221,7 +230,7 @@ impl Vertices {
 
     /// Adds the vertices of `parts`, one after another.
     fn together<'a>(
-        parts: &[&Shown<'a>],
+        parts: &[&PartView<'a>],
         arrays: Arrays,
         description: &mut Description<'a>,
         body: &mut Body<'a>,
@@ -232,9 +241,9 @@ impl Vertices {
         // What points up in the scene points towards the viewer in glTF, so two corners change places there.
         let (a, b) = (y_up(low), y_up(high));
         let (low, high) = (a.min(b), a.max(b));
-        let mut add = |shared: Shared,
+        let mut add = |shared: ArrayKind,
                        (component, kind): (ComponentType, Type),
-                       block: &dyn Fn(&Shown<'a>) -> Block<'a>| {
+                       block: &dyn Fn(&PartView<'a>) -> BodyArray<'a>| {
             let mut place = None;
             for shown in parts {
                 let added = body.share(shared, block(shown));
@@ -243,29 +252,29 @@ impl Vertices {
             accessor(place.unwrap_or_default(), component, kind, count)
         };
         let vec3 = (ComponentType::F32, Type::Vec3);
-        let positions = add(Shared::Positions, vec3, &|shown| match &shown.welded {
-            Some(welded) => Block::Places(Arc::clone(welded)),
-            None => Block::Positions(shown.part),
+        let positions = add(ArrayKind::Positions, vec3, &|shown| match &shown.welded {
+            Some(welded) => BodyArray::Places(Arc::clone(welded)),
+            None => BodyArray::Positions(shown.part),
         });
         let normals = match arrays.small {
-            false => add(Shared::Normals, vec3, &|shown| Block::Normals(shown.part)),
+            false => add(ArrayKind::Normals, vec3, &|shown| BodyArray::Normals(shown.part)),
             true if parts.iter().all(|shown| shown.welded.is_some() || is_faceted(shown.part)) => {
                 let kind = (ComponentType::I8, Type::Vec3);
-                add(Shared::ByteNormals, kind, &|shown| match &shown.welded {
-                    Some(welded) => Block::FaceNormals(Arc::clone(welded)),
-                    None => Block::ByteNormals(shown.part),
+                add(ArrayKind::ByteNormals, kind, &|shown| match &shown.welded {
+                    Some(welded) => BodyArray::FaceNormals(Arc::clone(welded)),
+                    None => BodyArray::ByteNormals(shown.part),
                 })
             }
             true => {
                 let kind = (ComponentType::I16, Type::Vec3);
-                add(Shared::ShortNormals, kind, &|shown| Block::ShortNormals(shown.part))
+                add(ArrayKind::ShortNormals, kind, &|shown| BodyArray::ShortNormals(shown.part))
             }
         };
         let normals = Accessor { normalized: arrays.small, ..normals };
         let textured = parts.first().is_some_and(|shown| shown.texture.is_some());
         let tex_coords = textured.then(|| {
-            add(Shared::TexCoords, (ComponentType::F32, Type::Vec2), &|shown| {
-                Block::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
+            add(ArrayKind::TexCoords, (ComponentType::F32, Type::Vec2), &|shown| {
+                BodyArray::TexCoords(shown.part, shown.texture.unwrap_or([1.0, 1.0]))
             })
         });
         let positions = Accessor { min: Some(low.to_array()), max: Some(high.to_array()), ..positions };
@@ -278,15 +287,15 @@ impl Vertices {
     }
 }
 
-impl<'a> Shown<'a> {
+impl<'a> PartView<'a> {
     /// How many vertices are written.
     fn vertices(&self) -> usize {
         self.welded.as_ref().map_or(self.part.positions.len(), |welded| welded.positions.len())
     }
 
     /// Those of its faces that have corners.
-    fn faces(&self) -> Option<Faces<'a>> {
-        self.which.map(|which| Faces { part: self.part, texture: self.texture, which })
+    fn faces(&self) -> Option<PartFaces<'a>> {
+        self.which.map(|which| PartFaces { part: self.part, texture: self.texture, which })
     }
 
     fn primitive(
@@ -298,18 +307,23 @@ impl<'a> Shown<'a> {
     ) -> Primitive {
         let (first, triangles) = (vertices.first as u16, self.measured.triangles);
         let short = vertices.count <= SHORT;
-        let (shared, kind) =
-            if short { (Shared::Short, ComponentType::U16) } else { (Shared::Long, ComponentType::U32) };
+        let (shared, kind) = if short {
+            (ArrayKind::Short, ComponentType::U16)
+        } else {
+            (ArrayKind::Long, ComponentType::U32)
+        };
         let block = match (&self.welded, &self.corners) {
-            (_, Some((corners, part))) if short => Block::ShortFaces(Arc::clone(corners), *part, triangles),
-            (_, Some((corners, part))) => Block::LongFaces(Arc::clone(corners), *part, triangles),
-            (Some(welded), _) if short => Block::ShortCorners(Arc::clone(welded), first),
-            (Some(welded), _) => Block::LongCorners(Arc::clone(welded)),
-            (None, _) if short => Block::Short(self.part, triangles, first),
-            (None, _) => Block::Long(self.part, triangles),
+            (_, Some((corners, part))) if short => {
+                BodyArray::ShortFaces(Arc::clone(corners), *part, triangles)
+            }
+            (_, Some((corners, part))) => BodyArray::LongFaces(Arc::clone(corners), *part, triangles),
+            (Some(welded), _) if short => BodyArray::ShortCorners(Arc::clone(welded), first),
+            (Some(welded), _) => BodyArray::LongCorners(Arc::clone(welded)),
+            (None, _) if short => BodyArray::Short(self.part, triangles, first),
+            (None, _) => BodyArray::Long(self.part, triangles),
         };
         let indices = accessor(body.share(shared, block), kind, Type::Scalar, triangles * 3);
-        let shading = self.welded.is_some().then_some(Shading { flat: true });
+        let shading = self.welded.is_some().then_some(ShadingExtras { flat: true });
         Primitive {
             attributes: vertices.accessors,
             shading,

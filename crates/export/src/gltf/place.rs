@@ -1,9 +1,9 @@
 //! Where meshes stand: a node for each instance, or one node for many.
 
-use super::super::check::{Checked, Measured};
-use super::body::{Block, Body, short};
+use super::super::check::{PartExtent, SceneCheck};
+use super::body::{Body, BodyArray, short};
 use super::decompose::{Steps, Trs, decompose, y_up};
-use super::description::{Accessor, Description, Feature, Node};
+use super::description::{Accessor, Description, FeatureExtras, Node};
 use super::material::use_extension;
 use super::mesh::{Arrays, accessor};
 use burgeon_scene::Instance;
@@ -24,7 +24,7 @@ const ENOUGH: usize = 16;
 
 /// Instances that differ in their transform alone.
 #[derive(PartialEq, Eq, Hash, Clone, Copy)]
-struct Kind<'a> {
+struct InstanceKind<'a> {
     mesh: usize,
     name: &'a str,
     /// Renderers choose the side that is seen once for all instances of a node.
@@ -42,7 +42,7 @@ const ROUNDING: f64 = 6.2e-5;
 const UNSEEN: f64 = 1e-3;
 
 #[derive(Default)]
-struct Group {
+struct InstanceGroup {
     count: usize,
     features: Vec<f32>,
     translations: Vec<f32>,
@@ -53,7 +53,7 @@ struct Group {
 }
 
 /// The numbers of an attribute of instances, all that each has after another.
-enum Column {
+enum AttributeColumn {
     Floats(Vec<f32>),
     /// Whole numbers, or parts of 32767.
     Shorts(Vec<i16>, bool),
@@ -61,7 +61,7 @@ enum Column {
 
 /// Where an instance of the scene is in a document.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Place {
+pub struct InstancePlace {
     /// The node that shows it, as an index into the document's nodes.
     pub node: usize,
     /// Its number among the instances that share the node; `None` if it has the node to itself.
@@ -70,38 +70,38 @@ pub struct Place {
 
 /// What [`write`] has added.
 #[derive(Default)]
-pub(super) struct Placed<'a> {
+pub(super) struct InstanceNodes<'a> {
     /// The nodes of the scene's top.
     pub(super) nodes: Vec<usize>,
     /// Where each instance is; `None` for one that has nothing to show.
-    pub(super) places: Vec<Option<Place>>,
+    pub(super) places: Vec<Option<InstancePlace>>,
     /// The features that instances which share a node are of.
     pub(super) features: Vec<&'a str>,
 }
 
 /// Adds the instances.
 pub(super) fn write<'a>(
-    checked: &Checked<'a>,
+    checked: &SceneCheck<'a>,
     meshes: &[Option<usize>],
     arrays: Arrays,
     description: &mut Description<'a>,
     body: &mut Body<'a>,
-) -> Placed<'a> {
+) -> InstanceNodes<'a> {
     let scene = checked.scene;
-    let mut groups: Vec<(Kind<'_>, Group)> = Vec::new();
+    let mut groups: Vec<(InstanceKind<'_>, InstanceGroup)> = Vec::new();
     let mut known = FxHashMap::default();
     let mut group_of = Vec::with_capacity(scene.instances.len());
     for instance in &scene.instances {
-        group_of.push(Kind::of(instance).map(|kind| {
+        group_of.push(InstanceKind::of(instance).map(|kind| {
             let group = *known.entry(kind).or_insert_with(|| {
-                groups.push((kind, Group::default()));
+                groups.push((kind, InstanceGroup::default()));
                 groups.len() - 1
             });
             groups[group].1.count += 1;
             group
         }));
     }
-    let mut features = Features::default();
+    let mut features = FeatureNumbers::default();
     let mut nodes = Vec::new();
     let mut places = vec![None; scene.instances.len()];
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); groups.len()];
@@ -121,7 +121,7 @@ pub(super) fn write<'a>(
         }
         let (node, shown) = alone(instance, mesh, &transform, description);
         nodes.push(node);
-        places[number] = Some(Place { node: shown, shared: None });
+        places[number] = Some(InstancePlace { node: shown, shared: None });
     }
     for ((kind, group), members) in groups.into_iter().zip(members) {
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
@@ -129,13 +129,13 @@ pub(super) fn write<'a>(
             let node = together(kind, group, (mesh, reach), description, body);
             nodes.push(node);
             for (shared, number) in members.into_iter().enumerate() {
-                places[number] = Some(Place { node, shared: Some(shared) });
+                places[number] = Some(InstancePlace { node, shared: Some(shared) });
             }
         }
     }
     let features = features.list;
     if checked.origin == DVec3::ZERO || nodes.is_empty() {
-        return Placed { nodes, places, features };
+        return InstanceNodes { nodes, places, features };
     }
     let origin = Node {
         name: "origin",
@@ -143,10 +143,10 @@ pub(super) fn write<'a>(
         children: Some(nodes),
         ..Node::default()
     };
-    Placed { nodes: vec![description.node(origin)], places, features }
+    InstanceNodes { nodes: vec![description.node(origin)], places, features }
 }
 
-impl<'a> Kind<'a> {
+impl<'a> InstanceKind<'a> {
     /// The kind of an instance that may share its node: what is drawn for a feature has its own, which bears its id.
     fn of(instance: &'a Instance) -> Option<Self> {
         (instance.feature.is_none() || instance.placement.is_some()).then(|| Self {
@@ -164,12 +164,12 @@ impl<'a> Kind<'a> {
 
 /// The features that are named by number.
 #[derive(Default)]
-struct Features<'a> {
+struct FeatureNumbers<'a> {
     list: Vec<&'a str>,
     numbers: FxHashMap<&'a str, usize>,
 }
 
-impl<'a> Features<'a> {
+impl<'a> FeatureNumbers<'a> {
     /// The number of a feature; -1 for none.
     fn number(&mut self, feature: Option<&'a str>) -> f32 {
         let Some(feature) = feature else { return -1.0 };
@@ -181,7 +181,7 @@ impl<'a> Features<'a> {
     }
 }
 
-impl Group {
+impl InstanceGroup {
     /// Adds an instance, unless its transform is sheared.
     fn take(&mut self, transform: &DAffine3) -> bool {
         let Steps::One(Trs { translation, rotation, scale }) = decompose(transform) else { return false };
@@ -194,12 +194,12 @@ impl Group {
 }
 
 /// How far (m) the points of a mesh are from its origin at most.
-fn reach(checked: &Checked<'_>, mesh: usize) -> f64 {
-    let furthest = |part: &Measured| part.low.abs().max(part.high.abs()).as_dvec3().length();
+fn reach(checked: &SceneCheck<'_>, mesh: usize) -> f64 {
+    let furthest = |part: &PartExtent| part.low.abs().max(part.high.abs()).as_dvec3().length();
     checked.parts[mesh].iter().map(furthest).fold(0.0, f64::max)
 }
 
-impl Column {
+impl AttributeColumn {
     /// Turns of what reaches so far (m), as parts of 32767 unless that could be seen.
     fn rotations(floats: Vec<f32>, reach: f64) -> Self {
         if reach * ROUNDING > UNSEEN {
@@ -228,7 +228,7 @@ fn alone<'a>(
     let shown = Node {
         mesh: Some(mesh),
         name: &instance.name,
-        feature: instance.feature.as_deref().map(|feature| Feature { feature }),
+        feature: instance.feature.as_deref().map(|feature| FeatureExtras { feature }),
         ..Node::default()
     };
     match decompose(transform) {
@@ -246,8 +246,8 @@ fn alone<'a>(
 
 /// A node for all instances of a group; `mesh` is its number with how far (m) it reaches.
 fn together<'a>(
-    kind: Kind<'a>,
-    group: Group,
+    kind: InstanceKind<'a>,
+    group: InstanceGroup,
     (mesh, reach): (usize, f64),
     description: &mut Description<'a>,
     body: &mut Body<'a>,
@@ -256,25 +256,27 @@ fn together<'a>(
     description.root.extensions_required = vec![INSTANCING.into()];
     let mut attributes = serde_json::Map::new();
     let count = group.translations.len() / 3;
-    let mut add = |key: &str, column: Column, kind: Type| {
+    let mut add = |key: &str, column: AttributeColumn, kind: Type| {
         let (block, component, normalized) = match column {
-            Column::Floats(floats) => (Block::Floats(floats), ComponentType::F32, false),
-            Column::Shorts(shorts, normalized) => (Block::Shorts(shorts), ComponentType::I16, normalized),
+            AttributeColumn::Floats(floats) => (BodyArray::Floats(floats), ComponentType::F32, false),
+            AttributeColumn::Shorts(shorts, normalized) => {
+                (BodyArray::Shorts(shorts), ComponentType::I16, normalized)
+            }
         };
         let array = Accessor { normalized, ..accessor((body.add(block), 0), component, kind, count) };
         attributes.insert(key.into(), description.accessor(array).into());
     };
     let differs = |floats: &[f32], default: &[f32]| floats.chunks(default.len()).any(|item| item != default);
     if group.features.iter().any(|feature| *feature >= 0.0) {
-        add(FEATURE, Column::whole(group.features), Type::Scalar);
+        add(FEATURE, AttributeColumn::whole(group.features), Type::Scalar);
     }
     // No default, since one array has to be there to tell the number of instances.
-    add("TRANSLATION", Column::Floats(group.translations), Type::Vec3);
+    add("TRANSLATION", AttributeColumn::Floats(group.translations), Type::Vec3);
     if differs(&group.rotations, &[0.0, 0.0, 0.0, 1.0]) {
-        add("ROTATION", Column::rotations(group.rotations, reach * group.largest), Type::Vec4);
+        add("ROTATION", AttributeColumn::rotations(group.rotations, reach * group.largest), Type::Vec4);
     }
     if differs(&group.scales, &[1.0, 1.0, 1.0]) {
-        add("SCALE", Column::Floats(group.scales), Type::Vec3);
+        add("SCALE", AttributeColumn::Floats(group.scales), Type::Vec3);
     }
     description.node(Node {
         mesh: Some(mesh),
@@ -326,7 +328,7 @@ mod tests {
         ) {
             prop_assume!(DQuat::from_array(numbers).length() > 0.1);
             let meant = DQuat::from_array(numbers).normalize();
-            let Column::Shorts(shorts, true) = Column::rotations(quaternion(meant).to_vec(), 1.0) else {
+            let AttributeColumn::Shorts(shorts, true) = AttributeColumn::rotations(quaternion(meant).to_vec(), 1.0) else {
                 panic!("short numbers")
             };
             let read: Vec<f64> = shorts.iter().map(|number| f64::from(*number) / 32767.0).collect();
@@ -339,11 +341,11 @@ mod tests {
     #[test]
     fn what_reaches_far_keeps_its_turn_and_what_has_a_high_number_keeps_it() {
         let turn = quaternion(DQuat::from_rotation_y(0.7)).to_vec();
-        assert!(matches!(Column::rotations(turn.clone(), 16.0), Column::Shorts(..)));
-        assert!(matches!(Column::rotations(turn, 17.0), Column::Floats(_)));
+        assert!(matches!(AttributeColumn::rotations(turn.clone(), 16.0), AttributeColumn::Shorts(..)));
+        assert!(matches!(AttributeColumn::rotations(turn, 17.0), AttributeColumn::Floats(_)));
         assert!(
-            matches!(Column::whole(vec![-1.0, 32767.0]), Column::Shorts(shorts, false) if shorts == [-1, 32767])
+            matches!(AttributeColumn::whole(vec![-1.0, 32767.0]), AttributeColumn::Shorts(shorts, false) if shorts == [-1, 32767])
         );
-        assert!(matches!(Column::whole(vec![-1.0, 32768.0]), Column::Floats(_)));
+        assert!(matches!(AttributeColumn::whole(vec![-1.0, 32768.0]), AttributeColumn::Floats(_)));
     }
 }

@@ -2,8 +2,11 @@
 
 use super::super::samples;
 use super::*;
+use burgeon_base::stop::Stop;
+use burgeon_scene::Scene;
 use glam::{DMat4, DQuat, DVec3};
 use gltf::Gltf;
+use gltf_json as json;
 use json::accessor::ComponentType;
 use proptest::prelude::*;
 use std::collections::BTreeMap;

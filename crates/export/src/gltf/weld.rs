@@ -16,7 +16,7 @@ const NONE: u32 = u32::MAX;
 const PLACES: usize = 1 << 12;
 
 /// A part whose triangles are flat.
-pub(super) struct Welded {
+pub(super) struct FlatPart {
     /// In glTF's coordinates.
     pub(super) positions: Vec<Vec3>,
     /// For each vertex the normal of the triangles whose last corner it is.
@@ -25,13 +25,13 @@ pub(super) struct Welded {
     pub(super) triangles: Vec<[u32; 3]>,
 }
 
-impl Welded {
+impl FlatPart {
     /// `part` with as few vertices as are easily found; `None` if one of its triangles is not flat.
     pub(super) fn of(part: &Part) -> Option<Self> {
         let normal = |corner: u32| part.normals[corner as usize];
         let is_flat = |[a, b, c]: [u32; 3]| normal(a) == normal(b) && normal(b) == normal(c);
         part.triangles.iter().all(is_flat).then(|| {
-            let mut welding = Welding::new(part);
+            let mut welding = PartWelder::new(part);
             let mut rest = triangles(part).peekable();
             while let Some(corners) = rest.next() {
                 welding.add(corners, rest.peek().copied());
@@ -42,9 +42,9 @@ impl Welded {
 }
 
 /// A part that is being welded.
-struct Welding<'a> {
+struct PartWelder<'a> {
     part: &'a Part,
-    made: Welded,
+    made: FlatPart,
     /// Whether a vertex has the normal of a triangle that ends with it.
     taken: Vec<bool>,
     /// Where the part's own vertices have come to.
@@ -53,12 +53,12 @@ struct Welding<'a> {
     known: Vec<u32>,
 }
 
-impl<'a> Welding<'a> {
+impl<'a> PartWelder<'a> {
     fn new(part: &'a Part) -> Self {
         let (vertices, room) = (part.positions.len(), part.positions.len() / 2);
         Self {
             part,
-            made: Welded {
+            made: FlatPart {
                 positions: Vec::with_capacity(room),
                 normals: Vec::with_capacity(room),
                 triangles: Vec::with_capacity(part.triangles.len()),
@@ -135,7 +135,7 @@ mod tests {
     fn a_box_keeps_its_faces_with_about_a_vertex_for_each_corner() {
         let scene = samples::boxes(1);
         let part = &scene.meshes[0].parts[0];
-        let welded = Welded::of(part).unwrap();
+        let welded = FlatPart::of(part).unwrap();
         assert_eq!((part.positions.len(), welded.triangles.len()), (24, 12));
         assert!(welded.positions.len() <= 10, "{} vertices", welded.positions.len());
         for (given, made) in part.triangles.iter().zip(&welded.triangles) {
@@ -150,6 +150,6 @@ mod tests {
 
     #[test]
     fn a_smooth_part_is_left_alone() {
-        assert!(Welded::of(&samples::hill(3).meshes[0].parts[0]).is_none());
+        assert!(FlatPart::of(&samples::hill(3).meshes[0].parts[0]).is_none());
     }
 }

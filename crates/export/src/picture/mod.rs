@@ -15,4 +15,4 @@ mod settings;
 mod renderer;
 
 pub use renderer::{Extent, render, render_within};
-pub use settings::{Background, Look, Picture, Quality};
+pub use settings::{Background, Picture, Quality, ViewBall};

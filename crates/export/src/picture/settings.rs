@@ -19,7 +19,7 @@ pub struct Picture {
     /// decides: lower for what is tall, higher for what is low.
     pub elevation: Option<f64>,
     /// What is looked at: a place (m), and how far (m) around it is in the picture. Without it the whole model is.
-    pub look: Option<Look>,
+    pub look: Option<ViewBall>,
     /// What is behind the model.
     pub background: Background,
     /// Whether a ground under the model's lowest point catches its shadow.
@@ -31,7 +31,7 @@ pub struct Picture {
 /// A ball that fills a picture.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Look {
+pub struct ViewBall {
     /// Its centre (m): x, y and z.
     pub at: [f64; 3],
     /// Its radius (m).

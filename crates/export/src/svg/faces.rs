@@ -1,9 +1,9 @@
 //! The triangles of a drawing, flat on the paper.
 
-use super::super::check::{Checked, shown_parts, triangles};
+use super::super::check::{SceneCheck, shown_parts, triangles};
 use super::super::color::{fraction, srgb};
 use super::super::texture::{ImageFile, Images};
-use super::view::View;
+use super::view::DrawingSide;
 use burgeon_base::error::Result;
 use burgeon_scene::{Instance, Material, Mesh};
 use glam::{DVec3, Vec3};
@@ -19,15 +19,15 @@ const LIGHT: DVec3 = DVec3::new(-0.42, 0.54, 0.73);
 const BEND: f64 = 0.906;
 
 /// A point of the paper (mm), y up.
-pub(super) type Point = [i64; 2];
+pub(super) type PaperPoint = [i64; 2];
 
 /// A material in one of its shades.
 pub(super) type Ink = u32;
 
 /// A triangle that faces the viewer.
-pub(super) struct Face {
+pub(super) struct VisibleFace {
     /// Counter-clockwise.
-    pub(super) corners: [Point; 3],
+    pub(super) corners: [PaperPoint; 3],
     /// How far towards the viewer (m) its farthest corner is.
     pub(super) depth: f64,
     /// Its material and shade.
@@ -36,18 +36,18 @@ pub(super) struct Face {
 }
 
 /// A side of a face that matters.
-pub(super) struct Line {
+pub(super) struct VisibleLine {
     /// Its ends.
-    pub(super) ends: [Point; 2],
+    pub(super) ends: [PaperPoint; 2],
     /// The faces at both sides; the same one twice where there is but one.
     pub(super) faces: [u32; 2],
     /// What it shows.
-    pub(super) kind: LineKind,
+    pub(super) kind: VisibleLineKind,
 }
 
 /// What a line shows.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum LineKind {
+pub(super) enum VisibleLineKind {
     /// Where a shape ends, bends or changes its material. The number is how wide (mm) the shape is on the
     /// whole: with dark lines around it, something thin would be nothing else.
     Edge(f64),
@@ -57,16 +57,16 @@ pub(super) enum LineKind {
 
 /// What a drawing shows.
 #[derive(Default)]
-pub(super) struct Faces {
+pub(super) struct VisibleFaces {
     /// The triangles, in the order of the scene.
-    pub(super) faces: Vec<Face>,
+    pub(super) faces: Vec<VisibleFace>,
     /// The lines between and around them.
-    pub(super) lines: Vec<Line>,
+    pub(super) lines: Vec<VisibleLine>,
 }
 
-impl Faces {
+impl VisibleFaces {
     /// All triangles that `view` sees the front of, with the lines between them.
-    pub(super) fn collect(checked: &Checked<'_>, view: View) -> Self {
+    pub(super) fn collect(checked: &SceneCheck<'_>, view: DrawingSide) -> Self {
         let mut all = Self::default();
         let mut welded: FxHashMap<usize, Vec<Vec<u32>>> = FxHashMap::default();
         for instance in checked.scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
@@ -78,7 +78,7 @@ impl Faces {
     }
 
     /// The lowest and highest coordinates (mm); `None` without faces.
-    pub(super) fn bounds(&self) -> Option<(Point, Point)> {
+    pub(super) fn bounds(&self) -> Option<(PaperPoint, PaperPoint)> {
         let mut points = self.faces.iter().flat_map(|face| &face.corners);
         let first = *points.next()?;
         Some(points.fold((first, first), |(low, high), at| {
@@ -88,11 +88,11 @@ impl Faces {
 
     fn add(
         &mut self,
-        checked: &Checked<'_>,
+        checked: &SceneCheck<'_>,
         instance: &Instance,
         mesh: &Mesh,
         welded: &[Vec<u32>],
-        view: View,
+        view: DrawingSide,
     ) {
         let matrix = view.matrix();
         let mirrored = instance.transform.matrix3.determinant() < 0.0;
@@ -124,7 +124,7 @@ impl Faces {
                 let ink = part.material as u32 * SHADES + shade as u32;
                 let depth = points[0].z.min(points[1].z).min(points[2].z);
                 let face = self.faces.len() as u32;
-                self.faces.push(Face { corners: flat, depth, ink, normal });
+                self.faces.push(VisibleFace { corners: flat, depth, ink, normal });
                 for i in 0..3 {
                     let j = (i + 1) % 3;
                     let (a, b) = (welded[corners[i] as usize], welded[corners[j] as usize]);
@@ -151,13 +151,13 @@ impl Faces {
             if side.len() != 2 || !same || one.normal.dot(other.normal) < BEND {
                 let [from, to] = ends;
                 length += ((to[0] - from[0]) as f64).hypot((to[1] - from[1]) as f64);
-                self.lines.push(Line { ends, faces, kind: LineKind::Edge(0.0) });
+                self.lines.push(VisibleLine { ends, faces, kind: VisibleLineKind::Edge(0.0) });
             } else if one.ink != other.ink {
-                self.lines.push(Line { ends, faces, kind: LineKind::Seam });
+                self.lines.push(VisibleLine { ends, faces, kind: VisibleLineKind::Seam });
             }
         }
         for line in &mut self.lines[first_line..] {
-            if let LineKind::Edge(width) = &mut line.kind {
+            if let VisibleLineKind::Edge(width) = &mut line.kind {
                 *width = 2.0 * area / length;
             }
         }
@@ -176,8 +176,8 @@ fn weld(mesh: &Mesh) -> Vec<Vec<u32>> {
 }
 
 /// Whether the corners turn left, and not by nothing.
-fn is_counter_clockwise([a, b, c]: [Point; 3]) -> bool {
-    let side = |from: Point, to: Point| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
+fn is_counter_clockwise([a, b, c]: [PaperPoint; 3]) -> bool {
+    let side = |from: PaperPoint, to: PaperPoint| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
     let (ab, ac) = (side(a, b), side(a, c));
     ab[0] * ac[1] > ab[1] * ac[0]
 }
@@ -228,7 +228,7 @@ mod tests {
     #[test]
     fn a_box_shows_its_top_with_four_lines() {
         let scene = samples::boxes(1);
-        let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
+        let faces = VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan);
         assert_eq!((faces.faces.len(), faces.lines.len()), (2, 4));
         assert_eq!(faces.bounds(), Some(([-500, -500], [500, 500])));
     }
@@ -236,8 +236,8 @@ mod tests {
     #[test]
     fn a_smooth_hill_has_lines_at_its_border_alone() {
         let scene = samples::hill(40);
-        let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
-        let edges = faces.lines.iter().filter(|line| line.kind != LineKind::Seam).count();
+        let faces = VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan);
+        let edges = faces.lines.iter().filter(|line| line.kind != VisibleLineKind::Seam).count();
         assert_eq!((faces.faces.len(), edges), (3200, 160));
         assert!(faces.lines.len() > 200);
     }
@@ -246,8 +246,8 @@ mod tests {
     fn a_mirrored_box_shows_its_top_too_and_a_leaf_both_its_sides() {
         let mut scene = samples::boxes(1);
         scene.instances[0].transform.matrix3.x_axis.x = -1.0;
-        assert_eq!(Faces::collect(&check(&scene).unwrap(), View::Plan).faces.len(), 2);
+        assert_eq!(VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan).faces.len(), 2);
         scene.materials[0].double_sided = true;
-        assert_eq!(Faces::collect(&check(&scene).unwrap(), View::Plan).faces.len(), 4);
+        assert_eq!(VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan).faces.len(), 4);
     }
 }

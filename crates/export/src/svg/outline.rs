@@ -1,13 +1,13 @@
 //! Path data: what faces cover together, and lines.
 
-use super::faces::{Faces, Point};
+use super::faces::{PaperPoint, VisibleFaces};
 
 /// The border of what the faces of these indices cover, as path data; y is downwards and in metres.
 ///
 /// A side between two of the faces is walked once in each direction, which cancels out. What is left forms
 /// rings, and a point is inside as often as before.
-pub(super) fn filled(faces: &Faces, indices: &[u32]) -> String {
-    let mut sides: Vec<(Point, Point, i32)> = Vec::with_capacity(indices.len() * 3);
+pub(super) fn filled(faces: &VisibleFaces, indices: &[u32]) -> String {
+    let mut sides: Vec<(PaperPoint, PaperPoint, i32)> = Vec::with_capacity(indices.len() * 3);
     for index in indices {
         let [a, b, c] = faces.faces[*index as usize].corners;
         for (from, to) in [(a, b), (b, c), (c, a)] {
@@ -26,12 +26,12 @@ pub(super) fn filled(faces: &Faces, indices: &[u32]) -> String {
 }
 
 /// Lines between these ends, as path data.
-pub(super) fn lines(ends: &[[Point; 2]]) -> String {
+pub(super) fn lines(ends: &[[PaperPoint; 2]]) -> String {
     path(&chain(ends.to_vec()))
 }
 
 /// Joins `sides` head to tail for as long as it goes; rings end where they begin.
-fn chain(mut sides: Vec<[Point; 2]>) -> Vec<Vec<Point>> {
+fn chain(mut sides: Vec<[PaperPoint; 2]>) -> Vec<Vec<PaperPoint>> {
     sides.sort_unstable();
     let mut used = vec![false; sides.len()];
     let mut chains = Vec::new();
@@ -64,8 +64,8 @@ fn chain(mut sides: Vec<[Point; 2]>) -> Vec<Vec<Point>> {
 }
 
 /// `points` without those in the middle of a straight line.
-fn straighten(points: Vec<Point>) -> Vec<Point> {
-    let mut kept: Vec<Point> = Vec::with_capacity(points.len());
+fn straighten(points: Vec<PaperPoint>) -> Vec<PaperPoint> {
+    let mut kept: Vec<PaperPoint> = Vec::with_capacity(points.len());
     for point in points {
         if let [.., a, b] = kept[..]
             && is_straight(a, b, point)
@@ -84,14 +84,14 @@ fn straighten(points: Vec<Point>) -> Vec<Point> {
 }
 
 /// Whether `b` is between `a` and `c` on the line through them.
-fn is_straight(a: Point, b: Point, c: Point) -> bool {
-    let side = |from: Point, to: Point| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
+fn is_straight(a: PaperPoint, b: PaperPoint, c: PaperPoint) -> bool {
+    let side = |from: PaperPoint, to: PaperPoint| [i128::from(to[0] - from[0]), i128::from(to[1] - from[1])];
     let (ab, bc) = (side(a, b), side(b, c));
     ab[0] * bc[1] == ab[1] * bc[0] && ab[0] * bc[0] + ab[1] * bc[1] > 0
 }
 
 /// Path data with the first point of each chain in place and the others as steps.
-fn path(chains: &[Vec<Point>]) -> String {
+fn path(chains: &[Vec<PaperPoint>]) -> String {
     let mut out = String::new();
     for chain in chains {
         let (Some(first), Some(last)) = (chain.first(), chain.last()) else { continue };

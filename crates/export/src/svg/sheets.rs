@@ -1,6 +1,6 @@
 //! Faces of one colour, gathered so that few sheets laid on each other show what is in front.
 
-use super::faces::{Face, Faces, Ink, LineKind, Point};
+use super::faces::{Ink, PaperPoint, VisibleFace, VisibleFaces, VisibleLineKind};
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
 use rustc_hash::FxHashMap;
@@ -12,20 +12,20 @@ const TOUCHES: f64 = 1e7;
 const CROWD: u32 = 64;
 
 /// Faces that are filled at once, and the lines over them.
-pub(super) struct Sheet {
+pub(super) struct PaperSheet {
     /// What they are filled with.
     pub(super) ink: Ink,
     /// Indices of faces.
     pub(super) faces: Vec<u32>,
     /// The ends of lines around shapes.
-    pub(super) lines: Vec<[Point; 2]>,
+    pub(super) lines: Vec<[PaperPoint; 2]>,
     /// The ends of lines around shapes that are hardly wider than a line.
-    pub(super) thin: Vec<[Point; 2]>,
+    pub(super) thin: Vec<[PaperPoint; 2]>,
     /// The ends of lines to sheets below with another shade of the same surface.
-    pub(super) seams: Vec<[Point; 2]>,
+    pub(super) seams: Vec<[PaperPoint; 2]>,
 }
 
-impl Sheet {
+impl PaperSheet {
     fn new(ink: Ink) -> Self {
         Self { ink, faces: Vec::new(), lines: Vec::new(), thin: Vec::new(), seams: Vec::new() }
     }
@@ -36,11 +36,11 @@ impl Sheet {
 /// Faces are laid down from the back, each on the lowest sheet of its ink that is not below a face that it
 /// overlaps. So faces of one ink that nothing separates share a sheet, and what is in front comes later.
 /// Shapes narrower than three times the `pen` (m) are thin. Fails if a `stop` was asked for.
-pub(super) fn stack(faces: &Faces, pen: f64, stop: &Stop) -> Result<Vec<Sheet>> {
-    let Some(mut grid) = Grid::around(faces) else { return Ok(Vec::new()) };
+pub(super) fn stack(faces: &VisibleFaces, pen: f64, stop: &Stop) -> Result<Vec<PaperSheet>> {
+    let Some(mut grid) = PaperGrid::around(faces) else { return Ok(Vec::new()) };
     let mut order: Vec<u32> = (0..faces.faces.len() as u32).collect();
     order.sort_by(|a, b| faces.faces[*a as usize].depth.total_cmp(&faces.faces[*b as usize].depth));
-    let mut sheets: Vec<Sheet> = Vec::new();
+    let mut sheets: Vec<PaperSheet> = Vec::new();
     let mut of_ink: FxHashMap<Ink, Vec<u32>> = FxHashMap::default();
     let mut sheet_of = vec![0; faces.faces.len()];
     for index in order {
@@ -53,7 +53,7 @@ pub(super) fn stack(faces: &Faces, pen: f64, stop: &Stop) -> Result<Vec<Sheet>> 
             None => {
                 let sheet = sheets.len() as u32;
                 candidates.push(sheet);
-                sheets.push(Sheet::new(face.ink));
+                sheets.push(PaperSheet::new(face.ink));
                 sheet
             }
         };
@@ -66,27 +66,27 @@ pub(super) fn stack(faces: &Faces, pen: f64, stop: &Stop) -> Result<Vec<Sheet>> 
         let [one, other] = line.faces.map(|face| sheet_of[face as usize]);
         let sheet = &mut sheets[one.max(other) as usize];
         match line.kind {
-            LineKind::Edge(width) if width >= pen * 3000.0 => sheet.lines.push(line.ends),
-            LineKind::Edge(_) => sheet.thin.push(line.ends),
-            LineKind::Seam => sheet.seams.push(line.ends),
+            VisibleLineKind::Edge(width) if width >= pen * 3000.0 => sheet.lines.push(line.ends),
+            VisibleLineKind::Edge(_) => sheet.thin.push(line.ends),
+            VisibleLineKind::Seam => sheet.seams.push(line.ends),
         }
     }
     Ok(sheets)
 }
 
 /// Squares of the paper and what has been laid on them.
-struct Grid {
-    low: Point,
+struct PaperGrid {
+    low: PaperPoint,
     /// The side of a cell (mm).
     cell: f64,
     columns: usize,
-    cells: Vec<Cell>,
+    cells: Vec<PaperCell>,
     /// Faces with their sheets, as lists that begin in the cells: each with the index of the next plus one.
     laid: Vec<(u32, u32, u32)>,
 }
 
 #[derive(Clone, Default)]
-struct Cell {
+struct PaperCell {
     /// The index of the first face in the list plus one; 0 for none.
     first: u32,
     /// How many faces are in the list.
@@ -95,8 +95,8 @@ struct Cell {
     highest: u32,
 }
 
-impl Grid {
-    fn around(faces: &Faces) -> Option<Self> {
+impl PaperGrid {
+    fn around(faces: &VisibleFaces) -> Option<Self> {
         let (low, high) = faces.bounds()?;
         let [width, height] = [0, 1].map(|axis| (high[axis] - low[axis]) as f64 + 1.0);
         let covered: f64 =
@@ -104,11 +104,11 @@ impl Grid {
         let cell = (covered / TOUCHES).sqrt().max(width.max(height) / 512.0);
         let columns = (width / cell) as usize + 1;
         let rows = (height / cell) as usize + 1;
-        Some(Self { low, cell, columns, cells: vec![Cell::default(); columns * rows], laid: Vec::new() })
+        Some(Self { low, cell, columns, cells: vec![PaperCell::default(); columns * rows], laid: Vec::new() })
     }
 
     /// The cells that the box around `face` touches, as ranges of rows' cells.
-    fn rows(&self, face: &Face) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
+    fn rows(&self, face: &VisibleFace) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
         let [left, right, bottom, top] =
             [(0, true), (0, false), (1, true), (1, false)].map(|(axis, least)| {
                 let values = face.corners.map(|corner| corner[axis]);
@@ -120,7 +120,7 @@ impl Grid {
     }
 
     /// The highest sheet that `face` may not be below.
-    fn highest(&self, face: &Face, faces: &[Face]) -> u32 {
+    fn highest(&self, face: &VisibleFace, faces: &[VisibleFace]) -> u32 {
         let mut highest = 0;
         for cell in self.rows(face).flat_map(|row| &self.cells[row]) {
             if cell.highest <= highest {
@@ -142,7 +142,7 @@ impl Grid {
         highest
     }
 
-    fn lay(&mut self, index: u32, face: &Face, sheet: u32) {
+    fn lay(&mut self, index: u32, face: &VisibleFace, sheet: u32) {
         for row in self.rows(face) {
             for cell in &mut self.cells[row] {
                 cell.highest = cell.highest.max(sheet);
@@ -157,12 +157,12 @@ impl Grid {
 }
 
 /// Whether two counter-clockwise triangles have more in common than a border.
-fn overlap(one: &[Point; 3], other: &[Point; 3]) -> bool {
-    let separates = |of: &[Point; 3], from: &[Point; 3]| {
+fn overlap(one: &[PaperPoint; 3], other: &[PaperPoint; 3]) -> bool {
+    let separates = |of: &[PaperPoint; 3], from: &[PaperPoint; 3]| {
         (0..3).any(|i| {
             let (a, b) = (of[i], of[(i + 1) % 3]);
             from.iter().all(|c| {
-                let side = |to: Point| [i128::from(to[0] - a[0]), i128::from(to[1] - a[1])];
+                let side = |to: PaperPoint| [i128::from(to[0] - a[0]), i128::from(to[1] - a[1])];
                 let (ab, ac) = (side(b), side(*c));
                 ab[0] * ac[1] <= ab[1] * ac[0]
             })
@@ -172,7 +172,7 @@ fn overlap(one: &[Point; 3], other: &[Point; 3]) -> bool {
 }
 
 /// The size of `face` (mm) along an axis.
-fn extent(face: &Face, axis: usize) -> f64 {
+fn extent(face: &VisibleFace, axis: usize) -> f64 {
     let [a, b, c] = face.corners.map(|corner| corner[axis]);
     (a.max(b).max(c) - a.min(b).min(c)) as f64
 }
@@ -180,13 +180,13 @@ fn extent(face: &Face, axis: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::super::{check::check, samples};
-    use super::super::view::View;
+    use super::super::view::DrawingSide;
     use super::*;
 
     #[test]
     fn houses_of_one_colour_share_sheets_above_the_ground() {
         let scene = samples::town(6);
-        let faces = Faces::collect(&check(&scene).unwrap(), View::Plan);
+        let faces = VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan);
         let sheets = stack(&faces, 0.01, &Stop::default()).unwrap();
         assert_eq!(sheets.iter().map(|sheet| sheet.faces.len()).sum::<usize>(), faces.faces.len());
         assert_eq!(sheets[0].faces.len(), 2, "the ground is the lowest");
@@ -195,7 +195,7 @@ mod tests {
 
     #[test]
     fn a_hill_needs_one_sheet_for_each_shade() {
-        let faces = Faces::collect(&check(&samples::hill(60)).unwrap(), View::Plan);
+        let faces = VisibleFaces::collect(&check(&samples::hill(60)).unwrap(), DrawingSide::Plan);
         let inks: std::collections::BTreeSet<_> = faces.faces.iter().map(|face| face.ink).collect();
         assert_eq!(stack(&faces, 0.01, &Stop::default()).unwrap().len(), inks.len());
     }
@@ -218,7 +218,8 @@ mod tests {
             scene.instances[i].transform = glam::DAffine3::from_translation(glam::DVec3::Z * height);
         }
         let sheets =
-            stack(&Faces::collect(&check(&scene).unwrap(), View::Plan), 0.01, &Stop::default()).unwrap();
+            stack(&VisibleFaces::collect(&check(&scene).unwrap(), DrawingSide::Plan), 0.01, &Stop::default())
+                .unwrap();
         let materials: Vec<_> = sheets.iter().map(|sheet| (sheet.ink / 24, sheet.faces.len())).collect();
         assert_eq!(materials, [(1, 2), (0, 4)]);
     }

@@ -1,11 +1,11 @@
 //! The side that a drawing is seen from.
 
-use super::super::check::{Checked, shown_parts, triangles};
+use super::super::check::{SceneCheck, shown_parts, triangles};
 use glam::{DMat3, DVec3};
 
 /// Where the viewer is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum View {
+pub(super) enum DrawingSide {
     /// Above, with north at the top of the paper.
     Plan,
     South,
@@ -14,12 +14,12 @@ pub(super) enum View {
     West,
 }
 
-impl View {
+impl DrawingSide {
     const ALL: [Self; 5] = [Self::Plan, Self::South, Self::East, Self::North, Self::West];
 
     /// The view that shows most: the plan, or an elevation if the model is thin and upright or if nothing can
     /// be seen from above.
-    pub(super) fn of(checked: &Checked<'_>) -> Self {
+    pub(super) fn of(checked: &SceneCheck<'_>) -> Self {
         let areas = facing_areas(checked);
         let thin = checked.scene.bounds().and_then(|(low, high)| {
             let size = high - low;
@@ -72,8 +72,8 @@ impl View {
 }
 
 /// For each view, the area (m²) of what faces it, as large as it looks and whether or not it is covered.
-fn facing_areas(checked: &Checked<'_>) -> [f64; 5] {
-    let towards = View::ALL.map(|view| view.matrix().row(2));
+fn facing_areas(checked: &SceneCheck<'_>) -> [f64; 5] {
+    let towards = DrawingSide::ALL.map(|view| view.matrix().row(2));
     let mut areas = [0.0; 5];
     for instance in checked.scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
         let side = instance.transform.matrix3.determinant().signum();
@@ -102,7 +102,7 @@ mod tests {
     #[test]
     fn a_view_turns_without_mirroring_and_looks_from_its_side() {
         let towards = [DVec3::Z, -DVec3::Y, DVec3::X, DVec3::Y, -DVec3::X];
-        for (view, towards) in View::ALL.into_iter().zip(towards) {
+        for (view, towards) in DrawingSide::ALL.into_iter().zip(towards) {
             assert_eq!(view.matrix() * towards, DVec3::Z, "{view:?}");
             assert!(view.matrix().determinant() > 0.5, "{view:?}");
         }
@@ -112,13 +112,15 @@ mod tests {
     fn one_wall_is_seen_from_the_side_that_it_faces() {
         let mut scene = samples::boxes(1);
         // The first square of the box looks east, the fourth looks south.
-        for (square, view) in [(0, View::East), (3, View::South), (1, View::West), (4, View::Plan)] {
+        for (square, view) in
+            [(0, DrawingSide::East), (3, DrawingSide::South), (1, DrawingSide::West), (4, DrawingSide::Plan)]
+        {
             let mut one = scene.clone();
             one.meshes[0].parts[0].triangles =
                 scene.meshes[0].parts[0].triangles.range(square * 2..square * 2 + 2).collect();
-            assert_eq!(View::of(&check(&one).unwrap()), view, "{square}");
+            assert_eq!(DrawingSide::of(&check(&one).unwrap()), view, "{square}");
         }
         scene.instances[0].transform.matrix3.z_axis.z = 30.0;
-        assert_eq!(View::of(&check(&scene).unwrap()), View::Plan, "a tower");
+        assert_eq!(DrawingSide::of(&check(&scene).unwrap()), DrawingSide::Plan, "a tower");
     }
 }

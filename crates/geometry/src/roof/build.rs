@@ -5,18 +5,18 @@ use glam::{DVec2, DVec3};
 use super::super::skeleton::{Pace, Skeleton};
 use super::mesh;
 use super::outset::Outset;
-use super::overhang::{Faces, Rake, Rim};
+use super::overhang::{Rake, Rim, SkeletonFaces};
 use super::patches::{leveled, patches};
 use super::plate::at_walls;
 use super::shape::Profile;
 use super::shed::Fall;
-use super::{Eaves, Ends, Patch, PatchKind, Rise, Shape, Support, Surface};
+use super::{Eaves, Ends, Patch, PatchKind, Rise, RoofShape, RoofSurface, Support};
 use crate::planar::{Polygon, Ring};
 use burgeon_base::error::Result;
 
 /// A finished roof.
 #[derive(Debug, Clone, Default)]
-pub struct Cover {
+pub struct RoofCover {
     /// Its faces. Together with walls up to the same height they close a building.
     pub patches: Vec<Patch>,
     /// How far (m) it juts out over each edge, beyond what stands out below.
@@ -29,7 +29,7 @@ pub struct Cover {
 
 /// What stands over an edge.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Over {
+enum EdgeCover {
     Slope,
     /// A gable in the plane of the wall, with the roof jutting out over it.
     Raked,
@@ -44,20 +44,20 @@ const BEYOND: f64 = 0.05;
 /// What part of a gable's height a Dutch hip leaves.
 const BELOW_HIP: f64 = 0.5;
 
-impl Shape {
+impl RoofShape {
     /// The roof over walls with this outline, which end at height `base` (m).
     ///
     /// Fails if there is no skeleton for it.
     ///
     /// ```
-    /// use burgeon_geometry::roof::{Eaves, Ends, PatchKind, Rise, Shape, Surface};
+    /// use burgeon_geometry::roof::{Eaves, Ends, PatchKind, Rise, RoofShape, RoofSurface};
     /// use burgeon_geometry::{Polygon, Rings};
     /// use glam::DVec2;
     ///
     /// let walls = [(0.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0)].map(DVec2::from);
     /// let walls = Polygon::new(Rings(vec![walls.to_vec()]))?;
-    /// let surface = Surface::Sloped(Ends::Gables, &[]);
-    /// let roof = Shape { surface, rise: Rise::Height(4.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
+    /// let surface = RoofSurface::Sloped(Ends::Gables, &[]);
+    /// let roof = RoofShape { surface, rise: Rise::Height(4.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
     /// let cover = roof.cover(&walls, 3.0)?;
     /// let count = |kind: PatchKind| cover.patches.iter().filter(|patch| patch.kind == kind).count();
     /// assert_eq!((count(PatchKind::Slope), count(PatchKind::Gable)), (2, 2));
@@ -65,12 +65,12 @@ impl Shape {
     /// assert_eq!(heights.fold(0.0, f64::max), 7.0);
     /// # Ok::<(), burgeon_base::error::Error>(())
     /// ```
-    pub fn cover(&self, walls: &Polygon, base: f64) -> Result<Cover> {
+    pub fn cover(&self, walls: &Polygon, base: f64) -> Result<RoofCover> {
         self.cover_on(&Support::new(walls, base))
     }
 
     /// The roof over what stands below it. Fails if there is no skeleton for it.
-    pub fn cover_on(&self, support: &Support<'_>) -> Result<Cover> {
+    pub fn cover_on(&self, support: &Support<'_>) -> Result<RoofCover> {
         let mut cover = match support.outermost() {
             None => self.cover_walls(support)?,
             Some(outermost) => {
@@ -87,18 +87,18 @@ impl Shape {
     }
 
     /// The roof over walls that nothing stands out of.
-    fn cover_walls(&self, support: &Support<'_>) -> Result<Cover> {
+    fn cover_walls(&self, support: &Support<'_>) -> Result<RoofCover> {
         match self.surface {
-            Surface::Shed => Ok(self.shed(support)),
-            Surface::Flat(None) => Ok(self.level(support)),
-            Surface::Flat(_) => self.sloped(&Support { party: &[], ..*support }, Ends::Hips),
-            Surface::Sloped(ends, _) => self.sloped(support, ends),
+            RoofSurface::Shed => Ok(self.shed(support)),
+            RoofSurface::Flat(None) => Ok(self.level(support)),
+            RoofSurface::Flat(_) => self.sloped(&Support { party: &[], ..*support }, Ends::Hips),
+            RoofSurface::Sloped(ends, _) => self.sloped(support, ends),
         }
     }
 
     /// How far it is to jut out over each edge: not over flush gables.
-    fn wanted(&self, most: &[f64], over: &[Over]) -> Vec<f64> {
-        let wanted = |(over, most): (&Over, &f64)| if *over == Over::Flush { 0.0 } else { *most };
+    fn wanted(&self, most: &[f64], over: &[EdgeCover]) -> Vec<f64> {
+        let wanted = |(over, most): (&EdgeCover, &f64)| if *over == EdgeCover::Flush { 0.0 } else { *most };
         over.iter().zip(most).map(wanted).collect()
     }
 
@@ -107,19 +107,19 @@ impl Shape {
         &self,
         patches: Vec<Patch>,
         support: &Support<'_>,
-        over: &[Over],
+        over: &[EdgeCover],
         outset: Outset,
         hipped: bool,
-    ) -> Cover {
+    ) -> RoofCover {
         let wanted = self.wanted(&support.within_reach(self.overhang), over);
         let tight = (0..wanted.len()).filter(|&edge| outset.distances[edge] < wanted[edge]).collect();
-        Cover { patches, overhangs: outset.distances, tight, hipped }
+        RoofCover { patches, overhangs: outset.distances, tight, hipped }
     }
 
     /// A level roof.
-    fn level(&self, support: &Support<'_>) -> Cover {
+    fn level(&self, support: &Support<'_>) -> RoofCover {
         let &Support { walls, base, .. } = support;
-        let over = vec![Over::Slope; support.edges()];
+        let over = vec![EdgeCover::Slope; support.edges()];
         let outset = Outset::new(walls, support.within_reach(self.overhang), |_| false);
         let top = Patch {
             kind: PatchKind::Slope,
@@ -150,7 +150,7 @@ impl Shape {
     ///
     /// Where a gable would go on beyond its wall, over other parts of the roof, there is a slope as well. Slopes that run
     /// on beyond the walls are at the top of all walls at once: where they jut out less, they begin later.
-    fn sloped(&self, support: &Support<'_>, ends: Ends) -> Result<Cover> {
+    fn sloped(&self, support: &Support<'_>, ends: Ends) -> Result<RoofCover> {
         let &Support { walls, base, .. } = support;
         let even = vec![Pace::default(); support.edges()];
         let mut hip = if ends == Ends::Hips { None } else { Some(Skeleton::new(walls, &even)?) };
@@ -162,7 +162,7 @@ impl Shape {
             let outset = Outset::new(walls, self.wanted(&most, &over), |_| false);
             let overhang = outset.most();
             let paces = self.paces(walls, &outset, &over, ends);
-            let hips = overhang == 0.0 && over.iter().all(|over| *over == Over::Slope);
+            let hips = overhang == 0.0 && over.iter().all(|over| *over == EdgeCover::Slope);
             // Without a gable and an overhang, the roof is the one that the gables were looked for in.
             let known = if hips { hip.take() } else { None };
             let skeleton = match known.map_or_else(|| Skeleton::new(&outset.polygon, &paces), Ok) {
@@ -172,7 +172,7 @@ impl Shape {
                     over = self.over(walls, hip.as_ref(), ends, &party);
                     continue;
                 }
-                Err(error) if over.iter().all(|over| *over == Over::Slope) => {
+                Err(error) if over.iter().all(|over| *over == EdgeCover::Slope) => {
                     // What juts out may be harder than what stands below.
                     if overhang == 0.0 {
                         return Err(error);
@@ -181,12 +181,12 @@ impl Shape {
                     continue;
                 }
                 Err(_) => {
-                    over.fill(Over::Slope);
+                    over.fill(EdgeCover::Slope);
                     hipped = true;
                     continue;
                 }
             };
-            let gable = |edge: &usize| over[*edge] != Over::Slope;
+            let gable = |edge: &usize| over[*edge] != EdgeCover::Slope;
             let astray: Vec<usize> =
                 (0..over.len()).filter(gable).filter(|&edge| strays(&skeleton, edge, paces[edge])).collect();
             if !astray.is_empty() {
@@ -195,7 +195,7 @@ impl Shape {
                 if party.len() < rows {
                     over = self.over(walls, hip.as_ref(), ends, &party);
                 } else {
-                    astray.into_iter().for_each(|edge| over[edge] = Over::Slope);
+                    astray.into_iter().for_each(|edge| over[edge] = EdgeCover::Slope);
                     hipped = true;
                 }
                 continue;
@@ -207,7 +207,7 @@ impl Shape {
             let mut rings = skeleton.faces;
             if is_plate {
                 let ends: Vec<[DVec2; 2]> = walls.edges().collect();
-                let raked: Vec<bool> = over.iter().map(|over| *over == Over::Raked).collect();
+                let raked: Vec<bool> = over.iter().map(|over| *over == EdgeCover::Raked).collect();
                 let rest = |pace: &Pace| if pace.speed > 0.0 { pace.rest } else { f64::INFINITY };
                 let rests: Vec<f64> = paces.iter().map(rest).collect();
                 match at_walls(&rings, &mut points, overhang, &ends, &raked, &rests) {
@@ -218,14 +218,14 @@ impl Shape {
                     }
                 }
             }
-            let faces = Faces { rings: &rings, points: &points };
+            let faces = SkeletonFaces { rings: &rings, points: &points };
             let rakes: Vec<Option<Rake>> = (0..over.len())
-                .map(|edge| if over[edge] == Over::Raked { rim.rake(edge, faces) } else { None })
+                .map(|edge| if over[edge] == EdgeCover::Raked { rim.rake(edge, faces) } else { None })
                 .collect();
             let mut failed = false;
             for (over, rake) in over.iter_mut().zip(&rakes) {
-                if *over == Over::Raked && rake.is_none() {
-                    *over = Over::Flush;
+                if *over == EdgeCover::Raked && rake.is_none() {
+                    *over = EdgeCover::Flush;
                     failed = true;
                 }
             }
@@ -239,13 +239,13 @@ impl Shape {
     }
 
     /// What is to stand over each edge: `hip`, the hip roof, shows where gables may.
-    fn over(&self, walls: &Polygon, hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<Over> {
-        let mut over = vec![Over::Slope; walls.size()];
+    fn over(&self, walls: &Polygon, hip: Option<&Skeleton>, ends: Ends, party: &[usize]) -> Vec<EdgeCover> {
+        let mut over = vec![EdgeCover::Slope; walls.size()];
         for edge in party {
-            over[*edge] = Over::Flush;
+            over[*edge] = EdgeCover::Flush;
         }
         let raked = self.eaves == Eaves::Open && self.overhang > 0.0 && ends == Ends::Gables;
-        let kind = if raked { Over::Raked } else { Over::Flush };
+        let kind = if raked { EdgeCover::Raked } else { EdgeCover::Flush };
         for edge in hip.into_iter().flat_map(|hip| gables(walls, hip, party)) {
             over[edge] = kind;
         }
@@ -253,9 +253,9 @@ impl Shape {
     }
 
     /// How the edges of the outline move.
-    fn paces(&self, walls: &Polygon, outset: &Outset, over: &[Over], ends: Ends) -> Vec<Pace> {
+    fn paces(&self, walls: &Polygon, outset: &Outset, over: &[EdgeCover], ends: Ends) -> Vec<Pace> {
         let mut paces = Vec::with_capacity(over.len());
-        let is_plate = self.eaves == Eaves::Open && matches!(self.surface, Surface::Sloped(..));
+        let is_plate = self.eaves == Eaves::Open && matches!(self.surface, RoofSurface::Sloped(..));
         let beyond = if is_plate { outset.most() } else { 0.0 };
         for ring in if is_plate { walls } else { &outset.polygon } {
             let count = ring.len();
@@ -264,8 +264,10 @@ impl Shape {
                 let [before, along, after] = [at(1) - at(0), at(2) - at(1), at(3) - at(2)];
                 let edge = paces.len();
                 paces.push(match over[edge] {
-                    Over::Slope if is_plate => Pace { speed: 1.0, rest: beyond - outset.distances[edge] },
-                    Over::Slope => Pace::default(),
+                    EdgeCover::Slope if is_plate => {
+                        Pace { speed: 1.0, rest: beyond - outset.distances[edge] }
+                    }
+                    EdgeCover::Slope => Pace::default(),
                     _ if ends == Ends::DutchHips => {
                         // How much of the edge both neighbours use up while they move 1 m.
                         let used = |side: DVec2| side.length() * along.length() / side.perp_dot(along).abs();
@@ -282,17 +284,20 @@ impl Shape {
     }
 
     /// A roof of one slope, highest over the longest edge and lowest at the place furthest from it.
-    fn shed(&self, support: &Support<'_>) -> Cover {
+    fn shed(&self, support: &Support<'_>) -> RoofCover {
         let &Support { walls, base, .. } = support;
         let fall = Fall::new(walls);
         let open = self.eaves == Eaves::Open;
-        let over: Vec<Over> = if open {
-            vec![Over::Slope; support.edges()]
+        let over: Vec<EdgeCover> = if open {
+            vec![EdgeCover::Slope; support.edges()]
         } else {
-            fall.eaves(walls).into_iter().map(|eaves| if eaves { Over::Slope } else { Over::Flush }).collect()
+            fall.eaves(walls)
+                .into_iter()
+                .map(|eaves| if eaves { EdgeCover::Slope } else { EdgeCover::Flush })
+                .collect()
         };
         let wanted = self.wanted(&support.within_reach(self.overhang), &over);
-        let outset = Outset::new(walls, wanted, |edge| over[edge] == Over::Flush);
+        let outset = Outset::new(walls, wanted, |edge| over[edge] == EdgeCover::Flush);
         let high = match self.rise {
             Rise::Height(height) => height,
             // As high as a gable roof of this slope would be.

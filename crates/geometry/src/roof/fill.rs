@@ -18,7 +18,7 @@ const MOST: usize = 200;
 const SMALL: usize = 16;
 
 /// Triangles as places in a ring.
-pub(super) type Corners = SmallVec<[[usize; 3]; 16]>;
+pub(super) type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
 
 /// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
 ///
@@ -38,7 +38,7 @@ pub(super) type Corners = SmallVec<[[usize; 3]; 16]>;
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
 pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
-    let Flat { normal, corners, triangles } = Flat::new(rings, right, origin)?;
+    let FilledPolygon { normal, corners, triangles } = FilledPolygon::new(rings, right, origin)?;
     let base = u32::try_from(part.positions.len())
         .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
     part.make_room(corners.len(), triangles.len());
@@ -51,16 +51,16 @@ pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3)
 }
 
 /// A flat polygon with holes and what fills it.
-pub(super) struct Flat {
+pub(super) struct FilledPolygon {
     /// The unit normal.
     pub normal: DVec3,
     /// The corners of all rings in its plane (m).
     pub corners: SmallVec<[DVec2; 16]>,
     /// Counter-clockwise triangles of the corners' numbers.
-    pub triangles: Corners,
+    pub triangles: TriangleIndices,
 }
 
-impl Flat {
+impl FilledPolygon {
     pub(super) fn new(rings: &[impl AsRef<[DVec3]>], right: DVec3, origin: DVec3) -> Result<Self> {
         let rings: SmallVec<[&[DVec3]; 2]> = rings.iter().map(AsRef::as_ref).collect();
         let normal = rings.iter().fold(DVec3::ZERO, |sum, ring| sum + newell(ring)).normalize_or_zero();
@@ -68,11 +68,11 @@ impl Flat {
         let up = normal.cross(right);
         let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
         let corners: SmallVec<[DVec2; 16]> = rings.iter().flat_map(|ring| ring.iter()).map(flat).collect();
-        let triangles: Corners = match rings.as_slice() {
+        let triangles: TriangleIndices = match rings.as_slice() {
             [_] => match star(&corners) {
                 Some(apex) => fan(corners.len(), apex).collect(),
                 None => {
-                    let clipped = cap::triangulate(&[corners.as_slice()]).map(Corners::from);
+                    let clipped = cap::triangulate(&[corners.as_slice()]).map(TriangleIndices::from);
                     // Where there are none, it almost touches itself.
                     let triangles =
                         clipped.unwrap_or_else(|_| fan(corners.len(), widest(&corners)).collect());
@@ -103,7 +103,7 @@ impl Flat {
 ///
 /// Method: dynamic programming over the parts of the ring beyond each diagonal (G. Klincsek, "Minimal triangulations of
 /// polygonal domains", 1980).
-fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
+fn without_slivers(ring: &[DVec2], triangles: TriangleIndices) -> TriangleIndices {
     let count = ring.len();
     let thinnest = triangles.iter().map(|&triangle| width(ring, triangle)).fold(f64::INFINITY, f64::min);
     if thinnest >= SLIVER || count > MOST {
@@ -126,7 +126,7 @@ fn without_slivers(ring: &[DVec2], triangles: Corners) -> Corners {
     if best[count - 1].0 <= thinnest {
         return triangles;
     }
-    let (mut found, mut pending) = (Corners::new(), vec![[0, count - 1]]);
+    let (mut found, mut pending) = (TriangleIndices::new(), vec![[0, count - 1]]);
     while let Some([from, to]) = pending.pop() {
         if to > from + 1 {
             let tip = best[from * count + to].1;

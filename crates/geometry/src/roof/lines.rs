@@ -8,7 +8,7 @@ use crate::planar::Ring;
 
 /// What a line is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum LineKind {
+pub enum RoofLineKind {
     /// Both slopes fall away from it, to opposite sides, and it is nearly level.
     Ridge,
     /// Both slopes fall away from it, as over a corner.
@@ -23,7 +23,7 @@ pub enum LineKind {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoofLine {
     /// What it is.
-    pub kind: LineKind,
+    pub kind: RoofLineKind,
     /// Its ends (m); eaves run to the right as seen from outside, hips and valleys upwards.
     pub ends: [DVec3; 2],
     /// The upward normals of the slopes to its left and to its right; of the same one for eaves.
@@ -58,9 +58,9 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
                     let opposite = patch.along.dot(patches[other].along) < -0.5;
                     let level = opposite && (b.z - a.z).abs() <= LEVEL * a.truncate().distance(b.truncate());
                     let kind = match (bend < 0.0, level) {
-                        (true, _) => LineKind::Valley,
-                        (false, true) => LineKind::Ridge,
-                        (false, false) => LineKind::Hip,
+                        (true, _) => RoofLineKind::Valley,
+                        (false, true) => RoofLineKind::Ridge,
+                        (false, false) => RoofLineKind::Hip,
                     };
                     let (ends, normals) = if b.z < a.z - 1e-9 {
                         ([b, a], [across, normal])
@@ -72,7 +72,7 @@ pub fn lines(patches: &[Patch]) -> Vec<RoofLine> {
                     }
                 }
                 None if patch.flap == 0 && (is_level || along(a, b).dot(patch.along) > 0.99) => {
-                    lines.push(RoofLine { kind: LineKind::Eaves, ends: [a, b], normals: [normal; 2] });
+                    lines.push(RoofLine { kind: RoofLineKind::Eaves, ends: [a, b], normals: [normal; 2] });
                 }
                 _ => {}
             }

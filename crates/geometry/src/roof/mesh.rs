@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use smallvec::SmallVec;
 
 use super::Patch;
-use super::fill::Flat;
+use super::fill::FilledPolygon;
 use crate::planar::{Ring, edges};
 
 /// Triangles that are less wide than this (m) are slivers.
@@ -28,7 +28,7 @@ pub(super) fn mend(patches: &mut Vec<Patch>) {
     if !patches.iter().any(is_thin) {
         return;
     }
-    let mut mesh = Mesh::new(patches);
+    let mut mesh = RoofMesh::new(patches);
     for _ in 0..ROUNDS {
         if !mesh.mend(patches) {
             break;
@@ -62,7 +62,7 @@ fn is_wide(rings: &[Ring<DVec3>]) -> bool {
 /// The thinnest triangle of a patch with these rings, if it is a sliver.
 fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
     let origin = rings.first()?.as_ref().first()?;
-    let flat = Flat::new(rings, patch.along.extend(0.0), *origin).ok()?;
+    let flat = FilledPolygon::new(rings, patch.along.extend(0.0), *origin).ok()?;
     let widths = flat.triangles.iter().map(|&triangle| (flat.width(triangle), triangle));
     let (width, [a, b, c]) = widths.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|least| least.0 < SLIVER)?;
     let length = |from: usize, to: usize| flat.corners[from].distance_squared(flat.corners[to]);
@@ -75,7 +75,7 @@ fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
 }
 
 /// The corners of all patches, each once, and their rings.
-struct Mesh {
+struct RoofMesh {
     points: Vec<DVec3>,
     /// Whether a corner is one of the walls.
     fixed: Vec<bool>,
@@ -83,7 +83,7 @@ struct Mesh {
     faces: Vec<(usize, Vec<Vec<usize>>)>,
 }
 
-impl Mesh {
+impl RoofMesh {
     fn new(patches: &[Patch]) -> Self {
         let (mut points, mut known) = (Vec::new(), FxHashMap::default());
         let mut number = |at: &DVec3| {

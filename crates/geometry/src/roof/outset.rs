@@ -34,7 +34,7 @@ impl Outset {
     /// Edges that meet in a reflex corner are as far out
     /// as one another, so that neither ends at the other's wall, unless one is a gable `apart`; so are edges in one line.
     pub(super) fn new(walls: &Polygon, wanted: Vec<f64>, apart: impl Fn(usize) -> bool) -> Self {
-        let mut corners = Corner::all(walls, apart);
+        let mut corners = WallCorner::all(walls, apart);
         let mut distances = wanted;
         for round in 0..ROUNDS {
             level(&corners, &mut distances);
@@ -71,7 +71,7 @@ impl Outset {
 }
 
 /// A corner of the walls, with the number of the edge that begins there.
-struct Corner {
+struct WallCorner {
     at: DVec2,
     moved: DVec2,
     /// The number of the edge before it, and of the corner where its edge ends.
@@ -83,7 +83,7 @@ struct Corner {
     tied: bool,
 }
 
-impl Corner {
+impl WallCorner {
     fn all(walls: &Polygon, apart: impl Fn(usize) -> bool) -> Vec<Self> {
         let mut corners = Vec::with_capacity(walls.size());
         for ring in walls {
@@ -114,7 +114,7 @@ impl Corner {
 
 /// Gives edges that are tied the lesser of their distances.
 #[allow(clippy::float_cmp, reason = "equal distances are given as equal numbers")]
-fn level(corners: &[Corner], distances: &mut [f64]) {
+fn level(corners: &[WallCorner], distances: &mut [f64]) {
     let mut changed = true;
     while changed {
         changed = false;
@@ -133,7 +133,7 @@ fn level(corners: &[Corner], distances: &mut [f64]) {
 
 /// The edges that take the room of one that vanishes or turns around, or of a corner that goes too far, each with the
 /// part of its distance that there is room for.
-fn shrunk(corners: &[Corner], distances: &[f64]) -> Vec<(usize, f64)> {
+fn shrunk(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     let mut factors = Vec::new();
     for (edge, corner) in corners.iter().enumerate() {
         let pair = [corner.before, edge];
@@ -175,7 +175,7 @@ fn shrunk(corners: &[Corner], distances: &[f64]) -> Vec<(usize, f64)> {
 }
 
 /// The edges that meet others or almost do, each with the part of its distance that there is room for.
-fn crossing(corners: &[Corner], distances: &[f64]) -> Vec<(usize, f64)> {
+fn crossing(corners: &[WallCorner], distances: &[f64]) -> Vec<(usize, f64)> {
     let ends = |edge: usize| [corners[edge].moved, corners[corners[edge].next].moved];
     let left = |edge: usize| ends(edge)[0].x.min(ends(edge)[1].x);
     let mut order: Vec<usize> = (0..corners.len()).collect();
@@ -230,7 +230,7 @@ fn line(ends: [DVec2; 2]) -> geo::Line {
 }
 
 /// The corners where they have moved, in rings of the same sizes as those of the walls, if these are a polygon.
-fn moved(walls: &Polygon, corners: &[Corner]) -> Option<Polygon> {
+fn moved(walls: &Polygon, corners: &[WallCorner]) -> Option<Polygon> {
     let mut rest = corners.iter().map(|corner| corner.moved);
     let rings = walls.iter().map(|ring| rest.by_ref().take(ring.len()).collect());
     Polygon::new(rings.collect::<Rings<DVec2>>()).ok()

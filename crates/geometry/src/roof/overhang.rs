@@ -30,7 +30,7 @@ pub(super) struct Rim<'a> {
 
 /// The faces of a skeleton with corners where they reach the walls, as [`super::plate::at_walls`] finds them.
 #[derive(Clone, Copy)]
-pub(super) struct Faces<'a> {
+pub(super) struct SkeletonFaces<'a> {
     pub rings: &'a [Vec<usize>],
     /// Their corners (m), with the distances from the outline as heights.
     pub points: &'a [DVec3],
@@ -38,11 +38,11 @@ pub(super) struct Faces<'a> {
 
 /// The ends of two slopes that jut out over a gable: first the one on the left as seen from outside.
 #[derive(Debug, Clone)]
-pub(super) struct Rake([Side; 2]);
+pub(super) struct Rake([SlopeSide; 2]);
 
 /// Points of a slope's end from the eaves up to the ridge, with their distances from the outline as heights.
 #[derive(Debug, Clone)]
-struct Side {
+struct SlopeSide {
     /// Along the outline of the roof, from its corner on.
     outer: Vec<DVec3>,
     /// Along the wall, from its corner on.
@@ -50,14 +50,14 @@ struct Side {
 }
 
 /// The neighbours of an edge in its ring.
-struct Place {
+struct RingPlace {
     ring: usize,
     index: usize,
     count: usize,
     first: usize,
 }
 
-impl Place {
+impl RingPlace {
     fn before(&self) -> usize {
         self.first + (self.index + self.count - 1) % self.count
     }
@@ -73,15 +73,15 @@ impl Place {
 }
 
 impl Rim<'_> {
-    fn place(&self, edge: usize) -> Place {
+    fn place(&self, edge: usize) -> RingPlace {
         let mut first = 0;
         for (ring, corners) in self.walls.iter().enumerate() {
             if edge < first + corners.len() {
-                return Place { ring, index: edge - first, count: corners.len(), first };
+                return RingPlace { ring, index: edge - first, count: corners.len(), first };
             }
             first += corners.len();
         }
-        Place { ring: 0, index: 0, count: 1, first: 0 }
+        RingPlace { ring: 0, index: 0, count: 1, first: 0 }
     }
 
     /// The height (m) of the roof.
@@ -102,7 +102,7 @@ impl Rim<'_> {
     }
 
     /// How the slopes beside the gable over `edge` jut out over it; none if they are not simply two.
-    pub(super) fn rake(&self, edge: usize, faces: Faces<'_>) -> Option<Rake> {
+    pub(super) fn rake(&self, edge: usize, faces: SkeletonFaces<'_>) -> Option<Rake> {
         if self.distances[edge] == 0.0 {
             return None;
         }
@@ -142,7 +142,7 @@ impl Rim<'_> {
             return None;
         }
         let side = |outer: Vec<DVec3>, from: DVec2, way: DVec2| {
-            let mut side = Side { outer, wall: Vec::new() };
+            let mut side = SlopeSide { outer, wall: Vec::new() };
             for &level in levels.iter().filter(|level| (self.overhang..low).contains(*level)) {
                 let last = side.outer[side.outer.len() - 1];
                 if last.z < level {
@@ -165,7 +165,12 @@ impl Rim<'_> {
 
     /// Adds all that is below the slopes; gables that are in `patches` get their lower edges. `plate` has the faces of a
     /// roof whose slopes run on beyond the walls.
-    pub(super) fn close(&self, patches: &mut Vec<Patch>, rakes: &[Option<Rake>], plate: Option<Faces<'_>>) {
+    pub(super) fn close(
+        &self,
+        patches: &mut Vec<Patch>,
+        rakes: &[Option<Rake>],
+        plate: Option<SkeletonFaces<'_>>,
+    ) {
         let mut has_gable = vec![false; rakes.len()];
         for patch in patches.iter_mut().filter(|patch| patch.kind == PatchKind::Gable) {
             if std::mem::replace(&mut has_gable[patch.edge], true) {
@@ -210,7 +215,7 @@ impl Rim<'_> {
         &self,
         edge: usize,
         level: f64,
-        faces: Faces<'_>,
+        faces: SkeletonFaces<'_>,
         corners: impl IntoIterator<Item = DVec3>,
     ) -> Vec<DVec3> {
         // Not with_z: rustc 1.95 lets it change the caller's point where it is not inlined.
@@ -226,7 +231,7 @@ impl Rim<'_> {
         ring
     }
 
-    fn add_eaves(&self, patches: &mut Vec<Patch>, edge: usize, place: &Place) {
+    fn add_eaves(&self, patches: &mut Vec<Patch>, edge: usize, place: &RingPlace) {
         let ([a, b], [left, right]) = (place.ends(self.outer), place.ends(self.walls));
         let along = (right - left).normalize_or_zero();
         let mut push = |kind, ring: Vec<DVec3>| {
@@ -245,8 +250,8 @@ impl Rim<'_> {
         &self,
         patches: &mut Vec<Patch>,
         edge: usize,
-        place: &Place,
-        faces: Faces<'_>,
+        place: &RingPlace,
+        faces: SkeletonFaces<'_>,
         rakes: &[Option<Rake>],
     ) {
         let [left, right] = place.ends(self.walls);
@@ -275,7 +280,7 @@ impl Rim<'_> {
         point.z == self.overhang
     }
 
-    fn add_rake(&self, patches: &mut Vec<Patch>, edge: usize, place: &Place, rake: &Rake) {
+    fn add_rake(&self, patches: &mut Vec<Patch>, edge: usize, place: &RingPlace, rake: &Rake) {
         let [left, right] = place.ends(self.walls);
         let along = (right - left).normalize_or_zero();
         let mut push = |kind, flap, along, ring: Vec<DVec3>| {

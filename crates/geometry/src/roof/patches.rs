@@ -52,7 +52,7 @@ pub(super) fn patches(
     for (edge, (face, pace)) in faces.iter().zip(paces).enumerate() {
         let along = (points[face[1]] - points[face[0]]).truncate().normalize_or_zero();
         let lowest = profile.first + usize::from(pace.rest > 0.0 && pace.rest < profile.beyond());
-        for (number, &Span { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
+        for (number, &ProfileSpan { line: [from, to], low, .. }) in spans[edge].iter().enumerate() {
             let flap = number.saturating_sub(lowest);
             let patch = |kind, ring| Patch::new(kind, edge, flap, along, ring);
             let is_step = spans[edge][number].is_step();
@@ -95,7 +95,7 @@ pub(super) fn patches(
 
 /// The pieces of all faces between the levels of their spans, by edge and span; borders pass a level in one point for both
 /// neighbours.
-fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<Piece> {
+fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<FacePiece> {
     let mut passes = FxHashMap::default();
     let mut all = Vec::with_capacity(faces.len());
     for (edge, face) in faces.iter().enumerate() {
@@ -107,7 +107,7 @@ fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<Pi
                 let ring =
                     if last { piece } else { divide(&piece, span.high, points, &mut passes, &mut above) };
                 if ring.len() > 2 {
-                    all.push(Piece { edge, number, ring });
+                    all.push(FacePiece { edge, number, ring });
                 }
             }
             pieces = above;
@@ -117,7 +117,7 @@ fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<Pi
 }
 
 /// A part of a face.
-struct Piece {
+struct FacePiece {
     /// The edge of the outline that it belongs to.
     edge: usize,
     /// The number of the interval of the profile that it is in.
@@ -126,10 +126,10 @@ struct Piece {
     ring: Vec<usize>,
 }
 
-type Spans = SmallVec<[Span; 4]>;
+type Spans = SmallVec<[ProfileSpan; 4]>;
 
 /// A part of a profile's interval.
-struct Span {
+struct ProfileSpan {
     /// The ends of the interval.
     line: [DVec2; 2],
     /// From where to where (m from the outline) the part goes.
@@ -137,7 +137,7 @@ struct Span {
     high: f64,
 }
 
-impl Span {
+impl ProfileSpan {
     /// Whether it is upright.
     fn is_step(&self) -> bool {
         self.line[0].x >= self.line[1].x
@@ -150,9 +150,13 @@ fn spans(profile: &Profile, pace: &Pace) -> Spans {
     for pair in profile.corners.windows(2) {
         let (line, low, high) = ([pair[0], pair[1]], pair[0].x, pair[1].x);
         if pace.speed > 0.0 && low < pace.rest && pace.rest < high {
-            spans.extend([[low, pace.rest], [pace.rest, high]].map(|[low, high]| Span { line, low, high }));
+            spans.extend([[low, pace.rest], [pace.rest, high]].map(|[low, high]| ProfileSpan {
+                line,
+                low,
+                high,
+            }));
         } else {
-            spans.push(Span { line, low, high });
+            spans.push(ProfileSpan { line, low, high });
         }
     }
     spans

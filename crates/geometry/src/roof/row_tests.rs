@@ -6,13 +6,15 @@ use super::super::solid;
 use super::super::{Plan, Polygon, Rings};
 use super::tests::{HEIGHT, around, building};
 use super::*;
+use crate::planar::Ring;
+use glam::{DVec2, DVec3};
 
-const SURFACES: [Surface; 5] = [
-    Surface::Sloped(Ends::Hips, &[]),
-    Surface::Sloped(Ends::Gables, &[]),
-    Surface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
-    Surface::Sloped(Ends::DutchHips, &[]),
-    Surface::Shed,
+const SURFACES: [RoofSurface; 5] = [
+    RoofSurface::Sloped(Ends::Hips, &[]),
+    RoofSurface::Sloped(Ends::Gables, &[]),
+    RoofSurface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
+    RoofSurface::Sloped(Ends::DutchHips, &[]),
+    RoofSurface::Shed,
 ];
 const EAVES: [(Eaves, f64); 3] = [(Eaves::Open, 0.15), (Eaves::Closed, 0.0), (Eaves::Slab, 0.2)];
 
@@ -23,7 +25,7 @@ fn rounds(least: usize) -> std::ops::Range<usize> {
 }
 
 /// A plan beside others, and which of its edges are along them.
-struct Adjoining {
+struct TerraceHouse {
     walls: Polygon,
     party: Vec<usize>,
     reach: Vec<f64>,
@@ -52,7 +54,7 @@ fn side(random: &mut Random, from: DVec2, to: DVec2) -> Vec<DVec2> {
 }
 
 /// A house of a row, with party walls to its right and to its left.
-fn house(random: &mut Random) -> Option<Adjoining> {
+fn house(random: &mut Random) -> Option<TerraceHouse> {
     let (width, depth) = (4.0 + 8.0 * random.next(), 6.0 + 8.0 * random.next());
     let lean = (random.next() - 0.5) * 1.5;
     let right = side(random, DVec2::new(width, 0.0), DVec2::new(width + lean, depth));
@@ -72,11 +74,11 @@ fn house(random: &mut Random) -> Option<Adjoining> {
     let blind: Vec<bool> = stands.iter().map(|edges| is_party(edges)).collect();
     let party: Vec<usize> = (0..blind.len()).filter(|&edge| blind[edge]).collect();
     let reach = blind.iter().map(|&blind| if blind { 0.0 } else { f64::INFINITY }).collect();
-    (plan.repairs().0.is_empty()).then(|| Adjoining { walls: plan.flat(), party, reach })
+    (plan.repairs().0.is_empty()).then(|| TerraceHouse { walls: plan.flat(), party, reach })
 }
 
 /// What is wrong with a building that is to be one closed solid which nowhere meets itself.
-fn fault(cover: &Cover, walls: &Polygon) -> Option<String> {
+fn fault(cover: &RoofCover, walls: &Polygon) -> Option<String> {
     let part = building(walls, cover);
     let (check, clashes) = (solid::check([&part]), solid::clashes([&part], 2e-3));
     let sound = check.is_solid() && clashes.is_empty();
@@ -84,7 +86,7 @@ fn fault(cover: &Cover, walls: &Polygon) -> Option<String> {
 }
 
 /// The area (m²) that a roof covers, seen from above.
-fn covered(cover: &Cover) -> f64 {
+fn covered(cover: &RoofCover) -> f64 {
     let rings =
         cover.patches.iter().filter(|patch| patch.kind == PatchKind::Slope).flat_map(|patch| &patch.rings);
     rings.map(Ring::area).sum()
@@ -95,10 +97,15 @@ fn roofs_in_rows_with_bent_and_stepped_party_walls_never_meet_themselves() {
     let mut random = Random(23);
     let (mut count, mut full, mut gabled, mut faults) = (0, 0, 0, Vec::new());
     for round in rounds(900) {
-        let Some(Adjoining { walls, party, reach }) = house(&mut random) else { continue };
+        let Some(TerraceHouse { walls, party, reach }) = house(&mut random) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
-        let shape =
-            Shape { surface, rise: Rise::Slope(0.7), overhang: [0.3, 0.5, 0.8][round / 15 % 3], eaves, slab };
+        let shape = RoofShape {
+            surface,
+            rise: Rise::Slope(0.7),
+            overhang: [0.3, 0.5, 0.8][round / 15 % 3],
+            eaves,
+            slab,
+        };
         let party = if round / 45 % 4 == 0 { &[][..] } else { &party };
         let support = Support { party, reach: &reach, ..Support::new(&walls, HEIGHT) };
         let cover = shape.cover_on(&support).unwrap_or_else(|error| panic!("{round}: {error}"));
@@ -126,7 +133,7 @@ fn roofs_over_random_plans_between_neighbours_never_meet_themselves() {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
         let overhang = [0.3, 0.5, 0.8][round / 15 % 3];
-        let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
+        let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
         let edges = walls.size();
         let near = |random: &mut Random| match (random.next() * 6.0) as u32 {
             0 => 0.0,
@@ -172,7 +179,7 @@ fn notched(random: &mut Random, overhang: f64) -> (Vec<DVec2>, f64, f64) {
 #[test]
 fn a_narrow_notch_takes_the_overhang_of_its_own_edges_only() {
     let mut random = Random(41);
-    let surfaces = [SURFACES[0], SURFACES[2], Surface::Flat(None)];
+    let surfaces = [SURFACES[0], SURFACES[2], RoofSurface::Flat(None)];
     let mut faults = Vec::new();
     for round in rounds(600) {
         let overhang = [0.2, 0.4, 0.6, 0.9][round % 4];
@@ -180,7 +187,7 @@ fn a_narrow_notch_takes_the_overhang_of_its_own_edges_only() {
         let walls = Polygon::new(vec![ring]).expect("a polygon");
         let (surface, (eaves, slab)) = (surfaces[round / 4 % 3], EAVES[round / 12 % 3]);
         let slab = if round / 4 % 3 == 2 { 0.15 } else { slab };
-        let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
+        let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
         let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
         faults.extend(fault(&cover, &walls).map(|fault| format!("{round}: {shape:?} {fault}")));
         let covered = covered(&cover);
@@ -201,7 +208,7 @@ fn a_roof_begins_where_the_outermost_storey_ends() {
     for round in rounds(900) {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, (eaves, slab)) = (SURFACES[round % 5], EAVES[round / 5 % 3]);
-        let shape = Shape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
+        let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
         let edges: usize = walls.size();
         let even = round % 2 == 0;
         let juts: Vec<f64> = (0..edges)
@@ -217,7 +224,7 @@ fn a_roof_begins_where_the_outermost_storey_ends() {
     for (surface, (eaves, slab)) in
         SURFACES.into_iter().flat_map(|surface| EAVES.map(|eaves| (surface, eaves)))
     {
-        let shape = Shape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
+        let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang: 0.4, eaves, slab };
         let cover =
             shape.cover_on(&Support { juts: &[0.5; 4], ..Support::new(&walls, HEIGHT) }).expect("a roof");
         let over = DVec2::new(10.0, 6.0) + 2.0 * DVec2::splat(0.5);

@@ -44,7 +44,7 @@ pub struct Border {
 
 /// The faces of a roof.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Surface {
+pub enum RoofSurface {
     /// Level, with a border or without.
     Flat(Option<Border>),
     /// One slope, highest over the longest edge.
@@ -55,9 +55,9 @@ pub enum Surface {
 
 /// What a roof is to be like.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Shape {
+pub struct RoofShape {
     /// Its surface.
-    pub surface: Surface,
+    pub surface: RoofSurface,
     /// How high it is.
     pub rise: Rise,
     /// How far (m) it juts out over the walls.
@@ -85,10 +85,10 @@ pub(super) struct Profile {
 impl Profile {
     /// The profile of a roof whose ridge is at most `wide` (m) from the outline, of which `overhang` (m) is beyond
     /// the walls.
-    pub(super) fn new(shape: &Shape, wide: f64, overhang: f64) -> Self {
+    pub(super) fn new(shape: &RoofShape, wide: f64, overhang: f64) -> Self {
         let (mut corners, mut bottom, mut first) = (Vec::new(), 0.0, 0);
         match shape.surface {
-            Surface::Flat(border) => {
+            RoofSurface::Flat(border) => {
                 if let Some(Border { height, width }) = border {
                     let (width, high) = (width.min(wide * 0.5), shape.slab + height);
                     first = 2;
@@ -98,9 +98,9 @@ impl Profile {
                 }
                 corners.push(DVec2::new(wide, shape.slab));
             }
-            Surface::Shed | Surface::Sloped(..) => {
+            RoofSurface::Shed | RoofSurface::Sloped(..) => {
                 let bends: &[(f64, f64)] =
-                    if let Surface::Sloped(_, bends) = shape.surface { bends } else { &[] };
+                    if let RoofSurface::Sloped(_, bends) = shape.surface { bends } else { &[] };
                 let plate = shape.eaves == Eaves::Open && overhang > 0.0;
                 let from = if plate { overhang } else { 0.0 };
                 let width = (wide - from).max(1e-3);

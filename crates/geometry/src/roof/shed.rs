@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::shape::{Eaves, Rise, Shape};
+use super::shape::{Eaves, Rise, RoofShape};
 use super::{Patch, PatchKind};
 use crate::planar::{Polygon, Ring};
 
@@ -71,7 +71,7 @@ impl Fall {
 /// roof, as many edges as the walls, with `overhang` (m) beyond some of them; `high` (m) is as high as it rises over the
 /// walls, from the place furthest from that edge, or from the outline there where the eaves are not open.
 pub(super) fn patches(
-    shape: &Shape,
+    shape: &RoofShape,
     fall: &Fall,
     walls: &Polygon,
     outer: &Polygon,

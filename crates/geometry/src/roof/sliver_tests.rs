@@ -7,12 +7,13 @@ use super::tests::{BENT, HEIGHT, building};
 use super::*;
 use crate::planar::Polygon;
 use burgeon_scene::Part;
+use glam::DVec2;
 
 /// Triangles are at least so wide (m).
 const WIDE: f64 = 1e-4;
 
 /// How wide the thinnest triangle of a roof is (m).
-fn thinnest(cover: &Cover) -> f64 {
+fn thinnest(cover: &RoofCover) -> f64 {
     let mut part = Part::default();
     for patch in &cover.patches {
         fill(&mut part, &patch.rings, patch.along.extend(0.0), patch.rings[0][0]).expect("a flat face");
@@ -26,26 +27,26 @@ fn thinnest(cover: &Cover) -> f64 {
 }
 
 const BORDER: Border = Border { height: 0.5, width: 0.3 };
-const SURFACES: [Surface; 9] = [
-    Surface::Flat(None),
-    Surface::Flat(Some(BORDER)),
-    Surface::Shed,
-    Surface::Sloped(Ends::Hips, &[]),
-    Surface::Sloped(Ends::Hips, BENT),
-    Surface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
-    Surface::Sloped(Ends::Gables, &[]),
-    Surface::Sloped(Ends::Gables, BENT),
-    Surface::Sloped(Ends::DutchHips, &[]),
+const SURFACES: [RoofSurface; 9] = [
+    RoofSurface::Flat(None),
+    RoofSurface::Flat(Some(BORDER)),
+    RoofSurface::Shed,
+    RoofSurface::Sloped(Ends::Hips, &[]),
+    RoofSurface::Sloped(Ends::Hips, BENT),
+    RoofSurface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
+    RoofSurface::Sloped(Ends::Gables, &[]),
+    RoofSurface::Sloped(Ends::Gables, BENT),
+    RoofSurface::Sloped(Ends::DutchHips, &[]),
 ];
 const EAVES: [(Eaves, f64); 3] = [(Eaves::Closed, 0.0), (Eaves::Slab, 0.2), (Eaves::Open, 0.15)];
 
 /// What is wrong with the roofs of all surfaces over a plan, of a sort that `round` says.
 fn faults_over(walls: &Polygon, round: usize) -> Vec<String> {
     let (overhang, (eaves, slab)) = ([0.0, 0.3, 0.8][round / 8 % 3], EAVES[round / 24 % 3]);
-    let fault = |surface: Surface| {
-        let thin = matches!(surface, Surface::Flat(_)) && overhang > 0.0;
+    let fault = |surface: RoofSurface| {
+        let thin = matches!(surface, RoofSurface::Flat(_)) && overhang > 0.0;
         let slab = if thin { 0.15 } else { slab };
-        let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
+        let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab };
         let cover = shape.cover(walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
         let (check, width) = (solid::check([&building(walls, &cover)]), thinnest(&cover));
         (!check.is_solid() || width < WIDE).then(|| format!("{round}: {width} m {shape:?} {check:?}"))
@@ -126,7 +127,7 @@ fn open_eaves_beside_a_sharp_notch_end_at_its_corners() {
         let Some(walls) = plan(&[corners.into_iter().map(DVec2::from).collect()]) else { continue };
         let surface = SURFACES[[3, 6][round % 2]];
         let overhang = [0.3, 0.5, 0.8][round / 2 % 3];
-        let shape = Shape { surface, rise: Rise::Slope(0.7), overhang, eaves: Eaves::Open, slab: 0.15 };
+        let shape = RoofShape { surface, rise: Rise::Slope(0.7), overhang, eaves: Eaves::Open, slab: 0.15 };
         let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
         let (check, width) = (solid::check([&building(&walls, &cover)]), thinnest(&cover));
         if !check.is_solid() || width < WIDE {

@@ -7,13 +7,15 @@ use super::super::solid;
 use super::shape::Profile;
 use super::*;
 use crate::planar::Polygon;
+use crate::planar::Ring;
 use burgeon_scene::Part;
+use glam::{DVec2, DVec3};
 
 pub(super) const HEIGHT: f64 = 3.0;
 pub(super) const BENT: &[(f64, f64)] = &[(0.3, 0.1), (0.6, 0.7)];
 
 /// Walls of 3 m over a floor, and `cover` on them.
-pub(super) fn building(walls: &Polygon, cover: &Cover) -> Part {
+pub(super) fn building(walls: &Polygon, cover: &RoofCover) -> Part {
     let mut part = Part::default();
     let mut add = |rings: &[Ring<DVec3>]| {
         let right = rings[0][1] - rings[0][0];
@@ -36,7 +38,7 @@ pub(super) fn around(corners: &[(f64, f64)]) -> Polygon {
 }
 
 /// The volume (m³) below the faces of a hip roof, by clipping them at the bends of the profile.
-fn volume_below(walls: &Polygon, shape: &Shape) -> f64 {
+fn volume_below(walls: &Polygon, shape: &RoofShape) -> f64 {
     let paces = vec![Pace::default(); walls.size()];
     let skeleton = Skeleton::new(walls, &paces).expect("a skeleton");
     let profile = Profile::new(shape, skeleton.duration(), 0.0);
@@ -60,7 +62,7 @@ fn volume_below(walls: &Polygon, shape: &Shape) -> f64 {
 }
 
 /// The integral (m³) of the height of all faces that rain falls on over the plan, and the area (m²) of these.
-fn integral(cover: &Cover) -> (f64, f64) {
+fn integral(cover: &RoofCover) -> (f64, f64) {
     let (mut volume, mut covered) = (0.0, 0.0);
     for patch in &cover.patches {
         let triangles = patch
@@ -96,7 +98,7 @@ fn clipped(ring: &[DVec3], level: f64, side: f64) -> Vec<DVec3> {
 }
 
 /// How far (m) the roof juts out where it does so the most.
-fn greatest(cover: &Cover) -> f64 {
+fn greatest(cover: &RoofCover) -> f64 {
     cover.overhangs.iter().copied().fold(0.0, f64::max)
 }
 
@@ -104,22 +106,22 @@ fn in_row<'a>(walls: &'a Polygon, party: &'a [usize]) -> Support<'a> {
     Support { party, ..Support::new(walls, HEIGHT) }
 }
 
-fn shape(surface: Surface, eaves: Eaves, overhang: f64, slab: f64) -> Shape {
-    Shape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab }
+fn shape(surface: RoofSurface, eaves: Eaves, overhang: f64, slab: f64) -> RoofShape {
+    RoofShape { surface, rise: Rise::Slope(0.7), overhang, eaves, slab }
 }
 
 #[test]
 fn roofs_of_every_shape_close_thousands_of_random_plans() {
     let border = Border { height: 0.5, width: 0.3 };
     let surfaces = [
-        Surface::Flat(None),
-        Surface::Flat(Some(border)),
-        Surface::Shed,
-        Surface::Sloped(Ends::Hips, &[]),
-        Surface::Sloped(Ends::Hips, BENT),
-        Surface::Sloped(Ends::Gables, &[]),
-        Surface::Sloped(Ends::Gables, BENT),
-        Surface::Sloped(Ends::DutchHips, &[]),
+        RoofSurface::Flat(None),
+        RoofSurface::Flat(Some(border)),
+        RoofSurface::Shed,
+        RoofSurface::Sloped(Ends::Hips, &[]),
+        RoofSurface::Sloped(Ends::Hips, BENT),
+        RoofSurface::Sloped(Ends::Gables, &[]),
+        RoofSurface::Sloped(Ends::Gables, BENT),
+        RoofSurface::Sloped(Ends::DutchHips, &[]),
     ];
     let eaves = [(Eaves::Closed, 0.0), (Eaves::Slab, 0.2), (Eaves::Open, 0.15)];
     let mut random = Random(11);
@@ -128,7 +130,7 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
         let Some(walls) = plan(&mixed(round, &mut random)) else { continue };
         let (surface, overhang) = (surfaces[round % 8], [0.0, 0.3, 0.8][round / 8 % 3]);
         let (eaves, slab) = eaves[round / 24 % 3];
-        let thin = matches!(surface, Surface::Flat(_)) && overhang > 0.0;
+        let thin = matches!(surface, RoofSurface::Flat(_)) && overhang > 0.0;
         let shape = shape(surface, eaves, overhang, if thin { 0.15 } else { slab });
         let cover = shape.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{round}: {error}"));
         let part = building(&walls, &cover);
@@ -146,8 +148,8 @@ fn roofs_of_every_shape_close_thousands_of_random_plans() {
             assert!((volume - below).abs() < 1e-3 * below, "{round}: {volume} m³, not {below} m³");
             flush += 1;
         }
-        if let (Surface::Sloped(Ends::Hips, _), true) = (surface, greatest(&cover) == 0.0) {
-            let expected = plain + volume_below(&walls, &Shape { overhang: 0.0, ..shape });
+        if let (RoofSurface::Sloped(Ends::Hips, _), true) = (surface, greatest(&cover) == 0.0) {
+            let expected = plain + volume_below(&walls, &RoofShape { overhang: 0.0, ..shape });
             assert!((volume - expected).abs() < 1e-3 * expected, "{round}: {volume} m³, not {expected} m³");
         }
         hipped += u32::from(cover.hipped);
@@ -164,7 +166,7 @@ fn hip_roofs_over_regular_plans_with_noise_are_closed_and_no_edge_has_four_faces
         let plans: Vec<_> = (0..100).filter_map(|_| plan(&(family.make)(&mut random))).collect();
         assert!(plans.len() > 80, "{}", family.name);
         for walls in plans {
-            let roof = shape(Surface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
+            let roof = shape(RoofSurface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
             let cover = roof.cover(&walls, HEIGHT).unwrap_or_else(|error| panic!("{}: {error}", family.name));
             let part = building(&walls, &cover);
             let check = solid::check([&part]);
@@ -219,8 +221,8 @@ fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
                 Polygon::new(vec![corners.iter().map(|&corner| turn.rotate(DVec2::from(corner))).collect()]);
             let walls = walls.expect("a polygon");
             for eaves in [Eaves::Closed, Eaves::Open] {
-                let shape = shape(Surface::Sloped(Ends::Gables, &[]), eaves, 0.5, 0.1);
-                let shape = if eaves == Eaves::Closed { Shape { slab: 0.0, ..shape } } else { shape };
+                let shape = shape(RoofSurface::Sloped(Ends::Gables, &[]), eaves, 0.5, 0.1);
+                let shape = if eaves == Eaves::Closed { RoofShape { slab: 0.0, ..shape } } else { shape };
                 let cover = shape.cover(&walls, HEIGHT).expect("a roof");
                 let gables = cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable).count();
                 assert_eq!(
@@ -228,7 +230,8 @@ fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
                     (ends, false, 0.5),
                     "{name} {step} {eaves:?}"
                 );
-                let ridges = lines(&cover.patches).iter().filter(|line| line.kind == LineKind::Ridge).count();
+                let ridges =
+                    lines(&cover.patches).iter().filter(|line| line.kind == RoofLineKind::Ridge).count();
                 assert!(ridges >= ends.div_ceil(2), "{name}: {ridges} ridges");
             }
         }
@@ -238,8 +241,10 @@ fn every_end_of_a_wing_has_a_gable_however_the_plan_is_turned() {
 #[test]
 fn open_eaves_of_a_gable_roof_have_the_volume_of_a_plate_beyond_the_walls() {
     let walls = around(&[(0., 0.), (10., 0.), (10., 6.), (0., 6.)]);
-    let open =
-        Shape { rise: Rise::Height(3.0), ..shape(Surface::Sloped(Ends::Gables, &[]), Eaves::Open, 0.5, 0.2) };
+    let open = RoofShape {
+        rise: Rise::Height(3.0),
+        ..shape(RoofSurface::Sloped(Ends::Gables, &[]), Eaves::Open, 0.5, 0.2)
+    };
     let cover = open.cover(&walls, HEIGHT).expect("a roof");
     // A slope of 1 over walls of 6 m gets a flatter end beyond them, so the plate is 0.2 m high everywhere.
     let expected = 60.0 * HEIGHT + 10.0 * 6.0 * 3.0 / 2.0 + 11.0 * 7.0 * 0.2;
@@ -254,7 +259,7 @@ fn a_roof_of_one_slope_is_as_high_as_a_gable_roof_of_the_same_slope() {
         let cover = shape(surface, Eaves::Closed, 0.0, 0.0).cover(&walls, 0.0).expect("a roof");
         cover.patches.iter().flat_map(|patch| &patch.rings).flatten().map(|point| point.z).fold(0.0, f64::max)
     };
-    let [shed, gable] = [Surface::Shed, Surface::Sloped(Ends::Gables, &[])].map(highest);
+    let [shed, gable] = [RoofSurface::Shed, RoofSurface::Sloped(Ends::Gables, &[])].map(highest);
     assert!((shed - gable).abs() < 1e-9 && (shed - 2.1).abs() < 1e-9, "{shed} m and {gable} m");
 }
 
@@ -264,9 +269,9 @@ fn a_house_in_a_row_has_gables_along_its_neighbours() {
     for (width, depth) in [(10.0, 6.0), (6.0, 10.0)] {
         let walls = around(&[(0., 0.), (width, 0.), (width, depth), (0., depth)]);
         for surface in [
-            Surface::Sloped(Ends::Gables, &[]),
-            Surface::Sloped(Ends::Hips, &[]),
-            Surface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
+            RoofSurface::Sloped(Ends::Gables, &[]),
+            RoofSurface::Sloped(Ends::Hips, &[]),
+            RoofSurface::Sloped(Ends::Hips, &[(0.25, 0.7)]),
         ] {
             let roof = shape(surface, Eaves::Closed, 0.0, 0.0);
             let cover = roof.cover_on(&in_row(&walls, &[1, 3])).expect("a roof");
@@ -284,13 +289,13 @@ fn a_house_in_a_row_has_gables_along_its_neighbours() {
 
 #[test]
 fn a_gable_that_would_go_on_beyond_its_wall_is_left_out_alone() {
-    let gables = |cover: &Cover| -> std::collections::BTreeSet<usize> {
+    let gables = |cover: &RoofCover| -> std::collections::BTreeSet<usize> {
         cover.patches.iter().filter(|patch| patch.kind == PatchKind::Gable).map(|patch| patch.edge).collect()
     };
     // Over the wall at the top left the slopes would meet beyond its end, as the wall beside it is short.
     let corners = [(1.7, -5.5), (5.9, 0.8), (5.0, 1.4), (-1.6, 6.0), (-6.0, -0.4)];
     let walls = around(&corners);
-    let roof = shape(Surface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
+    let roof = shape(RoofSurface::Sloped(Ends::Hips, &[]), Eaves::Closed, 0.0, 0.0);
     let cover = roof.cover_on(&in_row(&walls, &[2, 4])).expect("a roof");
     assert!(solid::check([&building(&walls, &cover)]).is_solid());
     assert_eq!(gables(&cover).into_iter().collect::<Vec<_>>(), [4]);
@@ -307,7 +312,7 @@ fn a_roof_of_one_slope_juts_out_over_its_eaves_as_it_is_asked_to() {
         (Eaves::Open, 0.2, 0.5, 10.0 * 6.0 * 2.0 / 2.0 + 11.0 * 7.0 * 0.2, HEIGHT - 0.5 / 3.0),
         (Eaves::Slab, 0.2, 0.0, 10.0 * 6.0 * (2.0 / 2.0 + 0.2), HEIGHT),
     ] {
-        let roof = Shape { rise: Rise::Height(2.0), ..shape(Surface::Shed, eaves, overhang, slab) };
+        let roof = RoofShape { rise: Rise::Height(2.0), ..shape(RoofSurface::Shed, eaves, overhang, slab) };
         let cover = roof.cover(&walls, HEIGHT).expect("a roof");
         let part = building(&walls, &cover);
         let check = solid::check([&part]);
@@ -329,7 +334,7 @@ fn gables_along_neighbours_end_with_their_walls_and_close_random_plans() {
         let ends: Vec<[DVec2; 2]> = walls.edges().collect();
         let party: Vec<usize> = (0..ends.len()).filter(|_| random.next() < 0.25).collect();
         let kind = [Ends::Hips, Ends::Gables][round / 2 % 2];
-        let roof = shape(Surface::Sloped(kind, &[]), Eaves::Closed, 0.0, 0.0);
+        let roof = shape(RoofSurface::Sloped(kind, &[]), Eaves::Closed, 0.0, 0.0);
         let cover = roof.cover_on(&in_row(&walls, &party)).unwrap_or_else(|error| panic!("{round}: {error}"));
         let part = building(&walls, &cover);
         let check = solid::check([&part]);
@@ -358,8 +363,9 @@ fn only_the_edges_of_a_narrow_recess_give_way() {
     let corners = [(0., 0.), (5., 0.), (5., 2.), (5.4, 2.), (5.4, 0.), (12., 0.), (12., 8.), (0., 8.)];
     let walls = around(&corners);
     for eaves in [Eaves::Closed, Eaves::Slab, Eaves::Open] {
-        let cover =
-            shape(Surface::Sloped(Ends::Hips, &[]), eaves, 0.5, 0.1).cover(&walls, HEIGHT).expect("a roof");
+        let cover = shape(RoofSurface::Sloped(Ends::Hips, &[]), eaves, 0.5, 0.1)
+            .cover(&walls, HEIGHT)
+            .expect("a roof");
         assert_eq!(cover.overhangs, [0.5, 0.18, 0.18, 0.18, 0.5, 0.5, 0.5, 0.5], "{eaves:?}");
         assert_eq!(cover.tight, [1, 2, 3]);
         assert!(solid::check([&building(&walls, &cover)]).is_solid(), "{eaves:?}");

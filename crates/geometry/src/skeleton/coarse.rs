@@ -4,7 +4,7 @@ use glam::DVec3;
 use smallvec::SmallVec;
 
 use super::Peak;
-use super::edge::Edge;
+use super::edge::SkeletonEdge;
 
 /// Borders no longer than this (m), on the plan and in time, are short; spikes no wider are thin.
 const FINEST: f64 = 1e-3;
@@ -22,7 +22,7 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
     if short.is_empty() && !faces.iter().any(sharp) {
         return;
     }
-    let mut map = Map::new(peaks.len(), faces);
+    let mut map = PeakMap::new(peaks.len(), faces);
     // What cannot be done at first may be possible once other things have been.
     let mut done = true;
     while done {
@@ -52,7 +52,7 @@ pub(super) fn coarsen(peaks: &[Peak], fixed: usize, faces: &mut [Vec<usize>]) {
 /// it moves away from it, by less than borders are short.
 ///
 /// Faces over edges that stand still at first are upright there, and left alone.
-pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[Edge], faces: &[Vec<usize>]) {
+pub(super) fn widen(peaks: &mut [Peak], fixed: usize, edges: &[SkeletonEdge], faces: &[Vec<usize>]) {
     for (face, _) in faces.iter().zip(edges).filter(|(face, edge)| face.len() > 4 && edge.pace.moves()) {
         for (index, &a) in face.iter().enumerate() {
             let b = face[(index + 1) % face.len()];
@@ -113,7 +113,7 @@ fn way(peaks: &[Peak], [from, to]: [usize; 2]) -> DVec3 {
 }
 
 /// The faces around each peak, and how far (m) the peaks are that it stands for.
-struct Map {
+struct PeakMap {
     around: Vec<SmallVec<[usize; 6]>>,
     spread: Vec<f64>,
 }
@@ -126,7 +126,7 @@ fn beside(ring: &[usize], peak: usize) -> SmallVec<[usize; 2]> {
         .unwrap_or_default()
 }
 
-impl Map {
+impl PeakMap {
     fn new(count: usize, faces: &[Vec<usize>]) -> Self {
         let mut around = vec![SmallVec::new(); count];
         for (number, face) in faces.iter().enumerate() {

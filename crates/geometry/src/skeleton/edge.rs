@@ -32,7 +32,7 @@ pub(super) fn metres(point: I64Vec2) -> DVec2 {
 
 /// An edge of the polygon.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Edge {
+pub(super) struct SkeletonEdge {
     /// Its direction.
     pub along: DVec2,
     /// The distance of its line from the origin at the beginning.
@@ -43,7 +43,7 @@ pub(super) struct Edge {
     pub line: usize,
 }
 
-impl Edge {
+impl SkeletonEdge {
     /// The distance of `at` from it at `time`, positive where it has not been yet.
     pub(super) fn ahead(&self, at: DVec2, time: f64) -> f64 {
         self.along.perp().dot(at) - self.level - self.pace.way(time)

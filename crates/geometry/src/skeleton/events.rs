@@ -3,9 +3,9 @@
 use std::cmp::{Ordering, Reverse};
 
 use super::edge::Direction;
-use super::fronts::{Course, Front};
-use super::lines::When;
-use super::wavefront::{Kind, Wavefront};
+use super::fronts::{CornerCourse, EdgeFront};
+use super::lines::EventTime;
+use super::wavefront::{CornerKind, Wavefront};
 
 /// Times that may be off by more than this (m) are made exact before they are compared.
 const COARSE: f64 = 1e-6;
@@ -13,7 +13,7 @@ const COARSE: f64 = 1e-6;
 const FORESEEN: usize = 8;
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum What {
+pub(super) enum WavefrontEventKind {
     /// The edge between two corners shrinks to a point.
     Collapse(u32, u32),
     /// A reflex corner reaches the line of an edge.
@@ -29,62 +29,62 @@ pub(super) fn short(number: usize) -> u32 {
 }
 
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Event {
+pub(super) struct WavefrontEvent {
     /// It does not take place before this time.
     low: f64,
-    when: When,
-    what: What,
+    when: EventTime,
+    what: WavefrontEventKind,
     /// Whether what the corner may reach after it is still to be expected.
     leads: bool,
 }
 
-impl Event {
+impl WavefrontEvent {
     fn rank(&self) -> (u8, u32, u32) {
         match self.what {
-            What::Collapse(a, b) => (1, a, b),
-            What::Split(corner, edge) => (2, corner, edge),
-            What::Start(edge) => (3, edge, 0),
+            WavefrontEventKind::Collapse(a, b) => (1, a, b),
+            WavefrontEventKind::Split(corner, edge) => (2, corner, edge),
+            WavefrontEventKind::Start(edge) => (3, edge, 0),
         }
     }
 }
 
-impl PartialEq for Event {
+impl PartialEq for WavefrontEvent {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Event {}
+impl Eq for WavefrontEvent {}
 
-impl Ord for Event {
+impl Ord for WavefrontEvent {
     fn cmp(&self, other: &Self) -> Ordering {
         self.low.total_cmp(&other.low).then_with(|| self.rank().cmp(&other.rank()))
     }
 }
 
-impl PartialOrd for Event {
+impl PartialOrd for WavefrontEvent {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
 impl Wavefront {
-    pub(super) fn expect(&mut self, when: When, what: What) {
-        self.events.push(Reverse(Event { low: when.low(), when, what, leads: false }));
+    pub(super) fn expect(&mut self, when: EventTime, what: WavefrontEventKind) {
+        self.events.push(Reverse(WavefrontEvent { low: when.low(), when, what, leads: false }));
     }
 
     /// Foresees when the edge between two neighbours shrinks to a point.
     pub(super) fn expect_collapse(&mut self, a: usize, b: usize) {
         let (from, to) = (&self.corners[a], &self.corners[b]);
-        if from.kind == Kind::Rushing || to.kind == Kind::Rushing {
+        if from.kind == CornerKind::Rushing || to.kind == CornerKind::Rushing {
             return;
         }
         let lines = [from.pin.unwrap_or(from.lines[0]), from.lines[1], to.pin.unwrap_or(to.lines[1])];
         // A line across a straight corner turns off the edge to the right.
-        let out = from.pin.is_none() && from.kind == Kind::Reflex;
-        let off = to.kind == Kind::Reflex;
+        let out = from.pin.is_none() && from.kind == CornerKind::Reflex;
+        let off = to.kind == CornerKind::Reflex;
         if let Some(when) = self.lines.nearing(lines, out != off) {
-            self.expect(when, What::Collapse(short(a), short(b)));
+            self.expect(when, WavefrontEventKind::Collapse(short(a), short(b)));
         }
     }
 
@@ -94,7 +94,7 @@ impl Wavefront {
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
     pub(super) fn expect_split(&mut self, index: usize, last: (f64, usize)) {
         let corner = &self.corners[index];
-        if corner.kind != Kind::Reflex {
+        if corner.kind != CornerKind::Reflex {
             return;
         }
         let [a, b] = corner.pair();
@@ -102,7 +102,7 @@ impl Wavefront {
         let [l, m] = pair.map(|line| *self.lines.line(line));
         let own = pair.map(|line| (self.lines.direction(line), self.lines.line(line).speed));
         let noise = self.lines.noise();
-        let course = Course {
+        let course = CornerCourse {
             cross: l.normal.perp_dot(m.normal),
             levels: l.normal * m.level - m.normal * l.level,
             speeds: l.normal * m.speed - m.normal * l.speed,
@@ -117,7 +117,7 @@ impl Wavefront {
             while within > 0 {
                 let lane = within.trailing_zeros();
                 within &= within - 1;
-                let Some(&Front { line: edge, direction, edge: number }) =
+                let Some(&EdgeFront { line: edge, direction, edge: number }) =
                     self.current.get(block, lane as usize)
                 else {
                     break;
@@ -171,19 +171,19 @@ impl Wavefront {
             let (low, edge) = self.foreseen[last];
             let [a, b] = corner.pair();
             let when = self.lines.when([a, b, self.traced.edges[edge].line]);
-            let what = What::Split(short(index), short(edge));
-            self.events.push(Reverse(Event { low, when, what, leads: true }));
+            let what = WavefrontEventKind::Split(short(index), short(edge));
+            self.events.push(Reverse(WavefrontEvent { low, when, what, leads: true }));
         }
     }
 
     /// Collects what meets next, and when.
     ///
     /// All that happens at exactly the same time is taken together.
-    pub(super) fn gather(&mut self) -> Option<When> {
+    pub(super) fn gather(&mut self) -> Option<EventTime> {
         let (mut ties, mut later) = (std::mem::take(&mut self.ties), Vec::new());
         let next = loop {
             ties.clear();
-            let mut first: Option<When> = None;
+            let mut first: Option<EventTime> = None;
             while let Some(&Reverse(mut event)) = self.events.peek() {
                 if first.is_some_and(|first| event.low > first.high()) {
                     break;
@@ -192,7 +192,7 @@ impl Wavefront {
                 if !self.stands(&event) {
                     continue;
                 }
-                if let (What::Split(corner, edge), true) = (event.what, event.leads) {
+                if let (WavefrontEventKind::Split(corner, edge), true) = (event.what, event.leads) {
                     event.leads = false;
                     let (corner, edge) = (corner as usize, edge as usize);
                     if self.corners[corner].foreseen.is_empty() {
@@ -240,14 +240,14 @@ impl Wavefront {
     }
 
     /// Whether an event may still take place.
-    fn stands(&self, event: &Event) -> bool {
+    fn stands(&self, event: &WavefrontEvent) -> bool {
         match event.what {
-            What::Start(_) => true,
-            What::Collapse(a, b) => {
+            WavefrontEventKind::Start(_) => true,
+            WavefrontEventKind::Collapse(a, b) => {
                 let from = &self.corners[a as usize];
                 from.alive && self.corners[b as usize].alive && from.after == b as usize
             }
-            What::Split(corner, edge) => {
+            WavefrontEventKind::Split(corner, edge) => {
                 let line = self.traced.edges[edge as usize].line;
                 self.corners[corner as usize].alive && event.when.is_by(line)
             }
@@ -255,10 +255,10 @@ impl Wavefront {
     }
 
     /// Notes what meets where an event takes place.
-    fn note(&mut self, what: What, when: &mut When) {
+    fn note(&mut self, what: WavefrontEventKind, when: &mut EventTime) {
         match what {
-            What::Start(edge) => self.start(edge as usize, when),
-            What::Collapse(a, b) => {
+            WavefrontEventKind::Start(edge) => self.start(edge as usize, when),
+            WavefrontEventKind::Collapse(a, b) => {
                 let [a, b] = [a as usize, b as usize];
                 let (from, to) = (&self.corners[a], &self.corners[b]);
                 let [one, two] = [from.pair(), to.pair()];
@@ -267,12 +267,12 @@ impl Wavefront {
                 let [a, b] = [a, b].map(|corner| self.spot(corner, place));
                 self.join(a, b);
             }
-            What::Split(corner, edge) => self.hit(corner as usize, edge as usize, when),
+            WavefrontEventKind::Split(corner, edge) => self.hit(corner as usize, edge as usize, when),
         }
     }
 
     /// Notes that a reflex corner reaches a piece of `edge`, if there is one where it does.
-    fn hit(&mut self, index: usize, edge: usize, when: &mut When) {
+    fn hit(&mut self, index: usize, edge: usize, when: &mut EventTime) {
         let corner = &mut self.corners[index];
         // What met where it began has been resolved there.
         if self.lines.compare(&mut corner.born, when) != Ordering::Less {

@@ -4,8 +4,8 @@ use glam::{DVec2, I64Vec2};
 use smallvec::SmallVec;
 
 use super::coarse::{coarsen, widen};
-use super::edge::{Edge, metres};
-use super::wavefront::Traced;
+use super::edge::{SkeletonEdge, metres};
+use super::wavefront::WavefrontTrace;
 use super::{Peak, Skeleton};
 use crate::planar::twice_area;
 use burgeon_base::error::{Error, Result};
@@ -19,8 +19,8 @@ const OFF_PLANE: f64 = 5e-3;
 type Borders = SmallVec<[[usize; 2]; 8]>;
 
 /// Puts the faces together; fails if they are not those of a roof over `rings`.
-pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: Traced) -> Result<Skeleton> {
-    let Traced { edges, mut peaks, arcs } = traced;
+pub(super) fn assemble(rings: &[Vec<I64Vec2>], traced: WavefrontTrace) -> Result<Skeleton> {
+    let WavefrontTrace { edges, mut peaks, arcs } = traced;
     let mut borders: Vec<Borders> = Vec::with_capacity(edges.len());
     let mut first = 0;
     for ring in rings {
@@ -81,7 +81,12 @@ fn chain(mut borders: Borders) -> Result<Vec<usize>> {
 ///
 /// Where all edges move alike, faces are monotone along their edges; otherwise they need not be (T. Biedl et al., "Weighted
 /// straight skeletons in the plane", 2015), and must not cross themselves.
-fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<usize>]) -> Result<()> {
+fn verify(
+    rings: &[Vec<I64Vec2>],
+    edges: &[SkeletonEdge],
+    peaks: &[Peak],
+    faces: &[Vec<usize>],
+) -> Result<()> {
     let whole: f64 = rings.iter().map(|ring| twice_area(ring.iter().map(|&at| metres(at)))).sum();
     let even = edges.windows(2).all(|pair| pair[0].pace == pair[1].pace);
     let mut sum = 0.0;
@@ -112,7 +117,7 @@ fn verify(rings: &[Vec<I64Vec2>], edges: &[Edge], peaks: &[Peak], faces: &[Vec<u
 }
 
 /// Whether the ring goes once there and once back along its edge.
-fn monotone(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
+fn monotone(edge: &SkeletonEdge, peaks: &[Peak], face: &[usize]) -> bool {
     let along = |index: usize| peaks[face[index % face.len()]].at.dot(edge.along);
     let mut last = 0.0f64;
     let mut first = 0.0f64;
@@ -131,7 +136,7 @@ fn monotone(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
 }
 
 /// Whether two borders cross, in the plane of the face.
-fn crosses_itself(edge: &Edge, peaks: &[Peak], face: &[usize]) -> bool {
+fn crosses_itself(edge: &SkeletonEdge, peaks: &[Peak], face: &[usize]) -> bool {
     let flat = |&peak: &usize| DVec2::new(peaks[peak].at.dot(edge.along), peaks[peak].time);
     let ring: SmallVec<[DVec2; 32]> = face.iter().map(flat).collect();
     let border = |index: usize| [ring[index], ring[(index + 1) % ring.len()]];

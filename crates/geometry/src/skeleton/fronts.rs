@@ -3,15 +3,15 @@
 use glam::DVec2;
 
 use super::edge::Direction;
-use super::lines::Line;
+use super::lines::MovingLine;
 
 /// How many edges are looked at together: as a processor does with numbers that lie side by side.
 const LANES: usize = 4;
 
 /// An edge and its line at present.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Front {
-    pub line: Line,
+pub(super) struct EdgeFront {
+    pub line: MovingLine,
     pub direction: Direction,
     pub edge: usize,
 }
@@ -23,7 +23,7 @@ const ALONE: f64 = f64::NAN;
 
 /// The lines of some edges after one another, number by number.
 #[derive(Debug, Clone, Copy, Default)]
-struct Block {
+struct FrontBlock {
     x: [f64; LANES],
     y: [f64; LANES],
     level: [f64; LANES],
@@ -32,8 +32,8 @@ struct Block {
     sort: [f64; LANES],
 }
 
-impl Block {
-    fn set(&mut self, lane: usize, line: &Line, sort: f64) {
+impl FrontBlock {
+    fn set(&mut self, lane: usize, line: &MovingLine, sort: f64) {
         self.sort[lane] = sort;
         (self.x[lane], self.y[lane]) = (line.normal.x, line.normal.y);
         (self.level[lane], self.speed[lane], self.slack[lane]) = (line.level, line.speed, line.slack);
@@ -43,7 +43,7 @@ impl Block {
 /// What is known of a corner that moves along two lines: of the sums over three lines, by which they meet, what these two
 /// add.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Course {
+pub(super) struct CornerCourse {
     pub cross: f64,
     pub levels: DVec2,
     pub speeds: DVec2,
@@ -57,9 +57,9 @@ pub(super) struct Course {
     pub sorts: [f64; 2],
 }
 
-impl Course {
+impl CornerCourse {
     /// The rate at which the three lines near each other, and the sum of their levels.
-    pub(super) fn sums(&self, line: &Line) -> [f64; 2] {
+    pub(super) fn sums(&self, line: &MovingLine) -> [f64; 2] {
         [
             line.speed * self.cross + line.normal.perp_dot(self.speeds),
             line.level * self.cross + line.normal.perp_dot(self.levels),
@@ -69,14 +69,14 @@ impl Course {
 
 /// The edges that are still there, with their lines at present.
 #[derive(Debug, Default)]
-pub(super) struct Fronts {
-    all: Vec<Front>,
-    blocks: Vec<Block>,
+pub(super) struct EdgeFronts {
+    all: Vec<EdgeFront>,
+    blocks: Vec<FrontBlock>,
     /// For each edge the number of its sort: those of one sort have one direction and speed, to the last bit.
     sorts: Vec<f64>,
 }
 
-impl Fronts {
+impl EdgeFronts {
     pub(super) fn clear(&mut self) {
         self.all.clear();
         self.blocks.clear();
@@ -90,19 +90,19 @@ impl Fronts {
     /// Adds the next edge.
     #[allow(clippy::cast_precision_loss, reason = "there is no memory for 2^53 edges")]
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
-    pub(super) fn push(&mut self, front: Front) {
+    pub(super) fn push(&mut self, front: EdgeFront) {
         let is_alike =
-            |other: &&Front| other.direction == front.direction && other.line.speed == front.line.speed;
+            |other: &&EdgeFront| other.direction == front.direction && other.line.speed == front.line.speed;
         let like = self.all.iter().rev().take(BEFORE).find(is_alike);
         let sort = like.map_or(front.edge as f64, |other| self.sorts[other.edge]);
         self.sorts.push(sort);
         self.add(front);
     }
 
-    fn add(&mut self, front: Front) {
+    fn add(&mut self, front: EdgeFront) {
         let lane = self.all.len() % LANES;
         if lane == 0 {
-            self.blocks.push(Block::default());
+            self.blocks.push(FrontBlock::default());
         }
         if let Some(block) = self.blocks.last_mut() {
             block.set(lane, &front.line, self.sorts[front.edge]);
@@ -116,7 +116,7 @@ impl Fronts {
     }
 
     /// Lets an edge have another line.
-    pub(super) fn turn_to(&mut self, edge: usize, line: Line) {
+    pub(super) fn turn_to(&mut self, edge: usize, line: MovingLine) {
         self.sorts[edge] = ALONE;
         for (index, front) in self.all.iter_mut().enumerate().filter(|(_, front)| front.edge == edge) {
             front.line = line;
@@ -141,9 +141,9 @@ impl Fronts {
     ///
     /// Most lines are reached too late, or have been, to be divided for it.
     #[allow(clippy::float_cmp, reason = "sorts are numbered")]
-    pub(super) fn within_reach(&self, block: usize, course: &Course, last: f64) -> u32 {
-        let Block { x, y, level, speed, slack, sort } = &self.blocks[block];
-        let Course { cross, levels, speeds, sorts, .. } = *course;
+    pub(super) fn within_reach(&self, block: usize, course: &CornerCourse, last: f64) -> u32 {
+        let FrontBlock { x, y, level, speed, slack, sort } = &self.blocks[block];
+        let CornerCourse { cross, levels, speeds, sorts, .. } = *course;
         let mut within = 0;
         for lane in 0..LANES {
             let rate = speed[lane] * cross + (x[lane] * speeds.y - y[lane] * speeds.x);
@@ -160,7 +160,7 @@ impl Fronts {
     }
 
     /// An edge of a block, if the block has so many.
-    pub(super) fn get(&self, block: usize, lane: usize) -> Option<&Front> {
+    pub(super) fn get(&self, block: usize, lane: usize) -> Option<&EdgeFront> {
         self.all.get(block * LANES + lane)
     }
 }

@@ -15,7 +15,7 @@ pub(super) const FINE: f64 = 1e-9;
 
 /// A line: the points whose product with `normal` is `level` + `speed` * time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
+pub(super) struct MovingLine {
     pub normal: DVec2,
     pub level: f64,
     pub speed: f64,
@@ -25,16 +25,16 @@ pub(super) struct Line {
 
 /// What a line is, exactly.
 #[derive(Debug, Clone)]
-enum Origin {
+enum LineOrigin {
     /// It goes through a point and moves once it has rested (m).
     Edge { through: I64Vec2, rest: f64 },
     /// It goes through the place where two lines are at a time, across the direction of an edge, and never moves.
-    Pin { pair: [usize; 2], when: When },
+    Pin { pair: [usize; 2], when: EventTime },
 }
 
 /// A time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct When {
+pub(super) struct EventTime {
     pub time: f64,
     /// How far (m) `time` may be off.
     pub slack: f64,
@@ -47,7 +47,7 @@ pub(super) struct When {
 /// No line, or no number of an exact time.
 const NONE: u32 = u32::MAX;
 
-impl When {
+impl EventTime {
     pub(super) fn at(time: f64) -> Self {
         Self { time, slack: 0.0, by: [NONE; 3], exact: NONE }
     }
@@ -69,7 +69,7 @@ impl When {
 
 /// Where two lines are at a certain time.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Place {
+pub(super) struct LineMeeting {
     pub pair: [usize; 2],
     pub at: DVec2,
     /// How far (m) `at` may be off.
@@ -78,10 +78,10 @@ pub(super) struct Place {
 
 /// All lines of a wavefront.
 #[derive(Debug, Default)]
-pub(super) struct Lines {
-    lines: Vec<Line>,
+pub(super) struct MovingLines {
+    lines: Vec<MovingLine>,
     directions: Vec<Direction>,
-    origins: Vec<Origin>,
+    origins: Vec<LineOrigin>,
     exact: Vec<Option<Box<ExactLine>>>,
     times: Vec<Ratio>,
     /// What the rounding of products with levels may add up to (m), and that of products with speeds.
@@ -99,7 +99,7 @@ fn sign(number: f64, slack: f64) -> Option<Ordering> {
     }
 }
 
-impl Lines {
+impl MovingLines {
     /// Forgets all lines; those to come are within `reach` (m) of the origin, and none is faster than `speed`.
     pub(super) fn begin(&mut self, reach: f64, speed: f64) {
         self.lines.clear();
@@ -117,21 +117,21 @@ impl Lines {
         let late = if speed > 0.0 { speed * rest } else { 0.0 };
         let level = normal.dot(metres(through)) - late;
         let slack = if late > 0.0 { 4.0 * UNIT * late } else { 0.0 };
-        self.push(Line { normal, level, speed, slack }, direction, Origin::Edge { through, rest })
+        self.push(MovingLine { normal, level, speed, slack }, direction, LineOrigin::Edge { through, rest })
     }
 
     /// Adds the line across another one through a place on it.
-    pub(super) fn pin(&mut self, line: usize, place: &Place, when: &When) -> usize {
+    pub(super) fn pin(&mut self, line: usize, place: &LineMeeting, when: &EventTime) -> usize {
         let direction = self.directions[line];
         let normal = direction.0.as_dvec2().normalize_or_zero();
         let level = normal.dot(place.at);
-        let pinned = Line { normal, level, speed: 0.0, slack: 2.0 * place.slack };
+        let pinned = MovingLine { normal, level, speed: 0.0, slack: 2.0 * place.slack };
         // To its left is where the other line came from.
         let across = Direction(-direction.0.perp());
-        self.push(pinned, across, Origin::Pin { pair: place.pair, when: *when })
+        self.push(pinned, across, LineOrigin::Pin { pair: place.pair, when: *when })
     }
 
-    fn push(&mut self, line: Line, direction: Direction, origin: Origin) -> usize {
+    fn push(&mut self, line: MovingLine, direction: Direction, origin: LineOrigin) -> usize {
         self.lines.push(line);
         self.directions.push(direction);
         self.origins.push(origin);
@@ -139,7 +139,7 @@ impl Lines {
         self.lines.len() - 1
     }
 
-    pub(super) fn line(&self, line: usize) -> &Line {
+    pub(super) fn line(&self, line: usize) -> &MovingLine {
         &self.lines[line]
     }
 
@@ -159,10 +159,10 @@ impl Lines {
             }
             let direction = self.directions[line];
             let exact = match self.origins[line].clone() {
-                Origin::Edge { through, rest } => {
+                LineOrigin::Edge { through, rest } => {
                     ExactLine::new(direction, through, self.lines[line].speed, rest)
                 }
-                Origin::Pin { pair, when } => {
+                LineOrigin::Pin { pair, when } => {
                     let place = self.exact_place(pair, &mut { when });
                     ExactLine::pin(direction.left(), &place)
                 }
@@ -215,7 +215,7 @@ impl Lines {
 
     /// When three lines that near each other meet; none if they do not, at least where two of them turn so that they
     /// near each other backwards.
-    pub(super) fn nearing(&mut self, lines: [usize; 3], backwards: bool) -> Option<When> {
+    pub(super) fn nearing(&mut self, lines: [usize; 3], backwards: bool) -> Option<EventTime> {
         let sums = self.sums(lines);
         let rate = sign(sums[1], self.noise[1]).unwrap_or_else(|| self.exact_rate(lines));
         let wanted = if backwards { Ordering::Less } else { Ordering::Greater };
@@ -223,11 +223,11 @@ impl Lines {
     }
 
     /// When three lines go through one point. They do so at one time only.
-    pub(super) fn when(&self, lines: [usize; 3]) -> When {
+    pub(super) fn when(&self, lines: [usize; 3]) -> EventTime {
         self.when_of(lines, self.sums(lines))
     }
 
-    fn when_of(&self, lines: [usize; 3], [levels, speeds]: [f64; 2]) -> When {
+    fn when_of(&self, lines: [usize; 3], [levels, speeds]: [f64; 2]) -> EventTime {
         #[allow(clippy::cast_possible_truncation, reason = "there are fewer lines")]
         let mut by = lines.map(|line| line as u32);
         for [a, b] in [[0, 1], [1, 2], [0, 1]] {
@@ -235,7 +235,7 @@ impl Lines {
                 by.swap(a, b);
             }
         }
-        let mut when = When { time: -levels / speeds, slack: f64::INFINITY, by, exact: NONE };
+        let mut when = EventTime { time: -levels / speeds, slack: f64::INFINITY, by, exact: NONE };
         let rest = speeds.abs() - self.noise[1];
         if rest > 0.0 {
             let levels = self.noise[0] + lines.iter().map(|&line| self.lines[line].slack).sum::<f64>();
@@ -248,7 +248,7 @@ impl Lines {
     }
 
     /// Refines a time that may be off by more than `slack` (m); whether it was one.
-    pub(super) fn settle(&mut self, when: &mut When, slack: f64) -> bool {
+    pub(super) fn settle(&mut self, when: &mut EventTime, slack: f64) -> bool {
         let coarse = when.slack > slack && when.exact == NONE;
         if coarse {
             self.refine(when);
@@ -257,14 +257,14 @@ impl Lines {
     }
 
     /// Makes a time as exact as a number can be.
-    pub(super) fn refine(&mut self, when: &mut When) {
+    pub(super) fn refine(&mut self, when: &mut EventTime) {
         let number = self.ratio(when);
         when.time = self.times[number].metres();
         when.slack = 2.0 * UNIT * when.time.abs() + f64::MIN_POSITIVE;
     }
 
     /// The number of the exact time.
-    fn ratio(&mut self, when: &mut When) -> usize {
+    fn ratio(&mut self, when: &mut EventTime) -> usize {
         if when.exact != NONE {
             return when.exact as usize;
         }
@@ -281,7 +281,7 @@ impl Lines {
     }
 
     /// The order of two times. Exact.
-    pub(super) fn compare(&mut self, a: &mut When, b: &mut When) -> Ordering {
+    pub(super) fn compare(&mut self, a: &mut EventTime, b: &mut EventTime) -> Ordering {
         if let Some(order) = sign(a.time - b.time, a.slack + b.slack) {
             return order;
         }
@@ -293,18 +293,18 @@ impl Lines {
     }
 
     /// Where two lines cross at a time. Not for parallel ones.
-    pub(super) fn place(&self, pair: [usize; 2], when: &When) -> Place {
+    pub(super) fn place(&self, pair: [usize; 2], when: &EventTime) -> LineMeeting {
         let [l, m] = pair.map(|line| &self.lines[line]);
         let cross = l.normal.perp_dot(m.normal);
         let [one, two] = [l, m].map(|line| line.level + line.speed * when.time);
         let at = DVec2::new(one * m.normal.y - two * l.normal.y, two * l.normal.x - one * m.normal.x) / cross;
         let off = self.noise[0] + l.slack + m.slack + (l.speed + m.speed) * when.slack;
         let slack = off / (cross.abs() - 32.0 * UNIT).max(0.0);
-        Place { pair, at, slack: if slack.is_nan() { f64::INFINITY } else { slack } }
+        LineMeeting { pair, at, slack: if slack.is_nan() { f64::INFINITY } else { slack } }
     }
 
     /// Makes a place as exact as numbers can be, if it may be far off.
-    pub(super) fn settle_place(&mut self, place: &mut Place, when: &mut When) {
+    pub(super) fn settle_place(&mut self, place: &mut LineMeeting, when: &mut EventTime) {
         if place.slack > FINE {
             place.at = self.exact_place(place.pair, when).metres();
             place.slack = 2.0 * UNIT * place.at.abs().element_sum() + f64::MIN_POSITIVE;
@@ -312,14 +312,14 @@ impl Lines {
     }
 
     /// Where three lines meet.
-    pub(super) fn meeting(&self, [l, m, n]: [usize; 3], when: &When) -> Place {
+    pub(super) fn meeting(&self, [l, m, n]: [usize; 3], when: &EventTime) -> LineMeeting {
         let cross = |[a, b]: [usize; 2]| self.lines[a].normal.perp_dot(self.lines[b].normal).abs();
         let pairs = [[l, m], [m, n], [n, l]];
         let widest = pairs.into_iter().max_by(|&a, &b| cross(a).total_cmp(&cross(b)));
         self.place(widest.unwrap_or([l, m]), when)
     }
 
-    fn exact_place(&mut self, pair: [usize; 2], when: &mut When) -> ExactPlace {
+    fn exact_place(&mut self, pair: [usize; 2], when: &mut EventTime) -> ExactPlace {
         let time = self.ratio(when);
         self.exactly(&pair);
         let [l, m] = self.known(pair);
@@ -327,7 +327,7 @@ impl Lines {
     }
 
     /// Whether two places at one time are one. Exact.
-    pub(super) fn is_one(&mut self, a: &Place, b: &Place, when: &mut When) -> bool {
+    pub(super) fn is_one(&mut self, a: &LineMeeting, b: &LineMeeting, when: &mut EventTime) -> bool {
         let apart = (a.at - b.at).abs().max_element();
         if apart > a.slack + b.slack {
             return false;
@@ -341,7 +341,13 @@ impl Lines {
     }
 
     /// The order of two places at one time along a line that both are on. Exact.
-    pub(super) fn compare_along(&mut self, line: usize, a: &Place, b: &Place, when: &mut When) -> Ordering {
+    pub(super) fn compare_along(
+        &mut self,
+        line: usize,
+        a: &LineMeeting,
+        b: &LineMeeting,
+        when: &mut EventTime,
+    ) -> Ordering {
         let way = -self.lines[line].normal.perp();
         let near = 2.0 * (a.slack + b.slack) + self.noise[0];
         sign(way.dot(a.at) - way.dot(b.at), near).unwrap_or_else(|| {

@@ -4,16 +4,16 @@ use std::cmp::Ordering;
 
 use super::Peak;
 use super::edge::Direction;
-use super::lines::{FINE, Few, Place, When};
+use super::lines::{EventTime, FINE, Few, LineMeeting};
 use super::wavefront::Wavefront;
 use burgeon_base::error::{Error, Result};
 
 /// A corner, or a point of an edge (by the corner where the piece of the edge begins), that an event moves.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Spot {
+pub(super) struct EventPoint {
     corner: usize,
     cut: bool,
-    place: Place,
+    place: LineMeeting,
     /// The spot that stands for all at its place.
     leader: usize,
     /// The number of the meeting that it takes part in, once it is known.
@@ -28,7 +28,7 @@ enum End {
 }
 
 #[derive(Debug, Clone, Copy)]
-struct Piece {
+struct EdgePiece {
     edge: usize,
     ends: [End; 2],
 }
@@ -44,7 +44,7 @@ struct Ray {
 
 impl Wavefront {
     /// The spot of a corner.
-    pub(super) fn spot(&mut self, corner: usize, place: Place) -> usize {
+    pub(super) fn spot(&mut self, corner: usize, place: LineMeeting) -> usize {
         if let Some(known) = self.spot_of(corner) {
             return known;
         }
@@ -58,13 +58,13 @@ impl Wavefront {
     }
 
     /// A new spot on the piece of an edge that begins at a corner.
-    pub(super) fn spot_between(&mut self, corner: usize, place: Place) -> usize {
+    pub(super) fn spot_between(&mut self, corner: usize, place: LineMeeting) -> usize {
         self.add_spot(corner, true, place)
     }
 
-    fn add_spot(&mut self, corner: usize, cut: bool, place: Place) -> usize {
+    fn add_spot(&mut self, corner: usize, cut: bool, place: LineMeeting) -> usize {
         let leader = self.spots.len();
-        self.spots.push(Spot { corner, cut, place, leader, meeting: 0 });
+        self.spots.push(EventPoint { corner, cut, place, leader, meeting: 0 });
         leader
     }
 
@@ -81,7 +81,7 @@ impl Wavefront {
     }
 
     /// Makes the new wavefront of what the spots' corners and edges meet, until nothing more happens at this time.
-    pub(super) fn resolve(&mut self, when: &mut When) -> Result<()> {
+    pub(super) fn resolve(&mut self, when: &mut EventTime) -> Result<()> {
         self.lines.settle(when, FINE);
         self.last = Some(*when);
         self.now = when.low();
@@ -101,7 +101,7 @@ impl Wavefront {
     }
 
     /// Cuts what meets and pairs it anew: the new corners.
-    fn pair_anew(&mut self, when: &mut When) -> Result<Few<usize>> {
+    fn pair_anew(&mut self, when: &mut EventTime) -> Result<Few<usize>> {
         self.join_same(when);
         let first_peak = self.traced.peaks.len();
         let places = self.number_meetings(when);
@@ -153,9 +153,9 @@ impl Wavefront {
     }
 
     /// Joins the spots whose places are one.
-    fn join_same(&mut self, when: &mut When) {
+    fn join_same(&mut self, when: &mut EventTime) {
         let mut order: Few<usize> = (0..self.spots.len()).collect();
-        let low = |spot: &Spot| spot.place.at.x - spot.place.slack;
+        let low = |spot: &EventPoint| spot.place.at.x - spot.place.slack;
         order.sort_by(|&a, &b| low(&self.spots[a]).total_cmp(&low(&self.spots[b])));
         for (rank, &a) in order.iter().enumerate() {
             let place = self.spots[a].place;
@@ -172,7 +172,7 @@ impl Wavefront {
     }
 
     /// Numbers the meetings, from 0, and adds a peak for each, in their order; their places.
-    fn number_meetings(&mut self, when: &mut When) -> Few<Place> {
+    fn number_meetings(&mut self, when: &mut EventTime) -> Few<LineMeeting> {
         let mut places = Few::new();
         for index in 0..self.spots.len() {
             let leader = self.leader(index);
@@ -190,13 +190,13 @@ impl Wavefront {
     }
 
     /// The pieces of edges that the spots touch, cut there.
-    fn cut(&mut self, when: &mut When) -> Few<Piece> {
+    fn cut(&mut self, when: &mut EventTime) -> Few<EdgePiece> {
         // Where pieces begin, and the meetings on them in their order.
         let mut begins: Few<usize> = Few::new();
         let mut whole: Few<(usize, usize)> = Few::new();
-        let mut cuts: Few<(usize, Place, usize)> = Few::new();
+        let mut cuts: Few<(usize, LineMeeting, usize)> = Few::new();
         for index in 0..self.spots.len() {
-            let Spot { corner, cut, place, meeting, .. } = self.spots[index];
+            let EventPoint { corner, cut, place, meeting, .. } = self.spots[index];
             begins.push(corner);
             if !cut {
                 begins.push(self.corners[corner].before);
@@ -230,7 +230,7 @@ impl Wavefront {
             let between = cuts[between].iter().map(|cut| End::Meeting(cut.2));
             for next in between.chain([end(corner.after)]) {
                 if next != last || matches!(next, End::Corner(_)) {
-                    pieces.push(Piece { edge: corner.edges[1], ends: [last, next] });
+                    pieces.push(EdgePiece { edge: corner.edges[1], ends: [last, next] });
                 }
                 last = next;
             }

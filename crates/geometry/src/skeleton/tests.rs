@@ -4,6 +4,7 @@ use super::super::{Plan, Polygon, Rings};
 use super::samples::{FAMILIES, Random, mixed, still};
 use super::*;
 use crate::planar::twice_area;
+use glam::DVec2;
 
 /// The plan of rings; none where chance has made them cross.
 pub(crate) fn plan(rings: &[Vec<DVec2>]) -> Option<Polygon> {

@@ -8,11 +8,11 @@ use std::ops::Range;
 use glam::I64Vec2;
 use smallvec::SmallVec;
 
-use super::edge::{Direction, Edge, metres};
-use super::events::{Event, What, short};
-use super::fronts::{Front, Fronts};
-use super::lines::{Lines, Place, When};
-use super::meeting::Spot;
+use super::edge::{Direction, SkeletonEdge, metres};
+use super::events::{WavefrontEvent, WavefrontEventKind, short};
+use super::fronts::{EdgeFront, EdgeFronts};
+use super::lines::{EventTime, LineMeeting, MovingLines};
+use super::meeting::EventPoint;
 use super::{Pace, Peak};
 use burgeon_base::error::{Error, Result};
 
@@ -27,15 +27,15 @@ pub(super) struct Arc {
 
 /// What the wavefront leaves behind.
 #[derive(Debug, Default)]
-pub(super) struct Traced {
-    pub edges: Vec<Edge>,
+pub(super) struct WavefrontTrace {
+    pub edges: Vec<SkeletonEdge>,
     pub peaks: Vec<Peak>,
     pub arcs: Vec<Arc>,
 }
 
 /// A corner of the wavefront.
 #[derive(Debug)]
-pub(super) struct Corner {
+pub(super) struct WavefrontCorner {
     /// The edges before and after it.
     pub edges: [usize; 2],
     /// The lines of both; where these are one line, a line across it through the corner.
@@ -46,9 +46,9 @@ pub(super) struct Corner {
     /// The peak where it began.
     pub peak: usize,
     /// Where and when it began.
-    pub at: Place,
-    pub born: When,
-    pub kind: Kind,
+    pub at: LineMeeting,
+    pub born: EventTime,
+    pub kind: CornerKind,
     pub alive: bool,
     /// The number of its spot, if it has one.
     pub spot: usize,
@@ -58,7 +58,7 @@ pub(super) struct Corner {
 }
 
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum CornerKind {
     Convex,
     /// Reflex, or straight.
     Reflex,
@@ -66,7 +66,7 @@ pub(super) enum Kind {
     Rushing,
 }
 
-impl Corner {
+impl WavefrontCorner {
     /// The two lines that say where it is.
     pub(super) fn pair(&self) -> [usize; 2] {
         [self.lines[0], self.pin.unwrap_or(self.lines[1])]
@@ -75,24 +75,24 @@ impl Corner {
 
 #[derive(Default)]
 pub(super) struct Wavefront {
-    pub traced: Traced,
-    pub lines: Lines,
+    pub traced: WavefrontTrace,
+    pub lines: MovingLines,
     /// The edges that are still there.
-    pub current: Fronts,
+    pub current: EdgeFronts,
     /// How many pieces there are of each edge.
     alive: Vec<u32>,
     /// How many corners there had been when it was last asked which edges are still there.
     known: usize,
-    pub corners: Vec<Corner>,
+    pub corners: Vec<WavefrontCorner>,
     /// For each edge the corners where pieces of it begin; some may be dead.
     pub pieces: Vec<SmallVec<[usize; 6]>>,
     /// Lines that corners may reach, each with the earliest time.
     pub foreseen: Vec<(f64, usize)>,
-    pub events: BinaryHeap<Reverse<Event>>,
-    pub ties: Vec<Event>,
-    pub spots: Vec<Spot>,
+    pub events: BinaryHeap<Reverse<WavefrontEvent>>,
+    pub ties: Vec<WavefrontEvent>,
+    pub spots: Vec<EventPoint>,
     /// When the last thing happened, and that or a little before.
-    pub last: Option<When>,
+    pub last: Option<EventTime>,
     pub now: f64,
     /// Whether an edge has just begun to move.
     pub restarted: bool,
@@ -106,7 +106,7 @@ thread_local! {
 }
 
 /// Moves all edges inwards until the polygon is used up.
-pub(super) fn propagate(rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<Traced> {
+pub(super) fn propagate(rings: &[Vec<I64Vec2>], paces: &[Pace]) -> Result<WavefrontTrace> {
     let mut front = SPARE.take().unwrap_or_default();
     let done = front.run(rings, paces);
     let traced = std::mem::take(&mut front.traced);
@@ -136,11 +136,11 @@ impl Wavefront {
         let rest = ((last * STEPS).floor() + 1.0) / STEPS;
         let mut found = false;
         for index in 0..self.corners.len() {
-            let Corner { alive, edges: [_, edge], .. } = self.corners[index];
+            let WavefrontCorner { alive, edges: [_, edge], .. } = self.corners[index];
             let Pace { speed, rest: known } = self.traced.edges[edge].pace;
             if alive && (speed <= 0.0 || known == f64::INFINITY) {
                 self.traced.edges[edge].pace = Pace { speed: 1.0, rest };
-                self.expect(When::at(rest), What::Start(short(edge)));
+                self.expect(EventTime::at(rest), WavefrontEventKind::Start(short(edge)));
                 found = true;
             }
         }
@@ -159,7 +159,7 @@ impl Wavefront {
         let late = paces.iter().map(|pace| pace.speed * finite(pace.rest)).fold(0.0, f64::max);
         let fastest = paces.iter().map(|pace| pace.speed).fold(0.0, f64::max);
         self.lines.begin(reach + late, fastest);
-        self.traced = Traced {
+        self.traced = WavefrontTrace {
             edges: Vec::with_capacity(count),
             peaks: Vec::with_capacity(3 * count),
             arcs: Vec::with_capacity(3 * count),
@@ -189,8 +189,12 @@ impl Wavefront {
             let line = self.lines.add(direction, from, speed, 0.0);
             let normal = self.lines.line(line).normal;
             let level = normal.dot(metres(from));
-            self.current.push(Front { line: *self.lines.line(line), direction, edge: self.through.len() });
-            self.traced.edges.push(Edge { along: -normal.perp(), level, pace, line });
+            self.current.push(EdgeFront {
+                line: *self.lines.line(line),
+                direction,
+                edge: self.through.len(),
+            });
+            self.traced.edges.push(SkeletonEdge { along: -normal.perp(), level, pace, line });
             self.through.push(from);
         }
         let mut first = 0;
@@ -201,8 +205,8 @@ impl Wavefront {
                 let edges = [first + before, first + index];
                 let at = self.start_of(edges, at);
                 self.traced.peaks.push(Peak { at: at.at, time: 0.0 });
-                let corner = self.corner(edges, first + index, &at, &When::at(0.0));
-                if self.corners[corner].kind == Kind::Rushing {
+                let corner = self.corner(edges, first + index, &at, &EventTime::at(0.0));
+                if self.corners[corner].kind == CornerKind::Rushing {
                     return Err(Error::geometry(
                         "two edges in one line turn back or move at different speeds",
                     ));
@@ -217,44 +221,50 @@ impl Wavefront {
             self.expect_split(corner, ANY);
             let Pace { speed, rest } = self.traced.edges[corner].pace;
             if speed > 0.0 && rest > 0.0 && rest.is_finite() {
-                self.expect(When::at(rest), What::Start(short(corner)));
+                self.expect(EventTime::at(rest), WavefrontEventKind::Start(short(corner)));
             }
         }
         Ok(())
     }
 
     /// The place of a corner of the polygon. Where it is straight, the line across is through it.
-    fn start_of(&mut self, edges: [usize; 2], at: I64Vec2) -> Place {
+    fn start_of(&mut self, edges: [usize; 2], at: I64Vec2) -> LineMeeting {
         let [before, after] = edges.map(|edge| self.traced.edges[edge].line);
         let mut pair = [before, after];
         if self.lines.turn(before, after) == Ordering::Equal {
             let across = self.lines.direction(after).left().reversed();
             pair[1] = self.lines.add(across, at, 0.0, 0.0);
         }
-        Place { pair, at: metres(at), slack: 0.0 }
+        LineMeeting { pair, at: metres(at), slack: 0.0 }
     }
 
     /// Adds a corner between two edges; its neighbours are still to be set.
     #[allow(clippy::float_cmp, reason = "equal speeds are given as equal numbers")]
-    pub(super) fn corner(&mut self, edges: [usize; 2], peak: usize, place: &Place, born: &When) -> usize {
+    pub(super) fn corner(
+        &mut self,
+        edges: [usize; 2],
+        peak: usize,
+        place: &LineMeeting,
+        born: &EventTime,
+    ) -> usize {
         let lines = edges.map(|edge| self.traced.edges[edge].line);
         let mut pin = None;
         let kind = match self.lines.turn(lines[0], lines[1]) {
-            Ordering::Less => Kind::Reflex,
-            Ordering::Greater => Kind::Convex,
+            Ordering::Less => CornerKind::Reflex,
+            Ordering::Greater => CornerKind::Convex,
             Ordering::Equal => {
                 let agree = self.lines.direction(lines[0]).agrees(self.lines.direction(lines[1]));
                 let [one, two] = lines.map(|line| self.lines.line(line).speed);
                 if agree && one == two {
                     pin = Some(self.lines.pin(lines[0], place, born));
-                    Kind::Reflex
+                    CornerKind::Reflex
                 } else {
-                    Kind::Rushing
+                    CornerKind::Rushing
                 }
             }
         };
         let index = self.corners.len();
-        self.corners.push(Corner {
+        self.corners.push(WavefrontCorner {
             edges,
             lines,
             pin,
@@ -276,7 +286,7 @@ impl Wavefront {
     /// Lets an edge that stood still move from `time` on; corners along it begin anew.
     ///
     /// Of one that is gone the line stays as it is: corners that were to reach it next would forget what comes after.
-    pub(super) fn start(&mut self, edge: usize, when: &mut When) {
+    pub(super) fn start(&mut self, edge: usize, when: &mut EventTime) {
         if self.alive[edge] == 0 {
             return;
         }
@@ -298,7 +308,7 @@ impl Wavefront {
     }
 
     /// Where a corner is.
-    fn place(&mut self, index: usize, when: &mut When) -> Place {
+    fn place(&mut self, index: usize, when: &mut EventTime) -> LineMeeting {
         let corner = &mut self.corners[index];
         match self.lines.compare(&mut corner.born, when) {
             Ordering::Less => self.lines.place(corner.pair(), when),
@@ -317,9 +327,9 @@ impl Wavefront {
     }
 
     /// Ends rings of two corners among new ones: nothing is between them.
-    pub(super) fn close(&mut self, fresh: &[usize], when: &mut When) {
+    pub(super) fn close(&mut self, fresh: &[usize], when: &mut EventTime) {
         for &index in fresh {
-            let Corner { alive, before, after, .. } = self.corners[index];
+            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
             if !alive {
                 continue;
             }
@@ -341,11 +351,11 @@ impl Wavefront {
     }
 
     /// Lets new corners that rush meet the ends of pieces that they go to.
-    pub(super) fn rush(&mut self, fresh: &[usize], when: &mut When) {
+    pub(super) fn rush(&mut self, fresh: &[usize], when: &mut EventTime) {
         self.spots.clear();
         for &index in fresh {
-            let Corner { alive, kind, before, after, lines, .. } = self.corners[index];
-            if !alive || kind != Kind::Rushing {
+            let WavefrontCorner { alive, kind, before, after, lines, .. } = self.corners[index];
+            if !alive || kind != CornerKind::Rushing {
                 continue;
             }
             let [mut low, mut high] = [before, after];
@@ -381,7 +391,7 @@ impl Wavefront {
             self.current.retain(|edge| self.alive[edge] > 0);
         }
         for &index in fresh {
-            let Corner { alive, before, after, .. } = self.corners[index];
+            let WavefrontCorner { alive, before, after, .. } = self.corners[index];
             if alive {
                 self.expect_collapse(before, index);
                 // Another new one foresees what happens before it.

@@ -1,6 +1,6 @@
 //! Chains as columns: all chains of a system stand one after the other in one structure of arrays.
 
-use super::key::Key;
+use super::key::ModuleKey;
 
 /// A module's symbol.
 pub type Symbol = u16;
@@ -22,7 +22,7 @@ pub struct Chain {
     /// The parameters of all modules, in order; a symbol's arity tells how many are its own.
     pub params: Vec<f64>,
     /// The random key of each symbol; empty where no rule draws random numbers.
-    pub keys: Vec<Key>,
+    pub keys: Vec<ModuleKey>,
     /// Places where work on the chain may be divided, in order; the first is the beginning.
     pub marks: Vec<Mark>,
 }

@@ -67,7 +67,7 @@ fn scale(heaviest: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Key, Pattern, Signature, Symbols};
+    use super::super::{ModuleKey, Pattern, Signature, Symbols};
     use super::*;
 
     fn rule(weight: Option<f64>) -> Rule {
@@ -91,7 +91,7 @@ mod tests {
         let candidates = candidates(&weights.iter().map(|weight| Some(*weight)).collect::<Vec<_>>());
         let mut counts = vec![0.0; weights.len()];
         for seed in 0..4000 {
-            let chosen = candidates.choose(|| Key::seed(seed).stream()).unwrap();
+            let chosen = candidates.choose(|| ModuleKey::seed(seed).stream()).unwrap();
             counts[usize::from(chosen)] += 1.0 / 4000.0;
         }
         counts
@@ -99,7 +99,7 @@ mod tests {
 
     #[test]
     fn a_rule_without_weight_wins_only_as_the_first_candidate() {
-        let chosen = |weights: &[Option<f64>]| candidates(weights).choose(|| Key::seed(1).stream());
+        let chosen = |weights: &[Option<f64>]| candidates(weights).choose(|| ModuleKey::seed(1).stream());
         assert_eq!(chosen(&[]), None);
         assert_eq!(chosen(&[None, Some(1e9), None]), Some(0));
         assert_eq!(chosen(&[Some(1.0), None]), Some(0));
@@ -122,12 +122,12 @@ mod tests {
         let candidates = candidates(&weights.map(Some));
         for seed in 0..2000 {
             let total: f64 = weights.iter().sum();
-            let mut left = Key::seed(seed).stream().uniform() * total;
+            let mut left = ModuleKey::seed(seed).stream().uniform() * total;
             let plain = weights.iter().position(|weight| {
                 left -= weight;
                 left < 0.0
             });
-            assert_eq!(candidates.choose(|| Key::seed(seed).stream()).map(usize::from), plain);
+            assert_eq!(candidates.choose(|| ModuleKey::seed(seed).stream()).map(usize::from), plain);
         }
     }
 }

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 
 use super::chain::{END, Symbol};
-use super::matching::{Ahead, Branches};
+use super::matching::{Branches, ContextElement};
 use super::pattern::{Item, Pattern};
 use super::symbols::Symbols;
-use burgeon_base::error::Place;
+use burgeon_base::error::SourcePlace;
 
 /// The largest number of rules that a system may have: they are numbered in 16 bits.
 pub const MOST_RULES: usize = 65_000;
@@ -21,13 +21,13 @@ pub struct Rule {
     /// Whether a guard decides on top of the contexts.
     pub guarded: bool,
     /// Where it was declared.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     contexts: Vec<Item>,
 }
 
 impl Rule {
     /// A rule for `pattern`.
-    pub fn new(pattern: Pattern, weight: Option<f64>, guarded: bool, place: Option<Place>) -> Self {
+    pub fn new(pattern: Pattern, weight: Option<f64>, guarded: bool, place: Option<SourcePlace>) -> Self {
         let contexts = pattern.context_items();
         Self { pattern, weight, guarded, place, contexts }
     }
@@ -76,7 +76,7 @@ pub struct Grammar {
     rules: Vec<Rule>,
     by_symbol: Vec<Vec<u16>>,
     /// By rule: its right context.
-    rights: Vec<Box<[Ahead]>>,
+    rights: Vec<Box<[ContextElement]>>,
     branches: Branches,
     choices: Vec<Choice>,
     skipped: Vec<bool>,
@@ -132,7 +132,7 @@ impl Grammar {
 
     /// The right context of rule number `rule`.
     #[inline]
-    pub fn right_of(&self, rule: u16) -> &[Ahead] {
+    pub fn right_of(&self, rule: u16) -> &[ContextElement] {
         &self.rights[usize::from(rule)]
     }
 

@@ -7,9 +7,9 @@ use crate::random::Stream;
 /// A child's key follows from its parent's and its place among the successors, so a module keeps its random
 /// numbers whatever happens elsewhere in the chain.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Hash)]
-pub struct Key(pub u64);
+pub struct ModuleKey(pub u64);
 
-impl Key {
+impl ModuleKey {
     /// The key of a whole system.
     pub fn seed(seed: u64) -> Self {
         Self(mix(seed))
@@ -63,10 +63,10 @@ mod tests {
 
     #[test]
     fn a_stream_depends_on_the_seed_the_ordinal_and_the_feature() {
-        let root = Key::seed(1);
+        let root = ModuleKey::seed(1);
         let keys = [
             root,
-            Key::seed(2),
+            ModuleKey::seed(2),
             root.child(0),
             root.child(1),
             root.advanced(),

@@ -22,19 +22,19 @@ pub struct Links {
     /// Where each symbol's parameters begin.
     pub param: Vec<u32>,
     /// For each branch that the grammar names, what searches for it have found.
-    known: Vec<OnceLock<Known>>,
+    known: Vec<OnceLock<BranchSearches>>,
     stack: Vec<u32>,
 }
 
 /// What the searches of a step for one named branch have found, by the opening bracket that they came by. All threads
 /// add to it: whoever finds something finds the same.
 #[derive(Debug)]
-pub struct Known(Vec<AtomicU32>);
+pub struct BranchSearches(Vec<AtomicU32>);
 
 /// Nothing is known yet; an opening bracket is never so far that it could stand for a place.
 const UNKNOWN: u32 = NONE - 1;
 
-impl Known {
+impl BranchSearches {
     pub fn get(&self, open: u32) -> Option<u32> {
         let found = self.0[open as usize].load(Ordering::Relaxed);
         (found != UNKNOWN).then_some(found)
@@ -70,9 +70,9 @@ impl Links {
     }
 
     /// What is known of the named branch of this number. It takes memory only once it is asked for.
-    pub fn known(&self, number: u32) -> &Known {
+    pub fn known(&self, number: u32) -> &BranchSearches {
         self.known[number as usize]
-            .get_or_init(|| Known((0..self.right.len()).map(|_| AtomicU32::new(UNKNOWN)).collect()))
+            .get_or_init(|| BranchSearches((0..self.right.len()).map(|_| AtomicU32::new(UNKNOWN)).collect()))
     }
 
     fn find_params(&mut self, chain: &Chain, grammar: &Grammar) {

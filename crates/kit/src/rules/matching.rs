@@ -13,7 +13,7 @@ pub type Bindings = SmallVec<[u32; 8]>;
 
 /// One element of a right context.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Ahead {
+pub enum ContextElement {
     /// A module on the main path.
     Module(Symbol),
     /// A branch that begins like the grammar's named branch of this number.
@@ -23,15 +23,15 @@ pub enum Ahead {
 /// The branches that the contexts of a grammar name, each once.
 #[derive(Debug, Clone, Default)]
 pub struct Branches {
-    list: Vec<Box<[Ahead]>>,
-    numbers: FxHashMap<Box<[Ahead]>, u32>,
+    list: Vec<Box<[ContextElement]>>,
+    numbers: FxHashMap<Box<[ContextElement]>, u32>,
 }
 
 impl Branches {
     /// A right context with its branches replaced by their numbers.
-    pub fn number(&mut self, contexts: &[Context]) -> Box<[Ahead]> {
+    pub fn number(&mut self, contexts: &[Context]) -> Box<[ContextElement]> {
         let ahead = contexts.iter().map(|context| match context {
-            Context::Module(item) => Ahead::Module(item.symbol),
+            Context::Module(item) => ContextElement::Module(item.symbol),
             Context::Branch(inner) => {
                 let inner = self.number(inner);
                 let next = u32::try_from(self.list.len()).unwrap_or(u32::MAX);
@@ -39,7 +39,7 @@ impl Branches {
                 if number == next {
                     self.list.push(inner);
                 }
-                Ahead::Branch(number)
+                ContextElement::Branch(number)
             }
         });
         ahead.collect()
@@ -53,7 +53,7 @@ impl Branches {
 
 /// The contexts of a grammar's rules around the modules of a chain.
 #[derive(Debug, Clone, Copy)]
-pub struct Around<'a> {
+pub struct ContextMatcher<'a> {
     /// The chain.
     pub chain: &'a Chain,
     /// What [`Links::build`] made of the chain and the grammar.
@@ -64,14 +64,14 @@ pub struct Around<'a> {
 
 /// Where a right context continues.
 #[derive(Clone, Copy)]
-enum Behind {
+enum ContextPosition {
     /// Behind a module, whose next neighbour is linked.
     Module(usize),
     /// At this symbol, which may be anything.
     At(usize),
 }
 
-impl Around<'_> {
+impl ContextMatcher<'_> {
     /// Whether the contexts of rule number `rule` match around the module at `index`.
     #[inline]
     pub fn matches(self, rule: u16, index: usize) -> bool {
@@ -87,7 +87,7 @@ impl Around<'_> {
             nearest = self.links.left[nearest as usize];
         }
         let right = self.grammar.right_of(rule);
-        right.is_empty() || self.ahead(right, Behind::Module(index), None)
+        right.is_empty() || self.ahead(right, ContextPosition::Module(index), None)
     }
 
     /// Fills `bindings` for a rule and a module that match.
@@ -100,18 +100,23 @@ impl Around<'_> {
             here = nearest as usize;
         }
         bindings.reverse();
-        self.ahead(self.grammar.right_of(rule), Behind::Module(index), Some(bindings));
+        self.ahead(self.grammar.right_of(rule), ContextPosition::Module(index), Some(bindings));
     }
 
     /// Whether `contexts` match from a place on. What is named within branches is only gone through to be bound.
-    fn ahead(self, contexts: &[Ahead], from: Behind, mut bindings: Option<&mut Bindings>) -> bool {
+    fn ahead(
+        self,
+        contexts: &[ContextElement],
+        from: ContextPosition,
+        mut bindings: Option<&mut Bindings>,
+    ) -> bool {
         let mut here = from;
         for context in contexts {
             here = match context {
-                Ahead::Module(symbol) => {
+                ContextElement::Module(symbol) => {
                     let found = match here {
-                        Behind::Module(index) => self.links.right[index],
-                        Behind::At(index) => self.next_module(index),
+                        ContextPosition::Module(index) => self.links.right[index],
+                        ContextPosition::At(index) => self.next_module(index),
                     };
                     if found == NONE || self.chain.symbols[found as usize] != *symbol {
                         return false;
@@ -119,12 +124,12 @@ impl Around<'_> {
                     if let Some(bindings) = &mut bindings {
                         bindings.push(found);
                     }
-                    Behind::Module(found as usize)
+                    ContextPosition::Module(found as usize)
                 }
-                Ahead::Branch(number) => {
+                ContextElement::Branch(number) => {
                     let next = match here {
-                        Behind::Module(index) => index + 1,
-                        Behind::At(index) => index,
+                        ContextPosition::Module(index) => index + 1,
+                        ContextPosition::At(index) => index,
                     };
                     let found = self.first_branch(*number, self.links.branch[next]);
                     if found == NONE {
@@ -132,9 +137,9 @@ impl Around<'_> {
                     }
                     if let Some(bindings) = &mut bindings {
                         let inner = &self.grammar.branches().list[*number as usize];
-                        self.ahead(inner, Behind::At(found as usize + 1), Some(bindings));
+                        self.ahead(inner, ContextPosition::At(found as usize + 1), Some(bindings));
                     }
-                    Behind::At(self.links.right[found as usize] as usize + 1)
+                    ContextPosition::At(self.links.right[found as usize] as usize + 1)
                 }
             };
         }
@@ -192,6 +197,10 @@ impl Around<'_> {
     }
 
     fn begins_so(self, number: u32, open: u32) -> bool {
-        self.ahead(&self.grammar.branches().list[number as usize], Behind::At(open as usize + 1), None)
+        self.ahead(
+            &self.grammar.branches().list[number as usize],
+            ContextPosition::At(open as usize + 1),
+            None,
+        )
     }
 }

@@ -17,12 +17,12 @@ mod values;
 pub use chain::{CLOSE, Chain, DEEPEST, END, Mark, OPEN, Symbol};
 pub use choice::Candidates;
 pub use grammar::{Choice, Grammar, MOST_RULES, Rule};
-pub use key::Key;
+pub use key::ModuleKey;
 pub use links::Links;
-pub use matching::{Around, Bindings};
+pub use matching::{Bindings, ContextMatcher};
 pub use pattern::{Context, Item, Pattern};
 pub use symbols::{FIRST_SYMBOL, Signature, Symbols};
 pub use text::{chain_text, module_brief, module_text, write_chains};
 pub use values::Values;
 
-pub use crate::Boxed;
+pub use crate::ColumnValue;

@@ -43,7 +43,7 @@ pub enum Context {
 impl Pattern {
     /// Reads a pattern; its symbols must be declared in `symbols`.
     pub fn parse(text: &str, symbols: &Symbols) -> Result<Self> {
-        Reader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
+        PatternReader { text, at: 0, depth: 0, symbols, formals: Vec::new() }.pattern()
     }
 
     /// The context modules in the order in which [`Bindings`](super::matching::Bindings) lists them.
@@ -62,7 +62,7 @@ impl Pattern {
     }
 }
 
-struct Reader<'a> {
+struct PatternReader<'a> {
     text: &'a str,
     at: usize,
     /// How many branches are open there.
@@ -71,7 +71,7 @@ struct Reader<'a> {
     formals: Vec<String>,
 }
 
-impl Reader<'_> {
+impl PatternReader<'_> {
     fn pattern(mut self) -> Result<Pattern> {
         let mut groups: Vec<Vec<Context>> = vec![Vec::new()];
         let mut separators: Vec<char> = Vec::new();

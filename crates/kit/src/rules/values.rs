@@ -5,7 +5,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use rustc_hash::FxHashMap;
 
-use crate::{Boxed, Value};
+use crate::{ColumnValue, Value};
 
 /// The strings, tables and objects that the modules of one derivation carry, each kept once.
 #[derive(Default)]
@@ -26,21 +26,21 @@ impl Values {
     /// Stores `value` and gives the f64 for the column.
     pub fn pack(&self, value: Value) -> f64 {
         let boxed = match value {
-            Value::Nil => Boxed::Nil,
-            Value::Boolean(value) => Boxed::Boolean(value),
-            Value::Number(value) => Boxed::Number(value),
-            other => Boxed::Handle(self.handle(other)),
+            Value::Nil => ColumnValue::Nil,
+            Value::Boolean(value) => ColumnValue::Boolean(value),
+            Value::Number(value) => ColumnValue::Number(value),
+            other => ColumnValue::Handle(self.handle(other)),
         };
         boxed.pack()
     }
 
     /// The value that a column's f64 stands for.
     pub fn unpack(&self, stored: f64) -> Value {
-        match Boxed::unpack(stored) {
-            Boxed::Number(value) => Value::Number(value),
-            Boxed::Nil => Value::Nil,
-            Boxed::Boolean(value) => Value::Boolean(value),
-            Boxed::Handle(handle) => self.get(handle).unwrap_or(Value::Nil),
+        match ColumnValue::unpack(stored) {
+            ColumnValue::Number(value) => Value::Number(value),
+            ColumnValue::Nil => Value::Nil,
+            ColumnValue::Boolean(value) => Value::Boolean(value),
+            ColumnValue::Handle(handle) => self.get(handle).unwrap_or(Value::Nil),
         }
     }
 
@@ -82,7 +82,7 @@ impl Values {
         let mut shelf = self.shelf.write().unwrap_or_else(std::sync::PoisonError::into_inner);
         let mut used = vec![false; shelf.list.len()];
         for stored in columns.iter().copied().flatten().filter(|stored| stored.is_nan()) {
-            if let Boxed::Handle(handle) = Boxed::unpack(*stored)
+            if let ColumnValue::Handle(handle) = ColumnValue::unpack(*stored)
                 && let Some(slot) = used.get_mut(handle as usize)
             {
                 *slot = true;
@@ -128,12 +128,12 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::{Key, Table};
+    use crate::{Table, TableKey};
 
     #[test]
     fn every_kind_of_value_survives_a_column() {
         let values = Values::default();
-        let table = Table { class: None, entries: vec![(Key::Index(1), Value::Number(2.0))] };
+        let table = Table { class: None, entries: vec![(TableKey::Index(1), Value::Number(2.0))] };
         for value in [
             Value::Nil,
             Value::Boolean(true),

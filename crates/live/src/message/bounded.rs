@@ -11,7 +11,7 @@ const LONGEST: usize = 16_000;
 /// `value` as JSON whose texts are cut to a length that pages can show.
 pub(super) fn to_text(value: &impl Serialize) -> String {
     let mut bytes = Vec::with_capacity(256);
-    let mut serializer = Serializer::with_formatter(&mut bytes, Bounded::default());
+    let mut serializer = Serializer::with_formatter(&mut bytes, TextLimiter::default());
     // Keys are text and numbers are finite or null, so this cannot fail.
     let _ = value.serialize(&mut serializer);
     String::from_utf8(bytes).unwrap_or_default()
@@ -19,12 +19,12 @@ pub(super) fn to_text(value: &impl Serialize) -> String {
 
 /// Writes texts up to a length, and then how much was left out.
 #[derive(Default)]
-struct Bounded {
+struct TextLimiter {
     /// Bytes of the present text.
     length: usize,
 }
 
-impl Bounded {
+impl TextLimiter {
     /// How many of `more` bytes there is room for.
     fn room(&mut self, more: usize) -> usize {
         let room = LONGEST.saturating_sub(self.length);
@@ -33,7 +33,7 @@ impl Bounded {
     }
 }
 
-impl Formatter for Bounded {
+impl Formatter for TextLimiter {
     fn begin_string<W: ?Sized + io::Write>(&mut self, writer: &mut W) -> io::Result<()> {
         self.length = 0;
         CompactFormatter.begin_string(writer)

@@ -9,7 +9,7 @@ use burgeon_base::error::Error;
 /// What a page says.
 #[derive(Debug, Clone, Deserialize)]
 #[serde(tag = "type", rename_all = "lowercase", deny_unknown_fields)]
-pub enum Command {
+pub enum PageCommand {
     /// Sets parameters, by name; nothing puts the default back.
     Set {
         /// Values as text; numbers and switches may come as they are.
@@ -100,7 +100,7 @@ pub struct PickCommand {
 }
 
 /// Reads a page's message. Fails with what is to be told to the page.
-pub fn read(text: &str) -> Result<Command, Box<Event>> {
+pub fn read(text: &str) -> Result<PageCommand, Box<Event>> {
     let refuse = |id: Option<u64>, error: Error| Err(Box::new(Event::refused(id, &error)));
     let value: Value = match serde_json::from_str(text) {
         Ok(value @ Value::Object(_)) => value,
@@ -120,11 +120,11 @@ mod tests {
 
     #[test]
     fn messages_of_pages_are_read_or_refused_with_their_id() {
-        assert!(matches!(read(r#"{"type":"set","params":{"a":"1","b":null}}"#), Ok(Command::Set { .. })));
-        assert!(matches!(read(r#"{"type":"steps","steps":null}"#), Ok(Command::Steps { steps: None })));
+        assert!(matches!(read(r#"{"type":"set","params":{"a":"1","b":null}}"#), Ok(PageCommand::Set { .. })));
+        assert!(matches!(read(r#"{"type":"steps","steps":null}"#), Ok(PageCommand::Steps { steps: None })));
         assert!(matches!(
             read(r#"{"type":"pick","id":1,"mesh":0,"primitive":0,"triangle":3,"instance":null,"node":0}"#),
-            Ok(Command::Pick(_))
+            Ok(PageCommand::Pick(_))
         ));
         let wrong = [
             "",

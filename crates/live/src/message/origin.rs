@@ -30,7 +30,7 @@ pub struct OriginMessage {
     /// The module.
     pub module: ModuleMessage,
     /// The rule that interprets it, unless the standard library does.
-    pub interpretation: Option<RuleAt>,
+    pub interpretation: Option<RulePlace>,
     /// The modules that led to it, from the axiom on.
     pub path: Vec<StepMessage>,
     /// The chain around it.
@@ -47,14 +47,14 @@ pub struct ModuleMessage {
     /// Its symbol.
     pub symbol: String,
     /// Its parameters.
-    pub params: Vec<Named>,
+    pub params: Vec<NamedValue>,
     /// Its place in the chain, brackets counted.
     pub index: usize,
 }
 
 /// A parameter of a module.
 #[derive(Debug, Clone, Serialize)]
-pub struct Named {
+pub struct NamedValue {
     /// Its name.
     pub name: String,
     /// Its value as text.
@@ -63,7 +63,7 @@ pub struct Named {
 
 /// A rule and its place.
 #[derive(Debug, Clone, Serialize)]
-pub struct RuleAt {
+pub struct RulePlace {
     /// Its pattern.
     pub text: String,
     /// The file that has it; none if it is the engine's own.

@@ -5,13 +5,13 @@ use std::sync::Arc;
 use glam::DVec2;
 use smallvec::SmallVec;
 
-use super::ExtruderOptions;
+use super::object::ExtruderOptions;
 use burgeon_geometry::{Frame, Section, Station};
 use burgeon_scene::Material;
 
 /// The frame, the cross-section and the look of what is drawn next.
 #[derive(Clone)]
-pub(super) struct State {
+pub(super) struct ExtruderState {
     pub(super) frame: Frame,
     pub(super) section: Arc<Section>,
     pub(super) scale: DVec2,
@@ -24,12 +24,12 @@ pub(super) struct State {
     pub(super) smooth: bool,
     pub(super) caps: [bool; 2],
     pub(super) material: Arc<Material>,
-    pub(super) run: Option<Run>,
+    pub(super) run: Option<SolidRun>,
 }
 
 /// Segments that make one solid.
 #[derive(Clone)]
-pub(super) struct Run {
+pub(super) struct SolidRun {
     pub(super) stations: SmallVec<[Station; 2]>,
     /// The modules that led to each station.
     pub(super) makers: SmallVec<[u32; 2]>,
@@ -41,7 +41,7 @@ pub(super) struct Run {
     pub(super) material: Arc<Material>,
 }
 
-impl State {
+impl ExtruderState {
     pub(super) fn begin(options: &ExtruderOptions, section: &Arc<Section>) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);

@@ -1,7 +1,12 @@
 //! Tests of extruders: solids with the volumes of their formulas.
 
+use super::object::ExtruderOptions;
 use super::*;
+use burgeon_base::error::Result;
 use burgeon_geometry::solid;
+use burgeon_kit::Object;
+use burgeon_kit::Vector;
+use glam::DVec3;
 
 /// Draws with an extruder; gives its volume (m³) after having checked that it is a closed solid.
 fn volume(options: ExtruderOptions, draw: impl FnOnce(&mut Extruder) -> Result<()>) -> f64 {

@@ -3,8 +3,8 @@
 use std::sync::{Arc, LazyLock};
 
 use super::size::{Margin, Policy, Size};
-use super::wall::{Rule, Wall};
-use crate::Surface;
+use super::wall::{Wall, WallRule};
+use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Share, Split};
 use burgeon_kit::{Kind, fields};
@@ -27,7 +27,7 @@ pub struct BorderedOptions {
     /// Height (m), in the same way.
     pub height: Option<Size>,
     /// Material of the margins; the template's if left out.
-    pub material: Option<Surface>,
+    pub material: Option<MaterialOptions>,
 }
 
 /// The type, as scripts see it.
@@ -55,7 +55,7 @@ fn make(options: &BorderedOptions) -> Result<Wall> {
     let targets = [(0, &options.left, &options.right), (1, &options.bottom, &options.top)]
         .map(|(side, before, after)| wall.0.targets[side].map(|target| before.size + target + after.size));
     let own = [options.width, options.height];
-    Wall::new(Rule::Bordered { columns, rows, wall }, sizes, targets, own, options.material.as_ref())
+    Wall::new(WallRule::Bordered { columns, rows, wall }, sizes, targets, own, options.material.as_ref())
 }
 
 fn split(before: Margin, wall: &Wall, side: usize, after: Margin) -> Result<Split> {

@@ -4,8 +4,8 @@ use std::sync::{Arc, LazyLock};
 
 use super::fixture::{Anchor, Fixture};
 use super::size::Size;
-use super::wall::{Rule, Wall};
-use crate::Surface;
+use super::wall::{Wall, WallRule};
+use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Kind, Model, fields};
 
@@ -40,7 +40,7 @@ pub struct ExtrudedOptions {
     /// Height (m), in the same way.
     pub height: Option<Size>,
     /// Material of the side faces; the template's if left out.
-    pub material: Option<Surface>,
+    pub material: Option<MaterialOptions>,
 }
 
 /// The type, as scripts see it.
@@ -73,6 +73,6 @@ fn make(options: &ExtrudedOptions) -> Result<Wall> {
     let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));
     let sides = [options.left, options.right, options.bottom, options.top];
     let (sizes, targets) = (wall.0.sizes.clone(), wall.0.targets);
-    let rule = Rule::Extruded { depth: options.depth, sides, fixture, wall };
+    let rule = WallRule::Extruded { depth: options.depth, sides, fixture, wall };
     Wall::new(rule, sizes, targets, [options.width, options.height], options.material.as_ref())
 }

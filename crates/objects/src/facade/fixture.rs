@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use burgeon_kit::{Expected, Model, Parameter, Value};
+use burgeon_kit::{Expectation, Model, Parameter, Value};
 
 /// A model and how it sits on a wall.
 ///
@@ -54,9 +54,9 @@ impl Parameter for Anchor {
         "string".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let named = ANCHORS.iter().find(|(name, _)| matches!(&value, Value::Text(text) if **text == **name));
-        let what = || Expected::new("\"bottom\", \"center\" or \"top\"");
+        let what = || Expectation::new("\"bottom\", \"center\" or \"top\"");
         named.map(|(_, height)| Self(*height)).ok_or_else(what)
     }
 

@@ -3,7 +3,7 @@
 use std::sync::{Arc, LazyLock};
 
 use super::size::{Count, Size};
-use super::wall::{Rule, Wall};
+use super::wall::{Wall, WallRule};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{SAME, Sizes};
 use burgeon_kit::{Kind, fields};
@@ -58,7 +58,7 @@ fn make(options: &GridOptions) -> Result<Wall> {
             .map(|each| each * f64::from(*count.start()))
     };
     let targets = [target(0), target(1)];
-    Wall::new(Rule::Grid { counts, wall }, sizes, targets, [options.width, options.height], None)
+    Wall::new(WallRule::Grid { counts, wall }, sizes, targets, [options.width, options.height], None)
 }
 
 /// How many cells of `sizes` fill `whole` (m), each as near to `target` as can be; `None` if no number does.

@@ -5,23 +5,23 @@ use std::cell;
 
 use glam::DVec3;
 
-use super::lay::Face;
-use burgeon_geometry::{Cell, Crossing, Union};
+use super::lay::FacadeFace;
+use burgeon_geometry::{Crossing, Union, UnionCell};
 
 /// Coordinates (m) that differ by less are one.
 const SAME: f64 = 1e-9;
 
 /// A corner of a face, by the numbers of its coordinates.
-type Corner = [u32; 3];
+type CornerNumbers = [u32; 3];
 
 /// A corner as a number: those of a line along some axis follow one another.
-type Key = u128;
+type CornerKey = u128;
 
 /// A face between such corners.
 #[derive(Clone, Copy)]
-struct Bounds {
+struct CornerBounds {
     /// The lowest left corner, and the one across.
-    ends: [Corner; 2],
+    ends: [CornerNumbers; 2],
     /// The axes along which it goes to the right and upwards.
     axes: [usize; 2],
 }
@@ -31,21 +31,21 @@ struct Bounds {
 pub struct Joiner {
     /// The coordinates (m) of all corners, along each axis and in order.
     places: [Vec<f64>; 3],
-    bounds: Vec<Bounds>,
+    bounds: Vec<CornerBounds>,
     /// The corners of all surfaces, as far as others may have to know them: in three orders, of which each has those of
     /// a line along an axis in a row.
-    corners: [Vec<Key>; 3],
+    corners: [Vec<CornerKey>; 3],
     /// Faces that others may join, with what they need to have in common and their numbers.
-    fronts: Vec<(Front, Cell, usize)>,
+    fronts: Vec<(SurfaceGroup, UnionCell, usize)>,
     union: Union,
-    cells: Vec<Cell>,
+    cells: Vec<UnionCell>,
     others: Vec<Crossing>,
     mesh: FaceMesh,
 }
 
 /// What faces of one surface have in common.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Front {
+struct SurfaceGroup {
     /// The number of the part of the drawing.
     part: usize,
     /// The number of how far it stands out.
@@ -79,7 +79,12 @@ impl Joiner {
 
     /// Joins `faces`, each of which belongs to one of `parts`. Gives each surface to `draw` with the number of a face
     /// that it is like.
-    pub fn join(&mut self, faces: &[Face<'_>], parts: &[usize], mut draw: impl FnMut(usize, &FaceMesh)) {
+    pub fn join(
+        &mut self,
+        faces: &[FacadeFace<'_>],
+        parts: &[usize],
+        mut draw: impl FnMut(usize, &FaceMesh),
+    ) {
         if let [face] = faces {
             self.mesh.cover(face);
             return draw(0, &self.mesh);
@@ -97,7 +102,7 @@ impl Joiner {
     }
 
     /// Finds the faces that others may join, and the corners of all surfaces.
-    fn gather(&mut self, faces: &[Face<'_>], parts: &[usize]) {
+    fn gather(&mut self, faces: &[FacadeFace<'_>], parts: &[usize]) {
         self.fronts.clear();
         self.corners.iter_mut().for_each(Vec::clear);
         let [all, ..] = &mut self.corners;
@@ -106,7 +111,7 @@ impl Joiner {
         for (number, (face, bounds)) in faces.iter().zip(&self.bounds).enumerate() {
             match bounds.as_front().filter(|_| !face.stretched) {
                 Some(cell) => {
-                    let front = Front { part: parts[number], depth: bounds.ends[0][2] };
+                    let front = SurfaceGroup { part: parts[number], depth: bounds.ends[0][2] };
                     self.fronts.push((front, cell, number));
                 }
                 None => {
@@ -135,9 +140,9 @@ impl Joiner {
     }
 
     /// Numbers the coordinates of the faces.
-    fn measure(&mut self, faces: &[Face<'_>]) {
+    fn measure(&mut self, faces: &[FacadeFace<'_>]) {
         self.places.iter_mut().for_each(Vec::clear);
-        let ends = |face: &Face<'_>| [face.at, face.at + face.right + face.up];
+        let ends = |face: &FacadeFace<'_>| [face.at, face.at + face.right + face.up];
         for end in faces.iter().flat_map(ends) {
             for (places, place) in self.places.iter_mut().zip(end.to_array()) {
                 let number = number(places, place);
@@ -154,7 +159,7 @@ impl Joiner {
                 std::array::from_fn(|axis| number(&places[axis], end[axis]) as u32)
             });
             let axis = |way: DVec3| way.abs().max_position();
-            Bounds { ends, axes: [axis(face.right), axis(face.up)] }
+            CornerBounds { ends, axes: [axis(face.right), axis(face.up)] }
         }));
     }
 
@@ -162,7 +167,7 @@ impl Joiner {
     fn draw_fronts(&mut self, draw: &mut impl FnMut(usize, &FaceMesh)) {
         let Self { places, corners: [corners, ..], fronts, union, cells, others, mesh, .. } = self;
         for group in fronts.chunk_by(|a, b| a.0 == b.0) {
-            let (Front { depth, .. }, _, number) = group[0];
+            let (SurfaceGroup { depth, .. }, _, number) = group[0];
             cells.clear();
             cells.extend(group.iter().map(|(_, cell, _)| *cell));
             let from = corners.partition_point(|known| *known < key([0, 0, depth], 0));
@@ -176,7 +181,7 @@ impl Joiner {
     }
 
     /// Makes a surface of a single face.
-    fn draw_face(&mut self, bounds: &Bounds) {
+    fn draw_face(&mut self, bounds: &CornerBounds) {
         let Self { places, corners, union, others, mesh, .. } = self;
         let ring = bounds.corners();
         others.clear();
@@ -200,7 +205,7 @@ impl Joiner {
         let [right, up] = bounds.axes;
         let [x, y] = bounds.axes.map(|axis| bounds.ends.map(|end| end[axis]));
         let sorted = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
-        let cell = Cell { x: sorted(x), y: sorted(y) };
+        let cell = UnionCell { x: sorted(x), y: sorted(y) };
         union.triangulate(&[cell], others, [&places[right], &places[up]]);
         let mirrored = (x[0] > x[1]) != (y[0] > y[1]);
         mesh.take(union, mirrored, |[x, y]| {
@@ -212,7 +217,7 @@ impl Joiner {
     }
 }
 
-impl Bounds {
+impl CornerBounds {
     fn is_empty(&self) -> bool {
         let [low, high] = self.ends;
         self.axes.iter().any(|axis| low[*axis] == high[*axis])
@@ -224,7 +229,7 @@ impl Bounds {
     }
 
     /// The four corners, counter-clockwise from outside.
-    fn corners(&self) -> [Corner; 4] {
+    fn corners(&self) -> [CornerNumbers; 4] {
         let [low, high] = self.ends;
         let [right, up] = self.axes;
         let mut corners = [low, low, high, low];
@@ -234,24 +239,24 @@ impl Bounds {
     }
 
     /// Where it is among the lines, if it looks out of the building.
-    fn as_front(&self) -> Option<Cell> {
+    fn as_front(&self) -> Option<UnionCell> {
         let [low, high] = self.ends;
         let is_front = self.axes == [0, 1] && low[0] < high[0] && low[1] < high[1];
-        is_front.then_some(Cell { x: [low[0], high[0]], y: [low[1], high[1]] })
+        is_front.then_some(UnionCell { x: [low[0], high[0]], y: [low[1], high[1]] })
     }
 }
 
 impl FaceMesh {
     /// That of a face by itself.
-    pub fn of(face: &Face<'_>) -> Self {
+    pub fn of(face: &FacadeFace<'_>) -> Self {
         let mut mesh = Self::default();
         mesh.cover(face);
         mesh
     }
 
     /// Becomes that of a face by itself.
-    fn cover(&mut self, face: &Face<'_>) {
-        let Face { at, right, up, .. } = *face;
+    fn cover(&mut self, face: &FacadeFace<'_>) {
+        let FacadeFace { at, right, up, .. } = *face;
         self.set([at, at + right, at + right + up, at + up]);
     }
 
@@ -278,22 +283,22 @@ fn number(places: &[f64], place: f64) -> usize {
     places.partition_point(|known| *known < place - SAME)
 }
 
-fn place(places: &[Vec<f64>; 3], corner: Corner) -> DVec3 {
+fn place(places: &[Vec<f64>; 3], corner: CornerNumbers) -> DVec3 {
     DVec3::from(std::array::from_fn(|axis| places[axis][corner[axis] as usize]))
 }
 
 /// The key of a corner by which those of a line along `axis` are in a row.
-fn key([x, y, z]: Corner, axis: usize) -> Key {
+fn key([x, y, z]: CornerNumbers, axis: usize) -> CornerKey {
     let in_order = match axis {
         0 => [z, y, x],
         1 => [z, x, y],
         _ => [x, y, z],
     };
-    in_order.into_iter().fold(0, |key, number| key << 32 | Key::from(number))
+    in_order.into_iter().fold(0, |key, number| key << 32 | CornerKey::from(number))
 }
 
 /// The corner that has this key.
-fn corner(key: Key, axis: usize) -> Corner {
+fn corner(key: CornerKey, axis: usize) -> CornerNumbers {
     let [a, b, c] = [64, 32, 0].map(|bits| (key >> bits) as u32);
     match axis {
         0 => [c, b, a],

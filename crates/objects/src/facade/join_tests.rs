@@ -23,7 +23,7 @@ fn number(number: f64) -> Value {
 
 /// The surfaces of `wall` over a frontage of this size (m): one part for each material.
 fn joined(wall: &Wall, size: DVec2) -> (Vec<Part>, Vec<(Material, f64)>) {
-    let mut laid = Laid::default();
+    let mut laid = FacadeLayout::default();
     assert!(laid.lay(wall, Rectangle { at: DVec2::ZERO, size }, 0.0), "{size}");
     let mut materials = Vec::<(Material, f64)>::new();
     let parts_of: Vec<usize> = laid

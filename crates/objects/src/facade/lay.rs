@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::fixture::Fixture;
 use super::grid::count;
-use super::wall::{Rule, Wall};
+use super::wall::{Wall, WallRule};
 use burgeon_scene::Material;
 
 /// A part of a frontage: its lowest left corner and its size (m).
@@ -18,7 +18,7 @@ pub struct Rectangle {
 
 /// A rectangle in the frontage's coordinates (m): x to the right, y upwards, z out of the building.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Face<'a> {
+pub struct FacadeFace<'a> {
     /// Its lowest left corner.
     pub at: DVec3,
     /// Its lower side, from that corner.
@@ -33,16 +33,16 @@ pub struct Face<'a> {
 
 /// What a wall is laid out into. Faces of no area are left out.
 #[derive(Default)]
-pub struct Laid<'a> {
+pub struct FacadeLayout<'a> {
     /// The faces.
-    pub faces: Vec<Face<'a>>,
+    pub faces: Vec<FacadeFace<'a>>,
     /// Models with the lowest left corner of what they sit on (m) and its size.
     pub(super) fixtures: Vec<(&'a Fixture, DVec3, DVec2)>,
     /// Whether the wall was given up, as it has more than [`MOST`] faces or models.
     pub too_many: bool,
 }
 
-impl std::fmt::Debug for Laid<'_> {
+impl std::fmt::Debug for FacadeLayout<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Laid").field("faces", &self.faces).finish_non_exhaustive()
     }
@@ -54,7 +54,7 @@ pub const MOST: usize = 2_000_000;
 /// Sides shorter than this (m) are none.
 const NONE: f64 = 1e-6;
 
-impl<'a> Laid<'a> {
+impl<'a> FacadeLayout<'a> {
     /// Forgets everything but keeps the memory.
     pub fn clear(&mut self) {
         self.faces.clear();
@@ -69,7 +69,7 @@ impl<'a> Laid<'a> {
         let material = inner.material.as_ref();
         let Rectangle { at, size } = over;
         match &inner.rule {
-            Rule::Panel { decoration, fixture, background } => {
+            WallRule::Panel { decoration, fixture, background } => {
                 if *background {
                     let (material, stretched) = match decoration {
                         Some(decoration) => (Some(decoration), true),
@@ -80,7 +80,7 @@ impl<'a> Laid<'a> {
                 self.fixture(fixture.as_ref(), over, depth);
                 true
             }
-            Rule::Bordered { columns, rows, wall } => {
+            WallRule::Bordered { columns, rows, wall } => {
                 let (Some(columns), Some(rows)) = (columns.divide(size.x), rows.divide(size.y)) else {
                     return false;
                 };
@@ -94,7 +94,7 @@ impl<'a> Laid<'a> {
                 margin(DVec2::new(high.x, at.y), DVec2::new(columns[2], size.y));
                 self.lay(wall, Rectangle { at: low, size: high - low }, depth)
             }
-            Rule::Extruded { depth: by, sides, fixture, wall } => {
+            WallRule::Extruded { depth: by, sides, fixture, wall } => {
                 let out = DVec3::new(0.0, 0.0, *by);
                 let (right, up) = (DVec3::new(size.x, 0.0, 0.0), DVec3::new(0.0, size.y, 0.0));
                 let corner = at.extend(depth);
@@ -107,13 +107,13 @@ impl<'a> Laid<'a> {
                 ];
                 for ((at, right, up), shown) in faces.into_iter().zip(sides) {
                     if *shown {
-                        self.face(Face { at, right, up, material, stretched: false });
+                        self.face(FacadeFace { at, right, up, material, stretched: false });
                     }
                 }
                 self.fixture(fixture.as_ref(), over, depth);
                 self.lay(wall, over, depth + by)
             }
-            Rule::List { upwards, split, walls } => {
+            WallRule::List { upwards, split, walls } => {
                 let along = if *upwards { DVec2::Y } else { DVec2::X };
                 let Some(lengths) = split.divide(size.dot(along)) else { return false };
                 let mut at = at;
@@ -126,7 +126,7 @@ impl<'a> Laid<'a> {
                 }
                 true
             }
-            Rule::Grid { counts, wall } => {
+            WallRule::Grid { counts, wall } => {
                 let number =
                     |side: usize| count(size[side], &counts[side], &wall.0.sizes[side], wall.0.targets[side]);
                 let (Some(columns), Some(rows)) = (number(0), number(1)) else { return false };
@@ -152,7 +152,7 @@ impl<'a> Laid<'a> {
             let by = (cell * DVec2::new(f64::from(column), f64::from(row))).extend(0.0);
             for index in first_face..faces {
                 let face = self.faces[index];
-                self.faces.push(Face { at: face.at + by, ..face });
+                self.faces.push(FacadeFace { at: face.at + by, ..face });
             }
             for index in first_fixture..fixtures {
                 let (fixture, at, size) = self.fixtures[index];
@@ -164,10 +164,10 @@ impl<'a> Laid<'a> {
 
     fn front(&mut self, over: Rectangle, depth: f64, material: Option<&'a Material>, stretched: bool) {
         let (right, up) = (DVec3::new(over.size.x, 0.0, 0.0), DVec3::new(0.0, over.size.y, 0.0));
-        self.face(Face { at: over.at.extend(depth), right, up, material, stretched });
+        self.face(FacadeFace { at: over.at.extend(depth), right, up, material, stretched });
     }
 
-    fn face(&mut self, face: Face<'a>) {
+    fn face(&mut self, face: FacadeFace<'a>) {
         if face.right.abs().max_element() > NONE && face.up.abs().max_element() > NONE {
             self.faces.push(face);
         }

@@ -3,8 +3,8 @@
 use std::sync::{Arc, LazyLock};
 
 use super::size::Size;
-use super::wall::{Rule, Wall, range};
-use crate::Surface;
+use super::wall::{Wall, WallRule, range};
+use crate::MaterialOptions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Share, Split};
 use burgeon_kit::{Kind, fields};
@@ -83,6 +83,6 @@ fn make(options: &ListOptions) -> Result<Wall> {
         sizes.reverse();
         targets.reverse();
     }
-    let rule = Rule::List { upwards, split, walls: options.walls.clone() };
-    Wall::new(rule, sizes, targets, [options.width, options.height], None::<&Surface>)
+    let rule = WallRule::List { upwards, split, walls: options.walls.clone() };
+    Wall::new(rule, sizes, targets, [options.width, options.height], None::<&MaterialOptions>)
 }

@@ -1,7 +1,7 @@
 //! Facades by a wall grammar of five rules: panel, bordered, extruded, list and grid.
 //!
-//! Comes in: walls that scripts put together, and a frontage's width and height. Goes out: [`Laid`] faces and models.
-//! It never knows where on a building the frontage is.
+//! Comes in: walls that scripts put together, and a frontage's width and height. Goes out: a [`FacadeLayout`] of faces and
+//! models. It never knows where on a building the frontage is.
 //!
 //! Method: T. Larive and V. Gaildrat, "Wall grammar for building generation", 2006.
 
@@ -12,6 +12,7 @@ pub mod grid;
 pub mod join;
 #[cfg(test)]
 mod join_tests;
+mod kinds;
 pub mod lay;
 pub mod list;
 pub mod panel;
@@ -22,15 +23,7 @@ mod tests;
 pub mod wall;
 
 pub use join::{FaceMesh, Joiner};
-pub use lay::{Face, Laid, Rectangle};
+pub(super) use kinds::kinds;
+pub use lay::{FacadeFace, FacadeLayout, Rectangle};
 pub use template::{Facade, Template, Templates};
 pub use wall::Wall;
-
-use std::sync::Arc;
-
-use burgeon_kit::Kind;
-
-/// The types of walls.
-pub(super) fn kinds() -> [&'static Arc<Kind>; 5] {
-    [panel::kind(), bordered::kind(), extruded::kind(), list::kind(), grid::kind()]
-}

@@ -4,8 +4,8 @@ use std::sync::{Arc, LazyLock};
 
 use super::fixture::{Anchor, Fixture};
 use super::size::Size;
-use super::wall::{Rule, Wall};
-use crate::Surface;
+use super::wall::{Wall, WallRule};
+use crate::MaterialOptions;
 use burgeon_base::error::Result;
 use burgeon_geometry::Sizes;
 use burgeon_kit::{Kind, Model, fields};
@@ -18,9 +18,9 @@ pub struct PanelOptions {
     /// Height (m), in the same way.
     pub height: Option<Size>,
     /// Material of its face; the template's if left out.
-    pub material: Option<Surface>,
+    pub material: Option<MaterialOptions>,
     /// A material whose image covers the panel once, whatever its size, in place of its own.
-    pub decoration: Option<Surface>,
+    pub decoration: Option<MaterialOptions>,
     /// A model in its middle: x to the right, z up, y into the wall.
     pub model: Option<Arc<Model>>,
     /// Whether the model is stretched to the panel's width and height.
@@ -46,7 +46,7 @@ pub fn kind() -> &'static Arc<Kind> {
 }
 
 fn make(options: &PanelOptions) -> Result<Wall> {
-    let decoration = options.decoration.as_ref().map(Surface::material).transpose()?;
+    let decoration = options.decoration.as_ref().map(MaterialOptions::material).transpose()?;
     let model = options.model.clone();
     let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));
     let extent = fixture.as_ref().map(Fixture::extent);
@@ -54,6 +54,6 @@ fn make(options: &PanelOptions) -> Result<Wall> {
     let room = extent.filter(|_| !options.stretch).unwrap_or_default();
     let sizes = room.map(|room| Sizes::between(room, f64::INFINITY));
     let targets = [0, 1].map(|side| extent.map(|extent| extent[side]));
-    let rule = Rule::Panel { decoration, fixture, background: options.background };
+    let rule = WallRule::Panel { decoration, fixture, background: options.background };
     Wall::new(rule, sizes, targets, [options.width, options.height], options.material.as_ref())
 }

@@ -1,7 +1,7 @@
 //! How scripts say how wide, high or many something may be.
 
 use burgeon_geometry::{SAME, Sizes};
-use burgeon_kit::{Expected, Parameter, Value};
+use burgeon_kit::{Expectation, Parameter, Value};
 
 /// A preferred length (m), or the least and the greatest, or least, preferred and greatest.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -23,9 +23,10 @@ impl Parameter for Size {
         "number | { number }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what =
-            || Expected::new("a preferred length (m), { least, greatest } or { least, preferred, greatest }");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || {
+            Expectation::new("a preferred length (m), { least, greatest } or { least, preferred, greatest }")
+        };
         let numbers = match &value {
             Value::Number(number) => vec![*number],
             _ => Vec::<f64>::from_value(value).map_err(|_| what())?,
@@ -88,9 +89,9 @@ impl Parameter for Margin {
         "number | { any }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let what =
-            || Expected::new("a size (m), or a size and \"min\", \"max\" or \"fixed\": { 0.5, \"max\" }");
+            || Expectation::new("a size (m), or a size and \"min\", \"max\" or \"fixed\": { 0.5, \"max\" }");
         let (size, policy) = match &value {
             Value::Number(size) => (*size, Policy::Min),
             Value::Table(table) => match table.list().as_slice() {
@@ -151,8 +152,8 @@ impl Parameter for Count {
         "number | { number }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new(format!("a whole number from 1 to {MOST}, or {{ least, greatest }}"));
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new(format!("a whole number from 1 to {MOST}, or {{ least, greatest }}"));
         let numbers = match &value {
             Value::Number(_) => vec![u32::from_value(value).map_err(|_| what())?],
             _ => Vec::<u32>::from_value(value).map_err(|_| what())?,

@@ -4,9 +4,9 @@ use std::any::Any;
 use std::sync::{Arc, LazyLock};
 
 use super::wall::Wall;
-use crate::Surface;
+use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expected, Kind, Object, Parameter, Value, fields, methods};
+use burgeon_kit::{Expectation, Kind, Object, Parameter, Value, fields, methods};
 use burgeon_scene::Material;
 
 /// What `template { ... }` takes.
@@ -17,7 +17,7 @@ pub struct TemplateOptions {
     /// Words that say which frontages it is for, such as "entry door" or "blind".
     pub keywords: Vec<String>,
     /// Material of every wall that does not say its own.
-    pub material: Surface,
+    pub material: MaterialOptions,
     /// How often it is taken where others suit as well.
     #[default(1.0)]
     pub weight: f64,
@@ -32,9 +32,9 @@ pub struct FacadeOptions {
 
 /// A wall and the frontages that it is for. It never changes.
 #[derive(Clone)]
-pub struct Template(Arc<Inner>);
+pub struct Template(Arc<TemplateData>);
 
-struct Inner {
+struct TemplateData {
     wall: Wall,
     keywords: Vec<String>,
     material: Material,
@@ -78,7 +78,8 @@ impl Template {
                 .help("give a number from 0 on"));
         }
         let material = options.material.material()?;
-        let inner = Inner { wall, keywords: options.keywords.clone(), material, weight: options.weight };
+        let inner =
+            TemplateData { wall, keywords: options.keywords.clone(), material, weight: options.weight };
         Ok(Self(Arc::new(inner)))
     }
 
@@ -177,8 +178,8 @@ impl Parameter for Template {
         "Template".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a template: template { wall = ... }");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a template: template { wall = ... }");
         let Value::Object(object) = value else { return Err(what()) };
         let any: &dyn Any = &*object;
         any.downcast_ref::<Self>().cloned().ok_or_else(what)
@@ -194,8 +195,8 @@ impl Parameter for Templates {
         "Facade | Template | { Template }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a facade, a template or a list of templates");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a facade, a template or a list of templates");
         if let Value::Object(object) = &value {
             let any: &dyn Any = &**object;
             if let Some(facade) = any.downcast_ref::<Facade>() {

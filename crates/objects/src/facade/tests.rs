@@ -6,15 +6,15 @@ use glam::DVec2;
 use proptest::prelude::*;
 
 use super::*;
-use burgeon_kit::{Key, Kind, Table, Value};
+use burgeon_kit::{Kind, Table, TableKey, Value};
 
 pub(super) fn table(fields: &[(&str, Value)]) -> Table {
-    let entries = fields.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+    let entries = fields.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
     Table { class: None, entries: entries.collect() }
 }
 
 pub(super) fn list(values: &[Value]) -> Value {
-    let entries = (1..).map(Key::Index).zip(values.iter().cloned()).collect();
+    let entries = (1..).map(TableKey::Index).zip(values.iter().cloned()).collect();
     Value::Table(Arc::new(Table { class: None, entries }))
 }
 
@@ -52,7 +52,7 @@ pub(super) fn panel(width: &[f64], height: &[f64]) -> Value {
 /// The faces of `wall` over a frontage, as left, bottom, right, top and depth (m).
 fn laid(value: &Value, width: f64, height: f64) -> Vec<[f64; 5]> {
     let wall = wall(value);
-    let mut laid = Laid::default();
+    let mut laid = FacadeLayout::default();
     let over = Rectangle { at: DVec2::ZERO, size: DVec2::new(width, height) };
     assert!(laid.lay(&wall, over, 0.0), "{width} m x {height} m");
     let fronts = laid.faces.iter().filter(|face| face.right.z == 0.0 && face.up.z == 0.0);
@@ -132,7 +132,7 @@ fn what_is_extruded_has_the_sides_that_are_wanted_and_they_look_outwards() {
         )
         .expect("a wall");
         let wall = wall(&niche);
-        let mut laid = Laid::default();
+        let mut laid = FacadeLayout::default();
         laid.lay(&wall, Rectangle { at: DVec2::ZERO, size: DVec2::new(2.0, 1.0) }, 0.0);
         let middle = glam::DVec3::new(1.0, 0.5, depth / 2.0);
         assert_eq!(laid.faces.len(), 4, "three sides and the panel");

@@ -6,17 +6,17 @@ use std::sync::Arc;
 use super::fixture::Fixture;
 use super::size::Size;
 use super::{bordered, extruded, grid, list, panel};
-use crate::Surface;
+use crate::MaterialOptions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Sizes, Split};
-use burgeon_kit::{Expected, Kind, Object, Parameter, Value, methods};
+use burgeon_kit::{Expectation, Kind, Object, Parameter, Value, methods};
 use burgeon_scene::Material;
 
 /// A wall of a facade, made by one of five rules. It never changes.
 #[derive(Clone)]
-pub struct Wall(pub(super) Arc<Inner>);
+pub struct Wall(pub(super) Arc<WallData>);
 
-pub(super) struct Inner {
+pub(super) struct WallData {
     /// The widths and heights that it can have (m).
     pub sizes: [Sizes; 2],
     /// The width and height that it has where it is free to.
@@ -25,14 +25,14 @@ pub(super) struct Inner {
     pub material: Option<Material>,
     /// How many walls are within one another.
     pub depth: usize,
-    pub rule: Rule,
+    pub rule: WallRule,
 }
 
 /// The most walls that may be within one another.
 const DEEPEST: usize = 100;
 
 /// How a wall is made up.
-pub(super) enum Rule {
+pub(super) enum WallRule {
     Panel { decoration: Option<Material>, fixture: Option<Fixture>, background: bool },
     Bordered { columns: Split, rows: Split, wall: Wall },
     Extruded { depth: f64, sides: [bool; 4], fixture: Option<Fixture>, wall: Wall },
@@ -71,11 +71,11 @@ impl Wall {
 impl Wall {
     /// A wall by `rule`, which can have the sizes that both its parts and its owner allow.
     pub(super) fn new(
-        rule: Rule,
+        rule: WallRule,
         of_parts: [Sizes; 2],
         of_targets: [Option<f64>; 2],
         own: [Option<Size>; 2],
-        material: Option<&Surface>,
+        material: Option<&MaterialOptions>,
     ) -> Result<Self> {
         let name = &rule.kind().name;
         let depth = 1 + rule.parts().iter().map(|wall| wall.0.depth).max().unwrap_or(0);
@@ -101,9 +101,9 @@ impl Wall {
             *sizes = both;
         }
         let target = |side: usize| own[side].target().or(of_targets[side]);
-        let material = material.map(Surface::material).transpose()?;
+        let material = material.map(MaterialOptions::material).transpose()?;
         let targets = [target(0), target(1)];
-        Ok(Self(Arc::new(Inner { sizes, targets, material, depth, rule })))
+        Ok(Self(Arc::new(WallData { sizes, targets, material, depth, rule })))
     }
 }
 
@@ -120,7 +120,7 @@ pub(super) fn range(sizes: &Sizes, side: &str) -> String {
     }
 }
 
-impl Rule {
+impl WallRule {
     /// The walls that it is made up of.
     fn parts(&self) -> &[Wall] {
         match self {
@@ -148,8 +148,8 @@ impl Parameter for Wall {
         "Wall".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what = || Expected::new("a wall: panel, bordered, extruded, list or grid");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || Expectation::new("a wall: panel, bordered, extruded, list or grid");
         let Value::Object(object) = value else { return Err(what()) };
         let any: &dyn std::any::Any = &*object;
         any.downcast_ref::<Self>().cloned().ok_or_else(what)

@@ -1,12 +1,19 @@
 //! Tests of what a roof knows of its surroundings: storeys that stand out, neighbours, and what walls are made of.
 
+use super::object::{FootprintOptions, Height};
 use super::*;
+use crate::MaterialOptions;
 use crate::facade;
-use burgeon_kit::Key;
+use burgeon_geometry::Rings;
+use burgeon_kit::Parameter;
+use burgeon_kit::TableKey;
 use burgeon_kit::random::Stream;
+use burgeon_kit::{Kind, Object, Table, Value};
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 fn table(entries: &[(&str, Value)]) -> Table {
-    let entries = entries.iter().map(|(name, value)| (Key::Name((*name).into()), value.clone()));
+    let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
     Table { class: None, entries: entries.collect() }
 }
 
@@ -106,12 +113,13 @@ fn a_gable_goes_on_as_the_wall_below_it_unless_it_is_given_a_material() {
         found.expect("a gable")
     };
     let expected =
-        Surface::from_value(material("#a03020")).expect("a colour").material().expect("a material");
+        MaterialOptions::from_value(material("#a03020")).expect("a colour").material().expect("a material");
     for walls in [&red[..], &plain[..], &photo[..]] {
         assert_eq!(color(walls, &[]), expected.base_color);
     }
     assert_eq!(color(&bare, &[]), grey.0);
-    let own = Surface::from_value(material("#102030")).expect("a colour").material().expect("a material");
+    let own =
+        MaterialOptions::from_value(material("#102030")).expect("a colour").material().expect("a material");
     assert_eq!(color(&red, &[("gable", material("#102030"))]), own.base_color);
 }
 
@@ -159,7 +167,7 @@ fn eaves_do_not_cut_into_neighbours_that_are_as_high_or_higher() {
             for part in house.drawing.parts() {
                 for corners in &part.triangles {
                     let corners =
-                        corners.map(|corner| part.positions[corner as usize].as_dvec3() + house.origin);
+                        corners.map(|corner| part.positions[corner as usize].as_dvec3() + house.origin());
                     for (side, step) in (0..3).flat_map(|side| (0..10).map(move |step| (side, step))) {
                         let at = corners[side].lerp(corners[(side + 1) % 3], f64::from(step) / 10.0);
                         furthest = furthest.max(-depth(&all[own].0[0], at.truncate()));

@@ -10,8 +10,8 @@ use super::neighbors::Touch;
 use crate::facade::template::BLIND;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::planar::edges;
-use burgeon_kit::Expected;
-use burgeon_kit::{Key, Parameter, Table, Value};
+use burgeon_kit::Expectation;
+use burgeon_kit::{Parameter, Table, TableKey, Value};
 
 /// The word for the edge on the street.
 const STREET: &str = "street";
@@ -33,12 +33,13 @@ impl Parameter for EdgeKeywords {
         "{ [number]: { string } }".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let what =
-            || Expected::new("a table from numbers of edges to lists of words: { [2] = { \"entry door\" } }");
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || {
+            Expectation::new("a table from numbers of edges to lists of words: { [2] = { \"entry door\" } }")
+        };
         let Value::Table(table) = value else { return Err(what()) };
-        let edge = |(key, words): &(Key, Value)| {
-            let Key::Index(number) = key else { return Err(what()) };
+        let edge = |(key, words): &(TableKey, Value)| {
+            let TableKey::Index(number) = key else { return Err(what()) };
             let number = usize::try_from(*number).map_err(|_| what())?;
             Ok((number, Vec::<String>::from_value(words.clone()).map_err(|_| what())?))
         };
@@ -46,7 +47,7 @@ impl Parameter for EdgeKeywords {
     }
 
     fn into_value(self) -> Value {
-        let index = |number: usize| Key::Index(i64::try_from(number).unwrap_or(i64::MAX));
+        let index = |number: usize| TableKey::Index(i64::try_from(number).unwrap_or(i64::MAX));
         let entries = self.0.into_iter().map(|(number, words)| (index(number), words.into_value()));
         Value::Table(Table { class: None, entries: entries.collect() }.into())
     }
@@ -115,7 +116,7 @@ fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
         let mut near: Vec<(usize, f64)> = Vec::new();
         let mut least = f64::INFINITY;
         for &edge in &free {
-            let [a, b] = outer[edge].map(|point| point + footprint.origin.truncate());
+            let [a, b] = outer[edge].map(|point| point + footprint.origin().truncate());
             if let Some(distance) = streets.faced(a, b, least + NEARER) {
                 least = least.min(distance);
                 near.push((edge, distance));
@@ -154,7 +155,7 @@ impl Footprint {
     /// edges where a neighbour stands that is as high, or lower by so little that its roof would be in the way.
     pub(super) fn reach(&self, furthest: f64, drop: f64) -> Vec<f64> {
         let Some((all, own)) = &self.place else { return Vec::new() };
-        let height = self.origin.z + self.shell.top - drop - LOWER;
+        let height = self.origin().z + self.shell.top - drop - LOWER;
         all.reach(*own, furthest, height)
     }
 
@@ -232,7 +233,7 @@ impl Footprint {
 
 #[cfg(test)]
 mod tests {
-    use super::super::FootprintOptions;
+    use super::super::object::FootprintOptions;
     use super::*;
     use crate::LineIndex;
     use burgeon_geometry::{Line, Rings};

@@ -10,6 +10,7 @@ use smallvec::SmallVec;
 use super::Footprint;
 use burgeon_geometry::Plan;
 use burgeon_kit::Object;
+use burgeon_kit::declare::as_mut;
 
 /// How far (m) walls that touch may be apart, or overlap.
 const APART: f64 = 0.3;
@@ -20,26 +21,26 @@ const LEAST: f64 = 0.1;
 /// What is in front of an edge along less than this (m) is beside it.
 const NARROW: f64 = 0.01;
 
-type Boxed = GeomWithData<Rectangle<[f64; 2]>, u32>;
+type IndexedBox = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
 /// All footprints of a system. What is made for all of them together is made when the first one asks.
 pub(super) struct Neighborhood {
     plans: Vec<(Arc<Plan>, DVec2)>,
     /// Where the walls of each end (m), as far as it is known before they are built.
     tops: Vec<Option<f64>>,
-    map: OnceLock<Map>,
+    map: OnceLock<FootprintMap>,
 }
 
 /// Where the footprints are.
-struct Map {
+struct FootprintMap {
     /// The walls of all.
-    walls: Vec<Wall>,
+    walls: Vec<WallEnds>,
     /// Where the walls of each begin among them; one more for the end.
     begins: Vec<usize>,
-    boxes: RTree<Boxed>,
+    boxes: RTree<IndexedBox>,
 }
 
-impl Map {
+impl FootprintMap {
     fn new(plans: &[(Arc<Plan>, DVec2)]) -> Self {
         let mut walls = Vec::with_capacity(plans.iter().map(|(plan, _)| plan.polygon().size()).sum());
         let mut begins = vec![0];
@@ -57,7 +58,7 @@ impl Map {
         map
     }
 
-    fn walls_of(&self, index: usize) -> &[Wall] {
+    fn walls_of(&self, index: usize) -> &[WallEnds] {
         match self.begins.get(index..index + 2) {
             Some(&[begin, end]) => &self.walls[begin..end],
             _ => &[],
@@ -66,7 +67,7 @@ impl Map {
 }
 
 /// The two ends (m) of an edge.
-type Wall = [DVec2; 2];
+type WallEnds = [DVec2; 2];
 
 /// What the others touch of a footprint.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -79,16 +80,11 @@ pub(super) struct Touch {
 
 /// Tells the footprints among `objects` of one another.
 pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
-    let mut found: Vec<&mut Footprint> = objects
-        .iter_mut()
-        .filter_map(|object| {
-            let any: &mut dyn std::any::Any = &mut **object;
-            any.downcast_mut::<Footprint>()
-        })
-        .collect();
-    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin.truncate()));
+    let mut found: Vec<&mut Footprint> =
+        objects.iter_mut().filter_map(|object| as_mut::<Footprint>(&mut **object)).collect();
+    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin().truncate()));
     let top = |footprint: &&mut Footprint| {
-        footprint.options.height.map(|height| footprint.origin.z + footprint.plan.ground().1 + height.0)
+        footprint.options.height.map(|height| footprint.origin().z + footprint.plan.ground().1 + height.0)
     };
     let (plans, tops) = (plans.collect(), found.iter().map(top).collect());
     let all = Arc::new(Neighborhood { plans, tops, map: OnceLock::new() });
@@ -98,14 +94,14 @@ pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
     }
 }
 
-fn bounds(walls: &[Wall]) -> Option<[DVec2; 2]> {
+fn bounds(walls: &[WallEnds]) -> Option<[DVec2; 2]> {
     let [first, _] = *walls.first()?;
     Some(walls.iter().fold([first; 2], |[low, high], [point, _]| [low.min(*point), high.max(*point)]))
 }
 
 impl Neighborhood {
-    fn map(&self) -> &Map {
-        self.map.get_or_init(|| Map::new(&self.plans))
+    fn map(&self) -> &FootprintMap {
+        self.map.get_or_init(|| FootprintMap::new(&self.plans))
     }
 
     /// What the others touch of footprint `own`: walls that run the other way, at most 8 degrees askew and 0.3 m away.
@@ -117,13 +113,15 @@ impl Neighborhood {
         let mut neighbors = 0;
         let around = AABB::from_corners(low.to_array(), high.to_array());
         let found = map.boxes.locate_in_envelope_intersecting(&around);
-        let mut others: SmallVec<[&Boxed; 16]> = found.filter(|found| found.data as usize != own).collect();
+        let mut others: SmallVec<[&IndexedBox; 16]> =
+            found.filter(|found| found.data as usize != own).collect();
         others.sort_unstable_by_key(|other| other.data);
         for other in others {
-            let near =
-                |[a, b]: &&Wall| a.max(*b).cmpge(low - APART).all() && a.min(*b).cmple(high + APART).all();
+            let near = |[a, b]: &&WallEnds| {
+                a.max(*b).cmpge(low - APART).all() && a.min(*b).cmple(high + APART).all()
+            };
             let theirs = map.walls_of(other.data as usize).iter().filter(near);
-            let theirs: SmallVec<[Wall; 16]> = theirs.copied().collect();
+            let theirs: SmallVec<[WallEnds; 16]> = theirs.copied().collect();
             let [least, most] = [other.geom().lower(), other.geom().upper()].map(DVec2::from);
             let mut longest = 0f64;
             for (&[a, b], covered) in walls.iter().zip(&mut covered) {
@@ -155,11 +153,11 @@ impl Neighborhood {
         let search = 2.0 * furthest + APART;
         let (low, high) = (low - search, high + search);
         let around = AABB::from_corners(low.to_array(), high.to_array());
-        let is_near = |[a, b]: &&Wall| a.max(*b).cmpge(low).all() && a.min(*b).cmple(high).all();
+        let is_near = |[a, b]: &&WallEnds| a.max(*b).cmpge(low).all() && a.min(*b).cmple(high).all();
         let others = map.boxes.locate_in_envelope_intersecting(&around).map(|found| found.data as usize);
         let in_the_way =
             others.filter(|&other| other != own && self.tops[other].is_none_or(|top| top > height));
-        let theirs: Vec<Wall> =
+        let theirs: Vec<WallEnds> =
             in_the_way.flat_map(|other| map.walls_of(other).iter().filter(is_near)).copied().collect();
         for (wall, reach) in walls.iter().zip(&mut reach) {
             let mut parts = theirs.iter().filter_map(|their| overlap(*wall, *their));
@@ -179,7 +177,7 @@ impl Neighborhood {
 }
 
 /// What is in front of an edge: up to the mitres at its ends, or beside the lines of edges that others touch.
-struct Front {
+struct FrontArea {
     from: DVec2,
     out: DVec2,
     /// Points and the ways from there into it.
@@ -187,7 +185,7 @@ struct Front {
 }
 
 /// The front of each edge of rings of these sizes; what others touch has no `reach`.
-fn fronts(walls: &[Wall], sizes: impl Iterator<Item = usize>, reach: &[f64]) -> Vec<Front> {
+fn fronts(walls: &[WallEnds], sizes: impl Iterator<Item = usize>, reach: &[f64]) -> Vec<FrontArea> {
     let mut fronts = Vec::with_capacity(walls.len());
     for count in sizes {
         let first = fronts.len();
@@ -207,15 +205,15 @@ fn fronts(walls: &[Wall], sizes: impl Iterator<Item = usize>, reach: &[f64]) -> 
                 }
             };
             let sides = [side(index + count - 1, a, along), side(index + 1, b, -along)];
-            fronts.push(Front { from: a, out: -along.perp(), sides });
+            fronts.push(FrontArea { from: a, out: -along.perp(), sides });
         }
     }
     fronts
 }
 
-impl Front {
+impl FrontArea {
     /// The distance (m) of the nearest place of a wall that is in front, up to `most`.
-    fn distance(&self, [mut a, mut b]: Wall, most: f64) -> Option<f64> {
+    fn distance(&self, [mut a, mut b]: WallEnds, most: f64) -> Option<f64> {
         let near = [self.from + self.out * most, -self.out];
         let behind = [self.from - self.out * APART, self.out];
         for [at, way] in [near, behind, self.sides[0], self.sides[1]] {
@@ -235,7 +233,7 @@ impl Front {
 }
 
 /// From where to where (m) along `wall` the wall `their` touches it.
-fn overlap([a, b]: Wall, [c, d]: Wall) -> Option<[f64; 2]> {
+fn overlap([a, b]: WallEnds, [c, d]: WallEnds) -> Option<[f64; 2]> {
     let low = a.min(b) - APART;
     let high = a.max(b) + APART;
     if c.max(d).cmplt(low).any() || c.min(d).cmpgt(high).any() {
@@ -277,7 +275,7 @@ fn union(parts: &mut [[f64; 2]]) -> f64 {
 mod tests {
     use glam::DVec3;
 
-    use super::super::FootprintOptions;
+    use super::super::object::FootprintOptions;
     use super::*;
     use burgeon_geometry::Rings;
 

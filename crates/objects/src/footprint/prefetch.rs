@@ -21,13 +21,13 @@ const BATCH: usize = 16;
 
 /// A plan near its own origin.
 #[derive(Debug, Clone)]
-pub(super) struct Grounded {
+pub(super) struct LocalPlan {
     pub plan: Arc<Plan>,
     /// Where the origin is (m): a whole number of metres near the plan.
     pub origin: DVec3,
 }
 
-impl Grounded {
+impl LocalPlan {
     /// The plan of `rings`; an empty one of no rings.
     pub(super) fn new(rings: &Rings) -> Result<Self> {
         if rings.is_empty() {
@@ -43,16 +43,16 @@ impl Grounded {
 /// Plans of a layer's polygons that are made ahead.
 pub(super) struct PlanPrefetch {
     layer: Arc<Layer>,
-    state: Mutex<State>,
+    state: Mutex<PrefetchState>,
     changed: Condvar,
 }
 
 #[derive(Default)]
-struct State {
+struct PrefetchState {
     /// The feature whose plan was asked for last, if any was.
     asked: Option<usize>,
     /// Plans by feature, in the order of the features.
-    made: VecDeque<(usize, Result<Grounded>)>,
+    made: VecDeque<(usize, Result<LocalPlan>)>,
     /// Whether a thread waits to go on.
     waits: bool,
     /// Whether nobody will ask any more.
@@ -65,7 +65,7 @@ impl PlanPrefetch {
     }
 
     /// The plan of the feature with this number, if it has been made.
-    pub(super) fn take(&self, number: usize) -> Option<Result<Grounded>> {
+    pub(super) fn take(&self, number: usize) -> Option<Result<LocalPlan>> {
         let mut state = self.state();
         state.asked = Some(number);
         while state.made.front().is_some_and(|(made, _)| *made < number) {
@@ -79,7 +79,7 @@ impl PlanPrefetch {
         if there { state.made.pop_front().map(|(_, plan)| plan) } else { None }
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
+    fn state(&self) -> MutexGuard<'_, PrefetchState> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
@@ -102,7 +102,7 @@ impl Prefetch for PlanPrefetch {
             drop(state);
             let numbers = next..features.len().min(next + BATCH);
             next = numbers.end;
-            let plan = |number: usize| Some((number, Grounded::new(&rings(&features[number].geometry)?)));
+            let plan = |number: usize| Some((number, LocalPlan::new(rings(&features[number].geometry)?)));
             let made: Vec<_> = numbers.filter_map(plan).collect();
             state = self.state();
             state.made.extend(made);
@@ -119,14 +119,14 @@ impl Prefetch for PlanPrefetch {
 mod tests {
     use super::*;
     use burgeon_data::{Feature, Geometry};
-    use burgeon_geometry::Polygon;
+    use burgeon_geometry::{Polygon, Rings};
 
     /// Squares on a line, every seventh of which has no area.
     fn squares(count: u32) -> Arc<Layer> {
         let square = |number: u32| {
             let (x, size) = (10.0 * f64::from(number), if number.is_multiple_of(7) { 0.0 } else { 4.0 });
-            let ring = vec![[x, 0.0, 1.0], [x + 4.0, 0.0, 1.0], [x + 4.0, size, 1.0], [x, size, 1.0]];
-            let geometry = Geometry::Polygon(vec![ring]);
+            let ring = [[x, 0.0, 1.0], [x + 4.0, 0.0, 1.0], [x + 4.0, size, 1.0], [x, size, 1.0]];
+            let geometry = Geometry::Polygon(Rings(vec![ring.map(DVec3::from).to_vec()]));
             Feature { id: number.to_string(), geometry, attributes: Arc::default() }
         };
         Arc::new(Layer {
@@ -142,7 +142,7 @@ mod tests {
         })
     }
 
-    fn told(plan: Result<Grounded>) -> Result<(Polygon<DVec3>, DVec3), String> {
+    fn told(plan: Result<LocalPlan>) -> Result<(Polygon<DVec3>, DVec3), String> {
         plan.map(|made| (made.plan.polygon().clone(), made.origin)).map_err(|error| error.to_string())
     }
 
@@ -160,7 +160,7 @@ mod tests {
                     continue;
                 };
                 ready += 1;
-                let here = Grounded::new(&rings(&layer.features[number].geometry).unwrap());
+                let here = LocalPlan::new(rings(&layer.features[number].geometry).unwrap());
                 assert_eq!(told(plan), told(here), "{number}");
                 assert!(ahead.state().made.len() < READY + BATCH);
             }

@@ -1,8 +1,10 @@
 //! The lower part of a building: its groundwork, and how far it has got.
 
+use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::{Footprint, Surface, along, unknown};
+use super::Footprint;
+use super::object::{along, unknown};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Ring, fill};
 
@@ -29,7 +31,7 @@ impl Shell {
 const GROUNDWORK: [&str; 3] = ["z_min", "z_max", "extruded"];
 
 impl Footprint {
-    pub(super) fn lay(&mut self, kind: &str, material: Option<Surface>) -> Result<()> {
+    pub(super) fn lay(&mut self, kind: &str, material: Option<MaterialOptions>) -> Result<()> {
         self.check_open("groundwork")?;
         if self.shell.begun {
             return Err(Error::script("footprint:groundwork: the building has been begun already")

@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::Footprint;
-use crate::facade::{Face, Laid};
+use crate::facade::{FacadeFace, FacadeLayout};
 use burgeon_geometry::roof::STEEPEST_EAVES;
 use burgeon_scene::Material;
 
@@ -32,9 +32,9 @@ impl Default for Side {
 
 impl Side {
     /// Adds a storey of this size (m) that begins at height `from` (m).
-    fn add(&mut self, laid: &Laid<'_>, size: DVec2, from: f64) {
+    fn add(&mut self, laid: &FacadeLayout<'_>, size: DVec2, from: f64) {
         let mut fronts: Vec<[f64; 2]> = Vec::new();
-        for Face { at, right, up, .. } in &laid.faces {
+        for FacadeFace { at, right, up, .. } in &laid.faces {
             if right.z != 0.0 || up.z != 0.0 || at.z < LEAST {
                 continue;
             }
@@ -70,7 +70,7 @@ impl Footprint {
     }
 
     /// Notes what a storey is like over `edge`, of this size (m) and from height `from` (m) on.
-    pub(super) fn note_storey(&mut self, edge: usize, laid: &Laid<'_>, size: DVec2, from: f64) {
+    pub(super) fn note_storey(&mut self, edge: usize, laid: &FacadeLayout<'_>, size: DVec2, from: f64) {
         self.sides[edge].add(laid, size, from);
     }
 
@@ -84,7 +84,7 @@ impl Footprint {
 
 /// The material of what a wall shows most of, apart from images that cover a face once: that of the template if it
 /// shows at all.
-pub(super) fn material_of<'a>(laid: &Laid<'a>, template: &'a Material) -> &'a Material {
+pub(super) fn material_of<'a>(laid: &FacadeLayout<'a>, template: &'a Material) -> &'a Material {
     let mut shown: Vec<(&'a Material, f64)> = Vec::new();
     for face in laid.faces.iter().filter(|face| !face.stretched && face.up.z == 0.0 && face.right.z == 0.0) {
         let Some(material) = face.material else { return template };

@@ -1,16 +1,25 @@
 //! Tests of footprints: every building is a closed solid with the volume that its roof encloses.
 
+use super::object::FootprintOptions;
 use super::*;
+use burgeon_base::error::Result;
+use burgeon_geometry::Rings;
 use burgeon_geometry::solid;
+use burgeon_kit::LevelOfDetail;
+use burgeon_kit::Parameter;
 use burgeon_kit::Show;
+use burgeon_kit::{Kind, Object, Table, TableOf, Value};
 use burgeon_scene::Part;
+use glam::{DVec2, DVec3};
+use std::sync::Arc;
 
 fn plan(rings: &[&[(f64, f64)]]) -> Rings {
     Rings(rings.iter().map(|ring| ring.iter().map(|&(x, y)| DVec3::new(x, y, 0.0)).collect()).collect())
 }
 
 fn table(entries: &[(&str, Value)]) -> Arc<Table> {
-    let entries = entries.iter().map(|(name, value)| (burgeon_kit::Key::Name((*name).into()), value.clone()));
+    let entries =
+        entries.iter().map(|(name, value)| (burgeon_kit::TableKey::Name((*name).into()), value.clone()));
     Arc::new(Table { class: None, entries: entries.collect() })
 }
 

@@ -2,12 +2,14 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
+use super::Footprint;
+use super::object::Height;
+use super::object::{along, check_height};
 use super::sides::material_of;
-use super::{Footprint, Height, along, check_height};
-use crate::Surface;
+use crate::MaterialOptions;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;
-use crate::facade::{Face, FaceMesh, Joiner, Laid, Rectangle, Template, Templates};
+use crate::facade::{FacadeFace, FacadeLayout, FaceMesh, Joiner, Rectangle, Template, Templates};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Ring, SAME, fill};
 use burgeon_kit::random::Stream;
@@ -22,11 +24,11 @@ pub struct Walls {
     /// What the frontages look like: a facade, a template or a list of templates.
     pub templates: Option<Templates>,
     /// A material whose image covers each frontage once, as a photo of the building does.
-    pub photo: Option<Surface>,
+    pub photo: Option<MaterialOptions>,
     /// Colour of plain walls.
     pub color: Option<Color>,
     /// Material of plain walls, in place of the colour.
-    pub material: Option<Surface>,
+    pub material: Option<MaterialOptions>,
     /// Whether models on the walls become faces of the building, and not instances.
     pub expand: bool,
 }
@@ -132,7 +134,7 @@ impl Footprint {
         let part = self.drawing.material(photo);
         for frontage in self.frontages(from, to) {
             let (right, up) = (DVec3::new(frontage.size.x, 0.0, 0.0), DVec3::new(0.0, frontage.size.y, 0.0));
-            let face = Face { at: DVec3::ZERO, right, up, material: None, stretched: true };
+            let face = FacadeFace { at: DVec3::ZERO, right, up, material: None, stretched: true };
             frontage.draw(self.drawing.part(part), &face, &FaceMesh::of(&face), photo);
         }
     }
@@ -145,7 +147,7 @@ impl Footprint {
         from: f64,
         to: f64,
     ) -> Result<()> {
-        let mut laid = Laid::default();
+        let mut laid = FacadeLayout::default();
         let mut joiner = Joiner::spare();
         // Parts by the addresses of materials, which templates keep where they are.
         let mut parts: Vec<(*const Material, usize)> = Vec::new();
@@ -219,14 +221,14 @@ impl Footprint {
 
     fn draw_laid<'a>(
         &mut self,
-        laid: &Laid<'a>,
+        laid: &FacadeLayout<'a>,
         template: &'a Template,
         frontage: &Frontage,
         parts: &mut Vec<(*const Material, usize)>,
         joiner: &mut Joiner,
     ) {
-        let material_of = |face: &Face<'a>| face.material.unwrap_or_else(|| template.material());
-        let part_of = |face: &Face<'a>| {
+        let material_of = |face: &FacadeFace<'a>| face.material.unwrap_or_else(|| template.material());
+        let part_of = |face: &FacadeFace<'a>| {
             let material = material_of(face);
             let address: *const Material = material;
             let known = parts.iter().find(|(known, _)| *known == address).map(|(_, part)| *part);
@@ -310,7 +312,7 @@ impl Frontage {
     }
 
     /// Adds `mesh`, which is like `face`, with its texture coordinates (m).
-    fn draw(&self, part: &mut Part, face: &Face<'_>, mesh: &FaceMesh, material: &Material) {
+    fn draw(&self, part: &mut Part, face: &FacadeFace<'_>, mesh: &FaceMesh, material: &Material) {
         let Ok(base) = u32::try_from(part.positions.len()) else { return };
         let normal = (self.axes * face.right.cross(face.up)).normalize_or_zero().as_vec3();
         let (size, lies) =

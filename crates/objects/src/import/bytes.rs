@@ -8,7 +8,7 @@ use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index, Root, buffer};
 use rustc_hash::FxHashMap;
 
-use super::{Wanted, broken};
+use super::gltf_file::{ImportOptions, broken};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -19,7 +19,7 @@ pub(super) struct Bytes<'a> {
 
 impl<'a> Bytes<'a> {
     /// Reads all buffers; `own` is that of the file itself.
-    pub(super) fn load(root: &Root, own: Option<&'a [u8]>, wanted: &mut Wanted<'_>) -> Result<Self> {
+    pub(super) fn load(root: &Root, own: Option<&'a [u8]>, wanted: &mut ImportOptions<'_>) -> Result<Self> {
         let mut buffers = Vec::new();
         for (index, buffer) in root.buffers.iter().enumerate() {
             let bytes = match (&buffer.uri, own) {
@@ -53,22 +53,30 @@ impl<'a> Bytes<'a> {
 }
 
 /// The columns of numbers of a file, each read once however many parts of it use it.
-pub(super) struct Columns<'a> {
+pub(super) struct NumberColumns<'a> {
     pub root: &'a Root,
     pub bytes: &'a Bytes<'a>,
     pub budget: &'a Budget,
-    pairs: Known<[f32; 2]>,
-    triples: Known<[f32; 3]>,
-    fours: Known<[f32; 4]>,
-    indices: Known<u32>,
+    pairs: ColumnCache<[f32; 2]>,
+    triples: ColumnCache<[f32; 3]>,
+    fours: ColumnCache<[f32; 4]>,
+    indices: ColumnCache<u32>,
 }
 
-type Known<T> = FxHashMap<usize, Rc<[T]>>;
+type ColumnCache<T> = FxHashMap<usize, Rc<[T]>>;
 
-impl<'a> Columns<'a> {
+impl<'a> NumberColumns<'a> {
     pub(super) fn new(root: &'a Root, bytes: &'a Bytes<'a>, budget: &'a Budget) -> Self {
-        let (pairs, triples) = (Known::default(), Known::default());
-        Self { root, bytes, budget, pairs, triples, fours: Known::default(), indices: Known::default() }
+        let (pairs, triples) = (ColumnCache::default(), ColumnCache::default());
+        Self {
+            root,
+            bytes,
+            budget,
+            pairs,
+            triples,
+            fours: ColumnCache::default(),
+            indices: ColumnCache::default(),
+        }
     }
 
     /// The items of an accessor, each of two numbers; whole numbers are scaled to 1 where they are normalized.
@@ -105,7 +113,7 @@ impl<'a> Columns<'a> {
 
     fn kept<T>(
         &self,
-        known: &mut Known<T>,
+        known: &mut ColumnCache<T>,
         index: Index<Accessor>,
         read: impl FnOnce(&Self, Index<Accessor>) -> Result<Vec<T>>,
     ) -> Result<Rc<[T]>> {
@@ -215,7 +223,7 @@ impl<'a> Columns<'a> {
 pub(super) const MANY: usize = 1 << 16;
 
 /// What an address in the file means: content in the address itself, or a file beside it.
-pub(super) fn address(uri: &str, wanted: &mut Wanted<'_>) -> Result<Vec<u8>> {
+pub(super) fn address(uri: &str, wanted: &mut ImportOptions<'_>) -> Result<Vec<u8>> {
     let Some(data) = uri.strip_prefix("data:") else { return (wanted.beside)(&plain(uri)) };
     let coded = data.split_once(";base64,").map(|(_, coded)| coded);
     wanted.budget.take(coded.map_or(0, str::len))?;

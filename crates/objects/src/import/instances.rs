@@ -6,15 +6,15 @@ use glam::{DAffine3, DQuat, DVec3};
 use gltf_json::scene::Node;
 use gltf_json::{Accessor, Index};
 
-use super::OBJECT;
-use super::bytes::Columns;
+use super::bytes::NumberColumns;
+use super::gltf_file::OBJECT;
 use burgeon_base::error::{Error, Result};
 
 /// The extension's name.
 pub(super) const EXTENSION: &str = "EXT_mesh_gpu_instancing";
 
 /// Where the instances of a node stand in it; none if it has no such list.
-pub(super) fn places(columns: &mut Columns<'_>, node: &Node) -> Result<Option<Vec<DAffine3>>> {
+pub(super) fn places(columns: &mut NumberColumns<'_>, node: &Node) -> Result<Option<Vec<DAffine3>>> {
     let extension = node.extensions.as_ref().and_then(|known| known.others.get(EXTENSION));
     let Some(attributes) = extension.and_then(|extension| extension.get("attributes")) else {
         return Ok(None);

@@ -8,21 +8,21 @@ use gltf_json::validation::Checked;
 use gltf_json::{Index, Root};
 
 use super::bytes::{Bytes, address};
-use super::{Wanted, broken};
+use super::gltf_file::{ImportOptions, broken};
 use burgeon_base::error::Result;
 use burgeon_scene::image::ImageKind;
 use burgeon_scene::{Material, Texture};
 
 /// A material, and which of the texture coordinates it takes.
 #[derive(Debug, Clone)]
-pub(super) struct Look {
+pub(super) struct ImportMaterial {
     pub material: Material,
     pub set: u32,
     /// Whether nothing shines through, whatever its colours say.
     opaque: bool,
 }
 
-impl Look {
+impl ImportMaterial {
     /// The material for points with a colour of their own.
     pub(super) fn tinted(&self, tint: [f32; 4]) -> Material {
         let mut material = self.material.clone();
@@ -35,18 +35,22 @@ impl Look {
 }
 
 /// What glTF gives to a primitive without a material.
-pub(super) fn plain() -> Look {
+pub(super) fn plain() -> ImportMaterial {
     let material = Material { base_color: [1.0; 4], metallic: 1.0, roughness: 1.0, ..Material::default() };
-    Look { material, set: 0, opaque: true }
+    ImportMaterial { material, set: 0, opaque: true }
 }
 
 /// All materials of the file, in its order.
-pub(super) fn materials(root: &Root, bytes: &Bytes<'_>, wanted: &mut Wanted<'_>) -> Result<Vec<Look>> {
+pub(super) fn materials(
+    root: &Root,
+    bytes: &Bytes<'_>,
+    wanted: &mut ImportOptions<'_>,
+) -> Result<Vec<ImportMaterial>> {
     let mut images: Vec<Option<Arc<[u8]>>> = vec![None; root.images.len()];
     let mut looks = Vec::new();
     for described in &root.materials {
         let surface = &described.pbr_metallic_roughness;
-        let mut look = Look {
+        let mut look = ImportMaterial {
             material: Material {
                 name: described.name.clone().unwrap_or_default(),
                 base_color: surface.base_color_factor.0.map(part),
@@ -94,7 +98,7 @@ fn texture(
     bytes: &Bytes<'_>,
     index: Index<gltf_json::Texture>,
     images: &mut [Option<Arc<[u8]>>],
-    wanted: &mut Wanted<'_>,
+    wanted: &mut ImportOptions<'_>,
 ) -> Result<Texture> {
     let missing = || broken(wanted.name, format!("texture {} has no image", index.value()));
     let source = root.get(index).ok_or_else(missing)?.source;

@@ -5,7 +5,7 @@ use gltf_json::mesh::{Mode, Primitive, Semantic};
 use gltf_json::validation::Checked;
 use gltf_json::{Accessor, Index};
 
-use super::bytes::{Columns, MANY};
+use super::bytes::{MANY, NumberColumns};
 use super::tints;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_scene::{Normal, Part};
@@ -14,7 +14,7 @@ use burgeon_scene::{Normal, Part};
 const FARTHEST: f32 = 1e7;
 
 /// The triangles of a primitive that have one colour besides their material's.
-pub(super) struct Shape {
+pub(super) struct TintedPart {
     /// What the material's colour is multiplied by.
     pub tint: [f32; 4],
     pub part: Part,
@@ -24,7 +24,11 @@ pub(super) struct Shape {
 ///
 /// `set` is the number of the texture coordinates that its material takes. What it takes depends on its own triangles
 /// alone: parts of a file may share one long list of points.
-pub(super) fn shapes(columns: &mut Columns<'_>, primitive: &Primitive, set: u32) -> Result<Vec<Shape>> {
+pub(super) fn shapes(
+    columns: &mut NumberColumns<'_>,
+    primitive: &Primitive,
+    set: u32,
+) -> Result<Vec<TintedPart>> {
     let attribute = |wanted: Semantic| -> Option<Index<Accessor>> {
         primitive.attributes.get(&Checked::Valid(wanted)).copied()
     };
@@ -44,8 +48,9 @@ pub(super) fn shapes(columns: &mut Columns<'_>, primitive: &Primitive, set: u32)
         let budget = columns.budget;
         // Corners may become points of their own, and are gone through several times.
         budget.take(triangles.len().saturating_mul(size_of::<[u32; 3]>() + 3 * POINT))?;
-        let given = Given { positions: &positions, normals: normals.as_deref(), uvs: uvs.as_deref() };
-        shapes.push(Shape { tint, part: given.part(triangles)? });
+        let given =
+            PrimitiveColumns { positions: &positions, normals: normals.as_deref(), uvs: uvs.as_deref() };
+        shapes.push(TintedPart { tint, part: given.part(triangles)? });
     }
     Ok(shapes)
 }
@@ -55,7 +60,7 @@ const POINT: usize = size_of::<Vec3>() + size_of::<Vec2>() + size_of::<Normal>()
 
 /// The triangles of a primitive that have an area, as its own points.
 fn triangles(
-    columns: &mut Columns<'_>,
+    columns: &mut NumberColumns<'_>,
     primitive: &Primitive,
     positions: &[[f32; 3]],
 ) -> Result<Vec<[u32; 3]>> {
@@ -105,13 +110,13 @@ fn triangles(
 }
 
 /// The columns of a primitive.
-struct Given<'a> {
+struct PrimitiveColumns<'a> {
     positions: &'a [[f32; 3]],
     normals: Option<&'a [[f32; 3]]>,
     uvs: Option<&'a [[f32; 2]]>,
 }
 
-impl Given<'_> {
+impl PrimitiveColumns<'_> {
     /// The part of these triangles, with the points that they have and no others.
     fn part(&self, triangles: Vec<[u32; 3]>) -> Result<Part> {
         let mut part = Part::default();

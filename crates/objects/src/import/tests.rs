@@ -2,9 +2,13 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::*;
+use super::gltf_file::{ImportOptions, read};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Error;
+use burgeon_base::error::Result;
 use burgeon_export::picture::Picture;
 use burgeon_kit::random::Stream;
+use burgeon_scene::{Instance, Mesh, Scene};
 use burgeon_scene::{Material, Part, Texture, image};
 
 /// A box of 2 m by 3 m by 4 m that stands twice, once turned and at half its size, with an image on it.
@@ -67,7 +71,7 @@ fn read_in(folder: &std::path::Path, content: &[u8], triangles: usize) -> Result
         std::fs::read(folder.join(name)).map_err(|error| Error::other(format!("{name}: {error}")))
     };
     let budget = &Budget::default();
-    read(content, &mut Wanted { name: "box.glb", triangles, budget, beside: &mut beside })
+    read(content, &mut ImportOptions { name: "box.glb", triangles, budget, beside: &mut beside })
 }
 
 #[test]
@@ -363,7 +367,7 @@ fn changed_descriptions_neither_panic_nor_take_more_than_they_may() {
         (0..=dice.roll(4)).for_each(|_| mutate(&mut changed, &mut dice));
         let budget = Budget::within(std::time::Duration::from_secs(20), 20_000_000);
         let mut beside = |name: &str| Err(Error::other(format!("there is no {name}")));
-        let mut wanted = Wanted { name: "a", triangles: 2000, budget: &budget, beside: &mut beside };
+        let mut wanted = ImportOptions { name: "a", triangles: 2000, budget: &budget, beside: &mut beside };
         let begin = std::time::Instant::now();
         match read(&glb(&changed.to_string(), body, true), &mut wanted) {
             Ok(scene) => {
@@ -399,7 +403,8 @@ fn many_primitives_over_one_list_of_points_keep_to_the_limits() {
         let budget = Budget::within(std::time::Duration::from_secs_f64(seconds), memory);
         let mut beside = |name: &str| Err(Error::other(name));
         let begin = std::time::Instant::now();
-        let read = read(content, &mut Wanted { name: "a", triangles, budget: &budget, beside: &mut beside });
+        let read =
+            read(content, &mut ImportOptions { name: "a", triangles, budget: &budget, beside: &mut beside });
         assert!(begin.elapsed().as_secs_f64() < seconds + 5.0, "{:?}", begin.elapsed());
         read.map_or_else(|error| error.message().to_owned(), |scene| scene.triangles().to_string())
     };

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use gltf_json::{Accessor, Index};
 
-use super::bytes::Columns;
+use super::bytes::NumberColumns;
 use burgeon_base::error::{Error, Result};
 
 /// Triangles by what their material's colour is multiplied by.
@@ -17,7 +17,7 @@ const MOST: usize = 256;
 
 /// Parts `triangles` by the mean colour of their points, of which there are `count`; one group without `colors`.
 pub(super) fn apart(
-    columns: &mut Columns<'_>,
+    columns: &mut NumberColumns<'_>,
     colors: Option<Index<Accessor>>,
     count: usize,
     triangles: Vec<[u32; 3]>,

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::PlanetOptions;
 use crate::terrain::looks::{blend, image, material, texels};
-use crate::terrain::mask::{Place, Spot};
+use crate::terrain::mask::{GroundPoint, PatchPlace};
 use burgeon_base::error::Result;
 use burgeon_scene::Material;
 use burgeon_terrain::Tile;
@@ -22,7 +22,7 @@ pub(super) fn of(
         let base_color = options.color.0;
         return Ok(Material { name: name.to_owned(), base_color, roughness, ..Material::default() });
     }
-    let relief = Relief::new(globe, tile);
+    let relief = TileRelief::new(globe, tile);
     let plain = [0, 1, 2].map(|at| options.color.0[at]);
     let across = texels(tile, 2);
     let whole = across + 2 * MARGIN;
@@ -35,7 +35,7 @@ pub(super) fn of(
         };
         let mut color = water.tint(water.level - spot.height);
         if let Some(ice) = &options.ice {
-            let spot = Spot { height: water.level, slope: 0.0, ..spot };
+            let spot = GroundPoint { height: water.level, slope: 0.0, ..spot };
             #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]
             let amount = (ice.on.at(&spot, 0) * ice.amount) as f32;
             for (at, into) in color.iter_mut().enumerate() {
@@ -66,7 +66,7 @@ fn texel(globe: &Globe, tile: &Tile) -> f64 {
 }
 
 /// Heights and slopes at all corners of the cells of a tile.
-struct Relief<'a> {
+struct TileRelief<'a> {
     tile: &'a Tile,
     /// The height (m), and how it changes to the east and to the south (m/m).
     corners: Vec<DVec3>,
@@ -76,7 +76,7 @@ struct Relief<'a> {
     cell: f64,
 }
 
-impl<'a> Relief<'a> {
+impl<'a> TileRelief<'a> {
     fn new(globe: &Globe, tile: &'a Tile) -> Self {
         let own = Tile::own(tile.place, tile.detail);
         let (across, cell) = (own.columns + 1, globe.world().cell(tile.level()));
@@ -106,7 +106,7 @@ impl<'a> Relief<'a> {
         globe: &'b Globe,
         (face, tile): (usize, &Tile),
         (column, row, across): (usize, usize, usize),
-    ) -> Spot<'b> {
+    ) -> GroundPoint<'b> {
         let part = DVec2::new(column as f64, row as f64) / (across - 1) as f64;
         let way = within(face, tile, part);
         let along = part * (self.across - 1) as f64;
@@ -122,8 +122,8 @@ impl<'a> Relief<'a> {
             .map(|(right, down)| tile.cell(x + right, y + down))
             .iter()
             .sum();
-        Spot {
-            place: Place::Round(way * globe.radius(), texel(globe, tile)),
+        GroundPoint {
+            place: PatchPlace::Round(way * globe.radius(), texel(globe, tile)),
             height: here.z,
             slope: here.truncate().length().atan().to_degrees(),
             curvature: (around - 4.0 * tile.cell(x, y)) / (self.cell * self.cell),

@@ -7,8 +7,8 @@ use glam::DVec2;
 use super::{TerrainOptions, rules};
 use crate::Elevation;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::rules::Key;
-use burgeon_terrain::{Layer, Measured, Rules, World};
+use burgeon_kit::rules::ModuleKey;
+use burgeon_terrain::{HeightSource, LevelRules, Rules, World};
 
 /// The world that `options` describe. Fails for what cannot be.
 pub(super) fn world(options: &TerrainOptions) -> Result<World> {
@@ -35,7 +35,7 @@ pub(super) fn world(options: &TerrainOptions) -> Result<World> {
     let mut built =
         options.rules.build("terrain", options.start.as_ref(), (options.height, options.decay), fine)?;
     if options.elevation.is_some() {
-        let level = Layer {
+        let level = LevelRules {
             from: 0,
             rules: Rules::None,
             start: 0,
@@ -51,8 +51,8 @@ pub(super) fn world(options: &TerrainOptions) -> Result<World> {
         layers: built.layers,
         smooth: options.smooth,
         remap: remap(&options.remap)?,
-        key: built.drawn.then(Key::default),
-        measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn Measured>),
+        key: built.drawn.then(ModuleKey::default),
+        measured: options.elevation.clone().map(|elevation| Arc::new(elevation) as Arc<dyn HeightSource>),
     })
 }
 

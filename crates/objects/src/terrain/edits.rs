@@ -3,8 +3,8 @@
 use std::sync::{Arc, LazyLock};
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expected, Kind, Object, Parameter, Table, Value};
-use burgeon_kit::{Loaded, Loader, Loading, object};
+use burgeon_kit::{Expectation, Kind, Object, Parameter, Table, Value};
+use burgeon_kit::{LoadRequest, LoadedObject, Loader, object};
 
 /// The text of a file that keeps changes of the ground.
 #[derive(Debug, Clone)]
@@ -33,13 +33,13 @@ impl EditFile {
     }
 }
 
-fn load(file: &mut Loading<'_>, _: &Table) -> Result<Loaded> {
+fn load(file: &mut LoadRequest<'_>, _: &Table) -> Result<LoadedObject> {
     let name = file.name;
     let text = String::from_utf8(file.read("name a .json file")?)
         .map_err(|_| Error::data(format!("{name} is not text, so it holds no edits of a terrain")))?;
     let memory = text.len();
     let object = Arc::new(EditFile { name: name.to_owned(), text: text.into() });
-    Ok(Loaded { object, memory, warnings: Vec::new() })
+    Ok(LoadedObject { object, memory, warnings: Vec::new() })
 }
 
 impl Parameter for EditFile {
@@ -47,7 +47,7 @@ impl Parameter for EditFile {
         "Edits".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         object(value, "edits that were kept: edits(\"ground.json\")").map(|file: Arc<Self>| (*file).clone())
     }
 

@@ -6,15 +6,15 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Expected, Field, Parameter, Table, Value, fields};
+use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Material, Texture};
 use burgeon_terrain::{Ground, Tile};
 
-use super::mask::{Mask, Spot};
+use super::mask::{GroundPoint, Mask};
 
 /// A layer of what lies on the ground.
 #[fields("cover")]
-pub struct Cover {
+pub struct GroundCover {
     /// Its colour.
     #[default(Color([0.2, 0.25, 0.1, 1.0]))]
     pub color: Color,
@@ -25,7 +25,7 @@ pub struct Cover {
     pub amount: f64,
 }
 
-impl Parameter for Cover {
+impl Parameter for GroundCover {
     fn luau() -> String {
         "{ color: Color?, on: Mask?, amount: number? }".into()
     }
@@ -34,12 +34,12 @@ impl Parameter for Cover {
         Self::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
-        let Value::Table(table) = &value else { return Err(Expected::new("a table of a cover's fields")) };
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let Value::Table(table) = &value else { return Err(Expectation::new("a table of a cover's fields")) };
         let cover = Self::from_table(table)
-            .map_err(|error| Expected::new(format!("a cover ({})", error.message())))?;
+            .map_err(|error| Expectation::new(format!("a cover ({})", error.message())))?;
         if !(0.0..=1.0).contains(&cover.amount) {
-            return Err(Expected::new("a cover whose amount is from 0 to 1"));
+            return Err(Expectation::new("a cover whose amount is from 0 to 1"));
         }
         Ok(cover)
     }
@@ -54,7 +54,7 @@ const MOST_TEXELS: usize = 2048;
 
 /// The image of what lies on `tile`, and how many texels a side
 /// of it has. Its outermost texels lie on the tile's rim, so that images of neighbours meet.
-pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover]) -> (Vec<u8>, usize) {
+pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[GroundCover]) -> (Vec<u8>, usize) {
     let (corner, size) = tile.bounds(ground.world());
     // One tile alone is seen as a whole, many of them are far from most eyes.
     let fine = if ground.tiles().len() == 1 { 2 } else { 1 };
@@ -67,7 +67,7 @@ pub(super) fn paint(ground: &Ground, tile: &Tile, covers: &[Cover]) -> (Vec<u8>,
         #[allow(clippy::cast_precision_loss, reason = "texels are few")]
         let offset = DVec2::new(column as f64, (across - 1 - row) as f64) * step;
         let place = (corner + offset).min(corner + size);
-        blend(&Spot::new(ground, place, reach, bent), covers)
+        blend(&GroundPoint::new(ground, place, reach, bent), covers)
     });
     (bytes, across)
 }
@@ -85,7 +85,7 @@ pub(crate) fn image(across: usize, color: impl Fn(usize, usize) -> [f32; 3] + Sy
 }
 
 /// The colour of a spot under `covers`.
-pub(crate) fn blend(spot: &Spot<'_>, covers: &[Cover]) -> [f32; 3] {
+pub(crate) fn blend(spot: &GroundPoint<'_>, covers: &[GroundCover]) -> [f32; 3] {
     let mut color = covers.first().map_or([0.25, 0.25, 0.2], |cover| [0, 1, 2].map(|at| cover.color.0[at]));
     for (number, cover) in (0..).zip(covers).skip(1) {
         #[allow(clippy::cast_possible_truncation, reason = "colours are f32")]

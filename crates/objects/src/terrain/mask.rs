@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expected, Field, Parameter, Table, Value, fields};
+use burgeon_kit::{Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_terrain::{Ground, World, octaves, octaves_around};
 
 /// Where a cover lies or plants grow.
@@ -42,21 +42,23 @@ impl Parameter for Mask {
         Self::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let Value::Table(table) = &value else {
-            return Err(Expected::new(
+            return Err(Expectation::new(
                 "a table of height, slope, curvature, latitude, symbols, noise, patches and scale",
             ));
         };
         let mask = Self::from_table(table)
-            .map_err(|error| Expected::new(format!("a place ({})", error.message())))?;
+            .map_err(|error| Expectation::new(format!("a place ({})", error.message())))?;
         for (name, range) in mask.ranges() {
             if !matches!(range, [] | [_, _]) {
-                return Err(Expected::new(format!("a place whose {name} is a range, such as {{ 30, 45 }}")));
+                return Err(Expectation::new(format!(
+                    "a place whose {name} is a range, such as {{ 30, 45 }}"
+                )));
             }
         }
         if mask.scale <= 0.0 || [mask.noise, mask.patches].iter().any(|part| !(0.0..=1.0).contains(part)) {
-            return Err(Expected::new(
+            return Err(Expectation::new(
                 "a place whose scale is above 0, and whose noise and patches are from 0 to 1",
             ));
         }
@@ -70,7 +72,7 @@ impl Parameter for Mask {
 
 /// A place, as patches know it.
 #[derive(Debug, Clone, Copy)]
-pub(crate) enum Place {
+pub(crate) enum PatchPlace {
     /// On flat ground (m).
     Flat(DVec2),
     /// On a globe (m, from its middle), seen with grains of a size (m).
@@ -78,8 +80,8 @@ pub(crate) enum Place {
 }
 
 /// How the ground is at a place.
-pub(crate) struct Spot<'a> {
-    pub place: Place,
+pub(crate) struct GroundPoint<'a> {
+    pub place: PatchPlace,
     /// m.
     pub height: f64,
     /// degrees.
@@ -92,7 +94,7 @@ pub(crate) struct Spot<'a> {
     pub symbol: Option<&'a str>,
 }
 
-impl<'a> Spot<'a> {
+impl<'a> GroundPoint<'a> {
     /// The ground at `place` (m); its curvature over `reach` (m), if that is wanted.
     pub(super) fn new(ground: &'a Ground, place: DVec2, reach: f64, bent: bool) -> Self {
         let height = ground.height(place).unwrap_or(0.0);
@@ -106,7 +108,7 @@ impl<'a> Spot<'a> {
         };
         let slope = up.z.clamp(-1.0, 1.0).acos().to_degrees();
         let symbol = ground.symbol(place);
-        Self { place: Place::Flat(place), height, slope, curvature, latitude: 0.0, symbol }
+        Self { place: PatchPlace::Flat(place), height, slope, curvature, latitude: 0.0, symbol }
     }
 }
 
@@ -139,7 +141,7 @@ impl Mask {
     }
 
     /// How much (0 to 1) of it there is at a spot; masks with other `seed`s have other patches.
-    pub(crate) fn at(&self, spot: &Spot<'_>, seed: u64) -> f64 {
+    pub(crate) fn at(&self, spot: &GroundPoint<'_>, seed: u64) -> f64 {
         let here = |symbol: &String| spot.symbol == Some(symbol.as_str());
         if !self.symbols.is_empty() && !self.symbols.iter().any(here) {
             return 0.0;
@@ -158,8 +160,10 @@ impl Mask {
         let noisy = self.patches > 0.0 || (self.noise > 0.0 && fades().any(|along| along < 1.0 + self.noise));
         let noise = match spot.place {
             _ if !noisy => 0.0,
-            Place::Flat(place) => octaves(place / self.scale, 4, seed),
-            Place::Round(place, grain) => octaves_around(place / self.scale, 4, seed, grain / self.scale),
+            PatchPlace::Flat(place) => octaves(place / self.scale, 4, seed),
+            PatchPlace::Round(place, grain) => {
+                octaves_around(place / self.scale, 4, seed, grain / self.scale)
+            }
         };
         let patches = 1.0 - self.patches * (1.0 - eased(0.5 + 2.5 * noise));
         patches * fades().map(|along| eased(along + noise * self.noise)).product::<f64>()

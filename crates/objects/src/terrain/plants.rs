@@ -5,11 +5,11 @@ use std::sync::Arc;
 use glam::{DAffine3, DQuat, DVec2, DVec3};
 use rayon::prelude::*;
 
-use super::mask::{Mask, Spot};
+use super::mask::{GroundPoint, Mask};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::random::Stream;
-use burgeon_kit::rules::Key;
-use burgeon_kit::{Drawing, Expected, Field, Model, Parameter, Table, Value, fields};
+use burgeon_kit::rules::ModuleKey;
+use burgeon_kit::{Drawing, Expectation, Field, Model, Parameter, Table, Value, fields};
 use burgeon_terrain::Ground;
 
 /// A kind of model that is scattered over the ground.
@@ -42,20 +42,20 @@ impl Parameter for Plants {
         Self::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let Value::Table(table) = &value else {
-            return Err(Expected::new("a table of the fields of plants"));
+            return Err(Expectation::new("a table of the fields of plants"));
         };
         let plants = Self::from_table(table)
-            .map_err(|error| Expected::new(format!("plants ({})", error.message())))?;
+            .map_err(|error| Expectation::new(format!("plants ({})", error.message())))?;
         if plants.models.is_empty() {
-            return Err(Expected::new("plants with at least one model: { models = { tree:derive() } }"));
+            return Err(Expectation::new("plants with at least one model: { models = { tree:derive() } }"));
         }
         if plants.density <= 0.0 {
-            return Err(Expected::new("plants whose density is above 0"));
+            return Err(Expectation::new("plants whose density is above 0"));
         }
         if !matches!(plants.size.as_slice(), [low, high] if 0.0 < *low && low <= high) {
-            return Err(Expected::new("plants whose size is { least, greatest }, above 0"));
+            return Err(Expectation::new("plants whose size is { least, greatest }, above 0"));
         }
         Ok(plants)
     }
@@ -67,7 +67,7 @@ impl Parameter for Plants {
 
 impl Plants {
     /// Places them on all of `ground`. Which there are depends on the world, the `key` and the place alone.
-    pub(super) fn scatter(&self, ground: &Ground, key: Key, drawing: &mut Drawing) -> Result<()> {
+    pub(super) fn scatter(&self, ground: &Ground, key: ModuleKey, drawing: &mut Drawing) -> Result<()> {
         let world = ground.world();
         // The squares of a level on each of which at most one grows.
         let most = 10_000.0 / self.density;
@@ -118,12 +118,12 @@ impl Plants {
     fn one(
         &self,
         ground: &Ground,
-        key: Key,
+        key: ModuleKey,
         (x, y): (u64, u64),
         (cell, chance): (f64, f64),
         reach: f64,
     ) -> Option<(usize, DAffine3)> {
-        let mut stream: Stream = Key(key.0 ^ (x << 32 | y)).child(0).stream();
+        let mut stream: Stream = ModuleKey(key.0 ^ (x << 32 | y)).child(0).stream();
         let (luck, along) = (stream.uniform(), DVec2::new(stream.uniform(), stream.uniform()));
         if luck >= chance {
             return None;
@@ -131,7 +131,7 @@ impl Plants {
         let place = ground.world().corner + (DVec2::new(x as f64, y as f64) + along) * cell;
         // They stand on what one sees of the ground.
         let shown = ground.shown(place)?;
-        let spot = Spot::new(ground, place, reach, self.on.is_bent());
+        let spot = GroundPoint::new(ground, place, reach, self.on.is_bent());
         if luck >= chance * self.on.at(&spot, key.0) {
             return None;
         }

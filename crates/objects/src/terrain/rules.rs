@@ -5,8 +5,8 @@ use std::sync::Arc;
 use burgeon_base::error::{did_you_mean, nearest};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::Symbol;
-use burgeon_kit::{Expected, Key, Parameter, System, Table, Value};
-use burgeon_terrain::{Draw, Layer, Quadrants, RuleTable, Rules};
+use burgeon_kit::{Expectation, Parameter, System, Table, TableKey, Value};
+use burgeon_terrain::{LevelRules, NumberRange, Quadrants, RuleTable, Rules};
 
 /// The rules of a terrain, by level; the first are from level 0.
 #[derive(Debug, Clone, Default)]
@@ -44,7 +44,7 @@ impl Parameter for RuleLayers {
         "any".into()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let list = match &value {
             Value::Table(table) if !table.list().is_empty() => table.list(),
             _ => {
@@ -54,7 +54,7 @@ impl Parameter for RuleLayers {
         };
         let layers = list.into_iter().map(layer).collect::<Result<Vec<_>, _>>()?;
         if layers[0].from != 0 || layers.windows(2).any(|pair| pair[0].from >= pair[1].from) {
-            return Err(Expected::new(
+            return Err(Expectation::new(
                 "a list of rules from level 0 on and then from higher levels, in order",
             ));
         }
@@ -66,58 +66,61 @@ impl Parameter for RuleLayers {
     }
 }
 
-fn layer(value: Value) -> Result<RuleLayer, Expected> {
-    let Value::Table(table) = &value else { return Err(Expected::new(WHAT)) };
+fn layer(value: Value) -> Result<RuleLayer, Expectation> {
+    let Value::Table(table) = &value else { return Err(Expectation::new(WHAT)) };
     let known = ["from", "rules", "start", "height", "decay"];
     for (key, _) in &table.entries {
-        if !matches!(key, Key::Name(name) if known.contains(&&**name)) {
-            return Err(Expected::new("a list of tables with from, rules, start, height and decay"));
+        if !matches!(key, TableKey::Name(name) if known.contains(&&**name)) {
+            return Err(Expectation::new("a list of tables with from, rules, start, height and decay"));
         }
     }
     let number = |name: &str| match table.get(name) {
         None => Ok(None),
         Some(value) => f64::from_value(value.clone())
             .map(Some)
-            .map_err(|_| Expected::new(format!("a list whose {name}s are numbers"))),
+            .map_err(|_| Expectation::new(format!("a list whose {name}s are numbers"))),
     };
     let from = table.get("from").map_or(Ok(0), |from| u32::from_value(from.clone()));
     let start = table.get("start").map(|start| String::from_value(start.clone())).transpose();
     Ok(RuleLayer {
-        from: from.map_err(|_| Expected::new("a list where each from is a level: a whole number from 0"))?,
+        from: from
+            .map_err(|_| Expectation::new("a list where each from is a level: a whole number from 0"))?,
         rules: LayerRules::from_value(table.get("rules").cloned().unwrap_or(Value::Nil))?,
-        start: start.map_err(|_| Expected::new("a list where each start is the name of a symbol"))?,
+        start: start.map_err(|_| Expectation::new("a list where each start is the name of a symbol"))?,
         height: number("height")?.unwrap_or(0.0),
         decay: number("decay")?,
     })
 }
 
 impl LayerRules {
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Object(object) => {
                 let any: Arc<dyn std::any::Any + Send + Sync> = object;
-                any.downcast().map(Self::System).map_err(|_| Expected::new(WHAT))
+                any.downcast().map(Self::System).map_err(|_| Expectation::new(WHAT))
             }
             Value::Table(table) => Ok(Self::Table(Arc::new(rule_table(&table)?))),
-            _ => Err(Expected::new(WHAT)),
+            _ => Err(Expectation::new(WHAT)),
         }
     }
 }
 
 /// Reads a rule table.
-fn rule_table(table: &Table) -> Result<RuleTable, Expected> {
+fn rule_table(table: &Table) -> Result<RuleTable, Expectation> {
     let mut names = Vec::new();
     for (key, _) in &table.entries {
-        let Key::Name(name) = key else { return Err(Expected::new(WHAT)) };
+        let TableKey::Name(name) = key else { return Err(Expectation::new(WHAT)) };
         names.push(name.to_string());
     }
     if names.is_empty() || names.len() > usize::from(Symbol::MAX) {
-        return Err(Expected::new(WHAT));
+        return Err(Expectation::new(WHAT));
     }
     let mut rules = Vec::new();
     for ((_, value), name) in table.entries.iter().zip(&names) {
         let Value::Table(rule) = value else {
-            return Err(Expected::new(format!("a table whose rule for {name} is a table of four symbols")));
+            return Err(Expectation::new(format!(
+                "a table whose rule for {name} is a table of four symbols"
+            )));
         };
         // A list of tables is a choice of rules.
         let choice = rule.list();
@@ -137,18 +140,18 @@ fn rule_table(table: &Table) -> Result<RuleTable, Expected> {
 }
 
 /// Reads one rule of the symbol `name`.
-fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Expected> {
+fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Expectation> {
     let list = rule.list();
     let count = list.len();
     let four: [Value; 4] = list.try_into().map_err(|_| {
-        Expected::new(format!(
+        Expectation::new(format!(
             "a table whose rule for {name} has four symbols, one for each quadrant; it has {count}"
         ))
     })?;
     let mut symbols = [0; 4];
     for (into, value) in symbols.iter_mut().zip(four) {
         let Value::Text(text) = &value else {
-            return Err(Expected::new(format!(
+            return Err(Expectation::new(format!(
                 "a table whose rule for {name} has names of symbols, not {value}"
             )));
         };
@@ -156,29 +159,29 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
         *into = found.ok_or_else(|| {
             let near = nearest(text, names.iter().map(String::as_str));
             let near = near.map(|near| format!(" ({})", did_you_mean(near))).unwrap_or_default();
-            Expected::new(format!(
+            Expectation::new(format!(
                 "a table with a rule for each symbol: the rule for {name} has {text}, which has none{near}"
             ))
         })?;
     }
     for (key, _) in &rule.entries {
-        if let Key::Name(field) = key
+        if let TableKey::Name(field) = key
             && !["change", "decay", "weight"].contains(&&**field)
         {
-            return Err(Expected::new(format!(
+            return Err(Expectation::new(format!(
                 "a table whose rules have change, decay and weight; the rule for {name} has {field}"
             )));
         }
     }
-    let draws = |field: &str, default: f64| -> Result<[Draw; 4], Expected> {
+    let draws = |field: &str, default: f64| -> Result<[NumberRange; 4], Expectation> {
         let wrong = || {
-            Expected::new(format!(
+            Expectation::new(format!(
                 "a table whose rule for {name} has {field} as a number, or one or a range {{ least, greatest }} for each quadrant"
             ))
         };
         match rule.get(field) {
-            None => Ok([Draw::exactly(default); 4]),
-            Some(Value::Number(number)) if number.is_finite() => Ok([Draw::exactly(*number); 4]),
+            None => Ok([NumberRange::exactly(default); 4]),
+            Some(Value::Number(number)) if number.is_finite() => Ok([NumberRange::exactly(*number); 4]),
             Some(Value::Table(table)) => {
                 let draws =
                     table.list().into_iter().map(draw).collect::<Option<Vec<_>>>().ok_or_else(wrong)?;
@@ -190,8 +193,9 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
     let weight = rule.get("weight").map_or(Ok(1.0), |weight| f64::from_value(weight.clone()));
     let weight = weight.ok().filter(|weight| *weight > 0.0);
     Ok(Quadrants {
-        weight: weight
-            .ok_or_else(|| Expected::new(format!("a table whose rules for {name} have weights above 0")))?,
+        weight: weight.ok_or_else(|| {
+            Expectation::new(format!("a table whose rules for {name} have weights above 0"))
+        })?,
         symbols,
         change: draws("change", 0.0)?,
         decay: draws("decay", 0.5)?,
@@ -199,11 +203,11 @@ fn quadrants(rule: &Table, name: &str, names: &[String]) -> Result<Quadrants, Ex
 }
 
 /// A finite number, or a range of them.
-fn draw(value: Value) -> Option<Draw> {
+fn draw(value: Value) -> Option<NumberRange> {
     match value {
-        Value::Number(number) => number.is_finite().then(|| Draw::exactly(number)),
+        Value::Number(number) => number.is_finite().then(|| NumberRange::exactly(number)),
         Value::Table(_) => match Vec::<f64>::from_value(value).ok()?.as_slice() {
-            [low, high] if low <= high => Some(Draw { low: *low, high: *high }),
+            [low, high] if low <= high => Some(NumberRange { low: *low, high: *high }),
             _ => None,
         },
         _ => None,
@@ -211,8 +215,8 @@ fn draw(value: Value) -> Option<Draw> {
 }
 
 /// The rules of a world.
-pub(crate) struct Built {
-    pub layers: Vec<Layer>,
+pub(crate) struct WorldRules {
+    pub layers: Vec<LevelRules>,
     /// Whether they draw random numbers.
     pub drawn: bool,
 }
@@ -226,13 +230,13 @@ impl RuleLayers {
         start: Option<&String>,
         (height, mut decay): (f64, f64),
         finer: u32,
-    ) -> Result<Built, burgeon_base::error::Error> {
+    ) -> Result<WorldRules, burgeon_base::error::Error> {
         let mut given = self.0.clone();
         if let Some(first) = given.first_mut() {
             first.start = first.start.take().or_else(|| start.cloned());
             first.height += height;
         }
-        let mut built = Built { layers: Vec::new(), drawn: false };
+        let mut built = WorldRules { layers: Vec::new(), drawn: false };
         for mut layer in given {
             decay = layer.decay.unwrap_or(decay);
             layer.from += finer;
@@ -265,7 +269,7 @@ pub(crate) fn none(kind: &str) -> burgeon_base::error::Error {
 
 impl RuleLayer {
     /// The rules as the world has them, where cells get the decay `decay` (m) unless these rules give another.
-    fn build(&self, kind: &str, decay: f64) -> Result<Layer, burgeon_base::error::Error> {
+    fn build(&self, kind: &str, decay: f64) -> Result<LevelRules, burgeon_base::error::Error> {
         let rest = vec![self.decay.unwrap_or(decay)];
         let (rules, start, rest) = match &self.rules {
             LayerRules::Table(table) => {
@@ -287,7 +291,7 @@ impl RuleLayer {
             LayerRules::Table(table) => Arc::new(table.names.clone()),
             LayerRules::System(_) => Arc::default(),
         };
-        Ok(Layer { from: self.from, rules, start, height: self.height, rest, names })
+        Ok(LevelRules { from: self.from, rules, start, height: self.height, rest, names })
     }
 
     /// The greatest factor by which a decay grows where it does not shrink.

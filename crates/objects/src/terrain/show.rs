@@ -5,9 +5,9 @@ use glam::{DAffine3, DVec3};
 use super::{Terrain, looks, sides};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::Drawing;
-use burgeon_kit::rules::Key;
+use burgeon_kit::rules::ModuleKey;
 use burgeon_scene::{Instance, Material, Mesh, Part, Scene};
-use burgeon_terrain::Mesh as Triangulation;
+use burgeon_terrain::GroundMesh;
 
 impl Terrain {
     /// Adds what is expanded to `scene`: a mesh for each tile, sides, water and rivers, and plants.
@@ -18,7 +18,7 @@ impl Terrain {
                 "give it levels, or focus on a place: this:focus(x, y, view) in an interpretation rule",
             ));
         }
-        let mesh = Triangulation::new(ground, self.error());
+        let mesh = GroundMesh::new(ground, self.error());
         let lift = DVec3::Z * self.options.position.0.z;
         let masks = self.options.covers.iter().map(|cover| &cover.on);
         for mask in masks.chain(self.options.plants.iter().map(|plants| &plants.on)) {
@@ -58,7 +58,7 @@ impl Terrain {
                 placement: None,
             });
         }
-        let mut drawing = Drawing::default();
+        let mut drawing = Drawing::at(lift);
         if let Some(base) = self.options.base {
             let material =
                 Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
@@ -77,10 +77,10 @@ impl Terrain {
             river.draw(drawing.part(part));
         }
         for (number, plants) in (1u64..).zip(&self.options.plants) {
-            let key = Key(self.key.0.wrapping_add(number)).child(0);
+            let key = ModuleKey(self.key.0.wrapping_add(number)).child(0);
             plants.scatter(ground, key, &mut drawing)?;
         }
-        drawing.show(scene, lift, name, feature);
+        drawing.show(scene, name, feature);
         Ok(())
     }
 

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use glam::{DVec2, DVec3, Vec2};
 
 use burgeon_base::error::Result;
-use burgeon_kit::{Color, Expected, Field, Parameter, Table, Value, fields};
+use burgeon_kit::{Color, Expectation, Field, Parameter, Table, Value, fields};
 use burgeon_scene::{Normal, Part};
 use burgeon_terrain::{Ground, Tile};
 
@@ -35,15 +35,15 @@ impl Parameter for Water {
         Self::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = "a level (m), or { level = 0, color = \"#0b3b4b\", shallow = \"#4b8b8b\", clarity = 8 }";
         match value {
             Value::Number(level) if level.is_finite() => Ok(Self { level, ..Self::default() }),
             Value::Table(table) => {
                 let water = Self::from_table(&table);
-                water.ok().filter(|water| water.clarity > 0.0).ok_or_else(|| Expected::new(what))
+                water.ok().filter(|water| water.clarity > 0.0).ok_or_else(|| Expectation::new(what))
             }
-            _ => Err(Expected::new(what)),
+            _ => Err(Expectation::new(what)),
         }
     }
 

@@ -5,7 +5,7 @@
 
 /// What a symbol becomes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Rule {
+pub(super) struct SymbolRule {
     /// The symbol of each quadrant.
     pub symbols: [usize; 4],
     /// What is added to the height, as a multiple of the decay.
@@ -18,14 +18,14 @@ pub(super) struct Rule {
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Code {
     /// What each symbol becomes.
-    pub rules: Vec<Rule>,
+    pub rules: Vec<SymbolRule>,
     /// The height of the whole.
     pub height: f64,
 }
 
 /// The cells of one level.
 #[derive(Debug, Clone, Default)]
-pub(super) struct Level {
+pub(super) struct CellLevel {
     pub symbols: Vec<usize>,
     pub heights: Vec<f64>,
     pub decays: Vec<f64>,
@@ -33,13 +33,13 @@ pub(super) struct Level {
 
 impl Code {
     /// The cells of levels 0 to `levels`.
-    pub(super) fn cells(&self, levels: usize) -> Vec<Level> {
-        let root = Level { symbols: vec![0], heights: vec![self.height], decays: vec![1.0] };
+    pub(super) fn cells(&self, levels: usize) -> Vec<CellLevel> {
+        let root = CellLevel { symbols: vec![0], heights: vec![self.height], decays: vec![1.0] };
         let mut all = vec![root];
         for level in 0..levels {
             let above = &all[level];
             let count = above.symbols.len() * 4;
-            let mut made = Level {
+            let mut made = CellLevel {
                 symbols: Vec::with_capacity(count),
                 heights: Vec::with_capacity(count),
                 decays: Vec::with_capacity(count),
@@ -136,15 +136,17 @@ impl Code {
             next += 1;
         }
         let place = |symbol: usize| order.iter().position(|known| *known == symbol).unwrap_or(0);
-        let rule =
-            |symbol: &usize| Rule { symbols: self.rules[*symbol].symbols.map(place), ..self.rules[*symbol] };
+        let rule = |symbol: &usize| SymbolRule {
+            symbols: self.rules[*symbol].symbols.map(place),
+            ..self.rules[*symbol]
+        };
         Self { rules: order.iter().map(rule).collect(), height: self.height }
     }
 
     /// The same with numbers of six decimals, which are shorter to write.
     pub(super) fn rounded(&self) -> Self {
         let round = |number: f64| (number * 1e6).round() / 1e6;
-        let rule = |rule: &Rule| Rule {
+        let rule = |rule: &SymbolRule| SymbolRule {
             symbols: rule.symbols,
             change: rule.change.map(round),
             factor: rule.factor.map(round),

@@ -1,6 +1,6 @@
 //! Changes of which symbols a rule table has: another symbol for a quadrant, two symbols out of one, one out of two.
 
-use super::code::{Code, Level};
+use super::code::{CellLevel, Code};
 use super::solve::{MOST, dot, improve, misfit};
 use super::targets::{self, number};
 use burgeon_kit::random::Stream;
@@ -17,7 +17,7 @@ pub(super) struct Problem {
 
 /// What a quadrant of a rule may become.
 #[derive(Debug, Clone, Copy)]
-struct Choice {
+struct QuadrantChoice {
     symbol: usize,
     change: f64,
     factor: f64,
@@ -26,7 +26,7 @@ struct Choice {
 }
 
 /// A quadrant of the rule of a symbol.
-type Place = (usize, usize);
+type QuadrantPlace = (usize, usize);
 
 impl Problem {
     /// The problem of a map along the Z curve with 4 to the power of `levels` cells.
@@ -59,7 +59,7 @@ impl Problem {
     /// that are not in use.
     ///
     /// What a symbol itself makes is taken to stay as it is.
-    fn survey(&self, code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Vec<Choice>> {
+    fn survey(&self, code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Vec<QuadrantChoice>> {
         let cells = code.cells(self.levels);
         let reliefs = code.reliefs(self.levels - 1);
         let mut sums = vec![Sums::none(code.rules.len()); code.rules.len() * 4];
@@ -95,7 +95,7 @@ impl Problem {
     /// Gives a quadrant of a rule another symbol, one that seems good.
     pub(super) fn turn(&self, code: &mut Code, stream: &mut Stream) {
         let survey = self.survey(code, |_| true);
-        let mut turns: Vec<(f64, Place, Choice)> = Vec::new();
+        let mut turns: Vec<(f64, QuadrantPlace, QuadrantChoice)> = Vec::new();
         for (place, choices) in survey.iter().enumerate() {
             let place = (place / 4, place % 4);
             let now = code.rules[place.0].symbols[place.1];
@@ -143,7 +143,7 @@ impl Problem {
             return;
         }
         let missing = self.missing(code);
-        let weight = |place: &Place| missing[place.0 * 4 + place.1];
+        let weight = |place: &QuadrantPlace| missing[place.0 * 4 + place.1];
         let whole: f64 = several.iter().map(weight).sum();
         let mut left = stream.uniform() * whole;
         let found = several.iter().find(|place| {
@@ -180,7 +180,7 @@ impl Problem {
 
     /// What is missing (squared) below each quadrant of each rule, summed over the levels.
     fn missing(&self, code: &Code) -> Vec<f64> {
-        let cells: Vec<Level> = code.cells(self.levels);
+        let cells: Vec<CellLevel> = code.cells(self.levels);
         let heights = &cells[self.levels].heights;
         let mut below: Vec<f64> = heights.iter().zip(&self.wanted).map(|(a, b)| (a - b).powi(2)).collect();
         let mut missing = vec![0.0; code.rules.len() * 4];
@@ -211,7 +211,7 @@ impl Sums {
     }
 
     /// What the quadrant would best become with each symbol.
-    fn choices(&self) -> Vec<Choice> {
+    fn choices(&self) -> Vec<QuadrantChoice> {
         let (cover, height) = (self.cover, self.height);
         if cover <= 1e-12 {
             return Vec::new();
@@ -226,7 +226,7 @@ impl Sums {
             let change = (height - mixed * factor) / cover;
             let explained = 2.0 * (change * height + factor * along)
                 - (change * change * cover + 2.0 * change * factor * mixed + factor * factor * square);
-            Choice { symbol, change, factor, gain: explained }
+            QuadrantChoice { symbol, change, factor, gain: explained }
         };
         self.by.iter().enumerate().map(choice).collect()
     }
@@ -241,7 +241,7 @@ fn rank(count: usize, less: f64, stream: &mut Stream) -> usize {
     rank
 }
 
-fn set(code: &mut Code, (symbol, quadrant): Place, choice: Choice) {
+fn set(code: &mut Code, (symbol, quadrant): QuadrantPlace, choice: QuadrantChoice) {
     let rule = &mut code.rules[symbol];
     rule.symbols[quadrant] = choice.symbol;
     rule.change[quadrant] = choice.change;
@@ -254,7 +254,7 @@ fn used(code: &Code) -> Vec<usize> {
 }
 
 /// The quadrants of rules in use that become a symbol which `wanted` takes.
-fn places(code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<Place> {
+fn places(code: &Code, wanted: impl Fn(usize) -> bool) -> Vec<QuadrantPlace> {
     let all = used(code).into_iter().flat_map(|symbol| (0..4).map(move |quadrant| (symbol, quadrant)));
     all.filter(|(symbol, quadrant)| wanted(code.rules[*symbol].symbols[*quadrant])).collect()
 }

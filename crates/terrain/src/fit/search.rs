@@ -7,9 +7,9 @@
 
 use rayon::prelude::*;
 
-use super::code::{Code, Rule, along};
-use super::fitted::Fitted;
+use super::code::{Code, SymbolRule, along};
 use super::moves::Problem;
+use super::result::FitResult;
 use super::targets::{Target, number};
 use burgeon_kit::random::Stream;
 
@@ -47,7 +47,7 @@ impl Default for Search {
 }
 
 /// A table on its way.
-struct Chain {
+struct SearchState {
     code: Code,
     error: f64,
     best: Code,
@@ -65,17 +65,17 @@ impl Search {
         &self,
         target: &Target,
         stop: &(dyn Fn() -> bool + Sync),
-        tell: &mut (dyn FnMut(&Fitted) + Send),
-    ) -> Fitted {
+        tell: &mut (dyn FnMut(&FitResult) + Send),
+    ) -> FitResult {
         let (low, high) = target.range();
-        let blank = Rule { symbols: [0; 4], change: [0.0; 4], factor: [0.5; 4] };
+        let blank = SymbolRule { symbols: [0; 4], change: [0.0; 4], factor: [0.5; 4] };
         let begin = Code { rules: vec![blank], height: 0.5 };
         if low >= high {
-            return Fitted::new(Code { height: 0.0, ..begin }, target);
+            return FitResult::new(Code { height: 0.0, ..begin }, target);
         }
         let fine = problem(target, target.across());
         let coarse = problem(target, target.across().min(COARSE));
-        let chain = |count| Chain {
+        let chain = |count| SearchState {
             code: begin.clone(),
             error: f64::INFINITY,
             best: begin.clone(),
@@ -83,8 +83,8 @@ impl Search {
             stream: Stream::new(self.seed.wrapping_mul(CHAINS).wrapping_add(count)),
             tried: 0,
         };
-        let mut chains: Vec<Chain> = (0..CHAINS).map(chain).collect();
-        let mut best = Fitted::new(begin.clone(), target);
+        let mut chains: Vec<SearchState> = (0..CHAINS).map(chain).collect();
+        let mut best = FitResult::new(begin.clone(), target);
         let (mut least, mut since) = (f64::INFINITY, 0);
         for round in 0..self.rounds {
             let boldness = 0.04 * (1.0 - number(round % CYCLE) / number(CYCLE)).powi(2);
@@ -100,7 +100,7 @@ impl Search {
                 if coarse.levels < fine.levels && !stop() {
                     fine.improve(&mut code, 6);
                 }
-                let found = Fitted::new(code, target);
+                let found = FitResult::new(code, target);
                 if found.error() < best.error() {
                     best = found;
                 }
@@ -124,7 +124,7 @@ impl Search {
     }
 }
 
-impl Chain {
+impl SearchState {
     /// Some changes; those that make the error greater by up to `boldness` (a part of it) are kept too.
     fn round(&mut self, problem: &Problem, symbols: usize, boldness: f64, stop: &(dyn Fn() -> bool + Sync)) {
         for _ in 0..CHANGES {

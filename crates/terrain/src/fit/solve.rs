@@ -5,14 +5,14 @@
 
 use smallvec::SmallVec;
 
-use super::code::{Code, Level};
+use super::code::{CellLevel, Code};
 use super::targets::number;
 
 /// The greatest factor of a decay: below 1, so that heights converge however deep the cells are.
 pub(super) const MOST: f64 = 0.95;
 
 /// The mean of the squared difference between a map and `target`.
-pub(super) fn misfit(cells: &[Level], target: &[f64]) -> f64 {
+pub(super) fn misfit(cells: &[CellLevel], target: &[f64]) -> f64 {
     let heights = &cells[cells.len() - 1].heights;
     let squares: f64 = heights.iter().zip(target).map(|(height, wanted)| (height - wanted).powi(2)).sum();
     squares / number(target.len())
@@ -66,9 +66,9 @@ struct Equations {
 }
 
 /// What the equations are gathered from.
-struct Known<'a> {
+struct EquationSource<'a> {
     code: &'a Code,
-    cells: &'a [Level],
+    cells: &'a [CellLevel],
     reliefs: &'a [Vec<f64>],
     /// The sum of each relief and of its squares.
     sums: &'a [Vec<(f64, f64)>],
@@ -78,7 +78,7 @@ struct Known<'a> {
 
 /// A quadrant on the path to a cell.
 #[derive(Clone, Copy)]
-struct Above {
+struct PathQuadrant {
     /// The number that its change is; its factor is the next one.
     change: usize,
     decay: f64,
@@ -87,14 +87,14 @@ struct Above {
     scale: f64,
 }
 
-impl Above {
+impl PathQuadrant {
     fn within(self, change: f64, factor: f64) -> Self {
         Self { base: self.base + self.scale * change, scale: self.scale * factor, ..self }
     }
 }
 
 impl Equations {
-    fn gather(code: &Code, cells: &[Level], target: &[f64], levels: usize) -> Self {
+    fn gather(code: &Code, cells: &[CellLevel], target: &[f64], levels: usize) -> Self {
         let size = 1 + code.rules.len() * 8;
         let mut all = Self { size, matrix: vec![0.0; size * size], right: vec![0.0; size] };
         let heights = &cells[levels].heights;
@@ -107,13 +107,13 @@ impl Equations {
             parts.map(|part| (part.iter().sum(), dot(part, part))).collect()
         };
         let sums: Vec<Vec<(f64, f64)>> = reliefs.iter().enumerate().map(sums).collect();
-        let known = Known { code, cells, reliefs: &reliefs, sums: &sums, missing: &missing };
+        let known = EquationSource { code, cells, reliefs: &reliefs, sums: &sums, missing: &missing };
         all.descend(&known, 0, 0, &[]);
         all
     }
 
     /// Adds what follows from the cells below `cell`; `above` are the quadrants on the path to it.
-    fn descend(&mut self, known: &Known<'_>, level: usize, cell: usize, above: &[Above]) {
+    fn descend(&mut self, known: &EquationSource<'_>, level: usize, cell: usize, above: &[PathQuadrant]) {
         let below = known.cells.len() - level - 2;
         let count = 1 << (2 * below);
         let (symbol, decay) = (known.cells[level].symbols[cell], known.cells[level].decays[cell]);
@@ -130,7 +130,7 @@ impl Equations {
             self.right[factor] += decay * dot(missing, relief);
             self.add(change, 0, decay * number(count));
             self.add(factor, 0, decay * sum);
-            let mut path: SmallVec<[Above; 8]> =
+            let mut path: SmallVec<[PathQuadrant; 8]> =
                 above.iter().map(|one| one.within(rule.change[quadrant], rule.factor[quadrant])).collect();
             for one in &path {
                 let both = decay * one.decay;
@@ -147,7 +147,7 @@ impl Equations {
             self.matrix[factor * self.size + change] += own * sum;
             self.matrix[factor * self.size + factor] += own * square;
             if below > 0 {
-                path.push(Above { change, decay, base: 0.0, scale: 1.0 });
+                path.push(PathQuadrant { change, decay, base: 0.0, scale: 1.0 });
                 self.descend(known, level + 1, child, &path);
             }
         }

@@ -6,7 +6,7 @@ fn search(rounds: usize) -> Search {
     Search { rounds, seed: 3, ..Search::default() }
 }
 
-fn run(search: &Search, target: &Target) -> Fitted {
+fn run(search: &Search, target: &Target) -> FitResult {
     search.run(target, &|| false, &mut |_| {})
 }
 

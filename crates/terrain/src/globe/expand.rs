@@ -4,11 +4,11 @@
 //! What a cell becomes depends on the world and its place alone. Where three faces meet, a cell that would be the
 //! fourth has the mean of the two beside it.
 
-use super::faces::{Spot, cell};
+use super::faces::{CubeCell, cell};
 use crate::block::{Area, Block};
 use crate::world::{Divide, World, smooth};
 use burgeon_base::error::Result;
-use burgeon_kit::rules::Key;
+use burgeon_kit::rules::ModuleKey;
 
 /// An area of each face.
 pub(super) type Areas = [Area; 6];
@@ -39,7 +39,7 @@ pub(super) fn expand(
     }
     needed.reverse();
     let root = |face| Block {
-        keys: world.key.map(|key: Key| key.child(face)).into_iter().collect(),
+        keys: world.key.map(|key: ModuleKey| key.child(face)).into_iter().collect(),
         ..world.root()
     };
     let mut blocks: Vec<Block> = (0..6).map(root).collect();
@@ -90,7 +90,7 @@ fn divided(
 /// The numbers of the cells of `area`, which may lie beyond the sides of `face`.
 pub(super) fn padded(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -> &[f64]) -> Vec<f64> {
     let across = World::across(blocks[face].level);
-    let known = |(face, x, y): Spot| {
+    let known = |(face, x, y): CubeCell| {
         let (face, x, y) = cell((face, x, y), across)?;
         of(&blocks[face]).get(blocks[face].area.index(x, y)).copied()
     };
@@ -117,7 +117,7 @@ pub(super) fn padded(blocks: &[Block], face: usize, area: Area, of: fn(&Block) -
 }
 
 /// The number of a cell that may lie beyond one side of its face, or beyond two.
-fn number((face, x, y): Spot, across: i64, known: &dyn Fn(Spot) -> Option<f64>) -> f64 {
+fn number((face, x, y): CubeCell, across: i64, known: &dyn Fn(CubeCell) -> Option<f64>) -> f64 {
     let within = |at: i64| at.clamp(0, across - 1);
     if within(x) != x && within(y) != y {
         let beside = [(face, within(x), y), (face, x, within(y))].map(|spot| known(spot).unwrap_or(0.0));

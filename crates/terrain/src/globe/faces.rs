@@ -1,15 +1,15 @@
 //! The six faces of a cube, and which side of each meets which side of another.
 
 /// A face: which way its columns, its rows (backwards) and its outside go, and what lies beyond its sides.
-pub(super) struct Face {
+pub(super) struct CubeFace {
     /// East, north and out.
     pub axes: [[i8; 3]; 3],
     /// Beyond its west, east, north and south.
-    beyond: [Beyond; 4],
+    beyond: [FaceSide; 4],
 }
 
 /// The side of another face that a side meets.
-struct Beyond {
+struct FaceSide {
     face: usize,
     side: usize,
     /// Whether columns or rows count the other way along it.
@@ -21,47 +21,47 @@ const EAST: usize = 1;
 const NORTH: usize = 2;
 const SOUTH: usize = 3;
 
-const fn same(face: usize, side: usize) -> Beyond {
-    Beyond { face, side, reversed: false }
+const fn same(face: usize, side: usize) -> FaceSide {
+    FaceSide { face, side, reversed: false }
 }
 
-const fn reversed(face: usize, side: usize) -> Beyond {
-    Beyond { face, side, reversed: true }
+const fn reversed(face: usize, side: usize) -> FaceSide {
+    FaceSide { face, side, reversed: true }
 }
 
 /// The faces: four around, the north pole's and the south pole's.
-pub(super) static FACES: [Face; 6] = [
-    Face {
+pub(super) static FACES: [CubeFace; 6] = [
+    CubeFace {
         axes: [[0, 1, 0], [0, 0, 1], [1, 0, 0]],
         beyond: [same(3, EAST), same(1, WEST), same(4, SOUTH), same(5, NORTH)],
     },
-    Face {
+    CubeFace {
         axes: [[-1, 0, 0], [0, 0, 1], [0, 1, 0]],
         beyond: [same(0, EAST), same(2, WEST), reversed(4, EAST), same(5, EAST)],
     },
-    Face {
+    CubeFace {
         axes: [[0, -1, 0], [0, 0, 1], [-1, 0, 0]],
         beyond: [same(1, EAST), same(3, WEST), reversed(4, NORTH), reversed(5, SOUTH)],
     },
-    Face {
+    CubeFace {
         axes: [[1, 0, 0], [0, 0, 1], [0, -1, 0]],
         beyond: [same(2, EAST), same(0, WEST), same(4, WEST), reversed(5, WEST)],
     },
-    Face {
+    CubeFace {
         axes: [[0, 1, 0], [-1, 0, 0], [0, 0, 1]],
         beyond: [same(3, NORTH), reversed(1, NORTH), reversed(2, NORTH), same(0, NORTH)],
     },
-    Face {
+    CubeFace {
         axes: [[0, 1, 0], [1, 0, 0], [0, 0, -1]],
         beyond: [reversed(3, SOUTH), same(1, SOUTH), same(0, SOUTH), reversed(2, SOUTH)],
     },
 ];
 
 /// A cell or a corner of cells: the face, the column from its west and the row from its north.
-pub(super) type Spot = (usize, i64, i64);
+pub(super) type CubeCell = (usize, i64, i64);
 
 /// The cell that a cell of a face with `across` cells a side is, where it may lie beyond one side; `None` beyond two.
-pub(super) fn cell((face, x, y): Spot, across: i64) -> Option<Spot> {
+pub(super) fn cell((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     let last = across - 1;
     let outside = |at: i64| if at < 0 { -1 - at } else { at - across };
     match (side(x, last, WEST), side(y, last, NORTH)) {
@@ -74,7 +74,7 @@ pub(super) fn cell((face, x, y): Spot, across: i64) -> Option<Spot> {
 
 /// The corner that a corner of cells of a face with `across` cells a side is, where it may lie beyond one side; `None`
 /// beyond two.
-pub(super) fn corner((face, x, y): Spot, across: i64) -> Option<Spot> {
+pub(super) fn corner((face, x, y): CubeCell, across: i64) -> Option<CubeCell> {
     let outside = |at: i64| if at < 0 { -at } else { at - across };
     match (side(x, across, WEST), side(y, across, NORTH)) {
         (None, None) => Some((face, x, y)),
@@ -85,7 +85,7 @@ pub(super) fn corner((face, x, y): Spot, across: i64) -> Option<Spot> {
 }
 
 /// All that a corner of cells is: itself, and on the rim of its face what the faces beyond call it.
-pub(super) fn aliases((face, x, y): Spot, across: i64) -> impl Iterator<Item = Spot> {
+pub(super) fn aliases((face, x, y): CubeCell, across: i64) -> impl Iterator<Item = CubeCell> {
     let on = |at: i64, low: usize| match at {
         0 => Some(low),
         _ if at == across => Some(low + 1),
@@ -102,8 +102,8 @@ fn side(at: i64, last: i64, low: usize) -> Option<usize> {
 }
 
 /// What lies beyond a side, so far from it and so far along it.
-fn beyond(face: usize, side: usize, (depth, along): (i64, i64), last: i64) -> Spot {
-    let Beyond { face, side, reversed } = FACES[face].beyond[side];
+fn beyond(face: usize, side: usize, (depth, along): (i64, i64), last: i64) -> CubeCell {
+    let FaceSide { face, side, reversed } = FACES[face].beyond[side];
     let along = if reversed { last - along } else { along };
     match side {
         WEST => (face, depth, along),
@@ -122,7 +122,7 @@ mod tests {
 
     const ACROSS: i64 = 16;
 
-    fn point((face, x, y): Spot, half: f64) -> DVec3 {
+    fn point((face, x, y): CubeCell, half: f64) -> DVec3 {
         let at = |at: i64| (at as f64 + half) * 2.0 / ACROSS as f64 - 1.0;
         direction(face, DVec2::new(at(x), -at(y)))
     }
@@ -132,11 +132,11 @@ mod tests {
         for face in 0..6 {
             for at in 0..=ACROSS {
                 for spot in [(face, 0, at), (face, ACROSS, at), (face, at, 0), (face, at, ACROSS)] {
-                    let known: Vec<Spot> = aliases(spot, ACROSS).collect();
+                    let known: Vec<CubeCell> = aliases(spot, ACROSS).collect();
                     assert_eq!(known.len(), if at % ACROSS == 0 { 3 } else { 2 });
                     for alias in &known {
                         assert!(point(*alias, 0.0).distance(point(spot, 0.0)) < 1e-12, "{spot:?} {alias:?}");
-                        let mut back: Vec<Spot> = aliases(*alias, ACROSS).collect();
+                        let mut back: Vec<CubeCell> = aliases(*alias, ACROSS).collect();
                         let mut there = known.clone();
                         back.sort_unstable();
                         there.sort_unstable();

@@ -12,7 +12,7 @@ use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
 use super::expand::{Areas, NONE, expand, padded};
-use super::faces::{Spot, aliases, corner};
+use super::faces::{CubeCell, aliases, corner};
 use super::leaves::{DEEPEST, DETAIL, Leaf, Sight, Tree};
 use super::sphere::{direction, place, side};
 use crate::block::{Area, Block};
@@ -161,7 +161,7 @@ impl Globe {
 
     /// The number of the tile that holds one of the smallest cells.
     #[inline]
-    pub(super) fn holder(&self, cell: Spot) -> Option<usize> {
+    pub(super) fn holder(&self, cell: CubeCell) -> Option<usize> {
         self.tree.holder(cell, self.finest)
     }
 
@@ -172,7 +172,7 @@ impl Globe {
     }
 
     /// Of the tiles that touch a corner the one with the largest cells, and what its face calls the corner.
-    pub(super) fn coarsest(&self, (face, x, y): Spot) -> Option<(&Tile, Spot)> {
+    pub(super) fn coarsest(&self, (face, x, y): CubeCell) -> Option<(&Tile, CubeCell)> {
         let across = World::across(self.finest);
         if (0..across).contains(&x) && (0..across).contains(&y) {
             let tile = self.tile(self.holder((face, x, y))?).1;
@@ -181,7 +181,7 @@ impl Globe {
                 return Some((tile, (face, x, y)));
             }
         }
-        let mut best: Option<(usize, Spot)> = None;
+        let mut best: Option<(usize, CubeCell)> = None;
         for (face, x, y) in aliases((face, x, y), across) {
             for (x_cell, y_cell) in [(x - 1, y - 1), (x, y - 1), (x - 1, y), (x, y)] {
                 if !(0..across).contains(&x_cell) || !(0..across).contains(&y_cell) {
@@ -198,7 +198,7 @@ impl Globe {
     }
 
     /// The height (m) of the ground at a corner of the smallest cells.
-    pub(super) fn corner(&self, spot: Spot) -> f64 {
+    pub(super) fn corner(&self, spot: CubeCell) -> f64 {
         let Some((tile, (face, x, y))) = self.coarsest(spot) else { return 0.0 };
         let shift = self.finest - tile.level();
         let mask = (1i64 << shift) - 1;
@@ -211,7 +211,7 @@ impl Globe {
     }
 
     /// The height (m) of the ground within a cell of `tile`, at `part` of the way to the east and to the south.
-    fn between(&self, tile: &Tile, (face, x, y): Spot, part: DVec2) -> f64 {
+    fn between(&self, tile: &Tile, (face, x, y): CubeCell, part: DVec2) -> f64 {
         let shift = self.finest - tile.level();
         let at = |right: i64, down: i64| self.corner((face, (x + right) << shift, (y + down) << shift));
         let (east, south) = (part.x, part.y);
@@ -244,7 +244,7 @@ impl Globe {
     }
 
     /// The tile in a direction, the cell of it, and how far (0 to 1) to the east and to the south in that cell.
-    fn find(&self, direction: DVec3) -> Option<(&Tile, Spot, DVec2)> {
+    fn find(&self, direction: DVec3) -> Option<(&Tile, CubeCell, DVec2)> {
         let (face, x, y) = spot(direction, self.finest).0;
         let (_, tile) = self.tile(self.holder((face, x, y))?);
         let (cell, part) = spot(direction, tile.level());
@@ -265,7 +265,7 @@ impl Globe {
 
     /// The direction (a unit vector) of a corner of the smallest cells, by its name on the first face that has it.
     #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
-    pub(super) fn direction(&self, spot: Spot) -> DVec3 {
+    pub(super) fn direction(&self, spot: CubeCell) -> DVec3 {
         let across = World::across(self.finest);
         let (face, x, y) = aliases(spot, across).min().unwrap_or(spot);
         let at = |at: i64| at as f64 * 2.0 / across as f64 - 1.0;
@@ -273,12 +273,12 @@ impl Globe {
     }
 
     /// Where the ground or the water is (m) at a corner of the smallest cells.
-    pub(super) fn point(&self, spot: Spot) -> DVec3 {
+    pub(super) fn point(&self, spot: CubeCell) -> DVec3 {
         self.direction(spot) * (self.radius + self.shown(self.corner(spot)))
     }
 
     /// The way up (a unit vector) from the ground or the water at a corner of the smallest cells.
-    pub(super) fn normal(&self, spot: Spot) -> DVec3 {
+    pub(super) fn normal(&self, spot: CubeCell) -> DVec3 {
         let Some((tile, (face, x, y))) = self.coarsest(spot) else { return self.direction(spot) };
         let across = World::across(self.finest);
         let step = 1i64 << (self.finest - tile.level());
@@ -301,7 +301,7 @@ pub fn within(face: usize, tile: &Tile, part: DVec2) -> DVec3 {
 
 /// The cell of `level` in a direction, and how far (0 to 1) to the east and to the south in it.
 #[allow(clippy::cast_precision_loss, clippy::cast_possible_truncation, reason = "columns are below 2^31")]
-fn spot(way: DVec3, level: u32) -> (Spot, DVec2) {
+fn spot(way: DVec3, level: u32) -> (CubeCell, DVec2) {
     let (face, at) = place(way);
     let across = World::across(level);
     let along = DVec2::new(at.x + 1.0, 1.0 - at.y) / 2.0 * across as f64;

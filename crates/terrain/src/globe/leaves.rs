@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::sphere::{direction, side};
-use crate::tile::Place;
+use crate::tile::TilePlace;
 use crate::view::MOST_HEIGHTS;
 use crate::world::World;
 use burgeon_base::error::{Error, Limit, Result};
@@ -27,7 +27,7 @@ pub(super) struct Sight {
 }
 
 /// A tile and its face.
-pub(super) type Leaf = (usize, Place);
+pub(super) type Leaf = (usize, TilePlace);
 
 /// What a cell of a face is: divided further, or a tile.
 #[derive(Debug, Clone, Copy)]
@@ -52,14 +52,14 @@ impl Tree {
     pub(super) fn new(radius: f64, sight: &Sight) -> Result<Self> {
         let mut tree = Self::default();
         for face in 0..6 {
-            let root = tree.grow(radius, sight, (face, Place { level: 0, y: 0, x: 0 }))?;
+            let root = tree.grow(radius, sight, (face, TilePlace { level: 0, y: 0, x: 0 }))?;
             tree.roots.push(root);
         }
         Ok(tree)
     }
 
     fn grow(&mut self, radius: f64, sight: &Sight, leaf: Leaf) -> Result<Link> {
-        let (face, Place { level, y, x }) = leaf;
+        let (face, TilePlace { level, y, x }) = leaf;
         let size = side(radius) / 2f64.powi(level.cast_signed());
         let may = level + DETAIL < sight.levels.min(DEEPEST);
         if !may || distance(radius, sight, leaf) >= sight.closeness * size {
@@ -77,7 +77,7 @@ impl Tree {
         self.divided.push([Link::Divided(index); 4]);
         for quadrant in 0..4usize {
             let (right, down) = (i64::from(quadrant % 2 == 1), i64::from(quadrant > 1));
-            let place = Place { level: level + 1, y: 2 * y + down, x: 2 * x + right };
+            let place = TilePlace { level: level + 1, y: 2 * y + down, x: 2 * x + right };
             self.divided[index][quadrant] = self.grow(radius, sight, (face, place))?;
         }
         Ok(Link::Divided(index))
@@ -111,7 +111,7 @@ fn distance(radius: f64, sight: &Sight, leaf: Leaf) -> f64 {
 
 /// The direction of the middle of a tile on the unit sphere, and how far from it its corners are at most.
 #[allow(clippy::cast_precision_loss, reason = "columns and rows are below 2^53")]
-pub(super) fn ball((face, Place { level, y, x }): Leaf) -> (DVec3, f64) {
+pub(super) fn ball((face, TilePlace { level, y, x }): Leaf) -> (DVec3, f64) {
     let across = World::across(level) as f64;
     let at = |right: f64, down: f64| {
         direction(

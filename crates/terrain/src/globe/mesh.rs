@@ -10,10 +10,10 @@ use glam::{DVec3, Vec2};
 use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::faces::{Spot, aliases};
+use super::faces::{CubeCell, aliases};
 use super::globe::Globe;
 use super::leaves::ball;
-use crate::mesh::{Corner, Grid, Triangle, corners, diamond, roots};
+use crate::mesh::{GridCorner, HeightGrid, RightTriangle, corners, diamond, roots};
 use crate::tile::Tile;
 use crate::world::World;
 use burgeon_scene::Part;
@@ -22,7 +22,7 @@ use burgeon_scene::Part;
 pub struct GlobeMesh<'a> {
     globe: &'a Globe,
     /// One for each tile.
-    grids: Vec<Grid>,
+    grids: Vec<HeightGrid>,
     /// The corners where triangles are halved, by their names on the first face that has them.
     halved: FxHashSet<u64>,
     /// How far triangles may be from the ground, in sizes of the cells there.
@@ -67,20 +67,20 @@ impl<'a> GlobeMesh<'a> {
     }
 
     /// The name of a corner on the first face that has it, as one number.
-    fn key(&self, spot: Spot) -> u64 {
+    fn key(&self, spot: CubeCell) -> u64 {
         let (face, x, y) = aliases(spot, World::across(self.globe.finest())).min().unwrap_or(spot);
         (face as u64) << 60 | x.cast_unsigned() << 30 | y.cast_unsigned()
     }
 
     /// Where a triangle of a face has to be halved, if it has.
-    fn want(&self, face: usize, triangle: &Triangle) -> Option<Spot> {
+    fn want(&self, face: usize, triangle: &RightTriangle) -> Option<CubeCell> {
         let middle = triangle.middle()?;
         // A point within it, in thirds, tells whose it is.
         let [x, y] = [0, 1].map(|axis| (middle[axis] * 2 + triangle.apex[axis]).div_euclid(3));
         let holder = self.globe.holder((face, x, y))?;
         let (tile, grid) = (self.globe.tile(holder).1, &self.grids[holder]);
         let [low, .., high] = corners(tile.place, self.globe.finest());
-        let inside = |corner: Corner| (0..2).all(|axis| (low[axis]..=high[axis]).contains(&corner[axis]));
+        let inside = |corner: GridCorner| (0..2).all(|axis| (low[axis]..=high[axis]).contains(&corner[axis]));
         // What is larger than a tile is divided anyway; what is as small as its cells lies on its surface.
         if ![triangle.a, triangle.b, triangle.apex].into_iter().all(inside)
             || middle.iter().any(|at| at & ((1 << grid.shift) - 1) != 0)
@@ -97,7 +97,7 @@ impl<'a> GlobeMesh<'a> {
     }
 
     /// Halves the triangles at a corner; adds to `wanted` where others have to be halved for it, or because of it.
-    fn halve(&mut self, spot: Spot, wanted: &mut Vec<Spot>) {
+    fn halve(&mut self, spot: CubeCell, wanted: &mut Vec<CubeCell>) {
         if !self.halved.insert(self.key(spot)) {
             return;
         }
@@ -109,7 +109,7 @@ impl<'a> GlobeMesh<'a> {
                     continue;
                 }
                 wanted.push((face, apex[0], apex[1]));
-                let triangle = Triangle { a: ends[0], b: ends[1], apex };
+                let triangle = RightTriangle { a: ends[0], b: ends[1], apex };
                 for half in triangle.halves([x, y]) {
                     wanted.extend(self.want(face, &half));
                 }
@@ -132,10 +132,10 @@ impl<'a> GlobeMesh<'a> {
             corners(tile.place, globe.finest()).map(|[x, y]| globe.direction((face, x, y)) * globe.radius());
         let eye = eye.filter(|eye| !rim.iter().all(|corner| globe.is_above_horizon(*eye, *corner)));
         let mut pieces = Pieces { origin, ..Pieces::default() };
-        let mut known: [FxHashMap<Corner, u32>; 2] = Default::default();
-        let mut open: Vec<Triangle> = roots(tile.place, globe.finest()).into_iter().rev().collect();
+        let mut known: [FxHashMap<GridCorner, u32>; 2] = Default::default();
+        let mut open: Vec<RightTriangle> = roots(tile.place, globe.finest()).into_iter().rev().collect();
         while let Some(triangle) = open.pop() {
-            let halved = |middle: &Corner| self.halved.contains(&self.key((face, middle[0], middle[1])));
+            let halved = |middle: &GridCorner| self.halved.contains(&self.key((face, middle[0], middle[1])));
             if let Some(middle) = triangle.middle().filter(halved) {
                 open.extend(triangle.halves(middle).into_iter().rev());
                 continue;
@@ -146,7 +146,7 @@ impl<'a> GlobeMesh<'a> {
             if eye.is_some_and(|eye| !seen(eye)) {
                 continue;
             }
-            let wet = |[x, y]: Corner| globe.sea().is_some_and(|sea| globe.corner((face, x, y)) <= sea);
+            let wet = |[x, y]: GridCorner| globe.sea().is_some_and(|sea| globe.corner((face, x, y)) <= sea);
             let (part, known) = match corners.into_iter().all(wet) {
                 true => (&mut pieces.water, &mut known[1]),
                 false => (&mut pieces.land, &mut known[0]),
@@ -168,7 +168,7 @@ impl<'a> GlobeMesh<'a> {
     fn add(
         &self,
         tile: &Tile,
-        (face, [x, y]): (usize, Corner),
+        (face, [x, y]): (usize, GridCorner),
         (origin, begin): (DVec3, f64),
         part: &mut Part,
     ) -> u32 {
@@ -191,7 +191,7 @@ impl<'a> GlobeMesh<'a> {
 const STRETCH: f64 = 2.0;
 
 /// The heights that are seen at all corners of the cells of a tile.
-fn grid(globe: &Globe, face: usize, tile: &Tile) -> Grid {
+fn grid(globe: &Globe, face: usize, tile: &Tile) -> HeightGrid {
     let shift = globe.finest() - tile.level();
     let own = Tile::own(tile.place, tile.detail);
     let across = own.columns + 1;
@@ -203,7 +203,7 @@ fn grid(globe: &Globe, face: usize, tile: &Tile) -> Grid {
             heights.push(globe.shown(height));
         }
     }
-    Grid { heights, across, first: [own.x << shift, own.y << shift], shift }
+    HeightGrid { heights, across, first: [own.x << shift, own.y << shift], shift }
 }
 
 /// The distance (m) of the points of a tile's grid: all that are nearer than four times its size are whole multiples of

@@ -7,7 +7,7 @@ use std::f64::consts::{FRAC_PI_2, PI, SQRT_2};
 
 use glam::{DVec2, DVec3};
 
-use super::faces::{FACES, Face};
+use super::faces::{CubeFace, FACES};
 
 /// The direction (a unit vector) of a place on a face: from -1 to 1 to the east and to the north.
 pub(super) fn direction(face: usize, place: DVec2) -> DVec3 {
@@ -26,7 +26,7 @@ pub(super) fn direction(face: usize, place: DVec2) -> DVec3 {
 /// The face that a direction goes through, and the place on it: from -1 to 1 to the east and to the north.
 pub(super) fn place(direction: DVec3) -> (usize, DVec2) {
     let along = direction.normalize_or(DVec3::X);
-    let height = |face: &Face| axes(face)[2].dot(along);
+    let height = |face: &CubeFace| axes(face)[2].dot(along);
     let face = (1..FACES.len())
         .fold(0, |best, face| if height(&FACES[face]) > height(&FACES[best]) { face } else { best });
     let [east, north, out] = axes(&FACES[face]);
@@ -69,7 +69,7 @@ fn straighten(along: f64, across: f64) -> DVec2 {
     DVec2::new(1.0, turn * 12.0 / PI) * length.copysign(along)
 }
 
-fn axes(face: &Face) -> [DVec3; 3] {
+fn axes(face: &CubeFace) -> [DVec3; 3] {
     face.axes.map(|axis| DVec3::from(axis.map(f64::from)))
 }
 

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 
 use super::leaves::DETAIL;
 use super::*;
-use crate::{Draw, Layer, Quadrants, RuleTable, Rules, Tables, Tile, World};
+use crate::{LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, Tile, World};
 use burgeon_kit::random::Stream;
-use burgeon_kit::rules::{Key, Symbol};
+use burgeon_kit::rules::{ModuleKey, Symbol};
 
 const RADIUS: f64 = 50_000.0;
 
@@ -18,8 +18,8 @@ fn world(seed: u64, smooth: bool) -> World {
     let rule = |symbol: Symbol, reach: f64, decay: f64| Quadrants {
         weight: 1.0,
         symbols: [symbol; 4],
-        change: [Draw { low: -reach, high: reach }; 4],
-        decay: [Draw { low: decay - 0.05, high: decay + 0.05 }; 4],
+        change: [NumberRange { low: -reach, high: reach }; 4],
+        decay: [NumberRange { low: decay - 0.05, high: decay + 0.05 }; 4],
     };
     let table = RuleTable {
         names: ["A", "B"].map(str::to_owned).to_vec(),
@@ -28,7 +28,7 @@ fn world(seed: u64, smooth: bool) -> World {
     World {
         corner: DVec2::ZERO,
         size: 1.0,
-        layers: vec![Layer {
+        layers: vec![LevelRules {
             from: 0,
             rules: Rules::Table(Arc::new(table)),
             start: 0,
@@ -37,7 +37,7 @@ fn world(seed: u64, smooth: bool) -> World {
             names: Arc::default(),
         }],
         smooth,
-        key: Some(Key::seed(seed)),
+        key: Some(ModuleKey::seed(seed)),
         remap: Vec::new(),
         measured: None,
     }

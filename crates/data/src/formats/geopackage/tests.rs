@@ -2,9 +2,12 @@
 
 use rusqlite::Connection;
 
-use super::*;
-use crate::{Geometry, Layer, Source, Wanted};
+use crate::{Geometry, Layer, Source, SourceOptions};
+use burgeon_base::budget::Budget;
 use burgeon_kit::random::Stream;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Duration;
 
 /// A blob of a GeoPackage of a type, with a number of items, and points.
 fn blob(kind: u32, count: Option<u32>, points: &[[f64; 2]]) -> Vec<u8> {
@@ -45,7 +48,7 @@ fn arcs_are_within_a_centimetre_in_metres_and_in_degrees() {
     for (crs, middle, radius) in [(3067, [385_423.0, 6_671_463.0], 40.0), (4326, [24.9, 60.1], 4e-4)] {
         let path = folder.path().join(format!("{crs}.gpkg"));
         package(&path, crs, middle, radius);
-        let table = Source::open(&path, "a").unwrap().read("a", &Wanted::default()).unwrap();
+        let table = Source::open(&path, "a").unwrap().read("a", &SourceOptions::default()).unwrap();
         assert_eq!((table.features.len(), table.refused.len()), (5, 0));
         let Geometry::Line(points) = &table.features[0].geometry else { panic!("a line") };
         let step = if crs == 3067 { 1.0 } else { 111_320.0 };
@@ -83,7 +86,8 @@ fn changed_bytes_neither_panic_nor_take_long() {
         }
         std::fs::write(&path, changed).unwrap();
         let budget = Budget::within(Duration::from_secs(20), 100_000_000);
-        let wanted = Wanted { budget, condition: Some("height > 0".into()), ..Wanted::default() };
+        let wanted =
+            SourceOptions { budget, condition: Some("height > 0".into()), ..SourceOptions::default() };
         let begin = std::time::Instant::now();
         let read = Source::open_within(&path, "a", &wanted)
             .and_then(|source| source.read("a", &wanted))

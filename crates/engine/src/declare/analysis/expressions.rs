@@ -9,7 +9,7 @@ use full_moon::node::Node;
 use full_moon::tokenizer::TokenReference;
 
 use super::syntax::{end_of, instead_of, string_of, text_of};
-use super::walk::{Role, Walk};
+use super::walk::{FunctionRole, Walk};
 use burgeon_base::error::Error;
 use burgeon_kit::rules::Signature;
 
@@ -30,7 +30,7 @@ impl Walk<'_> {
             | Expression::UnaryOperator { expression, .. }
             | Expression::TypeAssertion { expression, .. } => self.expression(expression),
             Expression::Function(function) => {
-                self.function(function.body(), Role::Other, false);
+                self.function(function.body(), FunctionRole::Other, false);
             }
             Expression::FunctionCall(call) => self.call(call),
             Expression::IfExpression(branches) => self.if_expression(branches),
@@ -178,8 +178,8 @@ impl Walk<'_> {
         for suffix in suffixes {
             match suffix {
                 Suffix::Call(Call::MethodCall(method)) => match text_of(method.name()).as_str() {
-                    "rule" => self.rule(method.args(), Role::Rule),
-                    "interpret" => self.rule(method.args(), Role::Interpretation),
+                    "rule" => self.rule(method.args(), FunctionRole::Rule),
+                    "interpret" => self.rule(method.args(), FunctionRole::Interpretation),
                     "axiom" => {
                         self.axiom = true;
                         self.suffix(suffix);

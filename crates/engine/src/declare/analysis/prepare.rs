@@ -7,7 +7,7 @@ use full_moon::tokenizer::{StringLiteralQuoteType, TokenReference, TokenType};
 use std::sync::atomic::Ordering;
 
 use super::syntax::{end_of, first_position, is_open, string_of, text_of};
-use super::walk::{Fact, Function, Role, Variable, Walk};
+use super::walk::{Fact, Function, FunctionRole, Variable, Walk};
 
 /// The most parameters that a prepared return can have.
 const MOST_EMITTED: usize = 64;
@@ -17,12 +17,12 @@ const SHAPE: usize = 1 << 30;
 
 /// What a return makes, as far as its text tells: symbols and brackets, and where the parameters stand.
 #[derive(Default)]
-struct Shape {
+struct ReturnPattern {
     items: Vec<String>,
-    arguments: Vec<Argument>,
+    arguments: Vec<ReturnArgument>,
 }
 
-enum Argument {
+enum ReturnArgument {
     /// From one place to another; open if it may have any number of values, of which one is taken.
     At(usize, usize, bool),
     /// Left out, before this place.
@@ -31,35 +31,35 @@ enum Argument {
 
 impl Walk<'_> {
     /// Walks the arguments of `:rule` or `:interpret`; the functions among them have a role.
-    pub(super) fn rule(&mut self, arguments: &FunctionArgs, role: Role) {
+    pub(super) fn rule(&mut self, arguments: &FunctionArgs, role: FunctionRole) {
         let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.arguments(arguments) };
         let last = arguments.len().saturating_sub(1);
         let outer = self.rule.take();
         if let Some(Expression::String(text)) = arguments.iter().next() {
             let pattern = string_of(text).filter(|pattern| !pattern.is_empty());
             self.rule = pattern.map(|pattern| match role {
-                Role::Interpretation => format!("{pattern} (interpretation)"),
+                FunctionRole::Interpretation => format!("{pattern} (interpretation)"),
                 _ => pattern,
             });
         }
         for (index, argument) in arguments.iter().enumerate() {
             match argument {
                 Expression::Function(function) if index == last && index > 0 => {
-                    if role == Role::Rule {
+                    if role == FunctionRole::Rule {
                         self.prepared(argument, function.body(), role);
                     } else {
                         self.function(function.body(), role, false);
                     }
                 }
-                Expression::String(text) if role == Role::Rule && index == last && index > 0 => {
+                Expression::String(text) if role == FunctionRole::Rule && index == last && index > 0 => {
                     self.mark_line(text);
                 }
-                Expression::TableConstructor(table) if role == Role::Rule => {
+                Expression::TableConstructor(table) if role == FunctionRole::Rule => {
                     for field in table.fields() {
                         match field {
                             Field::NameKey { key, value, .. } => match &**value {
                                 Expression::Function(function) if text_of(key) == "when" => {
-                                    self.prepared(value, function.body(), Role::Guard);
+                                    self.prepared(value, function.body(), FunctionRole::Guard);
                                 }
                                 value => self.expression(value),
                             },
@@ -85,11 +85,11 @@ impl Walk<'_> {
             _ => false,
         };
         let line = begin.line() + usize::from(left_out);
-        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::marked(line)));
+        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::script::marked(line)));
     }
 
     /// Walks a function of a rule, and lets the script say that it has been seen.
-    fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: Role) {
+    fn prepared(&mut self, value: &Expression, body: &FunctionBody, role: FunctionRole) {
         if let (Some(begin), Some(end)) = (value.start_position(), end_of(value)) {
             self.edit(begin.bytes(), begin.bytes(), "__prepared(".to_owned());
             let shapes = self.function(body, role, false);
@@ -99,17 +99,27 @@ impl Walk<'_> {
     }
 
     /// Walks a function, which has a `self` if it `is_method`; gives the shapes of its returns.
-    pub(super) fn function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Vec<String> {
+    pub(super) fn function(
+        &mut self,
+        body: &FunctionBody,
+        role: FunctionRole,
+        is_method: bool,
+    ) -> Vec<String> {
         self.walk_function(body, role, is_method).shapes
     }
 
     /// Walks a function; gives what was learned of it.
-    pub(super) fn walk_function(&mut self, body: &FunctionBody, role: Role, is_method: bool) -> Function {
+    pub(super) fn walk_function(
+        &mut self,
+        body: &FunctionBody,
+        role: FunctionRole,
+        is_method: bool,
+    ) -> Function {
         let is_axiom = std::mem::take(&mut self.axiom);
         let outside = self.variables.len();
         let start = first_position(body.block(), body.end_token());
         let mut parameters = body.parameters().iter();
-        let rule = if role == Role::Other { None } else { self.rule.clone() };
+        let rule = if role == FunctionRole::Other { None } else { self.rule.clone() };
         self.functions.push(Function::new(role, rule));
         if is_method {
             let id = self.facts.variables.len();
@@ -153,21 +163,21 @@ impl Walk<'_> {
     }
 
     pub(super) fn returns(&mut self, token: &TokenReference, values: &Punctuated<Expression>) {
-        let role = self.functions.last().map_or(Role::Script, |function| function.role);
-        if role == Role::Interpretation && values.iter().any(|value| self.makes_modules(value)) {
+        let role = self.functions.last().map_or(FunctionRole::Script, |function| function.role);
+        if role == FunctionRole::Interpretation && values.iter().any(|value| self.makes_modules(value)) {
             let line = token.start_position().map(|position| position.line());
             if let Some(function) = self.functions.last_mut() {
                 function.loses = function.loses.or(line);
             }
         }
-        if role != Role::Rule {
+        if role != FunctionRole::Rule {
             return self.expressions(values);
         }
         self.expressions(values);
         let (Some(begin), Some(end)) = (token.end_position(), values.iter().last().and_then(end_of)) else {
             return;
         };
-        let mut shape = Shape::default();
+        let mut shape = ReturnPattern::default();
         if values.iter().all(|value| self.shape(value, &mut shape)) && shape.arguments.len() <= MOST_EMITTED {
             self.emit(begin.bytes(), end.bytes(), values, &shape);
         } else if values.len() == 1
@@ -200,17 +210,17 @@ impl Walk<'_> {
     }
 
     /// Writes `return A(x), { B(y) }` as one call with the shape's number and the parameters in order.
-    fn emit(&mut self, begin: usize, end: usize, values: &Punctuated<Expression>, shape: &Shape) {
+    fn emit(&mut self, begin: usize, end: usize, values: &Punctuated<Expression>, shape: &ReturnPattern) {
         let number = self.globals.shapes.fetch_add(1, Ordering::Relaxed);
         self.edit(begin, begin, format!(" __emit{}({}", shape.arguments.len(), SHAPE + number));
         self.blank_items(values);
         for argument in &shape.arguments {
             match argument {
-                Argument::At(from, to, open) => {
+                ReturnArgument::At(from, to, open) => {
                     self.edit(*from, *from, if *open { ", (" } else { ", " }.to_owned());
                     self.edit(*to, *to, if *open { ")" } else { "" }.to_owned());
                 }
-                Argument::Missing(at) => self.edit(*at, *at, ", nil".to_owned()),
+                ReturnArgument::Missing(at) => self.edit(*at, *at, ", nil".to_owned()),
             }
         }
         self.edit(end, end, ")".to_owned());
@@ -220,7 +230,7 @@ impl Walk<'_> {
     }
 
     /// Adds what `value` makes to `shape`; `false` if that cannot be seen from its text.
-    fn shape(&self, value: &Expression, shape: &mut Shape) -> bool {
+    fn shape(&self, value: &Expression, shape: &mut ReturnPattern) -> bool {
         match value {
             Expression::FunctionCall(call) => {
                 let suffixes: Vec<&Suffix> = call.suffixes().collect();
@@ -251,9 +261,11 @@ impl Walk<'_> {
                     let (Some(from), Some(to)) = (argument.start_position(), end_of(argument)) else {
                         return false;
                     };
-                    shape.arguments.push(Argument::At(from.bytes(), to.bytes(), open));
+                    shape.arguments.push(ReturnArgument::At(from.bytes(), to.bytes(), open));
                 }
-                shape.arguments.extend((given..signature.arity()).map(|_| Argument::Missing(close.bytes())));
+                shape
+                    .arguments
+                    .extend((given..signature.arity()).map(|_| ReturnArgument::Missing(close.bytes())));
                 true
             }
             Expression::TableConstructor(table) => {

@@ -9,7 +9,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::Globals;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
-use burgeon_base::error::{Error, Place};
+use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::rules::Signature;
 
 /// What the first walk learned about the variables, in the order of their declaration.
@@ -27,7 +27,7 @@ pub(super) struct Fact {
 }
 
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Role {
+pub(super) enum FunctionRole {
     Script,
     Rule,
     Guard,
@@ -36,7 +36,7 @@ pub(super) enum Role {
 }
 
 pub(super) struct Function {
-    pub(super) role: Role,
+    pub(super) role: FunctionRole,
     /// The rule that it belongs to, as errors name it.
     pub(super) rule: Option<String>,
     /// What its prepared returns make, as Lua tables.
@@ -50,7 +50,7 @@ pub(super) struct Function {
 }
 
 impl Function {
-    pub(super) fn new(role: Role, rule: Option<String>) -> Self {
+    pub(super) fn new(role: FunctionRole, rule: Option<String>) -> Self {
         Self { role, rule, shapes: Vec::new(), pure: true, asks: false, loses: None }
     }
 }
@@ -68,7 +68,7 @@ pub(super) struct Variable {
     pub(super) receiver: bool,
 }
 
-pub(super) struct Edit {
+pub(super) struct TextEdit {
     pub(super) begin: usize,
     pub(super) end: usize,
     pub(super) text: String,
@@ -82,7 +82,7 @@ pub(super) struct Walk<'a> {
     pub(super) facts: Facts,
     pub(super) functions: Vec<Function>,
     pub(super) variables: Vec<Variable>,
-    pub(super) edits: Vec<Edit>,
+    pub(super) edits: Vec<TextEdit>,
     pub(super) problems: Vec<Error>,
     pub(super) random: bool,
     /// The rule whose functions are being walked.
@@ -97,6 +97,8 @@ pub(super) struct Walk<'a> {
     pub(super) lost: BTreeMap<usize, usize>,
     /// Where the parameters of functions begin.
     pub(super) begins: Vec<usize>,
+    /// The names that will go, and their lines.
+    pub(super) deprecated: Vec<(String, usize)>,
 }
 
 impl<'a> Walk<'a> {
@@ -106,7 +108,7 @@ impl<'a> Walk<'a> {
             globals,
             known,
             facts: Facts::default(),
-            functions: vec![Function { pure: false, ..Function::new(Role::Script, None) }],
+            functions: vec![Function { pure: false, ..Function::new(FunctionRole::Script, None) }],
             variables: Vec::new(),
             edits: Vec::new(),
             problems: Vec::new(),
@@ -117,6 +119,7 @@ impl<'a> Walk<'a> {
             blind: BTreeMap::new(),
             lost: BTreeMap::new(),
             begins: Vec::new(),
+            deprecated: Vec::new(),
         }
     }
 
@@ -169,7 +172,11 @@ impl<'a> Walk<'a> {
                         self.read(first.value());
                     }
                 }
-                self.function(declaration.body(), Role::Other, declaration.name().method_name().is_some());
+                self.function(
+                    declaration.body(),
+                    FunctionRole::Other,
+                    declaration.name().method_name().is_some(),
+                );
             }
             Stmt::LocalFunction(function) => self.local_function(function.name(), function.body(), statement),
             Stmt::ConstFunction(function) => self.local_function(function.name(), function.body(), statement),
@@ -224,7 +231,7 @@ impl<'a> Walk<'a> {
 
     pub(super) fn local_function(&mut self, name: &TokenReference, body: &FunctionBody, statement: &Stmt) {
         let id = self.declare(name, end_of(statement).map(|end| end.bytes()));
-        self.facts.variables[id].pure = self.walk_function(body, Role::Other, false).pure;
+        self.facts.variables[id].pure = self.walk_function(body, FunctionRole::Other, false).pure;
     }
 
     pub(super) fn local(
@@ -298,10 +305,9 @@ impl<'a> Walk<'a> {
     pub(super) fn assign_name(&mut self, token: &TokenReference, statement: &Stmt) {
         let name = text_of(token);
         let here = self.functions.len() - 1;
-        let rule = self
-            .functions
-            .iter()
-            .rposition(|function| matches!(function.role, Role::Rule | Role::Guard | Role::Interpretation));
+        let rule = self.functions.iter().rposition(|function| {
+            matches!(function.role, FunctionRole::Rule | FunctionRole::Guard | FunctionRole::Interpretation)
+        });
         let found = self.find(&name).map(|variable| (variable.id, variable.function));
         let Some((id, owner)) = found else {
             if self.globals.names.contains(&name) {
@@ -323,12 +329,12 @@ impl<'a> Walk<'a> {
         if let Some(rule) = rule {
             if owner < rule {
                 let what = match self.functions[rule].role {
-                    Role::Guard => "a guard",
-                    Role::Interpretation => "an interpretation rule",
+                    FunctionRole::Guard => "a guard",
+                    FunctionRole::Interpretation => "an interpretation rule",
                     _ => "a rule",
                 };
                 let help = match self.functions[rule].role {
-                    Role::Interpretation => {
+                    FunctionRole::Interpretation => {
                         "it changes only this; keep what must be remembered in a parameter of a module"
                     }
                     _ => {
@@ -361,6 +367,10 @@ impl<'a> Walk<'a> {
             return;
         }
         if self.globals.names.contains(&name) {
+            if self.globals.deprecated.contains_key(&name) {
+                let line = token.start_position().map_or(1, |position| position.line());
+                self.deprecated.push((name, line));
+            }
             return;
         }
         let message = format!("unknown name {name}");
@@ -389,12 +399,12 @@ impl<'a> Walk<'a> {
 
     pub(super) fn edit(&mut self, begin: usize, end: usize, text: String) {
         let order = self.edits.len();
-        self.edits.push(Edit { begin, end, text, order });
+        self.edits.push(TextEdit { begin, end, text, order });
     }
 
     pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
         let line = token.start_position().map_or(1, |position| position.line());
-        let error = error.at(Some(Place { file: self.file.to_owned(), line }));
+        let error = error.at(Some(SourcePlace { file: self.file.to_owned(), line }));
         let rule = self.functions.iter().rev().find_map(|function| function.rule.as_ref());
         self.problems.push(match rule {
             Some(rule) => error.rule(rule),

@@ -1,6 +1,6 @@
 //! The names of Luau itself that scripts keep, and those that they do not.
 
-use super::{Name, Sort};
+use super::{Name, NameKind};
 
 /// Names that would make a script's meaning depend on more than itself, or would slow it down.
 pub(crate) const LOCKED: [&str; 14] = [
@@ -21,7 +21,7 @@ pub(crate) const LOCKED: [&str; 14] = [
 ];
 
 const fn name(name: &'static str, luau: &'static str, doc: &'static str) -> Name {
-    Name::new(name, Sort::Luau, luau, doc)
+    Name::new(name, NameKind::Luau, luau, doc)
 }
 
 /// All of them.

@@ -1,6 +1,6 @@
 //! The names of the standard library, read from its own file: what stands above each in `---` is its doc.
 
-use super::{Name, Sort};
+use super::{Name, NameKind};
 
 /// The text of the standard library.
 const TEXT: &str = include_str!("../../../../../stdlib.lua");
@@ -19,7 +19,7 @@ pub(super) fn names() -> Vec<Name> {
                 Name {
                     luau: luau.into(),
                     doc: doc(&lines[..at]).into(),
-                    ..Name::new(name, Sort::Global, "", "")
+                    ..Name::new(name, NameKind::Global, "", "")
                 }
                 .pure(),
             );
@@ -27,7 +27,7 @@ pub(super) fn names() -> Vec<Name> {
             && is_given(name)
         {
             let doc = doc(&lines[..at]).into();
-            names.push(Name { doc, ..Name::new(name, Sort::Global, "{ ... }", "") }.pure());
+            names.push(Name { doc, ..Name::new(name, NameKind::Global, "{ ... }", "") }.pure());
         }
     }
     names
@@ -80,7 +80,7 @@ fn module(line: &'static str) -> Option<Name> {
     let parameters: Vec<String> = parameters.into_iter().map(typed).collect();
     let luau = format!("({}) -> Module", parameters.join(", "));
     let doc = format!("Calls {kind}:{method} where it is interpreted.");
-    let name = Name::new(name, Sort::Module { kind, method }, "", "");
+    let name = Name::new(name, NameKind::Module { kind, method }, "", "");
     Some(Name { luau: luau.into(), doc: doc.into(), ..name })
 }
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use mlua::Buffer;
 
 use super::InterpretationPass;
-use super::notices::Notice;
+use super::notices::ObjectNotice;
 use crate::machine::{Flusher, Machine, Objects, read_column, returns_modules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
@@ -47,12 +47,12 @@ pub(crate) struct Applier {
     call_at: usize,
     number_at: usize,
     /// What the objects have warned of during the batch.
-    notices: Vec<Notice>,
+    notices: Vec<ObjectNotice>,
 }
 
 /// Where applying has stopped.
 #[derive(PartialEq)]
-enum Reached {
+enum ApplyEnd {
     /// Behind the end of a chain.
     End,
     /// Where it was to stop.
@@ -114,7 +114,7 @@ impl Applier {
     }
 
     /// What the objects have warned of since this was asked last.
-    pub(crate) fn take_notices(&mut self) -> Vec<Notice> {
+    pub(crate) fn take_notices(&mut self) -> Vec<ObjectNotice> {
         std::mem::take(&mut self.notices)
     }
 
@@ -130,7 +130,7 @@ impl Applier {
     #[cold]
     fn note(&mut self, said: Vec<Warning>, call: Option<(usize, usize)>) {
         let module = (self.position, self.param);
-        self.notices.extend(said.into_iter().map(|warning| Notice { warning, module, call }));
+        self.notices.extend(said.into_iter().map(|warning| ObjectNotice { warning, module, call }));
     }
 
     /// Leaves out the chain at hand, whose data is at fault; passes every other error on.
@@ -164,8 +164,8 @@ impl Applier {
             let failed = objects.has_failed(self.chain);
             // One lock for all that is done to an object.
             match objects.write(self.chain, |object| self.apply_to(object, failed, last, until)) {
-                Ok(Reached::Last) => break,
-                Ok(Reached::End) => {
+                Ok(ApplyEnd::Last) => break,
+                Ok(ApplyEnd::End) => {
                     self.count()?;
                     self.chain += 1;
                     self.begun = false;
@@ -188,7 +188,7 @@ impl Applier {
         failed: bool,
         last: usize,
         until: usize,
-    ) -> Result<Reached> {
+    ) -> Result<ApplyEnd> {
         let pass = Arc::clone(&self.pass);
         if !self.begun {
             object.begin();
@@ -197,8 +197,8 @@ impl Applier {
         while self.next <= last
             && let Some((module, _)) = self.entries.get(self.next).copied()
         {
-            if self.symbols(&pass, object, failed, module)? == Reached::End {
-                return Ok(Reached::End);
+            if self.symbols(&pass, object, failed, module)? == ApplyEnd::End {
+                return Ok(ApplyEnd::End);
             }
             let begin = pass.plan.profiled.then(Instant::now);
             let applied = self.calls(&pass, object, failed);
@@ -208,7 +208,7 @@ impl Applier {
             }
             applied?;
             if self.next == last {
-                return Ok(Reached::Last);
+                return Ok(ApplyEnd::Last);
             }
             self.next += 1;
             self.applied = 0;
@@ -224,7 +224,7 @@ impl Applier {
         object: &mut dyn Object,
         failed: bool,
         until: usize,
-    ) -> Result<Reached> {
+    ) -> Result<ApplyEnd> {
         let arities = pass.plan.grammar.arities();
         let methods = &pass.plan.interpretations.methods;
         while self.position < until {
@@ -255,10 +255,10 @@ impl Applier {
             self.position += 1;
             self.param = params.end;
             if symbol == END {
-                return Ok(Reached::End);
+                return Ok(ApplyEnd::End);
             }
         }
-        Ok(Reached::Last)
+        Ok(ApplyEnd::Last)
     }
 
     /// Applies the calls of the entry `next` that have been read.
@@ -317,7 +317,9 @@ impl Applier {
                 }
                 call(object, &values).map(|_| ())
             }
-            _ => Err(Error::internal("this method cannot be recorded")),
+            Some(Call::Read(_) | Call::Script { .. }) | None => {
+                Err(Error::internal("this method cannot be recorded"))
+            }
         }
     }
 
@@ -366,7 +368,7 @@ impl Flusher for Applier {
         let interpretations = &self.pass.plan.interpretations;
         let id = interpretations.by_symbol[usize::from(self.pass.chain.symbols[module.0])];
         if interpretations.list.get(usize::from(id)).is_some_and(|known| !known.loses) {
-            self.notices.push(Notice { warning: returns_modules(), module, call: None });
+            self.notices.push(ObjectNotice { warning: returns_modules(), module, call: None });
         }
     }
 }

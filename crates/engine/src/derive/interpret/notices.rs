@@ -11,7 +11,7 @@ use burgeon_base::warning::Warning;
 use burgeon_kit::rules::Symbol;
 
 /// A warning of an object, and what gave rise to it.
-pub(crate) struct Notice {
+pub(crate) struct ObjectNotice {
     pub warning: Warning,
     /// The place of the module in the chain, and that of its parameters.
     pub module: (usize, usize),
@@ -21,10 +21,10 @@ pub(crate) struct Notice {
 
 /// The warnings of a pass, by the symbol of the module and by text.
 #[derive(Default)]
-pub(super) struct Notices(Mutex<BTreeMap<(Symbol, String), Known>>);
+pub(super) struct Notices(Mutex<BTreeMap<(Symbol, String), WarningRecord>>);
 
 /// What is known of a text.
-struct Known {
+struct WarningRecord {
     /// The first module that gave rise to it, and the warning with its line.
     first: usize,
     warning: Warning,
@@ -44,7 +44,7 @@ impl Notices {
     ) {
         let key = (symbol, warning.message().to_owned());
         let (modules, count) = (usize::from(is_first), warning.count());
-        let again = |known: &mut BTreeMap<_, Known>| match known.get_mut(&key) {
+        let again = |known: &mut BTreeMap<_, WarningRecord>| match known.get_mut(&key) {
             Some(known) if known.first <= module => {
                 known.warning.again(count);
                 known.modules += modules;
@@ -57,7 +57,7 @@ impl Notices {
             return;
         }
         // Without the lock, for the rule runs once more.
-        let mut new = Known { first: module, warning: locate(warning), modules };
+        let mut new = WarningRecord { first: module, warning: locate(warning), modules };
         let mut known = lock();
         if again(&mut known) {
             return;

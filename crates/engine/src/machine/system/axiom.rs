@@ -9,12 +9,12 @@ use crate::machine::convert::to_value;
 use crate::machine::handles::ObjectHandle;
 use crate::results::Remark;
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::rules::{CLOSE, Chain, DEEPEST, END, Key, OPEN, Symbol};
+use burgeon_kit::rules::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 use burgeon_kit::{Object, Prefetch, Value};
 
 use super::lazy::is_feature;
 use super::source::{each_feature, layer_of, refused_of, shown};
-use super::{DeclaredAxiom, System};
+use super::{DeclaredAxiom, SystemDeclaration};
 
 /// The first chains of a system and what belongs to each.
 #[derive(Default)]
@@ -44,9 +44,9 @@ impl Axiom {
     }
 }
 
-impl System {
+impl SystemDeclaration {
     /// In a machine that only helps: runs the function that makes each feature's chain, for what it changes, unless it
-    /// can be seen to change nothing but the random numbers that follow, which [`System::catch_up`] sets right.
+    /// can be seen to change nothing but the random numbers that follow, which [`SystemDeclaration::catch_up`] sets right.
     pub(crate) fn replay_axiom(&self, machine: &Machine) -> Result<()> {
         let is_pure = |function: &Function| {
             let info = function.info();
@@ -55,7 +55,7 @@ impl System {
         };
         match &self.axiom {
             Some(DeclaredAxiom::Source(_, function)) if is_pure(function) => Ok(()),
-            Some(DeclaredAxiom::Source(..)) => self.axiom(machine, Key::default(), false).map(|_| ()),
+            Some(DeclaredAxiom::Source(..)) => self.axiom(machine, ModuleKey::default(), false).map(|_| ()),
             _ => Ok(()),
         }
     }
@@ -71,11 +71,11 @@ impl System {
 
     /// Makes the first chains: one from modules, or one for each feature. What is wrong with them is told where the
     /// axiom was set.
-    pub(crate) fn axiom(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
+    pub(crate) fn axiom(&self, machine: &Machine, key: ModuleKey, random: bool) -> Result<Axiom> {
         self.first_chains(machine, key, random).map_err(|error| error.at(self.axiom_place.clone()))
     }
 
-    fn first_chains(&self, machine: &Machine, key: Key, random: bool) -> Result<Axiom> {
+    fn first_chains(&self, machine: &Machine, key: ModuleKey, random: bool) -> Result<Axiom> {
         let mut axiom = Axiom::default();
         let mut builder = Builder { machine, chain: &mut axiom.chain, random };
         match &self.axiom {
@@ -109,7 +109,7 @@ impl System {
         machine: &Machine,
         source: &LuaValue,
         function: &Function,
-        key: Key,
+        key: ModuleKey,
         random: bool,
         axiom: &mut Axiom,
     ) -> Result<()> {
@@ -189,7 +189,7 @@ impl System {
     }
 }
 
-impl System {
+impl SystemDeclaration {
     /// Has what the system's objects need of many features made by a thread that helps, if there is one.
     fn prefetch(&self, machine: &Machine, source: &AnyUserData) -> Result<Option<PrefetchGuard>> {
         let begin = self.object.as_ref().and_then(|object| object.kind().prefetch);
@@ -224,7 +224,7 @@ fn own_id(feature: &Table) -> mlua::Result<LuaValue> {
 }
 
 /// A copy of `object` for the chain with this key.
-fn prepared(machine: &Machine, object: &dyn Object, key: Key) -> Box<dyn Object> {
+fn prepared(machine: &Machine, object: &dyn Object, key: ModuleKey) -> Box<dyn Object> {
     let mut object = object.boxed();
     object.seed(key.0);
     object.set_detail(machine.session.options.lod);
@@ -239,7 +239,7 @@ struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn push(&mut self, symbol: Symbol, params: &[f64], key: Key) {
+    fn push(&mut self, symbol: Symbol, params: &[f64], key: ModuleKey) {
         self.chain.symbols.push(symbol);
         self.chain.params.extend_from_slice(params);
         if self.random {
@@ -247,12 +247,12 @@ impl Builder<'_> {
         }
     }
 
-    fn list(&mut self, items: &[LuaValue], key: Key) -> Result<()> {
+    fn list(&mut self, items: &[LuaValue], key: ModuleKey) -> Result<()> {
         let mut ordinal = 0;
         self.items(items, key, &mut ordinal, 0)
     }
 
-    fn items(&mut self, items: &[LuaValue], key: Key, ordinal: &mut usize, depth: usize) -> Result<()> {
+    fn items(&mut self, items: &[LuaValue], key: ModuleKey, ordinal: &mut usize, depth: usize) -> Result<()> {
         for item in items {
             let LuaValue::Table(table) = item else {
                 let what = match to_value(item, false) {

@@ -8,15 +8,15 @@ use crate::declare::names::RULE;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
-use burgeon_base::error::{Error, Limit, Place, Result};
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
 use burgeon_kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
 
-use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, System};
+use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
 
-impl System {
+impl SystemDeclaration {
     pub(super) fn set_axiom(&mut self, mut arguments: Vec<LuaValue>) -> Result<()> {
         let is_source =
             matches!(arguments.first(), Some(LuaValue::UserData(data)) if data.is::<SourceHandle>());
@@ -130,8 +130,9 @@ impl System {
                 .help("a module has one interpretation; join the two functions"));
         }
         let machine = library.machine()?;
-        let line = begin_of(&rule)
-            .and_then(|(file, line)| Some(Place { line: machine.session.loses_modules(&file, line)?, file }));
+        let line = begin_of(&rule).and_then(|(file, line)| {
+            Some(SourcePlace { line: machine.session.loses_modules(&file, line)?, file })
+        });
         let loses = line.is_some();
         if loses {
             machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
@@ -211,7 +212,7 @@ fn compile_successor(
     library: &Library,
     pattern: &Pattern,
     body: &str,
-    place: Option<&Place>,
+    place: Option<&SourcePlace>,
 ) -> Result<(Function, bool)> {
     let machine = library.machine()?;
     let (marked, body) = unmarked(body);

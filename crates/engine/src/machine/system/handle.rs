@@ -11,11 +11,11 @@ use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::handles::{DerivedHandle, ObjectHandle};
 use crate::machine::library::Library;
-use burgeon_base::error::{Error, Place, Result};
+use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
 
-use super::System;
+use super::SystemDeclaration;
 
 /// A system as a script holds it.
 pub(crate) struct SystemHandle {
@@ -27,9 +27,9 @@ impl SystemHandle {
     pub(crate) fn create(
         library: &Rc<Library>,
         options: Option<&Table>,
-        place: Option<Place>,
+        place: Option<SourcePlace>,
     ) -> Result<Self> {
-        let mut system = System {
+        let mut system = SystemDeclaration {
             object: None,
             last_only: false,
             seed: None,
@@ -88,7 +88,7 @@ impl SystemHandle {
         &self,
         lua: &Lua,
         what: &'static str,
-        declare: impl FnOnce(&mut System) -> Result<()>,
+        declare: impl FnOnce(&mut SystemDeclaration) -> Result<()>,
     ) -> mlua::Result<()> {
         let place = Machine::place(lua);
         let machine = self.library.machine().map_err(mlua::Error::external)?;

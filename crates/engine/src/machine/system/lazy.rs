@@ -16,8 +16,8 @@ use rustc_hash::FxHashMap;
 use super::source::{Maker, nested};
 use crate::machine::library::Library;
 use crate::machine::native;
-use burgeon_data::{Attribute, Kind, Layer};
-use burgeon_kit::{Key, Prefetch, Shape, Table as ValueTable, Value};
+use burgeon_data::{Attribute, GeometryKind, Layer};
+use burgeon_kit::{FeatureShape, Prefetch, Table as ValueTable, TableKey, Value};
 
 /// What tables of features and their metatables know of themselves, under keys that no script has: addresses, which
 /// take no text to be made of at each question.
@@ -30,20 +30,20 @@ const LAYER: usize = 1;
 const IS_FEATURE: usize = 2;
 
 /// A layer as Lua holds it, with its attributes by name.
-struct Held {
+struct LayerHandle {
     layer: Arc<Layer>,
     /// What makes plans of its polygons before they are asked for, if something does.
     prefetch: Option<Arc<dyn Prefetch>>,
     names: FxHashMap<String, usize>,
 }
 
-impl UserData for Held {}
+impl UserData for LayerHandle {}
 
 /// What makes tables of geometries, kept by the machine.
-struct Kept(Rc<Maker>);
+struct MakerHandle(Rc<Maker>);
 
 /// Marks a machine whose script could see the difference.
-pub(crate) struct Eager(pub Arc<crate::declare::Session>);
+pub(crate) struct EagerMark(pub Arc<crate::declare::Session>);
 
 fn key(what: usize) -> LuaValue {
     LuaValue::LightUserData(LightUserData((&raw const KEYS[what]).cast_mut().cast::<c_void>()))
@@ -53,7 +53,7 @@ fn key(what: usize) -> LuaValue {
 pub(crate) const UNREAD: &str = "burgeon unread";
 
 /// What the features of a layer have in common.
-pub(super) struct Unread {
+pub(super) struct LazyLayer {
     /// Makes the feature with a number.
     make: Function,
 }
@@ -63,15 +63,16 @@ pub(super) fn unread(
     lua: &Lua,
     layer: &Arc<Layer>,
     prefetch: Option<&Arc<dyn Prefetch>>,
-) -> mlua::Result<Option<Unread>> {
-    if lua.app_data_ref::<Eager>().is_none_or(|eager| eager.0.peeks()) {
+) -> mlua::Result<Option<LazyLayer>> {
+    if lua.app_data_ref::<EagerMark>().is_none_or(|eager| eager.0.peeks()) {
         return Ok(None);
     }
-    if lua.app_data_ref::<Kept>().is_none() {
-        lua.set_app_data(Kept(Rc::new(Maker::new(lua)?)));
+    if lua.app_data_ref::<MakerHandle>().is_none() {
+        lua.set_app_data(MakerHandle(Rc::new(Maker::new(lua)?)));
     }
     let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
-    let held = lua.create_userdata(Held { layer: Arc::clone(layer), prefetch: prefetch.cloned(), names })?;
+    let held =
+        lua.create_userdata(LayerHandle { layer: Arc::clone(layer), prefetch: prefetch.cloned(), names })?;
     let functions: Table = lua.named_registry_value(LAZY)?;
     let make = |kind: &str| -> mlua::Result<Table> {
         let metatable = lua.create_table()?;
@@ -88,7 +89,7 @@ pub(super) fn unread(
     feature.set_readonly(true);
     let unread: Function = lua.named_registry_value(UNREAD)?;
     native(lua, &unread)?;
-    Ok(Some(Unread { make: unread.call((key(NUMBER), feature, geometry))? }))
+    Ok(Some(LazyLayer { make: unread.call((key(NUMBER), feature, geometry))? }))
 }
 
 /// The registry's name for the functions of such metatables.
@@ -147,14 +148,14 @@ fn walk(
     Ok((lua.globals().get("next")?, whole))
 }
 
-impl Unread {
+impl LazyLayer {
     /// The feature with this number, from 0, whose table knows nothing but its geometry.
     pub(super) fn feature(&self, index: usize) -> mlua::Result<Table> {
         self.make.call(index)
     }
 }
 
-fn held(table: &Table) -> Option<UserDataRef<Held>> {
+fn held(table: &Table) -> Option<UserDataRef<LayerHandle>> {
     table.metatable()?.raw_get(key(LAYER)).ok()
 }
 
@@ -171,23 +172,23 @@ pub(crate) fn is_unread_geometry(table: &Table) -> bool {
 }
 
 /// The geometry that a table with this metatable stands for.
-pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<Shape> {
-    let held: UserDataRef<Held> = metatable.raw_get(key(LAYER)).ok()?;
+pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<FeatureShape> {
+    let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
     if is_feature(metatable) {
         return None;
     }
-    Shape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.prefetch.as_ref())
+    FeatureShape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.prefetch.as_ref())
 }
 
 /// What a table with this metatable knows of its feature, if it stands for one: its geometry and its other fields.
-pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Shape, Vec<(Key, Value)>)> {
-    let held: UserDataRef<Held> = metatable.raw_get(key(LAYER)).ok()?;
+pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(FeatureShape, Vec<(TableKey, Value)>)> {
+    let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
     let index: usize = table.raw_get(key(NUMBER)).ok()?;
     let feature = held.layer.features.get(index)?;
-    let name = |name: &str| Key::Name(name.into());
+    let name = |name: &str| TableKey::Name(name.into());
     let own = feature.attributes.iter().map(|(index, value)| (&held.layer.names[*index], value));
     let own = own.filter(|(name, _)| !matches!(name.as_str(), "id" | "layer" | "geometry"));
-    let mut fields: Vec<(Key, Value)> = own
+    let mut fields: Vec<(TableKey, Value)> = own
         .map(|(key, value)| {
             let value = match value {
                 Attribute::Boolean(value) => Value::Boolean(*value),
@@ -200,24 +201,24 @@ pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(Shape, Vec
         .collect();
     fields.push((name("id"), Value::Text(feature.id.as_str().into())));
     fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((Shape::new(&held.layer, index, held.prefetch.as_ref())?, fields))
+    Some((FeatureShape::new(&held.layer, index, held.prefetch.as_ref())?, fields))
 }
 
 /// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.
 fn from_json(json: &serde_json::Value) -> Value {
     use serde_json::Value as Json;
-    let mut entries: Vec<(Key, Value)> = match json {
+    let mut entries: Vec<(TableKey, Value)> = match json {
         Json::Null => return Value::Nil,
         Json::Bool(value) => return Value::Boolean(*value),
         Json::Number(number) => return Value::Number(number.as_f64().unwrap_or(f64::NAN)),
         Json::String(text) => return Value::Text(text.as_str().into()),
         Json::Array(items) => {
             let item = |item: &Json| if item.is_null() { Value::Boolean(false) } else { from_json(item) };
-            (1..).map(Key::Index).zip(items.iter().map(item)).collect()
+            (1..).map(TableKey::Index).zip(items.iter().map(item)).collect()
         }
         Json::Object(fields) => {
             let known = fields.iter().filter(|(_, value)| !value.is_null());
-            known.map(|(name, value)| (Key::Name(name.as_str().into()), from_json(value))).collect()
+            known.map(|(name, value)| (TableKey::Name(name.as_str().into()), from_json(value))).collect()
         }
     };
     entries.sort_by(|a, b| a.0.cmp(&b.0));
@@ -265,7 +266,7 @@ fn of_geometry(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     let Some(shape) = table.metatable().and_then(|metatable| shape_of(table, &metatable)) else {
         return Ok(LuaValue::Nil);
     };
-    let polygon = shape.geometry().kind() == Kind::Polygon;
+    let polygon = shape.geometry().kind() == GeometryKind::Polygon;
     match name {
         "kind" => lua.create_string(shape.geometry().kind().name()).map(LuaValue::String),
         "rings" if polygon => kept(table, name, || made(lua, &shape, name)),
@@ -275,7 +276,7 @@ fn of_geometry(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
 }
 
 /// The tables of a geometry's points.
-fn made(lua: &Lua, shape: &Shape, name: &str) -> mlua::Result<LuaValue> {
-    let maker = lua.app_data_ref::<Kept>().map(|kept| Rc::clone(&kept.0));
+fn made(lua: &Lua, shape: &FeatureShape, name: &str) -> mlua::Result<LuaValue> {
+    let maker = lua.app_data_ref::<MakerHandle>().map(|kept| Rc::clone(&kept.0));
     maker.map_or(Ok(LuaValue::Nil), |maker| maker.shape(lua, shape.geometry())?.raw_get(name))
 }

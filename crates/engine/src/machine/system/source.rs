@@ -9,7 +9,7 @@ use super::lazy;
 use crate::declare::names::{LAYER, SOURCE};
 use crate::machine::{Machine, native, write_column};
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Attribute, Feature, Geometry, Kind, Layer, Wanted};
+use burgeon_data::{Attribute, Feature, Geometry, GeometryKind, Layer, SourceOptions};
 use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
 
 /// The features of a data source as a script holds them.
@@ -29,7 +29,7 @@ impl SourceHandle {
             (LuaValue::Table(_), _) => Err(Error::argument("a list of features takes no options")
                 .help("choose among them in Lua: where, limit and the like are for files")),
             (LuaValue::String(text), Value::Nil) => {
-                Self::load(machine, &text.to_string_lossy(), Wanted::default())
+                Self::load(machine, &text.to_string_lossy(), SourceOptions::default())
             }
             (LuaValue::String(text), Value::Table(options)) => {
                 Self::load(machine, &text.to_string_lossy(), wanted(options)?)
@@ -43,8 +43,9 @@ impl SourceHandle {
         }
     }
 
-    fn load(machine: &Machine, text: &str, wanted: Wanted) -> Result<Self> {
-        let layer = machine.session.data.load(&machine.session, text, wanted)?;
+    fn load(machine: &Machine, text: &str, wanted: SourceOptions) -> Result<Self> {
+        let asker = Machine::asker(machine.lua(), &machine.session);
+        let layer = machine.session.data.load(&machine.session, asker, text, wanted)?;
         layer.warnings().into_iter().for_each(|warning| machine.warn(warning));
         Ok(Self::Layer(layer))
     }
@@ -69,7 +70,7 @@ impl SourceHandle {
             (Self::List(_), name) if LAYER.parts.iter().any(|part| part.name == name) => Ok(LuaValue::Nil),
             (Self::Layer(layer), "features") => {
                 let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
-                let names = Names::new(lua, layer, None)?;
+                let names = AttributeNames::new(lua, layer, None)?;
                 // All of it stays, so looking for what does not would be in vain.
                 let collects = lua.gc_is_running();
                 lua.gc_stop();
@@ -202,7 +203,7 @@ pub(super) fn each_feature(
         SourceHandle::Layer(layer) => Arc::clone(layer),
     };
     let (maker, names) =
-        (Maker::new(lua).map_err(&failed)?, Names::new(lua, &layer, prefetch).map_err(&failed)?);
+        (Maker::new(lua).map_err(&failed)?, AttributeNames::new(lua, &layer, prefetch).map_err(&failed)?);
     for (index, feature) in layer.features.iter().enumerate() {
         let made = match &kept {
             LuaValue::Table(kept) => kept.raw_get(index + 1),
@@ -214,15 +215,15 @@ pub(super) fn each_feature(
 }
 
 /// The names of a layer's attributes, and of what every feature has, as Lua's strings.
-struct Names {
+struct AttributeNames {
     attributes: Vec<mlua::LuaString>,
     layer: mlua::LuaString,
     fixed: [mlua::LuaString; 3],
     /// What makes features of tables that know only their number; none where the script could tell.
-    unread: Option<lazy::Unread>,
+    unread: Option<lazy::LazyLayer>,
 }
 
-impl Names {
+impl AttributeNames {
     fn new(lua: &Lua, layer: &Arc<Layer>, prefetch: Option<&Arc<dyn Prefetch>>) -> mlua::Result<Self> {
         let text = |text: &str| lua.create_string(text);
         Ok(Self {
@@ -247,7 +248,7 @@ impl Maker {
     pub(super) fn new(lua: &Lua) -> mlua::Result<Self> {
         let geometry: Function = lua.named_registry_value(GEOMETRY)?;
         native(lua, &geometry)?;
-        let [point, line, polygon] = Kind::ALL.map(|kind| lua.create_string(kind.name()));
+        let [point, line, polygon] = GeometryKind::ALL.map(|kind| lua.create_string(kind.name()));
         Ok(Self {
             geometry,
             kinds: [point?, line?, polygon?],
@@ -256,7 +257,13 @@ impl Maker {
         })
     }
 
-    fn feature(&self, lua: &Lua, names: &Names, index: usize, feature: &Feature) -> mlua::Result<Table> {
+    fn feature(
+        &self,
+        lua: &Lua,
+        names: &AttributeNames,
+        index: usize,
+        feature: &Feature,
+    ) -> mlua::Result<Table> {
         if let Some(unread) = &names.unread {
             return unread.feature(index);
         }
@@ -289,7 +296,7 @@ impl Maker {
             Geometry::Point(_) => numbers.push(1.0),
         }
         let lists = numbers.len();
-        numbers.extend(geometry.points().flatten());
+        numbers.extend(geometry.points().flat_map(|point| point.to_array()));
         let mut column = self.column.borrow_mut();
         if column.len() < numbers.len() * 8 {
             *column = lua.create_buffer(vec![0; numbers.len() * 16])?;
@@ -333,12 +340,12 @@ pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaVa
 }
 
 /// The options of `source`.
-fn wanted(options: &ValueTable) -> Result<Wanted> {
-    let mut wanted = Wanted::default();
+fn wanted(options: &ValueTable) -> Result<SourceOptions> {
+    let mut wanted = SourceOptions::default();
     for (key, value) in &options.entries {
         let name = match key {
-            burgeon_kit::Key::Name(name) => name,
-            burgeon_kit::Key::Index(_) => {
+            burgeon_kit::TableKey::Name(name) => name,
+            burgeon_kit::TableKey::Index(_) => {
                 return Err(Error::argument("source takes named options").help("write { limit = 100 }"));
             }
         };
@@ -365,9 +372,9 @@ fn wanted(options: &ValueTable) -> Result<Wanted> {
             "crs" => wanted.crs = Some(whole("3067")?),
             "kind" => {
                 let kind = text("\"polygon\"")?.unwrap_or_default();
-                let known = Kind::ALL.into_iter().find(|known| known.name() == kind);
+                let known = GeometryKind::ALL.into_iter().find(|known| known.name() == kind);
                 wanted.kind = Some(known.ok_or_else(|| {
-                    let names = Kind::ALL.map(Kind::name);
+                    let names = GeometryKind::ALL.map(GeometryKind::name);
                     let message = format!("source: there is no kind {kind:?} of geometry");
                     Error::not_found("kind", &kind, names, message)
                         .help(format!("it is one of {}", names.join(", ")))

@@ -6,15 +6,15 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::machine::Machine;
-use crate::machine::library::Library;
-use crate::results::Derived;
-use burgeon_base::error::Place;
+use crate::machine::library::{Library, StandardInterpretation};
+use crate::results::DerivedSystem;
+use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{Context, FIRST_SYMBOL, Grammar, Pattern, Rule, Symbol};
 
-use super::{DerivationRecord, System};
+use super::{DerivationRecord, SystemDeclaration};
 
-impl System {
+impl SystemDeclaration {
     /// Notes that the system is derived from now on, with all that has been declared.
     pub(crate) fn note_derivation(&self, machine: &Machine) {
         self.derivations.borrow_mut().push(DerivationRecord {
@@ -35,7 +35,7 @@ impl System {
                 warning.at(first.place.clone()).help("give it one, such as lsystem({ object = turtle() })"),
             );
         }
-        let mut sure = Sure::default();
+        let mut sure = CandidateRules::default();
         for rule in grammar.rules().iter().filter(|rule| rule.weight != Some(0.0)) {
             let warn =
                 |warning: Warning| machine.warn(warning.at(rule.place.clone()).rule(&rule.pattern.text));
@@ -88,11 +88,12 @@ impl System {
 
     /// What to tell of a module with this symbol in a chain of this system, if nothing draws it or looks at it.
     fn warning_of(&self, library: &Library, symbol: Symbol) -> Option<Warning> {
-        let kind = &self.object.as_ref()?.kind().name;
+        let of = self.object.as_ref()?.kind();
+        let (kind, is_a) = (&of.name, |known: &StandardInterpretation| of.is_a(&known.kind));
         let (symbols, standard) = (library.symbols.borrow(), library.standard.borrow());
         let signature = symbols.signature(symbol);
         if self.interpretations.iter().any(|known| known.symbol == symbol)
-            || standard.iter().any(|known| known.symbol == symbol && known.kind == *kind)
+            || standard.iter().any(|known| known.symbol == symbol && is_a(known))
         {
             return None;
         }
@@ -103,7 +104,7 @@ impl System {
         let interpret = format!("system:interpret(\"{pattern}\", function(this{comma}{bare}) ... end)");
         let place = library.places.borrow().get(&symbol).cloned();
         let hidden = standard.iter().find(|known| {
-            known.symbol != symbol && known.kind == *kind && symbols.signature(known.symbol).name == *name
+            known.symbol != symbol && is_a(known) && symbols.signature(known.symbol).name == *name
         });
         if let Some(hidden) = hidden {
             let text = format!(
@@ -115,7 +116,7 @@ impl System {
             return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
         }
         // Without interpretations only modules of the standard library are drawn, if the object knows any.
-        let draws = !self.interpretations.is_empty() || standard.iter().any(|known| known.kind == *kind);
+        let draws = !self.interpretations.is_empty() || standard.iter().any(is_a);
         let is_used = !draws
             || self.ignored.contains(&symbol)
             || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))
@@ -140,12 +141,12 @@ impl System {
 }
 
 /// A predecessor and its contexts, without the names of parameters.
-type Around = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
+type ContextSymbols = (Symbol, Vec<Symbol>, Vec<Option<Symbol>>);
 
 /// The rules so far that are candidates wherever their contexts match, by what they match.
 #[derive(Default)]
-struct Sure<'a> {
-    rules: FxHashMap<Around, [Option<&'a Rule>; 3]>,
+struct CandidateRules<'a> {
+    rules: FxHashMap<ContextSymbols, [Option<&'a Rule>; 3]>,
     /// The symbols with a rule that has a weight.
     weighted: FxHashSet<Symbol>,
 }
@@ -156,13 +157,15 @@ const BEFORE_ALL: usize = 0;
 const BEFORE_PLAIN: usize = 1;
 const WEIGHTED: usize = 2;
 
-impl<'a> Sure<'a> {
+impl<'a> CandidateRules<'a> {
     /// The rule without contexts, or with the same, that keeps `rule` from ever being chosen.
     fn forestalls(&self, rule: &Rule) -> Option<&'a Rule> {
         let around = around(rule);
         let anywhere = (around.0, Vec::new(), Vec::new());
         let places = if rule.weight.is_some() { BEFORE_ALL..=BEFORE_ALL } else { BEFORE_ALL..=WEIGHTED };
-        let of = |around: &Around| self.rules.get(around)?[places.clone()].iter().flatten().next().copied();
+        let of = |around: &ContextSymbols| {
+            self.rules.get(around)?[places.clone()].iter().flatten().next().copied()
+        };
         of(&anywhere).or_else(|| of(&around))
     }
 
@@ -182,7 +185,7 @@ impl<'a> Sure<'a> {
     }
 }
 
-fn around(rule: &Rule) -> Around {
+fn around(rule: &Rule) -> ContextSymbols {
     let pattern = &rule.pattern;
     let left = pattern.left.iter().map(|item| item.symbol).collect();
     (pattern.predecessor.symbol, left, plain(&pattern.right))
@@ -243,8 +246,8 @@ pub(crate) fn tell_unseen(machine: &Machine, returns: bool) {
 /// Tells of each time that a system was derived again from the same axiom, if both models are seen.
 fn tell_derived_twice<'a>(
     machine: &Machine,
-    system: &System,
-    derived: impl Fn(usize) -> Option<&'a std::sync::Arc<Derived>>,
+    system: &SystemDeclaration,
+    derived: impl Fn(usize) -> Option<&'a std::sync::Arc<DerivedSystem>>,
 ) {
     let is_seen = |derivation: &DerivationRecord| {
         derived(derivation.number).is_some_and(|derived| !derived.is_placed() && !derived.objects.is_empty())
@@ -259,7 +262,7 @@ fn tell_derived_twice<'a>(
             continue;
         }
         if let Some(earlier) = seen {
-            let line = |place: &Place| format!(" after the time in {place}");
+            let line = |place: &SourcePlace| format!(" after the time in {place}");
             let earlier = earlier.place.as_ref().map(line).unwrap_or_default();
             let text = format!("the system is derived again{earlier}, and both models stay");
             let warning = Warning::new(WarningKind::DerivedTwice, text).at(derivation.place.clone());
@@ -270,7 +273,7 @@ fn tell_derived_twice<'a>(
 }
 
 /// In a script that is only checked: tells of modules that its rules or axioms make, and that no system draws.
-fn tell_undrawn(machine: &Machine, systems: &[System]) {
+fn tell_undrawn(machine: &Machine, systems: &[SystemDeclaration]) {
     let (library, done) = (&machine.library, machine.driver.derived());
     let mut made: Vec<Symbol> =
         done.iter().flatten().flat_map(|derived| derived.chain.symbols.clone()).collect();

@@ -95,8 +95,9 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::super::stage::Stage;
-    use super::super::{Picture, samples, view};
+    use super::super::{samples, view};
     use super::*;
+    use crate::picture::settings::Picture;
 
     #[test]
     fn all_corners_are_inside_and_the_model_touches_the_margin() {

@@ -1,7 +1,7 @@
 //! Which samples of the picture and of the maps a surface covers that is translucent or cut out by its texture.
 
-use super::stage::Draw;
-use super::texture::Texture;
+use super::stage::DrawCall;
+use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 
 /// What is less opaque than this is a hole in a surface that is opaque otherwise, as glTF has it.
@@ -20,7 +20,7 @@ pub(super) struct Coverage<'a> {
 /// What lies over a triangle whose texture has holes.
 #[derive(Debug, Clone, Copy)]
 struct Cutout<'a> {
-    texture: &'a Texture,
+    texture: &'a SampledTexture,
     /// Which of the texture's sizes has pixels as large as samples.
     level: usize,
     /// Texture coordinates (m) and 1, each divided by the distance from the camera, where both coordinates of samples
@@ -37,7 +37,7 @@ impl<'a> Coverage<'a> {
     /// far away.
     #[inline]
     pub(super) fn of(
-        draw: &Draw<'a>,
+        draw: &DrawCall<'a>,
         number: u32,
         triangle: &[Vec3A; 3],
         block: [usize; 2],
@@ -83,7 +83,7 @@ impl<'a> Coverage<'a> {
 }
 
 impl<'a> Cutout<'a> {
-    fn new(texture: &'a Texture, uvs: [Vec2; 3], triangle: &[Vec3A; 3], perspective: bool) -> Self {
+    fn new(texture: &'a SampledTexture, uvs: [Vec2; 3], triangle: &[Vec3A; 3], perspective: bool) -> Self {
         let [a, b, c] = triangle.map(|corner| corner.truncate());
         let near = triangle.map(|corner| if perspective { 1.0 - corner.z } else { 1.0 });
         let [at, to_b, to_c] = [0, 1, 2].map(|i| uvs[i].extend(1.0) * near[i]);

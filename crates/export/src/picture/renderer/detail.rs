@@ -4,7 +4,7 @@ use super::super::settings::Quality;
 
 /// The numbers behind a [`Quality`].
 #[derive(Debug, Clone)]
-pub(super) struct Detail {
+pub(super) struct RenderDetail {
     /// Columns of samples in a pixel.
     pub columns: usize,
     /// Rows of samples in a pixel. Each row is shifted, so that no two samples share their x.
@@ -19,7 +19,7 @@ pub(super) struct Detail {
     pub sun_taps: usize,
 }
 
-impl Detail {
+impl RenderDetail {
     /// What `quality` means for a scene of so many `triangles`: the sky gets fewer maps where each costs
     /// more.
     pub(super) fn of(quality: Quality, triangles: usize) -> Self {

@@ -2,10 +2,10 @@
 
 use super::super::settings::{Background, Picture};
 use super::coverage::noise;
-use super::detail::Detail;
+use super::detail::RenderDetail;
 use super::shade::{Fragment, Light};
 use super::sky::smooth;
-use super::surface::Surface;
+use super::surface::SurfacePoint;
 use super::tone;
 use super::visible::Visible;
 use burgeon_scene::image::Image;
@@ -21,14 +21,14 @@ const TILE: [usize; 2] = [16, 8];
 const FADE: [f32; 2] = [0.7, 2.4];
 
 /// What a fragment adds to its pixel.
-struct Share {
+struct FragmentShare {
     pixel: usize,
     weight: f32,
     ground: bool,
 }
 
 /// The picture in `light`.
-pub(super) fn develop(light: &Light, picture: &Picture, detail: &Detail) -> Image {
+pub(super) fn develop(light: &Light, picture: &Picture, detail: &RenderDetail) -> Image {
     let (width, height) = (picture.width as usize, picture.height as usize);
     let mut pixels = vec![[0; 4]; width * height];
     let band = (HELD / (width * detail.samples())).max(TILE[1]) / TILE[1] * TILE[1];
@@ -66,7 +66,7 @@ fn tile(
     size: [usize; 2],
 ) -> Vec<[u8; 4]> {
     let mut fragments: Vec<Fragment> = Vec::new();
-    let mut shares: Vec<Share> = Vec::new();
+    let mut shares: Vec<FragmentShare> = Vec::new();
     let mut colors = vec![Vec4::ZERO; size[0] * size[1]];
     let mut seen: Vec<(Option<u32>, f32, [f32; 2])> = Vec::new();
     for (pixel, color) in colors.iter_mut().enumerate() {
@@ -88,7 +88,7 @@ fn tile(
             let place = sum.map(|sum| sum / count);
             let weight = count * part;
             let surface = match number {
-                Some(number) => Surface::seen(light.stage, light.textures, light.camera, *number, place),
+                Some(number) => SurfacePoint::seen(light.stage, light.textures, light.camera, *number, place),
                 None => match ground(light, place) {
                     Some(surface) => surface,
                     None => {
@@ -104,7 +104,7 @@ fn tile(
                 Some(i) => shares[i].weight += weight,
                 None => {
                     fragments.push(Fragment::new(surface, noise));
-                    shares.push(Share { pixel, weight, ground });
+                    shares.push(FragmentShare { pixel, weight, ground });
                 }
             }
         }
@@ -155,7 +155,7 @@ fn shadowed(backdrop: Vec4, part: Vec3) -> Vec4 {
 }
 
 /// The ground at pixel coordinates `place`, if it is seen there and near enough to show a shadow.
-fn ground(light: &Light, place: [f32; 2]) -> Option<Surface> {
+fn ground(light: &Light, place: [f32; 2]) -> Option<SurfacePoint> {
     let floor = light.floor?.height;
     let ray = light.camera.ray(place[0], place[1]);
     let height = light.camera.eye.z - floor;
@@ -163,7 +163,7 @@ fn ground(light: &Light, place: [f32; 2]) -> Option<Surface> {
         return None;
     }
     let position = light.camera.eye + ray * (height / -ray.z);
-    (fade(light, position) > 0.0).then(|| Surface::ground(position, light.camera))
+    (fade(light, position) > 0.0).then(|| SurfacePoint::ground(position, light.camera))
 }
 
 /// How strongly, 0 to 1, the ground at `position` shows its shadow.

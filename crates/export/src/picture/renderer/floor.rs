@@ -73,7 +73,7 @@ fn blur(cells: &[f32]) -> Vec<f32> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::detail::Detail;
+    use super::super::detail::RenderDetail;
     use super::super::{samples, view::Viewpoint};
     use super::*;
     use crate::picture::Quality;
@@ -83,7 +83,7 @@ mod tests {
     fn the_ground_is_darker_under_the_model_than_far_from_it() {
         let scene = samples::boxes(&[DVec3::ZERO]);
         let stage = Stage::new(&scene).unwrap();
-        let detail = Detail::of(Quality::Draft, 12);
+        let detail = RenderDetail::of(Quality::Draft, 12);
         let sun = Sun::new(&stage, Viewpoint { azimuth: 0.0, elevation: 0.3 }, &detail);
         let sky = Sky::new(&stage, &sun, &detail, true);
         let height = stage.bounds.0.z - 0.001;

@@ -4,7 +4,7 @@ use glam::{Affine3A, Mat3A, Vec3A};
 
 /// A parallel projection of the stage onto a grid of texels.
 #[derive(Debug, Clone)]
-pub(super) struct Frame {
+pub(super) struct LightProjection {
     /// From the stage to texels to the right and downwards, and the distance along the light, 0 or more.
     pub to_texels: Affine3A,
     /// Texels in a row.
@@ -17,7 +17,7 @@ pub(super) struct Frame {
     pub depth: f32,
 }
 
-impl Frame {
+impl LightProjection {
     /// The frame for light from `direction`, a unit vector, with about `side` times `side` texels.
     pub(super) fn fit(hull: &[Vec3A], direction: Vec3A, side: f32) -> Self {
         let upright = if direction.z.abs() > 0.99 { Vec3A::Y } else { Vec3A::Z };
@@ -62,7 +62,7 @@ mod tests {
     fn a_frame_holds_the_hull() {
         let hull = [Vec3A::ZERO, Vec3A::new(1.0, 0.2, 0.3), Vec3A::new(-0.5, 0.1, 0.9)];
         for direction in [Vec3A::Z, Vec3A::new(0.6, 0.0, -0.8), Vec3A::Y] {
-            let frame = Frame::fit(&hull, direction, 100.0);
+            let frame = LightProjection::fit(&hull, direction, 100.0);
             for point in hull {
                 let at = frame.to_texels.transform_point3a(point);
                 assert!(

@@ -11,7 +11,7 @@ const FINE: f64 = 256.0;
 
 /// Where the samples are.
 #[derive(Debug, Clone)]
-pub(super) struct Grid<'a> {
+pub(super) struct RasterGrid<'a> {
     /// Samples in a row.
     pub width: usize,
     /// The rows that are wanted.
@@ -21,7 +21,7 @@ pub(super) struct Grid<'a> {
     pub shifts: &'a [f64],
 }
 
-impl Grid<'_> {
+impl RasterGrid<'_> {
     /// Calls `row` with the row, the range of samples in it and the third coordinate at the first of them and
     /// its growth per sample, for each row of `triangle`. The first two coordinates of a corner are in
     /// samples.
@@ -56,9 +56,9 @@ impl Grid<'_> {
         }
         let turn = area.signum();
         let edges = [
-            Edge::new(ax, ay, bx, by, turn),
-            Edge::new(bx, by, cx, cy, turn),
-            Edge::new(cx, cy, ax, ay, turn),
+            RasterEdge::new(ax, ay, bx, by, turn),
+            RasterEdge::new(bx, by, cx, cy, turn),
+            RasterEdge::new(cx, cy, ax, ay, turn),
         ];
 
         let (dz1, dz2, part) = (f64::from(b.z - a.z), f64::from(c.z - a.z), 1.0 / area);
@@ -86,7 +86,7 @@ impl Grid<'_> {
 }
 
 /// A line through two corners: a point is inside if `slope * x + rise * y + offset >= 0`, all whole numbers.
-struct Edge {
+struct RasterEdge {
     slope: f64,
     rise: f64,
     offset: f64,
@@ -98,7 +98,7 @@ struct Edge {
 /// are computed with a smaller error. With it `ceil` and `floor` are exact.
 const SLACK: f64 = 1e-10;
 
-impl Edge {
+impl RasterEdge {
     /// The edge from the first to the second point of a triangle whose area has the sign `turn`.
     #[inline]
     fn new(x0: f64, y0: f64, x1: f64, y1: f64, turn: f64) -> Self {
@@ -141,7 +141,7 @@ mod tests {
     use super::*;
 
     fn counts(triangles: &[[Vec3A; 3]], shifts: &[f64]) -> Vec<u32> {
-        let grid = Grid { width: 40, rows: 0..40, shifts };
+        let grid = RasterGrid { width: 40, rows: 0..40, shifts };
         let mut counts = vec![0; 1600];
         for triangle in triangles {
             grid.cover(*triangle, |y, xs, _, _| xs.for_each(|x| counts[y * 40 + x] += 1));
@@ -168,7 +168,7 @@ mod tests {
     #[test]
     fn the_third_coordinate_follows_the_plane() {
         let plane = |x: f32, y: f32| Vec3A::new(x, y, 0.25 * x - 0.5 * y + 3.0);
-        let grid = Grid { width: 40, rows: 0..40, shifts: &[128.0] };
+        let grid = RasterGrid { width: 40, rows: 0..40, shifts: &[128.0] };
         let mut seen = 0;
         grid.cover([plane(1.0, 2.0), plane(35.0, 7.0), plane(11.0, 38.0)], |y, xs, z, growth| {
             for (i, x) in xs.enumerate() {

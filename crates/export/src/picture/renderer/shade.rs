@@ -5,8 +5,8 @@ use super::floor::Floor;
 use super::sky::{SUN, Sky};
 use super::stage::Stage;
 use super::sun::Sun;
-use super::surface::Surface;
-use super::texture::Texture;
+use super::surface::SurfacePoint;
+use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 use std::f32::consts::{PI, TAU};
 
@@ -18,7 +18,7 @@ pub(super) struct Light<'a> {
     /// The model.
     pub stage: &'a Stage<'a>,
     /// Of each material.
-    pub textures: &'a [Option<Texture>],
+    pub textures: &'a [Option<SampledTexture>],
     /// Where it is seen from.
     pub camera: &'a Camera,
     /// The sun.
@@ -33,7 +33,7 @@ pub(super) struct Light<'a> {
 #[derive(Debug)]
 pub(super) struct Fragment {
     /// The surface.
-    pub surface: Surface,
+    pub surface: SurfacePoint,
     /// Its turn and how many take turns in using the maps of the sky and the lookups in the sun's.
     pub share: (usize, usize),
     /// A number from 0 to 1 that varies from pixel to pixel.
@@ -46,12 +46,12 @@ pub(super) struct Fragment {
 
 impl Fragment {
     /// A fragment without light.
-    pub(super) fn new(surface: Surface, noise: f32) -> Self {
+    pub(super) fn new(surface: SurfacePoint, noise: f32) -> Self {
         Self { surface, share: (0, 1), noise, sky: [Vec3A::ZERO; 2], mirrored: [0.0; 2] }
     }
 
     /// Whether another `surface` in the same pixel would look the same.
-    pub(super) fn joins(&self, surface: &Surface) -> bool {
+    pub(super) fn joins(&self, surface: &SurfacePoint) -> bool {
         let own = &self.surface;
         own.material == surface.material
             && own.normal.dot(surface.normal) > 0.94
@@ -187,7 +187,7 @@ impl Light<'_> {
 
     /// The sun's highlight for unit irradiance: GGX with the height-correlated Smith term and Schlick's
     /// Fresnel.
-    fn gloss(&self, surface: &Surface, glossy: Vec3, facing: f32, toward: f32) -> Vec3 {
+    fn gloss(&self, surface: &SurfacePoint, glossy: Vec3, facing: f32, toward: f32) -> Vec3 {
         let half = (surface.view + self.sun.direction).normalize_or(surface.normal);
         let (across, along) = (surface.normal.dot(half).max(0.0), surface.view.dot(half).max(0.0));
         // The sun is a disc, and a sharper highlight than this would sparkle.

@@ -4,9 +4,9 @@
 //! is not behind what the map shows there; the sum over the maps is the light with its soft shadows.
 
 use super::coverage::Coverage;
-use super::detail::Detail;
-use super::light_map::Frame;
-use super::raster::Grid;
+use super::detail::RenderDetail;
+use super::light_map::LightProjection;
+use super::raster::RasterGrid;
 use super::stage::Stage;
 use super::sun::Sun;
 use glam::{Vec2, Vec3, Vec3A};
@@ -30,7 +30,7 @@ const BELOW: f32 = 0.26;
 /// The sky with its maps.
 pub(super) struct Sky {
     /// One for each direction.
-    pub maps: Vec<Map>,
+    pub maps: Vec<SkySample>,
     /// How far to lift a point off its surface before looking it up, in the stage's units.
     pub lift: f32,
     /// Unshadowed irradiance of planes that face along +x, -x, +y, -y, +z, -z.
@@ -39,7 +39,7 @@ pub(super) struct Sky {
 }
 
 /// What one direction shows and shines.
-pub(super) struct Map {
+pub(super) struct SkySample {
     /// The unit vector towards the light.
     pub direction: Vec3A,
     /// Radiance times the solid angle that the direction stands for.
@@ -50,13 +50,13 @@ pub(super) struct Map {
     bias: f32,
     /// Texels aside for each unit of depth.
     spread: f32,
-    frame: Frame,
+    frame: LightProjection,
     depths: Vec<u16>,
 }
 
 impl Sky {
     /// Draws the maps.
-    pub(super) fn new(stage: &Stage, sun: &Sun, detail: &Detail, ground: bool) -> Self {
+    pub(super) fn new(stage: &Stage, sun: &Sun, detail: &RenderDetail, ground: bool) -> Self {
         let count = detail.sky_maps;
         // Without a ground the light from below is that of a white studio, even and weak.
         let below = if ground {
@@ -66,13 +66,13 @@ impl Sky {
         };
         let light =
             |direction: Vec3A| if direction.z > 0.0 { sky_light(direction, sun.direction) } else { below };
-        let maps: Vec<Map> = (0..count)
+        let maps: Vec<SkySample> = (0..count)
             .into_par_iter()
             .map(|i| {
                 let (direction, angle) = direction(i, count);
                 let jitter =
                     Vec2::from_angle(i as f32 * 2.399_963) * (i as f32 * 0.754_877_7 + 0.5).fract().sqrt();
-                Map::new(stage, direction, jitter, (light(direction) * angle).into(), detail.sky_side)
+                SkySample::new(stage, direction, jitter, (light(direction) * angle).into(), detail.sky_side)
             })
             .collect();
         let lift = maps.iter().map(|map| map.frame.texel).fold(0.0, f32::max) * 1.6;
@@ -117,15 +117,15 @@ impl Sky {
     }
 }
 
-impl Map {
+impl SkySample {
     fn new(stage: &Stage, direction: Vec3A, jitter: Vec2, light: Vec3A, side: f32) -> Self {
-        let mut frame = Frame::fit(&stage.hull, direction, side);
+        let mut frame = LightProjection::fit(&stage.hull, direction, side);
         let scale = FARTHEST / frame.depth;
         let stretch = Vec3::new(1.0, 1.0, scale);
         frame.to_texels = glam::Affine3A::from_scale(stretch) * frame.to_texels;
         let width = frame.width;
         let mut depths = vec![u16::MAX; frame.texels()];
-        let grid = Grid { width, rows: 0..frame.height, shifts: &[128.0] };
+        let grid = RasterGrid { width, rows: 0..frame.height, shifts: &[128.0] };
         let all = 0..stage.triangles() as u32;
         stage.each_triangle(
             all,

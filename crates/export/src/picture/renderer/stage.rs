@@ -5,7 +5,7 @@
 
 use super::extent::Extent;
 use super::points;
-use super::texture::Texture;
+use super::texture::SampledTexture;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::{Material, Part, Scene};
@@ -15,7 +15,7 @@ use std::ops::Range;
 /// A scene around the origin, in units of the radius of the sphere around its box.
 pub(super) struct Stage<'a> {
     /// The parts of all instances in order; their triangles are numbered without gaps.
-    pub draws: Vec<Draw<'a>>,
+    pub draws: Vec<DrawCall<'a>>,
     /// The scene's materials.
     pub materials: &'a [Material],
     /// The lowest and the highest corner of the box around the model.
@@ -32,7 +32,7 @@ pub(super) struct Stage<'a> {
 }
 
 /// One part of one instance.
-pub(super) struct Draw<'a> {
+pub(super) struct DrawCall<'a> {
     /// Its triangles.
     pub part: &'a Part,
     /// From the mesh's coordinates to the stage's.
@@ -46,7 +46,7 @@ pub(super) struct Draw<'a> {
     /// The material's opacity, 0 to 1.
     pub opacity: f32,
     /// The material's texture, if it does not cover all of a surface.
-    pub cutout: Option<&'a Texture>,
+    pub cutout: Option<&'a SampledTexture>,
     /// Whether both sides are seen.
     pub double_sided: bool,
 }
@@ -62,7 +62,7 @@ impl<'a> Stage<'a> {
     /// its radius.
     pub(super) fn within(
         scene: &'a Scene,
-        textures: &'a [Option<Texture>],
+        textures: &'a [Option<SampledTexture>],
         extent: Option<&Extent>,
         stop: &'a Stop,
     ) -> Result<Self> {
@@ -96,7 +96,7 @@ impl<'a> Stage<'a> {
                 let (opacity, double_sided) = (material.base_color[3], material.double_sided);
                 let texture = textures.get(part.material).and_then(Option::as_ref);
                 let cutout = texture.filter(|texture| texture.has_holes());
-                draws.push(Draw {
+                draws.push(DrawCall {
                     part,
                     place,
                     exact,
@@ -147,7 +147,7 @@ impl<'a> Stage<'a> {
     }
 
     /// The draw that triangle `number` belongs to, and the triangle's index in its part.
-    pub(super) fn find(&self, number: u32) -> (&Draw<'a>, usize) {
+    pub(super) fn find(&self, number: u32) -> (&DrawCall<'a>, usize) {
         let index = self.draws.partition_point(|draw| draw.first <= number) - 1;
         let draw = &self.draws[index];
         (draw, (number - draw.first) as usize)
@@ -160,7 +160,7 @@ impl<'a> Stage<'a> {
         numbers: Range<u32>,
         view: &Affine3A,
         project: impl Fn(Vec3A) -> Vec3A,
-        mut emit: impl FnMut(u32, &Draw<'a>, [Vec3A; 3]),
+        mut emit: impl FnMut(u32, &DrawCall<'a>, [Vec3A; 3]),
     ) {
         if numbers.is_empty() {
             return;

@@ -1,9 +1,9 @@
 //! The sun: where it stands, and how much of it is seen from a point.
 
 use super::coverage::Coverage;
-use super::detail::Detail;
-use super::light_map::Frame;
-use super::raster::Grid;
+use super::detail::RenderDetail;
+use super::light_map::LightProjection;
+use super::raster::RasterGrid;
 use super::stage::Stage;
 use super::view::Viewpoint;
 use glam::{Vec2, Vec3A};
@@ -24,7 +24,7 @@ const WIDEST: f32 = 0.02;
 pub(super) struct Sun {
     /// The unit vector towards it.
     pub direction: Vec3A,
-    frame: Frame,
+    frame: LightProjection,
     depths: Vec<f32>,
     /// Where lookups go for a full pixel, within the unit disc; every part of it in order is spread over the
     /// disc.
@@ -34,14 +34,14 @@ pub(super) struct Sun {
 impl Sun {
     /// The sun behind the left shoulder of a viewer at `eye`, so that every picture has a light and a dark
     /// side.
-    pub(super) fn new(stage: &Stage, eye: Viewpoint, detail: &Detail) -> Self {
+    pub(super) fn new(stage: &Stage, eye: Viewpoint, detail: &RenderDetail) -> Self {
         let place = Viewpoint { azimuth: eye.azimuth + ASIDE.to_radians(), elevation: HEIGHT.to_radians() };
         let direction = place.direction().as_vec3a();
-        let frame = Frame::fit(&stage.hull, direction, detail.sun_side);
+        let frame = LightProjection::fit(&stage.hull, direction, detail.sun_side);
         let mut texels = Vec::new();
         texels.resize_with(frame.texels(), || AtomicU32::new(f32::INFINITY.to_bits()));
         let width = frame.width;
-        let grid = Grid { width, rows: 0..frame.height, shifts: &[128.0] };
+        let grid = RasterGrid { width, rows: 0..frame.height, shifts: &[128.0] };
         stage.batches().into_par_iter().for_each(|numbers| {
             stage.each_triangle(
                 numbers,
@@ -145,8 +145,11 @@ mod tests {
     fn a_point_behind_a_box_is_in_its_shadow_and_the_lit_face_is_not() {
         let scene = samples::boxes(&[DVec3::ZERO]);
         let stage = Stage::new(&scene).unwrap();
-        let sun =
-            Sun::new(&stage, Viewpoint { azimuth: 0.0, elevation: 0.3 }, &Detail::of(Quality::Draft, 12));
+        let sun = Sun::new(
+            &stage,
+            Viewpoint { azimuth: 0.0, elevation: 0.3 },
+            &RenderDetail::of(Quality::Draft, 12),
+        );
         let behind = stage.bounds.0.with_x(0.0).with_y(0.0) - sun.direction.with_z(0.0) * 0.7;
         assert!(sun.visibility(behind, Vec3A::Z, 0.0, (0, 1)) < 0.01);
         let top = stage.bounds.1.z;

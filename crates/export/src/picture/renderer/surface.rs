@@ -2,12 +2,12 @@
 
 use super::camera::Camera;
 use super::stage::Stage;
-use super::texture::Texture;
+use super::texture::SampledTexture;
 use glam::{Vec2, Vec3, Vec3A};
 
 /// A point on the model or the ground with what its shading needs.
 #[derive(Debug, Clone)]
-pub(super) struct Surface {
+pub(super) struct SurfacePoint {
     /// Where it is on the stage.
     pub position: Vec3A,
     /// The same on the smooth surface that the normals describe, for shadows without the triangles' corners.
@@ -33,14 +33,14 @@ pub(super) struct Surface {
 }
 
 /// A triangle on the stage.
-struct Corners {
+struct StageTriangle {
     a: Vec3A,
     ab: Vec3A,
     ac: Vec3A,
     cross: Vec3A,
 }
 
-impl Corners {
+impl StageTriangle {
     /// The weights of the second and third corner where `ray` from `eye` meets the triangle's plane; those of
     /// its middle if the triangle is seen edge-on.
     fn weights(&self, eye: Vec3A, ray: Vec3A) -> Vec2 {
@@ -54,11 +54,11 @@ impl Corners {
     }
 }
 
-impl Surface {
+impl SurfacePoint {
     /// What pixel coordinates `place` show of triangle `number`.
     pub(super) fn seen(
         stage: &Stage,
-        textures: &[Option<Texture>],
+        textures: &[Option<SampledTexture>],
         camera: &Camera,
         number: u32,
         place: [f32; 2],
@@ -67,7 +67,7 @@ impl Surface {
         let part = draw.part;
         let triangle = part.triangles.get(index).unwrap_or_default().map(|i| i as usize);
         let [a, b, c] = triangle.map(|i| draw.place.transform_point3a(Vec3A::from(part.positions[i])));
-        let corners = Corners { a, ab: b - a, ac: c - a, cross: (b - a).cross(c - a) };
+        let corners = StageTriangle { a, ab: b - a, ac: c - a, cross: (b - a).cross(c - a) };
         let exact = corners.weights(camera.eye, camera.ray(place[0], place[1]));
         // The middle of the samples may lie a little outside the triangle.
         let inside = exact.max(Vec2::ZERO);

@@ -12,9 +12,9 @@ const STRETCH: f32 = 8.0;
 
 /// An image in several sizes.
 #[derive(Debug)]
-pub(super) struct Texture {
+pub(super) struct SampledTexture {
     /// Each half as large as the one before, the last a single pixel; sRGB and opacity, from the top row down.
-    levels: Vec<Level>,
+    levels: Vec<TextureLevel>,
     /// Width and height (m) of one repetition.
     size: Vec2,
     /// Whether it does not cover all of a surface.
@@ -22,18 +22,18 @@ pub(super) struct Texture {
 }
 
 #[derive(Debug)]
-struct Level {
+struct TextureLevel {
     width: usize,
     height: usize,
     pixels: Vec<[u8; 4]>,
 }
 
 /// The texture of each material. Fails if a file cannot be read or a size is not positive.
-pub(super) fn load(materials: &[Material]) -> Result<Vec<Option<Texture>>> {
-    materials.iter().map(|material| material.texture.as_ref().map(Texture::read).transpose()).collect()
+pub(super) fn load(materials: &[Material]) -> Result<Vec<Option<SampledTexture>>> {
+    materials.iter().map(|material| material.texture.as_ref().map(SampledTexture::read).transpose()).collect()
 }
 
-impl Texture {
+impl SampledTexture {
     fn read(texture: &burgeon_scene::Texture) -> Result<Self> {
         let name = texture.path.display();
         if !texture.size.iter().all(|side| side.is_finite() && *side > 0.0) {
@@ -48,8 +48,8 @@ impl Texture {
         let pixels = image.pixels().to_vec();
         let holes = pixels.iter().any(|pixel| pixel[3] < 255);
         let mut levels =
-            vec![Level { width: image.width() as usize, height: image.height() as usize, pixels }];
-        while let Some(next) = levels.last().and_then(Level::half) {
+            vec![TextureLevel { width: image.width() as usize, height: image.height() as usize, pixels }];
+        while let Some(next) = levels.last().and_then(TextureLevel::half) {
             levels.push(next);
         }
         Ok(Self { levels, size: Vec2::new(texture.size[0] as f32, texture.size[1] as f32), holes })
@@ -125,7 +125,7 @@ fn linear([red, green, blue, alpha]: [u8; 4]) -> Vec4 {
     (Vec3::from_array(color) * alpha).extend(alpha)
 }
 
-impl Level {
+impl TextureLevel {
     /// The linear colour of a pixel times its opacity, and the opacity.
     fn linear(&self, x: usize, y: usize) -> Vec4 {
         linear(self.pixels[y * self.width + x])
@@ -193,8 +193,8 @@ mod tests {
     #[test]
     fn v_points_up_and_an_image_repeats() {
         let pixels = vec![[255, 0, 0, 255], [255, 0, 0, 255], [0, 0, 255, 255], [0, 0, 255, 255]];
-        let levels = vec![Level { width: 2, height: 2, pixels }];
-        let texture = Texture { levels, size: Vec2::new(2.0, 4.0), holes: false };
+        let levels = vec![TextureLevel { width: 2, height: 2, pixels }];
+        let texture = SampledTexture { levels, size: Vec2::new(2.0, 4.0), holes: false };
         let color = |u, v| texture.color(Vec2::new(u, v), Vec2::ZERO, Vec2::ZERO);
         assert!(color(0.5, 3.0).x > 0.99 && color(0.5, 1.0).z > 0.99);
         assert!(color(-7.5, 7.0).x > 0.99 && color(4.5, -3.0).z > 0.99);

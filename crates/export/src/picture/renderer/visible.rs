@@ -2,8 +2,8 @@
 
 use super::camera::Camera;
 use super::coverage::Coverage;
-use super::detail::Detail;
-use super::raster::Grid;
+use super::detail::RenderDetail;
+use super::raster::RasterGrid;
 use super::stage::Stage;
 use glam::Vec3A;
 use rayon::prelude::*;
@@ -32,7 +32,7 @@ impl Visible {
     pub(super) fn new(
         stage: &Stage,
         camera: &Camera,
-        detail: &Detail,
+        detail: &RenderDetail,
         width: usize,
         pixels: Range<usize>,
     ) -> Self {
@@ -42,7 +42,7 @@ impl Visible {
         let mut samples = Vec::new();
         samples.resize_with(stride * height, || AtomicU64::new(NOTHING));
         let shifts = shifts(rows);
-        let grid = Grid { width: stride, rows: 0..height, shifts: &shifts };
+        let grid = RasterGrid { width: stride, rows: 0..height, shifts: &shifts };
         let scale = Vec3A::new(columns as f32, rows as f32, 1.0);
         let offset = Vec3A::new(0.0, (pixels.start * rows) as f32, 0.0);
         stage.batches().into_par_iter().for_each(|numbers| {

@@ -6,9 +6,9 @@ use glam::{DAffine3, DMat3, DVec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::Ring;
-use burgeon_geometry::roof::{LineKind, Patch, PatchKind, lines, normal};
+use burgeon_geometry::roof::{Patch, PatchKind, RoofLineKind, lines, normal};
 use burgeon_kit::random::Stream;
-use burgeon_kit::{Expected, Field, fields};
+use burgeon_kit::{Expectation, Field, fields};
 use burgeon_kit::{Model, Parameter, Table, Value};
 
 /// One of the `details` of `footprint:roof { ... }`.
@@ -16,7 +16,7 @@ use burgeon_kit::{Model, Parameter, Table, Value};
 /// The model stands upright with its origin on the roof. Its x runs along the line, to the right as seen from
 /// outside, and its front, -y, looks outwards.
 #[fields("a detail of footprint:roof")]
-pub struct Detail {
+pub struct RoofDetail {
     /// What stands there: what `derive` returned.
     pub model: Option<Arc<Model>>,
     /// "ridge", "hip", "valley", "eaves", "slope" or "gable".
@@ -56,7 +56,7 @@ pub struct Detail {
     pub stretch: bool,
 }
 
-impl Parameter for Detail {
+impl Parameter for RoofDetail {
     fn luau() -> String {
         "{ [string]: any }".into()
     }
@@ -65,11 +65,11 @@ impl Parameter for Detail {
         Self::fields()
     }
 
-    fn from_value(value: Value) -> Result<Self, Expected> {
+    fn from_value(value: Value) -> Result<Self, Expectation> {
         match value {
             Value::Table(table) => Self::from_table(&table)
-                .map_err(|error| Expected::new(format!("a detail ({})", error.message()))),
-            _ => Err(Expected::new("a table of a detail's fields")),
+                .map_err(|error| Expectation::new(format!("a detail ({})", error.message()))),
+            _ => Err(Expectation::new("a table of a detail's fields")),
         }
     }
 
@@ -91,7 +91,7 @@ struct Track {
     up: DVec3,
 }
 
-impl Detail {
+impl RoofDetail {
     /// Fails if a field is out of its range.
     pub(super) fn check(&self) -> Result<()> {
         let what = "a detail of footprint:roof";
@@ -184,10 +184,10 @@ impl Detail {
         let kind = match self.on.as_str() {
             "slope" => return self.slopes(patches),
             "gable" => return self.gables(patches),
-            "hip" => LineKind::Hip,
-            "valley" => LineKind::Valley,
-            "eaves" => LineKind::Eaves,
-            _ => LineKind::Ridge,
+            "hip" => RoofLineKind::Hip,
+            "valley" => RoofLineKind::Valley,
+            "eaves" => RoofLineKind::Eaves,
+            _ => RoofLineKind::Ridge,
         };
         let found = lines(patches).into_iter().filter(|line| line.kind == kind);
         let track = |line: burgeon_geometry::roof::RoofLine| {

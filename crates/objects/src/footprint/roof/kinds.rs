@@ -1,28 +1,28 @@
 //! The kinds of roof that scripts can name.
 
-use super::super::unknown;
+use super::super::object::unknown;
 use super::Roof;
-use crate::footprint::check_height;
+use crate::footprint::object::check_height;
 use burgeon_base::error::{Error, Result};
-use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, Shape, Surface};
+use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
 
 /// A kind: what stands at the ends of wings, and the bends of its slopes between eaves and ridge, as parts of the
 /// width and of the height.
-struct Kind {
+struct RoofKind {
     name: &'static str,
     ends: Ends,
     bends: &'static [(f64, f64)],
 }
 
-const SLOPED: [Kind; 8] = [
-    Kind { name: "gable", ends: Ends::Gables, bends: &[] },
-    Kind { name: "gambrel", ends: Ends::Gables, bends: &[(0.36, 0.64)] },
-    Kind { name: "shed_gambrel", ends: Ends::Gables, bends: &[(0.26, 0.06), (0.56, 0.66)] },
-    Kind { name: "hip", ends: Ends::Hips, bends: &[] },
-    Kind { name: "mansard", ends: Ends::Hips, bends: &[(0.25, 0.7)] },
-    Kind { name: "pagoda", ends: Ends::Hips, bends: &[(0.35, 0.12), (0.7, 0.42)] },
-    Kind { name: "porch", ends: Ends::Hips, bends: &[(0.4, 0.16)] },
-    Kind { name: "dutch_hip", ends: Ends::DutchHips, bends: &[] },
+const SLOPED: [RoofKind; 8] = [
+    RoofKind { name: "gable", ends: Ends::Gables, bends: &[] },
+    RoofKind { name: "gambrel", ends: Ends::Gables, bends: &[(0.36, 0.64)] },
+    RoofKind { name: "shed_gambrel", ends: Ends::Gables, bends: &[(0.26, 0.06), (0.56, 0.66)] },
+    RoofKind { name: "hip", ends: Ends::Hips, bends: &[] },
+    RoofKind { name: "mansard", ends: Ends::Hips, bends: &[(0.25, 0.7)] },
+    RoofKind { name: "pagoda", ends: Ends::Hips, bends: &[(0.35, 0.12), (0.7, 0.42)] },
+    RoofKind { name: "porch", ends: Ends::Hips, bends: &[(0.4, 0.16)] },
+    RoofKind { name: "dutch_hip", ends: Ends::DutchHips, bends: &[] },
 ];
 
 const KINDS: [&str; 10] =
@@ -34,15 +34,15 @@ const EAVES: [&str; 3] = ["closed", "open", "slab"];
 const THICKNESS: f64 = 0.15;
 
 /// The shape that a script asks for.
-pub(super) fn shape(options: &Roof) -> Result<Shape> {
+pub(super) fn shape(options: &Roof) -> Result<RoofShape> {
     check(options)?;
     let kind = options.kind.as_str();
     let border = Border { height: options.border, width: options.border_width };
     let surface = match kind {
-        "flat" => Surface::Flat((border.height > 0.0).then_some(border)),
-        "shed" => Surface::Shed,
+        "flat" => RoofSurface::Flat((border.height > 0.0).then_some(border)),
+        "shed" => RoofSurface::Shed,
         _ => match SLOPED.iter().find(|known| known.name == kind) {
-            Some(Kind { ends, bends, .. }) => Surface::Sloped(*ends, bends),
+            Some(RoofKind { ends, bends, .. }) => RoofSurface::Sloped(*ends, bends),
             None => return Err(unknown("footprint:roof", kind, &KINDS)),
         },
     };
@@ -66,11 +66,11 @@ pub(super) fn shape(options: &Roof) -> Result<Shape> {
     let needed = match eaves {
         Eaves::Slab => true,
         Eaves::Open => juts_out,
-        Eaves::Closed => juts_out && matches!(surface, Surface::Flat(_)),
+        Eaves::Closed => juts_out && matches!(surface, RoofSurface::Flat(_)),
     };
     let slab = if needed && options.slab == 0.0 { THICKNESS } else { options.slab };
     let rise = options.height.map_or(Rise::Slope(options.slope.to_radians().tan()), Rise::Height);
-    Ok(Shape { surface, rise, overhang: options.overhang, eaves, slab })
+    Ok(RoofShape { surface, rise, overhang: options.overhang, eaves, slab })
 }
 
 fn check(options: &Roof) -> Result<()> {

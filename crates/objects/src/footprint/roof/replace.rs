@@ -3,12 +3,12 @@
 use glam::DVec2;
 
 use burgeon_base::error::Result;
-use burgeon_geometry::roof::{Cover, Patch, PatchKind, Shape, Support, Surface, floor};
+use burgeon_geometry::roof::{Patch, PatchKind, RoofCover, RoofShape, RoofSurface, Support, floor};
 use burgeon_geometry::{Plan, Polygon};
 
 /// A roof, and what it is in place of.
-pub(super) struct Made {
-    pub cover: Cover,
+pub(super) struct RoofReplacement {
+    pub cover: RoofCover,
     /// What was done instead, and why.
     pub replaced: Option<(String, String)>,
 }
@@ -21,13 +21,13 @@ const LEAST: f64 = 1.0;
 /// The roof that `make` makes over its support; where it fails, a level deck closes the walls, and a roof over a simpler
 /// outline stands on it as a solid of its own, nowhere over a courtyard; or the deck alone.
 pub(super) fn cover(
-    shape: &Shape,
+    shape: &RoofShape,
     kind: &str,
     support: &Support<'_>,
-    make: &mut impl FnMut(&Shape, &Support<'_>) -> Result<Cover>,
-) -> Made {
+    make: &mut impl FnMut(&RoofShape, &Support<'_>) -> Result<RoofCover>,
+) -> RoofReplacement {
     let why = match make(shape, support) {
-        Ok(cover) => return Made { cover, replaced: None },
+        Ok(cover) => return RoofReplacement { cover, replaced: None },
         Err(error) => error.message().to_owned(),
     };
     let &Support { walls, base, .. } = support;
@@ -38,11 +38,11 @@ pub(super) fn cover(
         along: DVec2::X,
         rings: if upwards { walls.at_height(base).to_vec() } else { floor(walls, base) },
     };
-    let flush = Shape { overhang: 0.0, ..*shape };
+    let flush = RoofShape { overhang: 0.0, ..*shape };
     for distance in SIMPLER {
         let outlines = within(walls, distance);
         let covers = outlines.iter().map(|outline| make(&flush, &Support::new(outline, base)));
-        let Ok(covers) = covers.collect::<Result<Vec<Cover>>>() else { continue };
+        let Ok(covers) = covers.collect::<Result<Vec<RoofCover>>>() else { continue };
         if covers.is_empty() {
             break;
         }
@@ -52,12 +52,15 @@ pub(super) fn cover(
             patches.extend(cover.patches);
         }
         let text = format!("a {kind} roof over an outline simplified to {distance} m");
-        return Made { cover: Cover { patches, ..Cover::default() }, replaced: Some((text, why)) };
+        return RoofReplacement {
+            cover: RoofCover { patches, ..RoofCover::default() },
+            replaced: Some((text, why)),
+        };
     }
-    let deck = Shape { surface: Surface::Flat(None), slab: 0.0, ..flush };
+    let deck = RoofShape { surface: RoofSurface::Flat(None), slab: 0.0, ..flush };
     let cover = make(&deck, &Support::new(walls, base))
-        .unwrap_or_else(|_| Cover { patches: vec![level(walls, true)], ..Cover::default() });
-    Made { cover, replaced: Some((format!("a flat roof in place of a {kind} roof"), why)) }
+        .unwrap_or_else(|_| RoofCover { patches: vec![level(walls, true)], ..RoofCover::default() });
+    RoofReplacement { cover, replaced: Some((format!("a flat roof in place of a {kind} roof"), why)) }
 }
 
 /// Simpler outlines within that of the walls, none of them nearer to it than the simplification may move them, so that

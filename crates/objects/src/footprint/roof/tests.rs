@@ -6,7 +6,8 @@ use glam::{DAffine3, DVec2, DVec3};
 
 use super::*;
 use burgeon_base::error::Error;
-use burgeon_geometry::roof::{Cover, Ends, Rise, Shape, Surface as Faces, fill, floor};
+use burgeon_geometry::roof::{Eaves, Patch, PatchKind, Support};
+use burgeon_geometry::roof::{Ends, Rise, RoofCover, RoofShape, RoofSurface, fill, floor};
 use burgeon_geometry::{Polygon, Ring, solid};
 use burgeon_kit::random::Stream;
 use burgeon_kit::{Model, Parameter, Value};
@@ -18,9 +19,9 @@ fn around(corners: &[(f64, f64)]) -> Polygon {
     Polygon::new(vec![corners.iter().copied().map(DVec2::from).collect()]).expect("a polygon")
 }
 
-fn hip() -> Shape {
-    Shape {
-        surface: Faces::Sloped(Ends::Hips, &[]),
+fn hip() -> RoofShape {
+    RoofShape {
+        surface: RoofSurface::Sloped(Ends::Hips, &[]),
         rise: Rise::Slope(0.7),
         overhang: 0.4,
         eaves: Eaves::Closed,
@@ -42,19 +43,24 @@ fn model(size: DVec3) -> Arc<Model> {
         placement: None,
     };
     Arc::new(Model::new(Scene {
-        shared: burgeon_scene::Shared::default(),
+        shared: burgeon_scene::SharedMeshes::default(),
         materials: vec![Material::default()],
         meshes: vec![mesh],
         instances: vec![instance],
     }))
 }
 
-fn detail(on: &str) -> Detail {
-    Detail { model: Some(model(DVec3::new(2.0, 1.0, 1.0))), on: on.into(), ..Detail::default() }
+fn detail(on: &str) -> RoofDetail {
+    RoofDetail { model: Some(model(DVec3::new(2.0, 1.0, 1.0))), on: on.into(), ..RoofDetail::default() }
 }
 
 fn patches(ends: Ends) -> Vec<Patch> {
-    let shape = Shape { surface: Faces::Sloped(ends, &[]), overhang: 0.0, rise: Rise::Height(4.0), ..hip() };
+    let shape = RoofShape {
+        surface: RoofSurface::Sloped(ends, &[]),
+        overhang: 0.0,
+        rise: Rise::Height(4.0),
+        ..hip()
+    };
     shape.cover(&around(&RECTANGLE), 3.0).expect("a roof").patches
 }
 
@@ -67,8 +73,8 @@ fn a_roof_that_fails_is_replaced_over_a_simpler_outline_then_by_a_deck() {
         (6, Some("a hip roof over an outline simplified to 0.2 m")),
         (4, Some("a flat roof in place of a hip roof")),
     ] {
-        let mut make = |shape: &Shape, support: &Support<'_>| {
-            let refused = support.walls[0].len() > least && matches!(shape.surface, Faces::Sloped(..));
+        let mut make = |shape: &RoofShape, support: &Support<'_>| {
+            let refused = support.walls[0].len() > least && matches!(shape.surface, RoofSurface::Sloped(..));
             if refused { Err(Error::other("too hard")) } else { shape.cover_on(support) }
         };
         let made = replace::cover(&hip(), "hip", &Support::new(&walls, 3.0), &mut make);
@@ -102,9 +108,9 @@ fn what_stands_in_for_a_roof_covers_no_courtyard_and_nothing_beside_the_plan() {
         // Whatever has as many corners as the plan is too hard; every third time all is.
         let corners: usize = walls.size();
         let all = random.below(3) == 0;
-        let mut make = |shape: &Shape, support: &Support<'_>| {
+        let mut make = |shape: &RoofShape, support: &Support<'_>| {
             let many = support.walls.size() >= corners;
-            let refused = (many || all) && matches!(shape.surface, Faces::Sloped(..));
+            let refused = (many || all) && matches!(shape.surface, RoofSurface::Sloped(..));
             if refused { Err(Error::other("too hard")) } else { shape.cover_on(support) }
         };
         let made = replace::cover(&hip(), "hip", &Support::new(&walls, 3.0), &mut make);
@@ -138,7 +144,7 @@ fn inside(polygon: &Polygon, at: DVec2) -> bool {
     polygon.contains(at) || polygon.edges().any(is_near)
 }
 
-fn closed(walls: &Polygon, cover: &Cover) -> Part {
+fn closed(walls: &Polygon, cover: &RoofCover) -> Part {
     let mut part = Part::default();
     let mut add = |rings: &[Ring<DVec3>]| {
         let right = rings[0][1] - rings[0][0];
@@ -155,11 +161,11 @@ fn closed(walls: &Polygon, cover: &Cover) -> Part {
 
 #[test]
 fn things_stand_on_the_lines_that_they_are_asked_for() {
-    let places = |detail: Detail, ends: Ends| -> Vec<DVec3> {
+    let places = |detail: RoofDetail, ends: Ends| -> Vec<DVec3> {
         detail.check().expect("sound fields");
         detail.frames(&patches(ends), 1).iter().map(|(_, frame)| frame.translation).collect()
     };
-    let ridge = Detail { every: Some(3.0), ..detail("ridge") };
+    let ridge = RoofDetail { every: Some(3.0), ..detail("ridge") };
     assert_eq!(
         places(ridge.clone(), Ends::Gables),
         [1.5, 4.5, 7.5, 10.5].map(|x| DVec3::new(x, 4.0, 7.0)).iter().rev().copied().collect::<Vec<_>>()
@@ -171,13 +177,13 @@ fn things_stand_on_the_lines_that_they_are_asked_for() {
     let eaves = places(detail("eaves"), Ends::Hips);
     assert_eq!(eaves[0], DVec3::new(6.0, 0.0, 3.0));
     assert_eq!(eaves.len(), 4);
-    let slope = places(Detail { offset: Some(1.0), ..detail("slope") }, Ends::Gables);
+    let slope = places(RoofDetail { offset: Some(1.0), ..detail("slope") }, Ends::Gables);
     assert!(slope[0].distance(DVec3::new(6.0, 1.0, 4.0)) < 1e-9 && slope.len() == 2, "{slope:?}");
 }
 
 #[test]
 fn a_gutter_is_stretched_to_its_eaves_and_looks_outwards() {
-    let gutter = Detail { stretch: true, ..detail("eaves") };
+    let gutter = RoofDetail { stretch: true, ..detail("eaves") };
     let (_, frame) = gutter.frames(&patches(Ends::Hips), 1).remove(0);
     let ends = [0.0, 2.0].map(|x| frame.transform_point3(DVec3::new(x, 0.0, 0.0)));
     assert!(ends[0].distance(DVec3::new(0.0, 0.0, 3.0)) < 1e-6, "{ends:?}");
@@ -187,7 +193,7 @@ fn a_gutter_is_stretched_to_its_eaves_and_looks_outwards() {
 
 #[test]
 fn what_is_left_to_chance_follows_from_the_seed() {
-    let few = Detail { every: Some(0.1), chance: 0.5, count: Some(7), ..detail("ridge") };
+    let few = RoofDetail { every: Some(0.1), chance: 0.5, count: Some(7), ..detail("ridge") };
     let places = |seed: u64| -> Vec<DVec3> {
         few.frames(&patches(Ends::Gables), seed).iter().map(|(_, frame)| frame.translation).collect()
     };
@@ -198,10 +204,10 @@ fn what_is_left_to_chance_follows_from_the_seed() {
 
 #[test]
 fn details_refuse_what_they_cannot_place() {
-    assert!(Detail::default().check().is_err());
-    assert!(Detail { on: "rigde".into(), ..detail("ridge") }.check().is_err());
-    assert!(Detail { every: Some(0.0), ..detail("ridge") }.check().is_err());
-    assert!(Detail { chance: 1.5, ..detail("ridge") }.check().is_err());
-    assert!(Detail { flap: 0, ..detail("ridge") }.check().is_err());
+    assert!(RoofDetail::default().check().is_err());
+    assert!(RoofDetail { on: "rigde".into(), ..detail("ridge") }.check().is_err());
+    assert!(RoofDetail { every: Some(0.0), ..detail("ridge") }.check().is_err());
+    assert!(RoofDetail { chance: 1.5, ..detail("ridge") }.check().is_err());
+    assert!(RoofDetail { flap: 0, ..detail("ridge") }.check().is_err());
     assert!(<Arc<Model>>::from_value(Value::Number(1.0)).is_err());
 }

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::world::World;
 
 /// Heights (m) that were measured, or come from elsewhere.
-pub trait Measured: Send + Sync {
+pub trait HeightSource: Send + Sync {
     /// The height (m) at a place (m) and how steep (m/m) the ground is there; `None` far outside. Exactly the measured
     /// height at each sample; in between smoothly, or straight from one to the next.
     fn ground(&self, place: DVec2, smooth: bool) -> Option<(f64, f64)>;

@@ -7,13 +7,13 @@ use glam::DVec2;
 
 use super::code::Code;
 use super::targets::Target;
-use crate::{Area, Draw, Layer, Quadrants, RuleTable, Rules, Tables, World};
+use crate::{Area, LevelRules, NumberRange, Quadrants, RuleTable, Rules, Tables, World};
 use burgeon_base::error::Result;
 use burgeon_kit::rules::Symbol;
 
 /// A rule table whose map is like a target.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Fitted {
+pub struct FitResult {
     code: Code,
     levels: u32,
     height: f64,
@@ -23,7 +23,7 @@ pub struct Fitted {
     pub tried: usize,
 }
 
-impl Fitted {
+impl FitResult {
     /// `code`, which makes a map from 0 to 1, for the heights of `target`.
     pub(super) fn new(code: Code, target: &Target) -> Self {
         let code = code.tidy().rounded();
@@ -51,7 +51,7 @@ impl Fitted {
         let world = World {
             corner: DVec2::ZERO,
             size: 1.0,
-            layers: vec![Layer {
+            layers: vec![LevelRules {
                 from: 0,
                 rules: Rules::Table(Arc::new(self.table())),
                 start: 0,
@@ -71,12 +71,12 @@ impl Fitted {
 
     /// The rule table.
     fn table(&self) -> RuleTable {
-        let rule = |rule: &super::code::Rule| {
+        let rule = |rule: &super::code::SymbolRule| {
             vec![Quadrants {
                 weight: 1.0,
                 symbols: rule.symbols.map(|symbol| Symbol::try_from(symbol).unwrap_or(0)),
-                change: rule.change.map(Draw::exactly),
-                decay: rule.factor.map(Draw::exactly),
+                change: rule.change.map(NumberRange::exactly),
+                decay: rule.factor.map(NumberRange::exactly),
             }]
         };
         RuleTable {

@@ -8,7 +8,7 @@ pub const MOST: usize = 256;
 
 /// What changes from one variation to the next.
 #[derive(Debug, Clone, PartialEq)]
-pub enum Over {
+pub enum VariationAxis {
     /// The seed of all random numbers.
     Seeds(Vec<u64>),
     /// A parameter of the script.
@@ -20,7 +20,7 @@ pub enum Over {
     },
 }
 
-impl Over {
+impl VariationAxis {
     /// Reads seeds: numbers and ranges such as `1..16`, both ends included, with commas between.
     pub fn seeds(text: &str) -> Result<Self> {
         let help = "write a range such as 1..16, or numbers such as 3,7,12";
@@ -133,18 +133,18 @@ mod tests {
     use super::*;
 
     fn values(text: &str) -> Vec<String> {
-        match Over::sweep(text).unwrap() {
-            Over::Param { values, .. } => values,
-            Over::Seeds(_) => panic!("seeds"),
+        match VariationAxis::sweep(text).unwrap() {
+            VariationAxis::Param { values, .. } => values,
+            VariationAxis::Seeds(_) => panic!("seeds"),
         }
     }
 
     #[test]
     fn ranges_hold_both_ends_and_lists_their_values() {
-        assert_eq!(Over::seeds("1..3").unwrap(), Over::Seeds(vec![1, 2, 3]));
+        assert_eq!(VariationAxis::seeds("1..3").unwrap(), VariationAxis::Seeds(vec![1, 2, 3]));
         assert_eq!(
-            Over::seeds("9, 2..3,18446744073709551615").unwrap(),
-            Over::Seeds(vec![9, 2, 3, u64::MAX])
+            VariationAxis::seeds("9, 2..3,18446744073709551615").unwrap(),
+            VariationAxis::Seeds(vec![9, 2, 3, u64::MAX])
         );
         assert_eq!(values("twist=0..90:30"), ["0", "30", "60", "90"]);
         assert_eq!(values(" twist = -1..1 "), ["-1", "0", "1"]);
@@ -157,64 +157,64 @@ mod tests {
 
     #[test]
     fn what_is_no_range_is_refused_with_what_to_write() {
-        let said = |over: Result<Over>| over.unwrap_err().to_string();
-        insta::assert_snapshot!(said(Over::seeds("16..1")), @r"
+        let said = |over: Result<VariationAxis>| over.unwrap_err().to_string();
+        insta::assert_snapshot!(said(VariationAxis::seeds("16..1")), @r"
         the range 16..1 is empty
           help: write 1..16
         ");
-        insta::assert_snapshot!(said(Over::seeds("1..")), @r#"
+        insta::assert_snapshot!(said(VariationAxis::seeds("1..")), @r#"
         "" is no seed
           help: write a range such as 1..16, or numbers such as 3,7,12
         "#);
-        insta::assert_snapshot!(said(Over::seeds("-3")), @r#"
+        insta::assert_snapshot!(said(VariationAxis::seeds("-3")), @r#"
         "-3" is no seed
           help: write a range such as 1..16, or numbers such as 3,7,12
         "#);
-        insta::assert_snapshot!(said(Over::seeds("1..257")), @r"
+        insta::assert_snapshot!(said(VariationAxis::seeds("1..257")), @r"
         257 variations are more than 256, the most at once
           help: take fewer seeds
         ");
-        insta::assert_snapshot!(said(Over::seeds("0..18446744073709551615")), @r"
+        insta::assert_snapshot!(said(VariationAxis::seeds("0..18446744073709551615")), @r"
         so many variations are more than 256, the most at once
           help: take fewer seeds
         ");
-        insta::assert_snapshot!(said(Over::sweep("x=9..1")), @r"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=9..1")), @r"
         the range 9..1 is empty
           help: write 1..9
         ");
-        insta::assert_snapshot!(said(Over::sweep("x=1..9:0")), @r"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=1..9:0")), @r"
         the step 0 does not lead from 1 to 9
           help: give a step above 0
         ");
-        insta::assert_snapshot!(said(Over::sweep("x=1..9:-1")), @r"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=1..9:-1")), @r"
         the step -1 does not lead from 1 to 9
           help: give a step above 0
         ");
-        insta::assert_snapshot!(said(Over::sweep("x=1..")), @r#"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=1..")), @r#"
         "" is no number for the end of a range
           help: write LOW..HIGH:STEP, such as 0..90:10
         "#);
-        insta::assert_snapshot!(said(Over::sweep("x=..5")), @r#"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=..5")), @r#"
         "" is no number for the beginning of a range
           help: write LOW..HIGH:STEP, such as 0..90:10
         "#);
-        insta::assert_snapshot!(said(Over::sweep("x=0..1e9")), @r"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=0..1e9")), @r"
         so many variations are more than 256, the most at once
           help: take a larger step: LOW..HIGH:STEP
         ");
-        insta::assert_snapshot!(said(Over::sweep("x=0..nan")), @r#"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=0..nan")), @r#"
         "nan" is no number for the end of a range
           help: write LOW..HIGH:STEP, such as 0..90:10
         "#);
-        insta::assert_snapshot!(said(Over::sweep("x=")), @r"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=")), @r"
         x has no values
           help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
         ");
-        insta::assert_snapshot!(said(Over::sweep("x=a,,b")), @r#"
+        insta::assert_snapshot!(said(VariationAxis::sweep("x=a,,b")), @r#"
         "a,,b" leaves a value empty
           help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
         "#);
-        insta::assert_snapshot!(said(Over::sweep("=1,2")), @r"
+        insta::assert_snapshot!(said(VariationAxis::sweep("=1,2")), @r"
         the parameter has no name
           help: write NAME=LOW..HIGH:STEP, such as twist=0..90:10, or NAME=A,B,C
         ");

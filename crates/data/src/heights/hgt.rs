@@ -1,8 +1,7 @@
 //! SRTM tiles (`.hgt`): a square of big-endian 16-bit heights of a degree, named after its corner; zipped or not.
 
-use super::super::Crs;
-use super::Wanted;
-use super::raster::{Found, Grid, check_size, count};
+use super::{HeightOptions, RasterHeader, SampleGrid, check_size, count};
+use crate::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -16,11 +15,11 @@ const SIZES: [[usize; 2]; 4] = [[1201, 1201], [3601, 3601], [1801, 3601], [7201,
 ///
 /// Fails if neither its name nor `wanted` tells where it lies, and if it has another size than tiles have: a square of
 /// any, where `wanted` tells.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &Wanted) -> Result<Found<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let [columns, rows] = size(bytes.len(), name, wanted)?;
     let (grid, crs) = place(name, wanted, [columns, rows])?;
     let heights = move |_: &Budget| Ok(bytes.chunks_exact(2).map(height).collect());
-    Ok(Found { columns, rows, grid, crs, heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs, heights: Box::new(heights) })
 }
 
 /// The height (m) in two bytes.
@@ -32,7 +31,7 @@ pub(crate) fn height(pair: &[u8]) -> f32 {
 }
 
 /// The columns and rows of so many bytes of heights.
-pub(crate) fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 2]> {
+pub(crate) fn size(bytes: usize, name: &str, wanted: &HeightOptions) -> Result<[usize; 2]> {
     if let Some(size) = SIZES.into_iter().find(|[columns, rows]| columns * rows * 2 == bytes) {
         return Ok(size);
     }
@@ -53,16 +52,16 @@ pub(crate) fn size(bytes: usize, name: &str, wanted: &Wanted) -> Result<[usize; 
 /// Where a tile lies, whose samples go from degree to degree, and in which coordinates.
 pub(crate) fn place(
     name: &str,
-    wanted: &Wanted,
+    wanted: &HeightOptions,
     [columns, rows]: [usize; 2],
-) -> Result<(Option<Grid>, Result<Option<Crs>>)> {
+) -> Result<(Option<SampleGrid>, Result<Option<Crs>>)> {
     let corner = corner(name);
     if corner.is_none() && wanted.bounds.is_none() {
         return Err(Error::data(format!("{name} does not tell where it lies"))
             .help("name it after its south-west corner, such as N43E007.hgt, or give its bounds and crs"));
     }
     let step = [columns, rows].map(|side| 1.0 / count(side - 1));
-    Ok((corner.map(|[x, y]| Grid { first: [x, y + 1.0], step }), Crs::epsg(4326).map(Some)))
+    Ok((corner.map(|[x, y]| SampleGrid { first: [x, y + 1.0], step }), Crs::epsg(4326).map(Some)))
 }
 
 fn not_square(bytes: usize, name: &str) -> Error {

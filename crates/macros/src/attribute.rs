@@ -5,14 +5,14 @@ use syn::parse::{Parse, ParseStream};
 use syn::{LitStr, Path, Result, Token, parse_quote};
 
 /// What stands in the attribute: what is declared, and the crate with the contract of objects.
-pub(crate) struct Declared {
+pub(crate) struct AttributeArguments {
     /// The name for scripts and messages.
     pub name: LitStr,
     /// The path of the contract.
     pub kit: Path,
 }
 
-impl Parse for Declared {
+impl Parse for AttributeArguments {
     fn parse(input: ParseStream<'_>) -> Result<Self> {
         let name = input.parse()?;
         let mut kit = parse_quote!(::burgeon_kit);
@@ -30,7 +30,10 @@ impl Parse for Declared {
 pub(crate) fn expand(
     arguments: TokenStream,
     item: TokenStream,
-    expand: impl Fn(&Declared, TokenStream) -> std::result::Result<TokenStream, (TokenStream, syn::Error)>,
+    expand: impl Fn(
+        &AttributeArguments,
+        TokenStream,
+    ) -> std::result::Result<TokenStream, (TokenStream, syn::Error)>,
 ) -> TokenStream {
     let expanded = match syn::parse2(arguments) {
         Ok(declared) => expand(&declared, item),

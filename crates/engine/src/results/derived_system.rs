@@ -7,7 +7,7 @@ use std::time::Duration;
 use super::remark::Remark;
 use super::trace::RuleName;
 use super::uses::Use;
-use burgeon_base::error::{Place, Result};
+use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::{Chain, Symbols, Values, chain_text, write_chains};
 use burgeon_kit::{Model, Object};
@@ -37,7 +37,7 @@ pub struct RuleReport {
 }
 
 /// The chains and objects that a system ended with.
-pub struct Derived {
+pub struct DerivedSystem {
     /// The system's place in the script, from 0.
     pub system: usize,
     /// The chains.
@@ -58,7 +58,7 @@ pub struct Derived {
     /// What the rules and the interpretation rules have done, in the order of their declaration.
     pub rules: Vec<RuleReport>,
     /// Where the system was made.
-    pub place: Option<Place>,
+    pub place: Option<SourcePlace>,
     /// The number of features that it was given, those that were left out among them.
     pub given: usize,
     /// What could not be built as asked: features that got no chain, then the chains in their order.
@@ -73,7 +73,7 @@ pub struct Derived {
     placed: AtomicBool,
 }
 
-impl Derived {
+impl DerivedSystem {
     #[allow(clippy::too_many_arguments, reason = "called once, with everything that a derivation knows")]
     pub(crate) fn new(
         system: usize,
@@ -85,7 +85,7 @@ impl Derived {
         steps: usize,
         times: Times,
         rules: Vec<RuleReport>,
-        place: Option<Place>,
+        place: Option<SourcePlace>,
     ) -> Self {
         let modules = chain.modules();
         Self {
@@ -155,7 +155,7 @@ impl Derived {
         self.placed.load(Ordering::Relaxed)
     }
 
-    /// As [`Derived::add_to`], but the objects that nobody else holds give away what they have drawn.
+    /// As [`DerivedSystem::add_to`], but the objects that nobody else holds give away what they have drawn.
     pub(crate) fn hand_over(&mut self, scene: &mut Scene) -> Result<()> {
         let name = self.name();
         for (chain, (object, feature)) in self.objects.iter_mut().zip(&self.features).enumerate() {

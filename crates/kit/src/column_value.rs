@@ -4,7 +4,7 @@
 ///
 /// The upper 16 bits are `0xFFFC`, which no arithmetic gives; the next 16 tell the kind, the lower 32 the value.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Boxed {
+pub enum ColumnValue {
     /// A number.
     Number(f64),
     /// An optional parameter that was left out.
@@ -21,7 +21,7 @@ const BOOLEAN: u64 = MARK | 1 << 32;
 const HANDLE: u64 = MARK | 2 << 32;
 const KIND: u64 = 0xFFFF_FFFF_0000_0000;
 
-impl Boxed {
+impl ColumnValue {
     /// The f64 to store.
     pub fn pack(self) -> f64 {
         match self {

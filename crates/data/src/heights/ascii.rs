@@ -1,7 +1,6 @@
 //! ESRI ASCII grids (`.asc`): a header of names and numbers, then heights as text.
 
-use super::raster::{Found, Grid, check_size, count};
-use super::raw::narrow;
+use super::{RasterHeader, SampleGrid, check_size, count, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -49,7 +48,7 @@ impl Header {
 ///
 /// Fails if its header lacks something, if a height is no number, and if there are fewer than it says; those that are too
 /// many come last.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::data(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
     })?;
@@ -85,7 +84,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
         (Some((x, x_centre)), Some((y, y_centre)), [Some(dx), Some(dy)]) => {
             let half = |is_centre: bool, step: f64| if is_centre { 0.0 } else { step / 2.0 };
             let north = y + half(y_centre, dy) + dy * count(rows - 1);
-            Some(Grid { first: [x + half(x_centre, dx), north], step: [dx, dy] })
+            Some(SampleGrid { first: [x + half(x_centre, dx), north], step: [dx, dy] })
         }
         (_, _, [None, _] | [_, None]) => return Err(lacks("cellsize")),
         // Where it lies may be given.
@@ -93,7 +92,7 @@ pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<Found<'a>> {
     };
     let (expected, length, missing) = (columns * rows, bytes.len(), header.missing);
     let heights = move |budget: &Budget| heights(lines, name, (expected, length), missing, budget);
-    Ok(Found { columns, rows, grid, crs: Ok(None), heights: Box::new(heights) })
+    Ok(RasterHeader { columns, rows, grid, crs: Ok(None), heights: Box::new(heights) })
 }
 
 /// The heights in `lines`, numbered from 0, of a file of so many heights and bytes.
@@ -146,11 +145,12 @@ fn shorten(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Raster, Wanted};
+    use crate::elevation::Raster;
+    use crate::heights::HeightOptions;
     use burgeon_base::budget::Budget;
 
     fn read(text: &str) -> Raster {
-        Raster::read(text.as_bytes(), "a.asc", &Wanted::default(), &Budget::default()).unwrap()
+        Raster::read(text.as_bytes(), "a.asc", &HeightOptions::default(), &Budget::default()).unwrap()
     }
 
     #[test]

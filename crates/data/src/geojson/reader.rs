@@ -1,0 +1,338 @@
+//! Reads GeoJSON, feature by feature.
+
+use std::path::Path;
+use std::sync::Arc;
+
+use super::document::{DocumentHeader, document};
+use super::geometry;
+use crate::{Attribute, Crs, FeatureTable, SourceOptions};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+use rustc_hash::FxHashMap;
+use serde::Deserialize;
+use serde_json::value::RawValue;
+use serde_json::{Map, Value};
+
+/// The largest file (bytes) that is read; it takes about five times as much memory.
+pub(crate) const LARGEST: u64 = 500_000_000;
+
+/// What stands before each text of a sequence.
+const RECORD: char = '\u{1e}';
+
+/// Properties of a feature from this length (bytes) on are asked for before they are read.
+pub(super) const LARGE: usize = 1 << 20;
+
+#[derive(Deserialize)]
+struct RawFeature<'a> {
+    #[serde(borrow)]
+    id: Option<&'a RawValue>,
+    #[serde(borrow)]
+    properties: Option<&'a RawValue>,
+    #[serde(borrow)]
+    geometry: Option<&'a RawValue>,
+}
+
+/// Reads all of a file, which messages call `name`.
+pub(crate) fn read(bytes: &[u8], path: &Path, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let text = match std::str::from_utf8(bytes) {
+        Ok(text) if !bytes.iter().take(1000).any(|byte| *byte == 0) => text,
+        _ => {
+            return Err(Error::data(format!("{name} is a binary file, neither GeoJSON nor a GeoPackage"))
+                .help("convert it: ogr2ogr out.gpkg FILE"));
+        }
+    };
+    let stem = path.file_stem().map_or_else(|| name.to_owned(), |stem| stem.to_string_lossy().into_owned());
+    let mut reader = FeatureReader {
+        table: FeatureTable::new(&stem, name, Crs::epsg(4326), Arc::clone(&wanted.budget)),
+        name,
+        wanted,
+        records: 0,
+        names: FxHashMap::default(),
+        failure: None,
+    };
+    let extension = path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+    if text.trim_start().starts_with(RECORD) {
+        reader.records(text)?;
+    } else {
+        let is_sequence = crate::SEQUENCES.contains(&&*extension);
+        reader.documents(text, is_sequence)?;
+    }
+    Ok(reader.table)
+}
+
+/// What has been read of a file.
+pub(super) struct FeatureReader<'a> {
+    table: FeatureTable,
+    name: &'a str,
+    wanted: &'a SourceOptions,
+    /// How many features there have been.
+    records: usize,
+    /// The numbers of the attributes' names.
+    names: FxHashMap<String, usize>,
+    /// Why reading has to end, where the parser cannot tell.
+    pub(super) failure: Option<Error>,
+}
+
+impl FeatureReader<'_> {
+    /// Reads the texts of a sequence with separators.
+    fn records(&mut self, text: &str) -> Result<()> {
+        let mut line = 1;
+        for record in text.split(RECORD) {
+            if !record.trim().is_empty() {
+                match self.text(record) {
+                    Ok((head, rest)) if rest.trim().is_empty() => self.member(head)?,
+                    Ok(_) => self.refuse_line(line, "holds more than one text between separators")?,
+                    Err(why) => self.refuse_text(line, &why)?,
+                }
+            }
+            line += lines(record);
+        }
+        Ok(())
+    }
+
+    /// Reads one document, or several that follow one another.
+    fn documents(&mut self, text: &str, is_sequence: bool) -> Result<()> {
+        let (mut rest, mut line, mut first) = (text, 1, !is_sequence);
+        loop {
+            let blank = rest.len() - rest.trim_start().len();
+            line += lines(&rest[..blank]);
+            rest = &rest[blank..];
+            if rest.is_empty() && !first {
+                return Ok(());
+            }
+            match self.text(rest) {
+                // Only a document that stands alone may name the layer.
+                Ok((head, after)) if first && after.trim().is_empty() => return self.alone(head),
+                Ok((head, after)) => {
+                    self.member(head)?;
+                    line += lines(&rest[..rest.len() - after.len()]);
+                    rest = after;
+                }
+                Err(error) if first => return Err(not_json(self.name, text, &error)),
+                Err(error) => {
+                    self.refuse_text(line, &error)?;
+                    rest = rest.find('\n').map_or("", |end| &rest[end..]);
+                }
+            }
+            first = false;
+        }
+    }
+
+    /// Reads one text, whose features are added at once; gives what else it says, and what follows it.
+    fn text<'t>(&mut self, text: &'t str) -> Result<(DocumentHeader<'t>, &'t str), serde_json::Error> {
+        document(self, text)
+    }
+
+    /// Takes the document that is the whole file.
+    fn alone(&mut self, head: DocumentHeader<'_>) -> Result<()> {
+        self.stop()?;
+        self.table.crs = system(head.crs.as_ref());
+        if let Some(title) = head.name.as_ref().and_then(Value::as_str).filter(|title| !title.is_empty()) {
+            self.table.layer = title.to_owned();
+        }
+        self.take(head, true)
+    }
+
+    /// Takes a text of a sequence, which may name the coordinate system of all.
+    fn member(&mut self, head: DocumentHeader<'_>) -> Result<()> {
+        self.stop()?;
+        if head.crs.is_some() {
+            self.table.crs = system(head.crs.as_ref());
+        }
+        self.take(head, false)
+    }
+
+    /// Adds what a text is: a feature, a geometry, or the features that were added already.
+    fn take(&mut self, head: DocumentHeader<'_>, alone: bool) -> Result<()> {
+        let name = self.name;
+        let kind = head.kind.as_ref().and_then(Value::as_str).unwrap_or_default();
+        let error = match kind {
+            "FeatureCollection" if head.features => return Ok(()),
+            "FeatureCollection" => {
+                Error::data(format!("{name} is not GeoJSON: its FeatureCollection has no features"))
+                    .help("it needs \"features\": [ ... ]")
+            }
+            "Feature" if !head.features => {
+                let DocumentHeader { id, properties, geometry, .. } = head;
+                return self.feature(&RawFeature { id, properties, geometry });
+            }
+            kind if geometry::is_known(kind) && !head.features => {
+                let parts = geometry::of_members(kind, head.coordinates, head.geometries, self.wanted);
+                let number = self.number();
+                return self.add(number.to_string(), parts, Vec::new());
+            }
+            "Topology" => Error::data(format!("{name} is TopoJSON, not GeoJSON"))
+                .help("convert it: ogr2ogr out.geojson FILE"),
+            _ => Error::data(format!("{name} is JSON, but not GeoJSON"))
+                .help("it needs \"type\": \"FeatureCollection\" and \"features\": [ ... ]"),
+        };
+        if alone {
+            return Err(error);
+        }
+        let number = self.number();
+        self.refuse(number.to_string(), "is JSON, but no feature and no geometry")
+    }
+
+    /// Why reading has to end, if it has.
+    fn stop(&mut self) -> Result<()> {
+        self.failure.take().map_or_else(|| self.wanted.budget.check(), Err)
+    }
+
+    /// The number of the next feature, from 1.
+    fn number(&mut self) -> usize {
+        self.records += 1;
+        self.records
+    }
+
+    /// Reads the text of one feature of a list.
+    pub(super) fn raw_feature(&mut self, text: &str) -> Result<()> {
+        self.wanted.budget.tick()?;
+        match serde_json::from_str::<RawFeature<'_>>(text) {
+            Ok(feature) => self.feature(&feature),
+            Err(error) => {
+                let number = self.number();
+                self.refuse(number.to_string(), &format!("is no feature: {}", words(&error)))
+            }
+        }
+    }
+
+    fn feature(&mut self, feature: &RawFeature<'_>) -> Result<()> {
+        let number = self.number();
+        let own = feature.id.and_then(id_of);
+        let length = feature.properties.map_or(0, |properties| properties.get().len());
+        // A value takes up to 40 bytes, and its text 2 or more.
+        let _held =
+            (length > LARGE).then(|| self.wanted.budget.hold(length.saturating_mul(20))).transpose()?;
+        let properties =
+            feature.properties.map(|text| serde_json::from_str::<Map<String, Value>>(text.get()));
+        let properties = match properties.transpose() {
+            Ok(properties) => properties.unwrap_or_default(),
+            Err(error) => {
+                let id = own.unwrap_or_else(|| number.to_string());
+                return self.refuse(id, &format!("has properties that cannot be read: {}", words(&error)));
+            }
+        };
+        let id = own.or_else(|| properties.get("id").and_then(id_text)).unwrap_or_else(|| number.to_string());
+        let mut attributes = Vec::new();
+        for (key, value) in properties {
+            let count = self.names.len();
+            let number = *self.names.entry(key).or_insert_with_key(|key| {
+                self.table.names.push(key.clone());
+                count
+            });
+            if let Some(value) = attribute(value) {
+                attributes.push((number, value));
+            }
+        }
+        let parts = feature.geometry.map_or(Ok(Vec::new()), |text| geometry::read(text, self.wanted));
+        self.add(id, parts, attributes)
+    }
+
+    /// Adds a feature, or refuses it with the reason.
+    fn add(
+        &mut self,
+        id: String,
+        parts: Result<Vec<crate::Geometry>, String>,
+        attributes: Vec<(usize, Attribute)>,
+    ) -> Result<()> {
+        match parts {
+            Ok(parts) => self.table.push(&id, parts, attributes),
+            Err(why) => {
+                // It may be that the time is over, and not the geometry's fault.
+                self.wanted.budget.check()?;
+                self.refuse(id, &why)
+            }
+        }
+    }
+
+    fn refuse(&mut self, id: String, why: &str) -> Result<()> {
+        let error = Error::data(format!("feature {} of {} {why}", shown(&id), self.name))
+            .help("points, lines, polygons, multi-geometries and collections of these are read");
+        self.table.refuse(id, error)
+    }
+
+    /// Refuses a text of a sequence that is not JSON, unless reading has to end.
+    fn refuse_text(&mut self, line: usize, error: &serde_json::Error) -> Result<()> {
+        self.stop()?;
+        self.refuse_line(line, &format!("is not JSON: {}", words(error)))
+    }
+
+    fn refuse_line(&mut self, line: usize, why: &str) -> Result<()> {
+        let number = self.number();
+        let error = Error::data(format!("line {line} of {} {why}", self.name))
+            .help("a sequence has one feature to a line, or a separator (RS) before each");
+        self.table.refuse(number.to_string(), error)
+    }
+}
+
+/// How many lines end in `text`.
+fn lines(text: &str) -> usize {
+    text.bytes().filter(|byte| *byte == b'\n').count()
+}
+
+/// What the parser says, without the place within a part of the text.
+pub(super) fn words(error: &serde_json::Error) -> String {
+    let text = error.to_string();
+    let why = text.rsplit_once(" at line ").map_or(text.as_str(), |(why, _)| why);
+    let why = why.replace("struct RawFeature", "a feature").replace("a map", "an object");
+    let why = why.replace("struct RawGeometry", "a geometry");
+    shown(&why).into_owned()
+}
+
+/// The error for text that cannot be read, with line and column.
+fn not_json(name: &str, text: &str, error: &serde_json::Error) -> Error {
+    let at = format!("line {}, column {}", error.line(), error.column());
+    if error.is_eof() {
+        let why = if text.trim_ascii().is_empty() { "it is empty" } else { "the file is cut short" };
+        return Error::data(format!("{name} is not GeoJSON: it ends at {at}, where more should follow"))
+            .help(format!("{why}; get it again"));
+    }
+    Error::data(format!("{name} is not GeoJSON: {} ({at})", words(error)))
+        .help("GeoJSON is described in RFC 7946")
+}
+
+/// The coordinate system that a `crs` member names; WGS 84 without one.
+fn system(crs: Option<&Value>) -> Result<Crs> {
+    let Some(crs) = crs.filter(|crs| !crs.is_null()) else { return Crs::epsg(4326) };
+    let name = crs.pointer("/properties/name").and_then(Value::as_str).unwrap_or_default();
+    let code = name.rsplit(':').next().and_then(|code| code.parse().ok());
+    match code {
+        _ if name.ends_with(":CRS84") => Crs::epsg(4326),
+        Some(code) if name.to_ascii_uppercase().contains("EPSG") => Crs::epsg(code),
+        _ => {
+            let crs = crs.to_string();
+            let crs = shown(&crs);
+            Err(Error::data(format!("the coordinate system {crs} of GeoJSON's crs member is not known"))
+                .help("name it: source(file, { crs = 4326 })"))
+        }
+    }
+}
+
+/// The id in a text; none where it cannot be one.
+fn id_of(text: &RawValue) -> Option<String> {
+    id_text(&serde_json::from_str(text.get()).ok()?)
+}
+
+fn id_text(value: &Value) -> Option<String> {
+    match value {
+        Value::String(text) if !text.is_empty() => Some(text.clone()),
+        Value::Number(number) => Some(match number.as_f64() {
+            Some(value) if value.fract() == 0.0 && number.as_i64().is_none() && number.as_u64().is_none() => {
+                value.to_string()
+            }
+            _ => number.to_string(),
+        }),
+        _ => None,
+    }
+}
+
+fn attribute(value: Value) -> Option<Attribute> {
+    match value {
+        Value::Null => None,
+        Value::Bool(value) => Some(Attribute::Boolean(value)),
+        Value::Number(number) => Some(Attribute::Number(number.as_f64()?)),
+        Value::String(text) => Some(Attribute::Text(text.into())),
+        nested => Some(Attribute::Nested(Arc::new(nested))),
+    }
+}

@@ -1,0 +1,386 @@
+//! A pass of interpretation over the chains of a system.
+
+use std::sync::Arc;
+use std::sync::Mutex;
+use std::sync::PoisonError;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::time::{Duration, Instant};
+
+use super::Applier;
+use super::notices::{Notices, ObjectNotice};
+use crate::derive::plan::DerivationPlan;
+use crate::derive::threads::{ThreadJob, ThreadPool};
+use crate::machine::{Flusher, Machine, write_column};
+use crate::results::Use;
+use burgeon_base::error::{Error, Limit, Result, SourcePlace};
+use burgeon_base::warning::Warning;
+use burgeon_kit::rules::{Chain, END, Mark, Symbol, module_brief};
+
+/// Entries that one call into Lua interprets.
+const ENTRIES: usize = 4096;
+
+/// Pieces that many chains are dealt out in: what is drawn for one of them may take long, and no thread is to wait for
+/// the last piece of another.
+const DEALT: usize = 64;
+
+/// One pass over all chains, shared by the threads.
+pub(crate) struct InterpretationPass {
+    pub plan: Arc<DerivationPlan>,
+    pub chain: Chain,
+    pub step: usize,
+    /// Where each piece of whole chains begins; one more for the end.
+    pieces: Vec<Mark>,
+    next: AtomicUsize,
+    triangles: AtomicUsize,
+    failure: Mutex<Option<(usize, Error)>>,
+    uses: Mutex<Vec<Use>>,
+    notices: Notices,
+}
+
+impl InterpretationPass {
+    /// Interprets `chain` as it stands after `step` steps, and gives it back; adds to `uses` what each rule did, and to
+    /// `said` what the objects warned of.
+    pub(crate) fn pass(
+        (machine, threads): (&Machine, &ThreadPool),
+        plan: &Arc<DerivationPlan>,
+        chain: Chain,
+        step: usize,
+        uses: &mut [Use],
+        said: &mut Vec<Warning>,
+    ) -> Result<Chain> {
+        let starts = chain.starts(plan.grammar.arities());
+        let many = plan.chains >= 4 * DEALT;
+        let size = if many { plan.batch.min(chain.symbols.len() / DEALT) } else { plan.batch };
+        let mut pieces = vec![Mark::default()];
+        for start in &starts[1..] {
+            let begin = pieces.last().copied().unwrap_or_default();
+            if start.module - begin.module >= size || start.module == chain.symbols.len() {
+                pieces.push(*start);
+            }
+        }
+        let count = pieces.len() - 1;
+        machine.enter(plan.system)?;
+        machine.refresh();
+        machine.current.objects.replace(plan.objects.clone());
+        let interpreting = Arc::new(Self {
+            plan: Arc::clone(plan),
+            chain,
+            step,
+            pieces,
+            next: AtomicUsize::new(0),
+            triangles: AtomicUsize::new(0),
+            failure: Mutex::new(None),
+            uses: Mutex::new(vec![Use::default(); uses.len()]),
+            notices: Notices::default(),
+        });
+        threads.hand_out(machine, count, 2, || ThreadJob::Interpret(Arc::downgrade(&interpreting)))?;
+        while interpreting.work(machine) {}
+        let done = threads.reclaim(interpreting);
+        let counted = done.uses.into_inner().unwrap_or_else(PoisonError::into_inner);
+        uses.iter_mut().zip(counted).for_each(|(sum, more)| *sum += more);
+        let of_symbol = |symbol: Symbol| done.chain.symbols.iter().filter(|other| **other == symbol).count();
+        said.extend(done.notices.into_list(of_symbol));
+        match done.failure.into_inner().unwrap_or_else(PoisonError::into_inner) {
+            Some((_, error)) => Err(error),
+            None => Ok(done.chain),
+        }
+    }
+
+    /// Takes a piece and interprets it; `false` when none is left.
+    pub(crate) fn work(self: &Arc<Self>, machine: &Machine) -> bool {
+        let index = self.next.fetch_add(1, Ordering::Relaxed);
+        if index + 1 >= self.pieces.len() {
+            return false;
+        }
+        let failed =
+            |failure: &Option<(usize, Error)>| failure.as_ref().is_some_and(|(first, _)| *first < index);
+        if failed(&self.failure.lock().unwrap_or_else(PoisonError::into_inner)) {
+            return true;
+        }
+        if let Err(error) = self.piece(machine, self.pieces[index], self.pieces[index + 1]) {
+            let mut failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner);
+            if !failed(&failure) {
+                *failure = Some((index, error));
+            }
+        }
+        true
+    }
+
+    fn piece(self: &Arc<Self>, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
+        let applier = Applier::new(Arc::clone(self), machine, begin)?;
+        machine.current.flusher.replace(Some(Box::new(applier)));
+        let result = self.run(machine, begin, end);
+        machine.current.flusher.replace(None);
+        result
+    }
+
+    fn run(&self, machine: &Machine, begin: Mark, end: Mark) -> Result<()> {
+        let arities = self.plan.grammar.arities();
+        let interpretations = &self.plan.interpretations;
+        let (mut entries, mut ids, mut arguments) = (Vec::new(), Vec::new(), Vec::new());
+        let mut param = begin.param;
+        let mut module = begin.module;
+        let mut chain = begin.chain;
+        let mut is_begin = true;
+        while module < end.module {
+            entries.clear();
+            ids.clear();
+            arguments.clear();
+            while module < end.module && entries.len() < ENTRIES {
+                let symbol = usize::from(self.chain.symbols[module]);
+                let id = interpretations.by_symbol[symbol];
+                #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 chains")]
+                let number = chain as f64;
+                if is_begin && interpretations.begin != u16::MAX {
+                    entries.push((module, param));
+                    ids.push(interpretations.begin);
+                    arguments.push(number);
+                }
+                is_begin = symbol == usize::from(END);
+                chain += usize::from(is_begin);
+                if is_begin && id != u16::MAX {
+                    entries.push((module, param));
+                    ids.push(id);
+                    arguments.push(number);
+                } else if id != u16::MAX {
+                    entries.push((module, param));
+                    ids.push(id);
+                    let bound = interpretations.list[usize::from(id)].bound;
+                    arguments.extend_from_slice(&self.chain.params[param..param + bound]);
+                }
+                param += usize::from(arities[symbol]);
+                module += 1;
+            }
+            machine.session.stop.check()?;
+            let begin = Instant::now();
+            let (mut applying, mut from, mut argument) = (Vec::new(), 0, 0);
+            // Where a chain is left out, the others go on behind it.
+            while let Some(done) = self.interpret(
+                machine,
+                &entries[from..],
+                &ids[from..],
+                &arguments[argument..],
+                module,
+                &mut applying,
+            )? {
+                let bound = |id: &u16| interpretations.list[usize::from(*id)].bound;
+                argument += ids[from..from + done].iter().map(bound).sum::<usize>();
+                from += done;
+                if self.plan.profiled {
+                    applying.resize(from, Duration::ZERO);
+                }
+            }
+            self.count_uses(&ids, begin.elapsed(), applying);
+        }
+        Ok(())
+    }
+
+    /// Runs the interpretation rules of `entries`, and applies all up to the symbol `until`; adds to `times` the time that
+    /// the calls of each entry took, if that is measured.
+    ///
+    /// Where the data of a chain is at fault it gives up, and tells how many entries are done up to the end of that chain.
+    fn interpret(
+        &self,
+        machine: &Machine,
+        entries: &[(usize, usize)],
+        ids: &[u16],
+        arguments: &[f64],
+        until: usize,
+        times: &mut Vec<Duration>,
+    ) -> Result<Option<usize>> {
+        let lua = |error: mlua::Error| machine.translate(error);
+        let prelude = machine.prelude();
+        write_column(prelude.entries(ids.len() * 2).map_err(lua)?, ids)?;
+        write_column(prelude.input(arguments.len() * 8).map_err(lua)?, arguments)?;
+        prelude.counts(ids.len() * 4).map_err(lua)?;
+        if self.plan.grammar.draws_random() {
+            let mut keys = machine.current.keys.borrow_mut();
+            keys.clear();
+            keys.extend(entries.iter().map(|(module, _)| self.chain.keys[*module].interpretation()));
+            machine.current.used.set(0);
+        }
+        let with_applier = |act: &mut dyn FnMut(&mut Applier) -> Result<()>| -> Result<()> {
+            let mut flusher = machine.current.flusher.borrow_mut();
+            match flusher.as_deref_mut().and_then(applier) {
+                Some(applier) => act(applier),
+                None => Err(Error::internal("nothing is being interpreted")),
+            }
+        };
+        let (calls, numbers, counts) = prelude.recorded().map_err(lua)?;
+        let buffers = [calls, numbers, counts];
+        with_applier(&mut |applier| {
+            applier.begin_entries(entries, buffers.clone());
+            Ok(())
+        })?;
+        let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
+            Ok((called, _)) => called,
+            Err(error) => {
+                let (at, _, called): (usize, f64, usize) =
+                    prelude.at.call(()).unwrap_or((usize::MAX, 0.0, 0));
+                // A machine that cannot even end the batch is thrown away with the run.
+                let _ = prelude.finish.call::<()>(());
+                let error = self.blame(
+                    machine,
+                    machine.translate(error),
+                    ids.get(at).copied(),
+                    entries.get(at).copied(),
+                );
+                let Some((module, _)) = entries.get(at).copied().filter(|_| error.is_of_data()) else {
+                    return Err(self.find_line(machine, error));
+                };
+                let mut notices = Vec::new();
+                let forgiven = with_applier(&mut |applier| {
+                    applier.flush(at, called)?;
+                    applier.forgive(error.clone())?;
+                    times.append(&mut applier.take_times());
+                    notices = applier.take_notices();
+                    Ok(())
+                });
+                if let Err(error) = forgiven {
+                    return Err(self.find_line(machine, error));
+                }
+                self.note_all(machine, &notices);
+                let rest = self.chain.symbols[module..].iter().position(|symbol| *symbol == END);
+                let end = module + rest.unwrap_or(0);
+                let done = entries.partition_point(|(module, _)| *module <= end);
+                return Ok(Some(done));
+            }
+        };
+        let mut notices = Vec::new();
+        let applied = with_applier(&mut |applier| {
+            applier.finish_entries(called, until)?;
+            times.append(&mut applier.take_times());
+            notices = applier.take_notices();
+            Ok(())
+        });
+        if let Err(error) = applied {
+            return Err(self.find_line(machine, error));
+        }
+        self.note_all(machine, &notices);
+        Ok(None)
+    }
+
+    /// Adds what objects have warned of in the batch that was interpreted last.
+    fn note_all(&self, machine: &Machine, notices: &[ObjectNotice]) {
+        for (index, notice) in notices.iter().enumerate() {
+            let same = |other: &ObjectNotice| {
+                other.module == notice.module && other.warning.message() == notice.warning.message()
+            };
+            self.note(
+                machine,
+                notice,
+                !notices[..index].iter().rev().take_while(|it| it.module == notice.module).any(same),
+            );
+        }
+    }
+
+    /// Adds what an object has warned of in the batch that was interpreted last, for the first time of its module or
+    /// once more.
+    fn note(&self, machine: &Machine, notice: &ObjectNotice, is_first: bool) {
+        let (module, param) = notice.module;
+        let symbol = self.chain.symbols[module];
+        self.notices.add((symbol, module), is_first, notice.warning.clone(), |warning| {
+            let warning = warning.at(notice.call.and_then(|call| Self::line_of(machine, call)));
+            if symbol <= END {
+                return warning;
+            }
+            let warning = warning.module(self.module_brief(machine, module, param), self.step);
+            match self.interpretation_of(symbol) {
+                Some((name, place)) => warning.at(place.clone()).rule(name),
+                None => warning,
+            }
+        });
+    }
+
+    /// An error of a recorded call with the line of the call: the rule runs once more to find it.
+    fn find_line(&self, machine: &Machine, error: Error) -> Error {
+        let failed = machine.current.flusher.borrow_mut().as_deref_mut().and_then(|it| applier(it)?.failed());
+        let Some(call) = failed else { return error };
+        error.rather_at(Self::line_of(machine, call))
+    }
+
+    /// The line of a recorded call of the last batch, given as its entry and its number: the rule runs once more to find it.
+    fn line_of(machine: &Machine, call: (usize, usize)) -> Option<SourcePlace> {
+        let prelude = machine.prelude();
+        let place = match prelude.relive.call::<()>(call) {
+            Err(raised) => machine.translate(raised).place().cloned(),
+            Ok(()) => None,
+        };
+        // A machine that cannot even end the batch is thrown away with the run.
+        let _ = prelude.finish.call::<()>(());
+        place
+    }
+
+    /// Adds a batch of entries with the rules `ids` to what the rules have done: it took `time`, of which `applying`
+    /// is known by entry, while what Lua took is shared out evenly.
+    fn count_uses(&self, ids: &[u16], time: Duration, applying: Vec<Duration>) {
+        let mut uses = self.uses.lock().unwrap_or_else(PoisonError::into_inner);
+        let count = u32::try_from(ids.len().max(1)).unwrap_or(u32::MAX);
+        let each = if self.plan.profiled {
+            time.saturating_sub(applying.iter().sum()) / count
+        } else {
+            Duration::ZERO
+        };
+        let applying = applying.into_iter().chain(std::iter::repeat(Duration::ZERO));
+        for (id, own) in ids.iter().zip(applying) {
+            uses[usize::from(*id)] += Use { applied: 1, made: 0, time: each + own };
+        }
+    }
+
+    /// An error with the interpretation rule and the module where it happened.
+    fn blame(
+        &self,
+        machine: &Machine,
+        error: Error,
+        id: Option<u16>,
+        entry: Option<(usize, usize)>,
+    ) -> Error {
+        let Some((module, param)) = entry else { return error };
+        let symbol = self.chain.symbols[module];
+        let interpretations = &self.plan.interpretations;
+        if symbol <= END || id == Some(interpretations.begin) {
+            let known = id.and_then(|id| interpretations.list.get(usize::from(id)));
+            return known.map_or(error.clone(), |known| error.at(known.place.clone()).rule(&known.name));
+        }
+        let error = match self.interpretation_of(symbol) {
+            Some((name, place)) => error.at(place.clone()).rule(name),
+            None => error,
+        };
+        error.module(self.module_brief(machine, module, param), self.step)
+    }
+
+    /// A module of the chain with its parameters, which begin at `param`.
+    fn module_brief(&self, machine: &Machine, module: usize, param: usize) -> String {
+        let (grammar, symbol) = (&self.plan.grammar, self.chain.symbols[module]);
+        let arity = usize::from(grammar.arities()[usize::from(symbol)]);
+        let params = &self.chain.params[param..param + arity];
+        module_brief(grammar.symbols(), &machine.session.values, symbol, params)
+    }
+
+    /// The name and the place of the interpretation rule of modules with this symbol.
+    fn interpretation_of(&self, symbol: Symbol) -> Option<(String, &Option<SourcePlace>)> {
+        let interpretations = &self.plan.interpretations;
+        let id = interpretations.by_symbol.get(usize::from(symbol))?;
+        let known = interpretations.list.get(usize::from(*id))?;
+        Some((format!("{} (interpretation)", known.name), &known.place))
+    }
+
+    /// Counts triangles against the limit.
+    pub(super) fn count_triangles(&self, machine_limit: usize, more: usize) -> Result<()> {
+        let total = self.triangles.fetch_add(more, Ordering::Relaxed) + more;
+        if total > machine_limit {
+            return Err(Error::limit(
+                Limit::Triangles,
+                format!("the system draws more than {machine_limit} triangles"),
+            )
+            .help("draw with fewer sides, derive fewer steps, or raise the limit: --triangle-limit N"));
+        }
+        Ok(())
+    }
+}
+
+/// The applier of a piece, which the machine knows as what applies its recorded calls.
+fn applier(flusher: &mut dyn Flusher) -> Option<&mut Applier> {
+    let any: &mut dyn std::any::Any = flusher;
+    any.downcast_mut()
+}

@@ -1,0 +1,278 @@
+//! What a script has declared of a system, and what a machine runs of it.
+
+use std::cell::{Cell, RefCell};
+use std::sync::Arc;
+
+use crate::machine::Machine;
+use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
+use crate::machine::handles::methods_key;
+use crate::machine::library::Library;
+use burgeon_base::error::{Result, SourcePlace};
+use burgeon_kit::Object;
+use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Rule, Symbol};
+use mlua::{Function, Table, Value as LuaValue};
+
+/// What a script declared of one system.
+pub(crate) struct SystemDeclaration {
+    /// The object that each chain gets a copy of.
+    pub object: Option<Arc<dyn Object>>,
+    /// Whether only the last step is interpreted.
+    pub last_only: bool,
+    /// Its own seed, in place of the run's.
+    pub seed: Option<u64>,
+    /// Its place among the systems of the script.
+    pub index: usize,
+    /// Where it was made.
+    pub place: Option<SourcePlace>,
+    /// Where its axiom was set.
+    pub axiom_place: Option<SourcePlace>,
+    pub(crate) axiom: Option<DeclaredAxiom>,
+    pub(crate) rules: Vec<DeclaredRule>,
+    pub(crate) interpretations: Vec<DeclaredInterpretation>,
+    pub(crate) ignored: Vec<Symbol>,
+    pub(crate) considered: Option<Vec<Symbol>>,
+    /// Each time that it was derived.
+    pub(crate) derivations: RefCell<Vec<DerivationRecord>>,
+    /// What was declared since it was derived last, and where.
+    pub(crate) late: RefCell<Vec<(&'static str, Option<SourcePlace>)>>,
+    /// Whether its axiom was set since it was derived last.
+    pub(crate) axiom_is_new: Cell<bool>,
+    /// Whether the script gave it to an object.
+    pub(crate) given: Cell<bool>,
+}
+
+/// A time that a system was derived.
+pub(crate) struct DerivationRecord {
+    pub(crate) place: Option<SourcePlace>,
+    /// Its number among those of the script.
+    pub(crate) number: usize,
+    /// Whether it began from an axiom of its own.
+    pub(crate) axiom_is_new: bool,
+}
+
+pub(crate) enum DeclaredAxiom {
+    Modules(Vec<LuaValue>),
+    Source(LuaValue, Function),
+}
+
+pub(crate) struct DeclaredRule {
+    pub(crate) rule: Rule,
+    pub(crate) guard: Option<Function>,
+    pub(crate) successor: Function,
+    /// Whether one of them may look at `this`.
+    pub(crate) asks: bool,
+}
+
+pub(crate) struct DeclaredInterpretation {
+    pub(crate) symbol: Symbol,
+    pub(crate) bound: usize,
+    pub(crate) rule: Function,
+    pub(crate) name: String,
+    pub(crate) place: Option<SourcePlace>,
+    /// Whether it has been told already that it returns modules.
+    pub(crate) loses: bool,
+}
+
+/// A system ready to derive in one machine: the functions that the grammar's rules run.
+pub(crate) struct SystemFunctions {
+    /// By rule: the function that applies it to a batch.
+    pub drivers: Vec<Function>,
+    /// By rule: the function that asks its guard about a batch.
+    pub guards: Vec<Option<Function>>,
+    /// Keeps what the rules can reach frozen.
+    _frozen: TableFreeze,
+}
+
+/// How modules are interpreted: the same in every machine.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Interpretations {
+    /// By symbol: the number of its interpretation rule, from 0, or `u16::MAX`.
+    pub by_symbol: Vec<u16>,
+    /// By symbol: the method that the standard library gives it, or `u16::MAX`.
+    pub methods: Vec<u16>,
+    /// The interpretations by their numbers.
+    pub list: Vec<Interpretation>,
+    /// The number of what runs where a chain begins, or `u16::MAX`.
+    pub begin: u16,
+}
+
+/// An interpretation rule, as it is the same in every machine.
+#[derive(Debug, Clone)]
+pub(crate) struct Interpretation {
+    /// How many parameters it takes.
+    pub bound: usize,
+    /// Its pattern.
+    pub name: String,
+    /// Where it was declared.
+    pub place: Option<SourcePlace>,
+    /// Whether it has been told already that it returns modules.
+    pub loses: bool,
+}
+
+impl SystemDeclaration {
+    /// Whether every interpretation pass begins with empty objects, so that earlier passes leave no trace.
+    pub(crate) fn draws_afresh(&self) -> bool {
+        self.object.as_ref().is_none_or(|object| object.kind().begins_empty)
+    }
+
+    /// Whether only the last pass can be seen: each begins with an empty object, and no rule asks what it drew.
+    pub(crate) fn shows_last_only(&self) -> bool {
+        let empties = |object: &Arc<dyn Object>| object.kind().begins_empty && !object.expands();
+        self.last_only
+            || (self.object.as_ref().is_some_and(empties) && !self.rules.iter().any(|rule| rule.asks))
+    }
+
+    /// The rules as they can be shared between machines.
+    pub(crate) fn grammar(&self, library: &Library, random: bool) -> Grammar {
+        let symbols = Arc::new(library.symbols.borrow().clone());
+        let ignored = match &self.considered {
+            Some(considered) => (FIRST_SYMBOL..)
+                .take(symbols.names().count())
+                .filter(|symbol| !considered.contains(symbol) || self.ignored.contains(symbol))
+                .collect(),
+            None => self.ignored.clone(),
+        };
+        let rules = self.rules.iter().map(|declared| declared.rule.clone()).collect();
+        Grammar::new(symbols, rules, &ignored, random)
+    }
+
+    /// How modules are interpreted.
+    pub(crate) fn interpretations(&self, library: &Library) -> Interpretations {
+        let symbols = library.symbols.borrow().arities().len();
+        let (mut by_symbol, mut methods) = (vec![u16::MAX; symbols], vec![u16::MAX; symbols]);
+        let mut list = Vec::new();
+        if let Some(object) = &self.object {
+            for standard in library.standard.borrow().iter().filter(|known| object.kind().is_a(&known.kind)) {
+                methods[usize::from(standard.symbol)] = u16::try_from(standard.method).unwrap_or(u16::MAX);
+            }
+            for (index, known) in (0u16..).zip(&self.interpretations) {
+                by_symbol[usize::from(known.symbol)] = index;
+                methods[usize::from(known.symbol)] = u16::MAX;
+                let DeclaredInterpretation { bound, name, place, loses, .. } = known;
+                list.push(Interpretation {
+                    bound: *bound,
+                    name: name.clone(),
+                    place: place.clone(),
+                    loses: *loses,
+                });
+            }
+        }
+        let mut begin = u16::MAX;
+        if let Some(kind) = self.object.as_ref().map(|object| object.kind())
+            && let Some(script) = &kind.script
+        {
+            let mut add = |what: &str, bound| {
+                let number = u16::try_from(list.len()).unwrap_or(u16::MAX);
+                let (name, place) = (format!("{}: {what}", kind.name), self.place.clone());
+                list.push(Interpretation { bound, name, place, loses: false });
+                number
+            };
+            begin = add("begin", 1);
+            by_symbol[usize::from(END)] = add("finish", 1);
+            for (symbol, what, runs) in
+                [(OPEN, "push", script.branches[0]), (CLOSE, "pop", script.branches[1])]
+            {
+                if runs {
+                    by_symbol[usize::from(symbol)] = add(what, 0);
+                }
+            }
+        }
+        Interpretations { by_symbol, methods, list, begin }
+    }
+
+    /// Prepares `machine` for deriving this system: drivers and frozen tables.
+    pub(crate) fn prepare(&self, machine: &Machine) -> Result<SystemFunctions> {
+        let mut reached = Vec::new();
+        let (drivers, guards) =
+            self.prepare_functions(machine, &mut reached).map_err(|error| machine.translate(error))?;
+        let frozen = freeze(machine.lua(), &machine.library.stateless.borrow(), &reached)?;
+        Ok(SystemFunctions { drivers, guards, _frozen: frozen })
+    }
+
+    /// Has `machine` work for this system from now on: its `this` and its interpretation rules.
+    pub(crate) fn enter(&self, machine: &Machine) -> mlua::Result<()> {
+        let prelude = machine.prelude();
+        let lua = machine.lua();
+        let this = match &self.object {
+            Some(object) => {
+                machine.current.kind.replace(Some(Arc::clone(object.kind())));
+                let this = lua.create_table()?;
+                let metatable = lua.create_table()?;
+                let methods: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;
+                metatable.raw_set("__index", methods)?;
+                metatable.raw_set("__metatable", "this")?;
+                this.set_metatable(Some(metatable))?;
+                this.set_readonly(true);
+                LuaValue::Table(this)
+            }
+            None => LuaValue::Nil,
+        };
+        let kind = self.object.as_ref().map(|object| object.kind());
+        let types = machine.library.script_types.borrow();
+        let of = kind.and_then(|kind| types.iter().find(|known| known.kind.name == kind.name));
+        prelude.set_this.call::<()>((this, of.map(|of| of.table.clone())))?;
+        prelude.fresh_interpreters.call::<()>(())?;
+        if self.object.is_some() {
+            for (index, known) in self.interpretations.iter().enumerate() {
+                prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
+            }
+        }
+        if let Some(of) = of {
+            let hooks: (Function, Function, Function, Function) = prelude.hooks.call(&of.table)?;
+            let mut index = self.interpretations.len();
+            let [opens, closes] = of.declaration.branches;
+            for (hook, bound, runs) in
+                [(hooks.0, 1, true), (hooks.1, 1, true), (hooks.2, 0, opens), (hooks.3, 0, closes)]
+            {
+                if runs {
+                    prelude.interpreter.call::<()>((index, hook, bound))?;
+                    index += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn prepare_functions(
+        &self,
+        machine: &Machine,
+        reached: &mut Vec<ReachableFunction>,
+    ) -> mlua::Result<(Vec<Function>, Vec<Option<Function>>)> {
+        let prelude = machine.prelude();
+        let mut drivers = Vec::new();
+        let mut guards = Vec::new();
+        for declared in &self.rules {
+            let arity = declared.rule.arguments();
+            drivers.push(prelude.driver.call((&declared.successor, arity))?);
+            let reach = |function: &Function| ReachableFunction {
+                function: function.clone(),
+                name: declared.rule.pattern.text.clone(),
+                place: declared.rule.place.clone(),
+            };
+            reached.push(reach(&declared.successor));
+            guards.push(match &declared.guard {
+                Some(guard) => {
+                    reached.push(reach(guard));
+                    Some(prelude.guard_driver.call((guard, arity))?)
+                }
+                None => None,
+            });
+        }
+        for known in self.interpretations.iter().filter(|_| self.object.is_some()) {
+            reached.push(ReachableFunction {
+                function: known.rule.clone(),
+                name: known.name.clone(),
+                place: known.place.clone(),
+            });
+        }
+        let types = machine.library.script_types.borrow();
+        let functions =
+            types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));
+        let extensions = machine.library.extensions.borrow();
+        for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", it))) {
+            let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
+            reached.push(ReachableFunction { function, name, place: None });
+        }
+        Ok((drivers, guards))
+    }
+}

@@ -1,0 +1,380 @@
+//! The virtual machine: its libraries, its limits, and what its errors say.
+
+use std::cell::Cell;
+use std::io::{Read, Write};
+use std::rc::Rc;
+use std::sync::Arc;
+
+use super::blank::BlankMachine;
+use super::library::{Library, PrintSwitch};
+use super::prelude::Prelude;
+use super::system::tell_unseen;
+use super::{Driver, Watchdog, WorkState, host, protected, watchdog};
+use crate::declare::Session;
+use burgeon_base::error::{Error, ErrorKind, Limit, Result, SourcePlace};
+use burgeon_base::warning::Warning;
+use burgeon_kit::rules::{Symbol, Symbols};
+use burgeon_packages::Package;
+use mlua::chunk::{ChunkMode, Compiler};
+use mlua::{Buffer, Function, Lua, Value};
+
+/// The name of the machine's own Lua code in tracebacks.
+const OWN: &str = "burgeon";
+
+/// What Luau says when there is no memory left.
+pub(super) const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
+
+/// A virtual machine that runs a script and the rules it declares.
+pub struct Machine {
+    // Declared before the state, so that nobody reaches for the state while it closes.
+    _guard: watchdog::Registration,
+    lua: Lua,
+    /// The run that it belongs to.
+    pub session: Arc<Session>,
+    /// What the functions that Rust gives to Lua need to know of the work at hand.
+    pub(crate) current: Rc<WorkState>,
+    pub(crate) library: Rc<Library>,
+    /// Who derives its systems.
+    pub(crate) driver: Rc<dyn Driver>,
+    prelude: Prelude,
+    /// Calls a function of the script.
+    pub(super) protected: Function,
+    epoch: Cell<usize>,
+}
+
+impl Machine {
+    /// A machine with the standard library loaded and everything else locked away.
+    pub(crate) fn new(
+        session: &Arc<Session>,
+        watchdog: &Watchdog,
+        driver: Rc<dyn Driver>,
+    ) -> Result<Rc<Self>> {
+        let build = || -> mlua::Result<Rc<Self>> {
+            let BlankMachine { lua, prelude } = BlankMachine::take()?;
+            let guard = watchdog.register(&lua);
+            let current = Rc::new(WorkState::new(Arc::clone(session)));
+            let library = Rc::new(Library::default());
+            let host = host::functions(&lua, &current, &library)?;
+            let prelude = Prelude::new(&prelude.call(host)?)?;
+            let session = Arc::clone(session);
+            let protected = protected::function(&lua)?;
+            Ok(Rc::new(Self {
+                _guard: guard,
+                lua,
+                session,
+                current,
+                library,
+                driver,
+                prelude,
+                protected,
+                epoch: Cell::new(0),
+            }))
+        };
+        let machine = build()
+            .map_err(|error| Error::internal(format!("the virtual machine did not start: {error}")))?;
+        machine.library.set_machine(&machine);
+        machine.prelude.keep_features(&machine.lua).map_err(|error| machine.translate(error))?;
+        machine.library.install(&machine)?;
+        machine.lua.sandbox(true).map_err(|error| machine.translate(error))?;
+        machine.lua.globals().set_readonly(true);
+        machine
+            .lua
+            .set_memory_limit(session.options.limits.memory)
+            .map_err(|error| machine.translate(error))?;
+        Ok(machine)
+    }
+
+    /// Runs the script's main file, and tells what it has declared in vain.
+    pub fn run(&self) -> Result<()> {
+        let session = &self.session;
+        let path = session
+            .script()
+            .canonicalize()
+            .map_err(|error| Error::file(session.script(), error.to_string()))?;
+        let source =
+            session.source(&path, &session.script().display().to_string(), &self.library.globals())?;
+        let problems = session.problems();
+        if !problems.is_empty() && !session.options.check {
+            self.load(&source.name, &source.analysis.text)?;
+            return Err(Error::several(problems));
+        }
+        let chunk = self.load(&source.name, &source.analysis.text)?;
+        let value: Value = self.call(&chunk, ()).map_err(|error| self.translate(error))?;
+        tell_unseen(self, !value.is_nil());
+        Ok(())
+    }
+
+    /// Takes notice of something that people should know of the line of the script that is being run. A machine that
+    /// only helps says nothing, for the leading one runs the same line.
+    pub(crate) fn warn(&self, warning: Warning) {
+        if self.driver.leads() {
+            self.session.warn(warning.at(Self::place(&self.lua)));
+        }
+    }
+
+    /// Keeps the script from printing, since another machine runs it too.
+    pub(crate) fn silence(&self) {
+        self.lua.set_app_data(PrintSwitch(self.prelude.phase.clone()));
+    }
+
+    /// Empties the caches of parameters if some of them have been dropped.
+    pub(crate) fn refresh(&self) {
+        let epoch = self.session.values.epoch();
+        if self.epoch.replace(epoch) != epoch {
+            // The function only clears two tables.
+            let _ = self.prelude.forget_values.call::<()>(());
+        }
+    }
+
+    /// Works for system `index` of the script from now on.
+    pub(crate) fn enter(&self, index: usize) -> Result<()> {
+        if self.current.system.replace(Some(index)) == Some(index) {
+            return Ok(());
+        }
+        self.library.systems.borrow()[index].enter(self).map_err(|error| self.translate(error))
+    }
+
+    pub(crate) fn lua(&self) -> &Lua {
+        &self.lua
+    }
+
+    pub(crate) fn prelude(&self) -> &Prelude {
+        &self.prelude
+    }
+
+    /// Compiles `text`; errors name the file `name`.
+    pub(crate) fn load(&self, name: &str, text: &str) -> Result<Function> {
+        self.library.prepare_functions(&self.lua, text).map_err(|error| self.translate(error))?;
+        self.lua
+            .load(text)
+            .set_name(format!("@{name}"))
+            .set_mode(ChunkMode::Text)
+            .into_function()
+            .map_err(|error| self.translate(error))
+    }
+
+    /// A function from what [`compile`] gave, as bytecode until it is made [`native`]; what goes wrong in it is told in
+    /// the line of the script that called it.
+    pub(crate) fn load_compiled(&self, code: &[u8]) -> Result<Function> {
+        self.lua.enable_jit(false);
+        let chunk = self.lua.load(code).set_name(format!("={OWN}")).set_mode(ChunkMode::Binary);
+        let function = chunk.into_function();
+        self.lua.enable_jit(true);
+        function.map_err(|error| self.translate(error))
+    }
+
+    /// A module's constructor.
+    pub(crate) fn constructor(&self, symbols: &Symbols, symbol: Symbol) -> mlua::Result<Function> {
+        let signature = symbols.signature(symbol);
+        let table = self.lua.create_table()?;
+        table.raw_set("name", signature.name.as_str())?;
+        table.raw_set("arity", signature.arity())?;
+        table.raw_set("required", signature.required)?;
+        table.raw_set("count", signature.count())?;
+        table.raw_set("usage", signature.usage())?;
+        table.raw_set(
+            "parameters",
+            self.lua.create_sequence_from(signature.parameters.iter().map(String::as_str))?,
+        )?;
+        self.prelude.constructor.call((symbol, table))
+    }
+
+    /// What a Lua error means: the place and the remedy taken out of its text.
+    pub(crate) fn translate(&self, error: mlua::Error) -> Error {
+        let out_of_memory = is_out_of_memory(&error);
+        let translated = translate(&error);
+        let exhausted = protected::exhausted();
+        let limit = self.session.options.limits.memory / 1_000_000;
+        match self.session.stop.check() {
+            Err(reason) => translated.because(&reason),
+            Ok(()) if out_of_memory => {
+                translated
+                    .at(exhausted)
+                    .because(&Error::limit(Limit::Memory, format!("the script needs more than {limit} MB of memory")).help(
+                    "look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES",
+                ))
+            }
+            Ok(()) => translated,
+        }
+    }
+
+    /// Refuses what belongs at the top level while rules run.
+    pub(crate) fn refuse_in_rules(&self, what: &str) -> Result<()> {
+        match self.prelude.phase.call::<u8>(()) {
+            Ok(0) => Ok(()),
+            _ => Err(Error::scope(format!("{what} belongs at the top level of the script, not in a rule"))
+                .help("make it before derive, and let the rule use it")),
+        }
+    }
+
+    /// The package whose file is being run; none for the script's own.
+    pub(crate) fn asker<'a>(lua: &Lua, session: &'a Session) -> Option<&'a Package> {
+        if session.packages().order().is_empty() {
+            return None;
+        }
+        session.package_of(&Self::place(lua)?.file)
+    }
+
+    /// The line of the script that is being run, `level` calls up from the Rust function that asks.
+    pub(crate) fn place(lua: &Lua) -> Option<SourcePlace> {
+        (1..20).find_map(|level| {
+            lua.inspect_stack(level, |debug| {
+                let source = debug.source();
+                let file = source.source?.strip_prefix('@')?.to_owned();
+                Some(SourcePlace { file, line: debug.current_line()? })
+            })
+            .flatten()
+        })
+    }
+}
+
+/// Compiles Burgeon's own Lua text, which has no mistakes in it; nothing comes of one that has.
+pub(crate) fn compile(text: &str) -> Vec<u8> {
+    compiler().compile(text).unwrap_or_default()
+}
+
+pub(super) fn compiler() -> Compiler {
+    Compiler::new().set_optimization_level(2).set_type_info_level(1).set_debug_level(1)
+}
+
+/// Whether Lua had no memory left.
+fn is_out_of_memory(error: &mlua::Error) -> bool {
+    match error {
+        mlua::Error::CallbackError { cause, .. } | mlua::Error::WithContext { cause, .. } => {
+            is_out_of_memory(cause)
+        }
+        mlua::Error::MemoryError(_) => true,
+        mlua::Error::RuntimeError(message) => message.contains(OUT_OF_MEMORY_IN_LUA),
+        _ => false,
+    }
+}
+
+pub(super) fn translate(error: &mlua::Error) -> Error {
+    match error {
+        mlua::Error::CallbackError { traceback, cause } => translate(cause).at(place_in_traceback(traceback)),
+        mlua::Error::ExternalError(inner) => match inner.downcast_ref::<Error>() {
+            Some(error) => error.clone(),
+            None => Error::script(inner.to_string()),
+        },
+        mlua::Error::WithContext { cause, .. } => translate(cause),
+        mlua::Error::MemoryError(_) => Error::limit(Limit::Memory, OUT_OF_MEMORY_IN_LUA),
+        mlua::Error::SyntaxError { message, .. } => parse(message).in_kind(ErrorKind::Syntax),
+        mlua::Error::RuntimeError(message) => parse(message),
+        other => parse(&other.to_string()),
+    }
+}
+
+/// Takes `file:line: message`, a remedy behind the character 1, a kind behind the character 3 and a traceback apart; the
+/// character 2 at the end of the remedy says that data may be at fault.
+fn parse(text: &str) -> Error {
+    let (text, traceback) = text.split_once("\nstack traceback:").unwrap_or((text, ""));
+    let text = text.trim_end();
+    let (text, kind) = match text.split_once('\u{3}') {
+        Some((text, "argument")) => (text, ErrorKind::Argument),
+        Some((text, "limit.size")) => (text, ErrorKind::Limit(Limit::Size)),
+        Some((text, "scope")) => (text, ErrorKind::Scope),
+        _ => (text, ErrorKind::Script),
+    };
+    let (text, help) = match text.split_once('\u{1}') {
+        Some((text, help)) => (text, Some(help)),
+        None => (text, None),
+    };
+    let (place, message) = match split_place(text) {
+        Some((place, message)) => (place, message),
+        None => (None, text),
+    };
+    if place.is_none() && is_no_text(message) {
+        return Error::script("the script raised an error that is no text")
+            .at(place_in_traceback(traceback))
+            .help("write error(\"what is wrong\")");
+    }
+    // What a function of Luau's library refuses has no place of its own.
+    let error = Error::of(kind, message).at(place).at(place_in_traceback(traceback));
+    match help {
+        Some(help) => {
+            let error = if help.ends_with('\u{2}') { error.of_data() } else { error };
+            match help.trim_end_matches('\u{2}') {
+                "" => error,
+                help => error.help(help),
+            }
+        }
+        None if message.contains("modify a readonly table") => error.in_kind(ErrorKind::Scope).help(
+            "the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone",
+        ),
+        None if message.contains("stack overflow") => error.help("look for a function that calls itself without end"),
+        None if is_of_values(message) => error.of_data(),
+        None => error,
+    }
+}
+
+/// Whether `message` is how Lua writes a value that is neither a string nor a number.
+fn is_no_text(message: &str) -> bool {
+    let is_address = |kind: &str| {
+        let rest = message.strip_prefix(kind).and_then(|rest| rest.strip_prefix(": "));
+        rest.is_some_and(|rest| rest.starts_with("0x") || rest == "(nil)")
+    };
+    ["nil", "true", "false"].contains(&message)
+        || ["table", "function", "userdata", "thread", "buffer", "vector"].into_iter().any(is_address)
+}
+
+/// Whether a message of Luau's is about a value that is of another type than it should be, as what a feature has may be.
+fn is_of_values(message: &str) -> bool {
+    const BEGINNINGS: [&str; 9] = [
+        "attempt to perform arithmetic",
+        "attempt to compare",
+        "attempt to concatenate",
+        "attempt to get length of",
+        "attempt to index",
+        "attempt to iterate over",
+        "invalid argument #",
+        "missing argument #",
+        "invalid 'for'",
+    ];
+    BEGINNINGS.iter().any(|beginning| message.starts_with(beginning))
+}
+
+/// Parts `file:line: message`; no place for the machine's own code.
+fn split_place(text: &str) -> Option<(Option<SourcePlace>, &str)> {
+    let mut from = 0;
+    while let Some(found) = text[from..].find(':') {
+        let colon = from + found;
+        let digits = text[colon + 1..].find(|c: char| !c.is_ascii_digit())?;
+        let behind = colon + 1 + digits;
+        if digits > 0 && text[behind..].starts_with(':') && !text[..colon].contains('\n') {
+            let line = text[colon + 1..behind].parse().ok()?;
+            let file = &text[..colon];
+            let own = file == OWN || file.is_empty() || file.starts_with("__mlua");
+            let place = (!own).then(|| SourcePlace { file: file.to_owned(), line });
+            return Some((place, text[behind + 1..].trim_start()));
+        }
+        from = colon + 1;
+    }
+    None
+}
+
+/// The innermost line of a script in a traceback, whose lines read `file:line: in function <...>`.
+fn place_in_traceback(traceback: &str) -> Option<SourcePlace> {
+    traceback.lines().find_map(|line| split_place(line.trim())?.0)
+}
+
+/// Copies a column into the beginning of a buffer, which is long enough.
+pub(crate) fn write_column<T: bytemuck::Pod>(buffer: Buffer, column: &[T]) -> Result<()> {
+    buffer
+        .cursor()
+        .write_all(bytemuck::cast_slice(column))
+        .map_err(|error| Error::internal(error.to_string()))
+}
+
+/// Replaces `column` by the first `count` items of a buffer.
+pub(crate) fn read_column<T: bytemuck::Pod + Default>(
+    buffer: Buffer,
+    count: usize,
+    column: &mut Vec<T>,
+) -> Result<()> {
+    column.clear();
+    column.resize(count, T::default());
+    buffer
+        .cursor()
+        .read_exact(bytemuck::cast_slice_mut(column))
+        .map_err(|error| Error::internal(error.to_string()))
+}

@@ -1,0 +1,179 @@
+//! Writes a scene as a document, and its arrays as the bytes behind it.
+
+use std::path::Path;
+
+use super::body::Body;
+use super::description::Description;
+use super::mesh::Arrays;
+use super::{InstancePlace, body, material, mesh, place};
+use crate::check::{SceneCheck, check};
+use crate::files::Files;
+use crate::stem;
+use crate::texture::Images;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::stop::Stop;
+use burgeon_scene::Scene;
+use gltf_json as json;
+use json::extras::RawValue;
+
+/// Allows attributes that are integers.
+const QUANTIZATION: &str = "KHR_mesh_quantization";
+
+/// Where the images of a document are.
+pub(super) enum Textures {
+    /// In the body.
+    Embedded,
+    /// In files of these names beside the document.
+    Beside(Vec<String>),
+}
+
+/// The description and what it describes.
+struct Document<'a> {
+    description: Description<'a>,
+    body: Body<'a>,
+    layout: Layout,
+}
+
+/// Where the things of a scene are in a document.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct Layout {
+    /// For each instance of the scene, the node that shows it.
+    pub places: Vec<Option<InstancePlace>>,
+    /// For each mesh of the scene, its index in the document.
+    pub meshes: Vec<Option<usize>>,
+}
+
+/// `scene` as the bytes of a `.glb` file.
+///
+/// Fails if the scene is not sound, if a texture cannot be read, and beyond 4 GiB.
+pub fn glb(scene: &Scene) -> Result<Vec<u8>> {
+    bytes(scene, Arrays::default(), &Stop::default()).map(|(bytes, _)| bytes)
+}
+
+/// As [`glb`], for a viewer: it is as small as it can be without looking worse, and it is told where everything is.
+///
+/// Primitives whose extras say `flat` are for viewers that know of it: each triangle has the normal of its last corner.
+pub fn glb_for_viewer(scene: &Scene) -> Result<(Vec<u8>, Layout)> {
+    bytes(scene, Arrays { small: true, measured: false }, &Stop::default())
+}
+
+/// As [`glb_for_viewer`], with everything in the same places, but all surfaces have texture coordinates: in metres
+/// where they have no texture. Fails if a `stop` was asked for, too.
+pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8>> {
+    bytes(scene, Arrays { small: true, measured: true }, stop).map(|(bytes, _)| bytes)
+}
+
+fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let document = Document::new(&checked, &images, &Textures::Embedded, arrays, stop)?;
+    let mut bytes = Vec::new();
+    let head = document.head()?;
+    let length: usize = head.iter().map(Vec::len).sum();
+    bytes.reserve_exact(length + document.body.length() as usize);
+    document.body.write(head, &mut bytes, stop).map_err(Error::internal)?;
+    stop.check()?;
+    Ok((bytes, document.layout))
+}
+
+/// Writes one `.glb` file to `path`.
+pub(crate) fn write_glb(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let stop = files.stop();
+    let document = Document::new(&checked, &images, &Textures::Embedded, Arrays::default(), &stop)?;
+    let head = document.head()?;
+    files.write(path, |out| document.body.write(head, out, &stop))
+}
+
+/// Writes a `.gltf` file to `path`, and its `.bin` file and copies of the textures beside it.
+pub(crate) fn write_gltf(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+    let checked = check(scene)?;
+    let images = Images::load(&checked)?;
+    let names = images.copy_names(path, files);
+    for (name, file) in names.iter().zip(&images.files) {
+        files.copy(&path.with_file_name(name), &file.bytes)?;
+    }
+    let stop = files.stop();
+    let mut document = Document::new(&checked, &images, &Textures::Beside(names), Arrays::default(), &stop)?;
+    if let Some(buffer) = document.description.root.buffers.first_mut() {
+        let name = format!("{}.bin", stem(path));
+        buffer.uri = Some(uri(&name));
+        files.write(&path.with_file_name(&name), |out| document.body.write(Vec::new(), out, &stop))?;
+    }
+    files.write(path, |out| document.description.write_pretty(out))
+}
+
+impl<'a> Document<'a> {
+    fn new(
+        checked: &SceneCheck<'a>,
+        images: &'a Images,
+        textures: &Textures,
+        arrays: Arrays,
+        stop: &Stop,
+    ) -> Result<Self> {
+        stop.check()?;
+        let mut description = Description::default();
+        description.root.asset = json::Asset {
+            generator: Some(format!("Burgeon {}", env!("CARGO_PKG_VERSION"))),
+            version: "2.0".into(),
+            ..json::Asset::default()
+        };
+        let mut body = Body::default();
+        let materials = material::write(checked, images, textures, &mut description.root, &mut body);
+        let meshes = mesh::write(checked, arrays, &materials, &mut description, &mut body, stop);
+        stop.check()?;
+        let placed = place::write(checked, &meshes, arrays, &mut description, &mut body);
+        if arrays.small {
+            material::use_extension(&mut description.root, QUANTIZATION);
+            description.root.extensions_required.push(QUANTIZATION.into());
+        }
+        let extras = (!placed.features.is_empty())
+            .then(|| {
+                RawValue::from_string(serde_json::json!({ "features": placed.features }).to_string()).ok()
+            })
+            .flatten();
+        let nodes = placed.nodes.iter().map(|node| json::Index::new(*node as u32)).collect();
+        description.root.scenes.push(json::Scene { extensions: None, extras, name: None, nodes });
+        body.describe(&mut description.root)?;
+        Ok(Self { description, body, layout: Layout { places: placed.places, meshes } })
+    }
+
+    /// All of a `.glb` file but the body, in pieces: both headers and the description between them.
+    fn head(&self) -> Result<Vec<Vec<u8>>> {
+        let mut pieces = self.description.text()?;
+        let written: usize = pieces.iter().map(Vec::len).sum();
+        let length = written.next_multiple_of(4);
+        pieces.push(vec![b' '; length - written]);
+        let body = self.body.length();
+        let tail = if body > 0 { 8 + body } else { 0 };
+        let total = body::within_limit(20 + length as u64 + tail)?;
+        let mut head = b"glTF".to_vec();
+        for number in [2, total, length as u32] {
+            head.extend(number.to_le_bytes());
+        }
+        head.extend(b"JSON");
+        pieces.insert(0, head);
+        if body > 0 {
+            pieces.push([(body as u32).to_le_bytes(), *b"BIN\0"].concat());
+        }
+        Ok(pieces)
+    }
+}
+
+/// A file name as a relative reference of RFC 3986.
+pub(super) fn uri(name: &str) -> String {
+    let mut uri = String::with_capacity(name.len());
+    for byte in name.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(byte)),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
+}
+
+/// A name for people, or nothing.
+pub(super) fn name(name: &str) -> Option<String> {
+    (!name.is_empty()).then(|| name.to_owned())
+}

@@ -1,0 +1,291 @@
+//! Writes a drawing of a scene.
+
+use std::fmt::Write;
+
+use super::faces::{Palette, VisibleFaces};
+use super::view::DrawingSide;
+use super::{outline, sheets};
+use crate::check::{SceneCheck, check};
+use crate::texture::Images;
+use burgeon_base::error::{Error, Limit, Result};
+use burgeon_base::stop::Stop;
+use burgeon_scene::Scene;
+use glam::DVec3;
+
+/// The most triangles that a drawing is made of; what has more is a picture.
+const LIMIT: usize = 2_000_000;
+
+/// `scene` as an SVG document.
+///
+/// Fails if the scene is not sound, if a texture cannot be read, beyond 2 million triangles, and if a `stop` was asked
+/// for.
+pub fn svg(scene: &Scene, stop: &Stop) -> Result<String> {
+    let checked = check(scene)?;
+    let count = scene.triangles();
+    if count > LIMIT {
+        let error =
+            Error::limit(Limit::Size, format!("a drawing cannot show {count} triangles; it ends at {LIMIT}"));
+        return Err(error.help("write a picture (.png) instead, or draw a part of the model"));
+    }
+    let images = Images::load(&checked)?;
+    let view = DrawingSide::of(&checked);
+    stop.check()?;
+    let faces = VisibleFaces::collect(&checked, view);
+    stop.check()?;
+    let palette = Palette::new(&scene.materials, &images)?;
+    document(&checked, view, &faces, &palette, stop)
+}
+
+/// The paper: what is shown on it, and its size, in metres of the drawing's coordinates with y downwards.
+struct Paper {
+    left: f64,
+    top: f64,
+    width: f64,
+    height: f64,
+    /// The larger side of the drawing without its margins; line widths and letters are parts of it.
+    size: f64,
+    /// The middle of the drawing and its lower edge.
+    middle: f64,
+    bottom: f64,
+}
+
+impl Paper {
+    fn around(faces: &VisibleFaces) -> Option<Self> {
+        let (low, high) = faces.bounds()?;
+        let metres = |number: i64| number as f64 / 1000.0;
+        let (left, right) = (metres(low[0]), metres(high[0]));
+        let (top, bottom) = (-metres(high[1]), -metres(low[1]));
+        let size = (right - left).max(bottom - top).max(0.01);
+        let margin = size * 0.05;
+        // Wide enough for the scale bar under a tall drawing.
+        let width = (right - left).max(size * 0.4) + 2.0 * margin;
+        let middle = (left + right) / 2.0;
+        let height = bottom - top + 2.0 * margin + size * 0.06;
+        Some(Self { left: middle - width / 2.0, top: top - margin, width, height, size, middle, bottom })
+    }
+}
+
+fn document(
+    checked: &SceneCheck<'_>,
+    view: DrawingSide,
+    faces: &VisibleFaces,
+    palette: &Palette,
+    stop: &Stop,
+) -> Result<String> {
+    let mut out = String::new();
+    let title = view.title();
+    let Some(paper) = Paper::around(faces) else {
+        return Ok(format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 10 10\">\n<title>{title}</title>\n\
+             <desc>Nothing is seen from here.</desc>\n</svg>\n"
+        ));
+    };
+    let Paper { left, top, width, height, size, .. } = paper;
+    let [left, top, width, height] = [left, top, width, height].map(decimals);
+    let DVec3 { x, y, z } = checked.origin;
+    let mut line = |text: std::fmt::Arguments<'_>| {
+        // Writing to a string does not fail.
+        let _ = out.write_fmt(text);
+        out.push('\n');
+    };
+    line(format_args!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"{left} {top} {width} {height}\">"
+    ));
+    line(format_args!("<title>{title}</title>"));
+    line(format_args!(
+        "<desc>One unit is one metre, counted from ({x}, {y}, {z}). Burgeon {}</desc>",
+        env!("CARGO_PKG_VERSION")
+    ));
+    line(format_args!(
+        "<rect x=\"{left}\" y=\"{top}\" width=\"{width}\" height=\"{height}\" fill=\"#fff\"/>"
+    ));
+    // The same on paper for a shed and a city.
+    let pen = size / 1000.0;
+    line(format_args!("<g fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\">"));
+    for sheet in sheets::stack(faces, pen, stop)? {
+        stop.check()?;
+        let fill = outline::filled(faces, &sheet.faces);
+        let (color, opacity) = palette.fill(sheet.ink);
+        let opacity =
+            if opacity < 1.0 { format!(" opacity=\"{}\"", decimals(opacity)) } else { String::new() };
+        if !fill.is_empty() {
+            line(format_args!("<path fill=\"{color}\"{opacity} d=\"{fill}\"/>"));
+        }
+        // Renderers leave a light gap between areas that touch; where no dark line covers it, a wide one of
+        // the area's own colour does.
+        let [edge, thin] = [0.32, 0.7].map(|brightness| palette.tone(sheet.ink, brightness));
+        let drawn = [(&sheet.seams, color, 2.0), (&sheet.thin, thin, 0.7), (&sheet.lines, edge, 0.8)];
+        for (ends, color, pens) in drawn {
+            if !ends.is_empty() {
+                let (width, data) = (decimals(pen * pens), outline::lines(ends));
+                line(format_args!(
+                    "<path stroke=\"{color}\" stroke-width=\"{width}\"{opacity} d=\"{data}\"/>"
+                ));
+            }
+        }
+    }
+    line(format_args!("</g>"));
+    line(format_args!("{}", scale_bar(&paper)));
+    if view == DrawingSide::Plan {
+        line(format_args!("{}", north_arrow(&paper)));
+    }
+    line(format_args!("</svg>"));
+    Ok(out)
+}
+
+/// A bar of a round length, half black and half white, and how long it is.
+fn scale_bar(paper: &Paper) -> String {
+    let length = round_length((paper.width * 0.3).min(paper.size * 0.2));
+    let label = match length {
+        km if km >= 1000.0 => format!("{} km", decimals(km / 1000.0)),
+        m if m >= 1.0 => format!("{} m", decimals(m)),
+        cm if cm >= 0.01 => format!("{} cm", decimals(cm * 100.0)),
+        mm => format!("{} mm", decimals(mm * 1000.0)),
+    };
+    let (thick, letters) = (paper.size * 0.006, paper.size * 0.022);
+    let x = paper.left + paper.size * 0.05;
+    let y = paper.bottom + paper.size * 0.055;
+    let [x0, half, y0, thick_text, pen] = [x, length / 2.0, y, thick, paper.size / 1000.0].map(decimals);
+    let [middle, text_x, text_y, letters] =
+        [x + length / 2.0, x + length + letters * 0.5, y + thick * 0.5 + letters * 0.36, letters]
+            .map(decimals);
+    format!(
+        "<g stroke=\"#222\" stroke-width=\"{pen}\">\
+         <rect x=\"{x0}\" y=\"{y0}\" width=\"{half}\" height=\"{thick_text}\" fill=\"#222\"/>\
+         <rect x=\"{middle}\" y=\"{y0}\" width=\"{half}\" height=\"{thick_text}\" fill=\"#fff\"/></g>\n\
+         <text x=\"{text_x}\" y=\"{text_y}\" font-family=\"sans-serif\" font-size=\"{letters}\" fill=\"#222\">\
+         {label}</text>"
+    )
+}
+
+/// An arrow to the top of the paper with an N beside it.
+fn north_arrow(paper: &Paper) -> String {
+    let unit = paper.size * 0.018;
+    let x = 2.0 * paper.middle - paper.left - paper.size * 0.05 - unit;
+    let y = paper.bottom + paper.size * 0.072;
+    let [left, tip, right, low, notch, high] =
+        [x - unit * 0.5, x, x + unit * 0.5, y, y - unit * 0.4, y - unit * 1.8].map(decimals);
+    let [text_x, text_y, letters] = [x - unit, y - unit * 0.2, unit * 1.2].map(decimals);
+    format!(
+        "<path fill=\"#222\" d=\"M{tip} {high}L{right} {low}L{tip} {notch}L{left} {low}z\"/>\n\
+         <text x=\"{text_x}\" y=\"{text_y}\" text-anchor=\"end\" font-family=\"sans-serif\" \
+         font-size=\"{letters}\" fill=\"#222\">N</text>"
+    )
+}
+
+/// The largest of 1, 2, 5, 10, 20, 50 and so on up to `most`.
+fn round_length(most: f64) -> f64 {
+    let power = 10_f64.powf(most.log10().floor());
+    [5.0, 2.0].map(|digit| digit * power).into_iter().find(|length| *length <= most).unwrap_or(power)
+}
+
+/// A number with as many decimals as a drawing of its size needs, at most six.
+fn decimals(number: f64) -> String {
+    let digits = if number.abs() >= 1.0 { 3 } else { 6 };
+    let text = format!("{number:.digits$}");
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    if text.is_empty() || text == "-0" { "0".into() } else { text.into() }
+}
+
+#[cfg(test)]
+mod tests {
+    fn svg(scene: &Scene) -> Result<String> {
+        super::svg(scene, &Stop::default())
+    }
+
+    use super::*;
+    use crate::samples;
+
+    /// The area (m²) and the number of corners of all filled paths.
+    fn filled(drawing: &str) -> (f64, usize) {
+        let (mut area, mut corners) = (0.0, 0);
+        for line in drawing.lines().filter(|line| line.starts_with("<path fill=\"#") && !line.contains('L')) {
+            let data = line.split(" d=\"").nth(1).unwrap().trim_end_matches("\"/>");
+            for ring in data.split('M').skip(1) {
+                let spaced = ring.trim_end_matches('z').replace('l', " ").replace('-', " -");
+                let numbers: Vec<f64> = spaced.split_whitespace().map(|it| it.parse().unwrap()).collect();
+                let mut at = DVec3::ZERO;
+                let mut points = Vec::new();
+                for step in numbers.chunks(2) {
+                    at += DVec3::new(step[0], step[1], 0.0);
+                    points.push(at);
+                }
+                for (a, b) in points.iter().zip(points.iter().cycle().skip(1)) {
+                    area += (b.x * a.y - a.x * b.y) / 2.0;
+                }
+                corners += points.len();
+            }
+        }
+        (area, corners)
+    }
+
+    #[test]
+    fn a_box_in_plan_is_one_square() {
+        let drawing = svg(&samples::boxes(1)).unwrap();
+        assert!(drawing.contains("<title>Plan, north up</title>"), "{drawing}");
+        assert_eq!(filled(&drawing), (1.0, 4));
+        assert!(drawing.contains(">20 cm</text>"), "{drawing}");
+    }
+
+    #[test]
+    fn a_hill_covers_its_ground_and_its_triangles_merge() {
+        let drawing = svg(&samples::hill(120)).unwrap();
+        let (area, corners) = filled(&drawing);
+        assert!((area - 10_000.0).abs() < 1e-3, "{area}");
+        assert!(corners < 120 * 120 * 2, "{corners}");
+    }
+
+    #[test]
+    fn every_house_is_drawn_once_on_the_ground() {
+        let scene = samples::town(3);
+        let (area, _) = filled(&svg(&scene).unwrap());
+        let seen: f64 = scene
+            .instances
+            .iter()
+            .enumerate()
+            .map(|(i, instance)| {
+                let base = instance.transform.matrix3.x_axis.cross(instance.transform.matrix3.y_axis).z;
+                // Each house is its flat top and, over it, a roof that is a tenth wider.
+                if i == 0 { base } else { base * 2.1 }
+            })
+            .sum();
+        assert!((area - seen).abs() < 0.1, "{area} is not {seen}");
+    }
+
+    #[test]
+    fn what_stands_upright_and_thin_is_drawn_from_the_front() {
+        let drawing = svg(&samples::standing()).unwrap();
+        assert!(drawing.contains("<title>Elevation, seen from the south</title>"), "{drawing}");
+        let mut turned = samples::standing();
+        for instance in &mut turned.instances {
+            instance.transform =
+                glam::DAffine3::from_rotation_z(std::f64::consts::FRAC_PI_2) * instance.transform;
+        }
+        assert!(svg(&turned).unwrap().contains("<title>Elevation, seen from the east</title>"));
+    }
+
+    #[test]
+    fn a_far_model_is_counted_from_whole_metres_that_the_drawing_tells() {
+        let drawing = svg(&samples::far()).unwrap();
+        assert!(drawing.contains("counted from (531000, 4556000, 0)"), "{drawing}");
+    }
+
+    #[test]
+    fn a_scene_with_nothing_to_see_is_a_document_too() {
+        insta::assert_snapshot!(svg(&Scene::default()).unwrap(), @r#"
+        <svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 10 10">
+        <title>Plan, north up</title>
+        <desc>Nothing is seen from here.</desc>
+        </svg>
+        "#);
+    }
+
+    #[test]
+    fn a_scale_bar_is_round() {
+        assert_eq!(
+            [0.3, 1.0, 4.9, 5.0, 70.0, 1999.0].map(round_length).to_vec(),
+            [0.2, 1.0, 2.0, 5.0, 50.0, 1000.0]
+        );
+        assert_eq!([0.0, -0.0004, 12.5, 1.0 / 3.0].map(decimals), ["0", "-0.0004", "12.5", "0.333333"]);
+    }
+}

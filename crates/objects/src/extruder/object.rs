@@ -1,0 +1,456 @@
+//! The object: what scripts see of an extruder.
+
+use std::sync::{Arc, LazyLock};
+
+use super::state::{ExtruderState, SolidRun};
+use crate::MaterialOptions;
+use crate::mesh::draw_mesh;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::{Warning, WarningKind};
+use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
+use burgeon_kit::{Color, Kind, Model, Object, Vector, fields, methods};
+use burgeon_kit::{Draw, Drawing};
+use glam::{DAffine3, DVec2, DVec3};
+use smallvec::{SmallVec, smallvec};
+
+/// What `extruder { ... }` takes.
+#[fields("extruder")]
+pub struct ExtruderOptions {
+    /// Number of sides of the cross-section, a regular polygon with radius 1.
+    #[default(16)]
+    pub sides: u32,
+    /// Points of the cross-section, as { { x, y }, ... }, in place of `sides`.
+    pub shape: Vec<Vector>,
+    /// Whether surfaces are shaded as round; corners of the cross-section above 40 degrees stay edges.
+    #[default(true)]
+    pub smooth: bool,
+    /// Number of pieces of a segment; with 0, a piece for every 10 degrees that it bends or twists.
+    #[default(0)]
+    pub along: u32,
+    /// Number of points around the cross-section; with 0, those that its shape has.
+    #[default(0)]
+    pub around: u32,
+    /// Whether ends are closed.
+    #[default(true)]
+    pub caps: bool,
+    /// Colour of what is drawn.
+    #[default(Color([0.62, 0.58, 0.52, 1.0]))]
+    pub color: Color,
+    /// 0 like a mirror, 1 like chalk.
+    #[default(0.7)]
+    pub roughness: f64,
+    /// 0 for wood, stone and plaster, 1 for bare metal.
+    #[default(0.0)]
+    pub metallic: f64,
+    /// Where it begins (m).
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// The direction of extruding at first.
+    #[default(Vector(DVec3::Z))]
+    pub heading: Vector,
+}
+
+/// Corners of a cross-section that turn by more than this (degrees) are edges also on smooth surfaces.
+const CREASE: f64 = 40.0;
+
+/// An extruder as in the ML-System paper: a cross-section swept along segments, each with its own length,
+/// curvature, twist and scale.
+///
+/// Segments that continue one another exactly make one solid; a jump in place, direction, scale or section
+/// closes it and begins another.
+#[derive(Clone, Draw)]
+pub struct Extruder {
+    options: ExtruderOptions,
+    first_section: Arc<Section>,
+    state: ExtruderState,
+    stack: Vec<ExtruderState>,
+    /// The cross-sections that were set last, since the same ones are set again and again.
+    known: Vec<(SectionShape, Arc<Section>)>,
+    pub(super) drawing: Drawing,
+    open_edges: usize,
+    warnings: Vec<Warning>,
+}
+
+/// A cross-section that a few numbers describe.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum SectionShape {
+    Regular(u32),
+    Star(u32, f64),
+    Rectangle(f64, f64),
+}
+
+/// How many cross-sections are kept.
+const KNOWN: usize = 16;
+
+#[methods("extruder")]
+impl Extruder {
+    /// Sets the cross-section to a regular polygon with `sides` and radius 1.
+    pub fn regular(&mut self, sides: u32) -> Result<()> {
+        self.set(SectionShape::Regular(sides))
+    }
+
+    /// Sets the cross-section to a star with `points` outside at radius 1 and as many inside at `inner`.
+    pub fn star(&mut self, points: u32, inner: f64) -> Result<()> {
+        self.set(SectionShape::Star(points, inner))
+    }
+
+    /// Sets the cross-section to a rectangle around the middle (m).
+    pub fn rectangle(&mut self, width: f64, height: f64) -> Result<()> {
+        self.set(SectionShape::Rectangle(width, height))
+    }
+
+    /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
+    pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
+        let section = Section::polygon(&flat(std::iter::once(outer).chain(holes.unwrap_or_default())))?;
+        self.state.section = Arc::new(shaded(section, self.state.smooth));
+        Ok(())
+    }
+
+    /// Turns the extruding direction to `direction`, by the shortest way or so that the cross-section's up looks to `above`.
+    pub fn direction(&mut self, direction: Vector, above: Option<Vector>) -> Result<()> {
+        if direction.0.length_squared() < 1e-24 {
+            return Err(Error::argument("extruder:direction: direction has no length")
+                .help("give a vector that is not zero"));
+        }
+        match above {
+            None => self.state.frame.face(direction.0),
+            Some(above) if above.0.length_squared() < 1e-24 => {
+                return Err(Error::argument("extruder:direction: above has no length")
+                    .help("give a vector that is not zero, or leave it out"));
+            }
+            Some(above) => self.state.frame.look(direction.0, above.0),
+        }
+        Ok(())
+    }
+
+    /// Sets the number of pieces along each segment and of points around the cross-section; 0 leaves the choice.
+    pub fn resolution(&mut self, along: u32, around: u32) -> Result<()> {
+        check_resolution(along, around)?;
+        self.state.along = along;
+        self.state.around = around;
+        Ok(())
+    }
+
+    /// Sets the scale of the cross-section at once, in both directions or in each.
+    pub fn scale(&mut self, scale: f64, y: Option<f64>) {
+        self.state.scale = DVec2::new(scale, y.unwrap_or(scale));
+        self.state.taper = self.state.scale;
+    }
+
+    /// Sets the scale that the next segment ends with; it changes evenly along the segment.
+    pub fn taper(&mut self, scale: f64, y: Option<f64>) {
+        self.state.taper = DVec2::new(scale, y.unwrap_or(scale));
+    }
+
+    /// Bends the following segments by `angle` (degrees) each, to the side at `toward` (degrees): 0 is left.
+    pub fn bend(&mut self, angle: f64, toward: Option<f64>) {
+        self.state.bend = angle.to_radians();
+        self.state.toward = toward.unwrap_or(0.0).to_radians();
+    }
+
+    /// Twists the following segments by `angle` (degrees) each.
+    pub fn twist(&mut self, angle: f64) {
+        self.state.twist = angle.to_radians();
+    }
+
+    /// Sets whether the start and the end are closed.
+    pub fn caps(&mut self, start: bool, end: Option<bool>) {
+        self.state.caps = [start, end.unwrap_or(start)];
+    }
+
+    /// Sets whether surfaces are shaded as round.
+    pub fn smooth(&mut self, smooth: bool) {
+        self.state.smooth = smooth;
+    }
+
+    /// Extrudes the cross-section by `length` (m).
+    pub fn extrude(&mut self, length: f64) -> Result<()> {
+        self.segment(length)
+    }
+
+    /// Goes on by `length` (m) without drawing.
+    pub fn advance(&mut self, length: f64) {
+        self.state.frame.forward(length);
+    }
+
+    /// Goes sideways (m): to the right and up across the extruding direction.
+    pub fn shift(&mut self, right: f64, up: f64) {
+        let frame = &mut self.state.frame;
+        frame.position += frame.left * -right - frame.up * up;
+    }
+
+    /// Goes to a place (m) without drawing.
+    pub fn jump(&mut self, position: Vector) {
+        self.state.frame.position = position.0 - self.drawing.origin();
+    }
+
+    /// Turns the direction to the left by `angle` (degrees).
+    pub fn turn(&mut self, angle: f64) {
+        self.state.frame.turn(angle.to_radians());
+    }
+
+    /// Pitches the direction down by `angle` (degrees).
+    pub fn pitch(&mut self, angle: f64) {
+        self.state.frame.pitch(angle.to_radians());
+    }
+
+    /// Rolls about the direction by `angle` (degrees).
+    pub fn roll(&mut self, angle: f64) {
+        self.state.frame.roll(angle.to_radians());
+    }
+
+    /// Sets the colour of what is drawn.
+    pub fn color(&mut self, color: Color) {
+        Arc::make_mut(&mut self.state.material).base_color = color.0;
+    }
+
+    /// Sets the whole material of what is drawn.
+    pub fn material(&mut self, material: MaterialOptions) -> Result<()> {
+        self.state.material = Arc::new(material.material()?);
+        Ok(())
+    }
+
+    /// Draws `faces` in the extruder's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
+        let part = self.drawing.material(&self.state.material);
+        draw_mesh(("extruder", self.drawing.part(part)), &self.state.frame, &points, &faces)
+    }
+
+    /// Places what another system has drawn at the extruder's frame, scaled.
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
+        let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
+        self.drawing.place(&model, self.state.frame.transform() * scale);
+    }
+
+    /// Its place (m).
+    pub fn position(&self) -> DVec3 {
+        self.drawing.origin() + self.state.frame.position
+    }
+
+    /// The direction of extruding.
+    pub fn heading(&self) -> DVec3 {
+        self.state.frame.heading
+    }
+
+    /// Distance (m) from a place to the nearest point of what it has drawn.
+    pub fn distance(&self, place: Vector) -> f64 {
+        self.drawing.distance(place.0 - self.drawing.origin())
+    }
+
+    /// The number of edges left open by missing caps and open sections.
+    pub fn open_edges(&self) -> u32 {
+        u32::try_from(self.open_edges).unwrap_or(u32::MAX)
+    }
+}
+
+/// Rings of points, of which a section has x and y.
+fn flat(rings: impl IntoIterator<Item = Vec<Vector>>) -> Rings<DVec2> {
+    rings.into_iter().map(|ring| ring.iter().map(|point| point.0.truncate()).collect()).collect()
+}
+
+/// The section with its corners marked for shading.
+fn shaded(section: Section, smooth: bool) -> Section {
+    if smooth { section.creased(CREASE.to_radians()) } else { section.marked(false) }
+}
+
+fn check_resolution(along: u32, around: u32) -> Result<()> {
+    for (name, count) in [("along", along), ("around", around)] {
+        if count > 4096 {
+            return Err(Error::argument(format!("extruder: {name} must be at most 4096, and is {count}")));
+        }
+    }
+    Ok(())
+}
+
+impl Extruder {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "extruder",
+                "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
+            )
+            .example(include_str!("../../scripts/extruder.lua"));
+            Arc::new(
+                kind.made_of(ExtruderOptions::fields(), |table| {
+                    Extruder::new(ExtruderOptions::from_table(table)?)
+                })
+                .methods(Extruder::methods())
+                .begins_empty()
+                .draws::<Extruder>(),
+            )
+        });
+        &KIND
+    }
+
+    /// An extruder at its beginning.
+    pub fn new(options: ExtruderOptions) -> Result<Self> {
+        check_resolution(options.along, options.around)?;
+        if options.heading.0.length_squared() < 1e-24 {
+            return Err(Error::argument("extruder: heading has no length"));
+        }
+        let section = if options.shape.is_empty() {
+            Section::regular(options.sides as usize)?
+        } else {
+            shaded(Section::polygon(&flat([options.shape.clone()]))?, options.smooth)
+        };
+        let section = Arc::new(section);
+        let state = ExtruderState::begin(&options, &section);
+        let drawing = Drawing::at(options.position.0);
+        Ok(Self {
+            options,
+            first_section: section,
+            state,
+            stack: Vec::new(),
+            known: Vec::new(),
+            drawing,
+            open_edges: 0,
+            warnings: Vec::new(),
+        })
+    }
+
+    /// Sets the cross-section to `shape`.
+    fn set(&mut self, shape: SectionShape) -> Result<()> {
+        let known = self.known.iter().find(|(known, _)| *known == shape);
+        self.state.section = match known {
+            Some((_, section)) => Arc::clone(section),
+            None => {
+                let section = Arc::new(match shape {
+                    SectionShape::Regular(sides) => Section::regular(sides as usize)?,
+                    SectionShape::Star(points, inner) => Section::star(points as usize, inner)?,
+                    SectionShape::Rectangle(width, height) => Section::rectangle(width, height)?,
+                });
+                if self.known.len() == KNOWN {
+                    self.known.remove(0);
+                }
+                self.known.push((shape, Arc::clone(&section)));
+                section
+            }
+        };
+        Ok(())
+    }
+
+    fn segment(&mut self, length: f64) -> Result<()> {
+        let state = &mut self.state;
+        if state.scale == DVec2::ZERO && state.taper == DVec2::ZERO {
+            let text = "extruder:extrude draws nothing where the scale is 0";
+            let help = "give a scale above 0, or go on without drawing: this:advance(length)";
+            self.warnings.push(Warning::new(WarningKind::DrawsNothing, text).help(help).of_all());
+        }
+        let section = if state.around > 0 {
+            Arc::new(state.section.resampled(state.around as usize)?)
+        } else {
+            Arc::clone(&state.section)
+        };
+        let mut segment = Segment {
+            length,
+            bend: state.bend,
+            toward: state.toward,
+            twist: state.twist,
+            from: state.scale,
+            to: state.taper,
+            steps: state.along as usize,
+            sharp: !state.smooth,
+        };
+        if segment.steps == 0 {
+            segment.steps = segment.steps_for(10f64.to_radians());
+        }
+        let continues = state.run.as_ref().is_some_and(|run| {
+            run.end == state.frame
+                && run.scale == state.scale
+                && (Arc::ptr_eq(&run.section, &section) || run.section == section)
+                && run.smooth == state.smooth
+                && run.caps == state.caps
+                && (Arc::ptr_eq(&run.material, &state.material) || run.material == state.material)
+        });
+        if !continues {
+            self.close()?;
+        }
+        let state = &mut self.state;
+        let mut stations = SmallVec::new();
+        let end = segment.stations(state.frame, &mut stations)?;
+        let maker = self.drawing.maker();
+        match &mut state.run {
+            Some(run) => {
+                run.stations.extend(stations.into_iter().skip(1));
+                run.makers.resize(run.stations.len(), maker);
+                run.end = end;
+                run.scale = state.taper;
+            }
+            None => {
+                state.run = Some(SolidRun {
+                    makers: smallvec![maker; stations.len()],
+                    stations,
+                    section,
+                    end,
+                    scale: state.taper,
+                    smooth: state.smooth,
+                    caps: state.caps,
+                    material: state.material.clone(),
+                });
+            }
+        }
+        state.frame = end;
+        state.scale = state.taper;
+        Ok(())
+    }
+
+    /// Builds the solid of the segments so far.
+    fn close(&mut self) -> Result<()> {
+        let Some(run) = self.state.run.take() else { return Ok(()) };
+        let options = SweepOptions {
+            around: run.smooth,
+            along: run.smooth,
+            start_cap: run.caps[0],
+            end_cap: run.caps[1],
+            ..SweepOptions::default()
+        };
+        let part = self.drawing.material(&run.material);
+        // What the present module drew before is settled first.
+        self.drawing.draw_for(self.drawing.maker(), part, |_| ());
+        let swept = sweep(self.drawing.part(part), &run.section, &run.stations, &options)?;
+        for (station, count) in &swept.reached {
+            self.drawing.made(run.makers[*station], part, *count);
+        }
+        self.open_edges += swept.open.len();
+        Ok(())
+    }
+}
+
+impl Object for Extruder {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self) {
+        self.state = ExtruderState::begin(&self.options, &self.first_section);
+        self.stack.clear();
+        self.drawing.clear();
+        self.open_edges = 0;
+    }
+
+    fn push(&mut self) {
+        let run = self.state.run.take();
+        self.stack.push(ExtruderState { run, ..self.state.clone() });
+    }
+
+    fn pop(&mut self) -> Result<()> {
+        self.close()?;
+        if let Some(state) = self.stack.pop() {
+            self.state = state;
+        }
+        Ok(())
+    }
+
+    fn end(&mut self) -> Result<()> {
+        self.close()
+    }
+
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+}

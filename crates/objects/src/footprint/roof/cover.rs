@@ -1,0 +1,173 @@
+//! Covers a footprint with a roof.
+
+use super::{RoofDetail, kinds, replace};
+use crate::MaterialOptions;
+use crate::footprint::Footprint;
+use burgeon_base::error::{Error, Result};
+use burgeon_geometry::roof::{
+    Eaves, Patch, PatchKind, RoofCover, RoofShape, RoofSurface as SurfaceOf, STEEPEST_EAVES, Support,
+};
+use burgeon_geometry::{Plan, fill};
+use burgeon_kit::Color;
+use burgeon_kit::{Note, fields};
+use glam::DVec3;
+
+/// What `footprint:roof { ... }` takes.
+#[fields("footprint:roof")]
+pub struct Roof {
+    /// "flat", "shed", "gable", "gambrel", "shed_gambrel", "hip", "mansard", "pagoda", "porch" or "dutch_hip".
+    #[default("hip".into())]
+    pub kind: String,
+    /// How high the highest ridge is above the eaves (m); after `slope` if left out.
+    pub height: Option<f64>,
+    /// Slope (degrees) from the eaves to the highest ridge, where no height is given.
+    #[default(35.0)]
+    pub slope: f64,
+    /// How far it juts out over the outermost walls (m), where there is room.
+    #[default(0.0)]
+    pub overhang: f64,
+    /// "closed", with a level underside; "slab", with upright faces along the outline too; or "open", a plate
+    /// that follows the slope. "slab" if a `slab` is given, "closed" otherwise.
+    pub eaves: Option<String>,
+    /// Height of the upright faces along the outline, and of the edge of a plate (m); 0.15 where one is needed.
+    #[default(0.0)]
+    pub slab: f64,
+    /// Height of the border of a flat roof (m).
+    #[default(0.0)]
+    pub border: f64,
+    /// Width of the border of a flat roof (m).
+    #[default(0.3)]
+    pub border_width: f64,
+    /// Its colour.
+    pub color: Option<Color>,
+    /// Its material, in place of the colour.
+    pub material: Option<MaterialOptions>,
+    /// The material of gables; that of the walls below them if left out.
+    pub gable: Option<MaterialOptions>,
+    /// The material of slabs and borders; the roof's if left out.
+    pub trim: Option<MaterialOptions>,
+    /// The material of undersides; that of slabs if left out.
+    pub underside: Option<MaterialOptions>,
+    /// Whether walls along neighbours that run away from the street end in gables, as in a row of houses.
+    #[default(true)]
+    pub party_gables: bool,
+    /// What stands on it: a list of { model, on, every, ... }.
+    pub details: Vec<RoofDetail>,
+}
+
+impl Footprint {
+    pub(crate) fn cover(&mut self, options: &Roof) -> Result<()> {
+        self.check_open("roof")?;
+        let shape = kinds::shape(options)?;
+        for detail in &options.details {
+            detail.check()?;
+        }
+        if !self.shell.begun {
+            self.lay("z_min", options.material.clone())?;
+        }
+        self.finish_walls()?;
+        self.shell.closed = true;
+        match self.detail {
+            0 => return Ok(()),
+            1 => return self.cap(options),
+            _ => {}
+        }
+        let (walls, base) = (self.plan.flat(), self.shell.top);
+        let rows = options.party_gables && matches!(shape.surface, SurfaceOf::Sloped(..));
+        let party = if rows { self.party_walls() } else { Vec::new() };
+        let open = shape.eaves == Eaves::Open && shape.overhang > 0.0;
+        let juts = self.juts(open);
+        let furthest = shape.overhang + juts.iter().copied().fold(0.0, f64::max);
+        let drop = if open { STEEPEST_EAVES * shape.overhang } else { 0.0 };
+        let reach = if furthest > 0.0 { self.reach(furthest, drop) } else { Vec::new() };
+        let support = Support { walls: &walls, base, party: &party, juts: &juts, reach: &reach };
+        let mut make = |shape: &RoofShape, support: &Support<'_>| shape.cover_on(support);
+        let made = replace::cover(&shape, &options.kind, &support, &mut make);
+        let mut note = |what: String, why: String| self.notes.push(Note::new(what, why));
+        if let Some((what, why)) = made.replaced {
+            note(what, why);
+        }
+        if made.cover.hipped {
+            note(format!("hips in place of gables of a {} roof", options.kind), String::new());
+        }
+        // Without neighbours some edges would have more: what is over them gives way for these.
+        let is_limited = !made.cover.tight.is_empty() && reach.iter().any(|reach| *reach < furthest);
+        let alone = if is_limited { shape.cover_on(&Support { reach: &[], ..support }).ok() } else { None };
+        let has_more = |cover: &RoofCover, edge: usize| cover.overhangs[edge] > made.cover.overhangs[edge];
+        let is_beside = |edge: &usize| alone.as_ref().is_some_and(|alone| has_more(alone, *edge));
+        let (beside, within): (Vec<usize>, Vec<usize>) =
+            made.cover.tight.iter().partition(|edge| is_beside(edge));
+        for (edges, cause) in [(beside, "a neighbour is near"), (within, "there is no room")] {
+            if !edges.is_empty() {
+                let why = tight(&edges, &made.cover.overhangs, options.overhang, &self.plan);
+                note(format!("a smaller overhang over some edges, as {cause}"), why);
+            }
+        }
+        self.draw(options, &made.cover.patches).map_err(Error::of_data)?;
+        if self.detail < 3 {
+            return Ok(());
+        }
+        for (index, detail) in options.details.iter().enumerate() {
+            let seed = self.seed.wrapping_add((index as u64 + 1).wrapping_mul(0x9E37_79B9_7F4A_7C15));
+            for (model, frame) in detail.frames(&made.cover.patches, seed) {
+                self.drawing.place(&model, frame);
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the walls level, in place of a roof.
+    fn cap(&mut self, options: &Roof) -> Result<()> {
+        let base = self.shell.top;
+        let top = self.plan.flat().at_height(base);
+        let part = self.part(options.color, options.material.as_ref())?;
+        fill(self.drawing.part(part), &top, DVec3::X, DVec3::ZERO).map_err(Error::of_data)
+    }
+
+    fn draw(&mut self, options: &Roof, patches: &[Patch]) -> Result<()> {
+        let material = options.material.as_ref();
+        let trim = options.trim.as_ref().or(material);
+        let slope = self.part(options.color, material)?;
+        let gable = options.gable.as_ref().map(|gable| self.part(None, Some(gable))).transpose()?;
+        let fascia = self.part(options.color, trim)?;
+        let underside = self.part(options.color, options.underside.as_ref().or(trim))?;
+        for patch in patches {
+            let part = match (patch.kind, gable) {
+                (PatchKind::Slope, _) => slope,
+                (PatchKind::Gable, Some(gable)) => gable,
+                // It goes on as the wall below it.
+                (PatchKind::Gable, None) => match self.sides.get(patch.edge) {
+                    Some(side) => side.part,
+                    None => self.part(None, None)?,
+                },
+                (PatchKind::Fascia, _) => fascia,
+                (PatchKind::Underside, _) => underside,
+            };
+            let Some(&origin) = patch.rings.first().and_then(|ring| ring.first()) else { continue };
+            let right = if patch.along == glam::DVec2::ZERO { DVec3::X } else { patch.along.extend(0.0) };
+            fill(self.drawing.part(part), &patch.rings, right, origin)?;
+        }
+        Ok(())
+    }
+}
+
+/// The most edges that a note names.
+const NAMED: usize = 8;
+
+/// How far a roof with these `overhangs` juts out over `edges`, where it should do so more, by the numbers that they
+/// were given with.
+fn tight(edges: &[usize], overhangs: &[f64], overhang: f64, plan: &Plan) -> String {
+    let found = edges.iter().map(|&edge| overhangs[edge]);
+    let (least, most) =
+        found.fold((f64::INFINITY, 0.0f64), |(least, most), by| (least.min(by), most.max(by)));
+    let range = if least < most { format!("{least} to {most}") } else { format!("{most}") };
+    let given = plan.given_edges();
+    let mut edges: Vec<usize> =
+        edges.iter().filter_map(|&edge| given.get(edge)).flatten().map(|edge| edge + 1).collect();
+    edges.sort_unstable();
+    let named: Vec<String> = edges.iter().take(NAMED).map(usize::to_string).collect();
+    let more = edges.len() - named.len();
+    let more = if more > 0 { format!(" and {more} more") } else { String::new() };
+    let word = if edges.len() == 1 { "edge" } else { "edges" };
+    format!("{range} m in place of {overhang} m over {word} {}{more}", named.join(", "))
+}

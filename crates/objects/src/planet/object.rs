@@ -1,0 +1,314 @@
+//! The object: what scripts see of a planet.
+
+use std::sync::{Arc, LazyLock};
+
+use super::looks;
+use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
+use burgeon_kit::rules::ModuleKey;
+use burgeon_kit::{Color, Expand, Kind, Object, Rewriter, Seed, Show, Vector, fields, methods};
+use burgeon_scene::{Instance, Material, Mesh, Scene};
+use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
+use burgeon_terrain::{Cells, World};
+use glam::{DAffine3, DVec3};
+use rayon::prelude::*;
+
+/// What `planet { ... }` takes.
+#[fields("planet")]
+pub struct PlanetOptions {
+    /// Its radius (m).
+    #[default(6_371_000.0)]
+    pub radius: f64,
+    /// What divides its six faces: a rule table, a system, or a list of these by level.
+    pub rules: RuleLayers,
+    /// The symbol of each face; the first by name, if it is left out.
+    pub start: Option<String>,
+    /// The height (m) of all of it.
+    #[default(0.0)]
+    pub height: f64,
+    /// How much (m) the changes of a rule table are at first.
+    #[default(4000.0)]
+    pub decay: f64,
+    /// How often a face is divided at most, where it is seen from near.
+    #[default(20)]
+    pub levels: u32,
+    /// A part of it is divided further while the eye is nearer to it than so many times its size.
+    #[default(3.0)]
+    pub closeness: f64,
+    /// Whether the surface runs smoothly through the cells, or each cell keeps its own height.
+    #[default(true)]
+    pub smooth: bool,
+    /// How far the triangles may be from the surface, in sizes of the cells there.
+    #[default(0.05)]
+    pub error: f64,
+    /// Its middle (m).
+    #[default(Vector(DVec3::ZERO))]
+    pub position: Vector,
+    /// The direction of its north pole, from which latitudes are told.
+    #[default(Vector(DVec3::Z))]
+    pub axis: Vector,
+    /// What its random numbers come from: a number or a string; the run's seed, if it is left out.
+    pub seed: Option<Seed>,
+    /// Whether what lies below the horizon of the focus is left out.
+    pub horizon: bool,
+    /// What lies on it, from the bottom to the top.
+    pub covers: Vec<GroundCover>,
+    /// Its colour, where it has no covers.
+    #[default(Color([0.30, 0.28, 0.22, 1.0]))]
+    pub color: Color,
+    /// Its seas: their level (m), or more of them.
+    pub water: Option<Water>,
+    /// What lies on the water, such as ice near the poles.
+    pub ice: Option<GroundCover>,
+}
+
+/// A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.
+///
+/// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
+#[derive(Clone)]
+pub struct Planet {
+    options: Arc<PlanetOptions>,
+    globe: Globe,
+    /// From where the present pass wants to see it (m, from its middle).
+    wanted: Option<DVec3>,
+    /// From where it is seen (m, from its middle).
+    eye: Option<DVec3>,
+    /// Whether the script is only checked.
+    sketched: bool,
+    warnings: Vec<Warning>,
+}
+
+#[methods("planet")]
+impl Planet {
+    /// Expands what is seen from a place (m) when the pass ends: the nearer to it, the further. The last focus of a
+    /// pass counts.
+    pub fn focus(&mut self, x: f64, y: f64, z: f64) -> Result<()> {
+        let (eye, radius) = (DVec3::new(x, y, z) - self.options.position.0, self.options.radius);
+        if eye.length() < radius * (1.0 - DEEP) {
+            return Err(Error::argument(format!(
+                "planet: the focus ({x}, {y}, {z}) is inside the planet, {:.0} m from its middle",
+                eye.length()
+            ))
+            .help(format!("its ground is about {radius} m from its middle: look from farther out")));
+        }
+        if let Some(earlier) = self.wanted.filter(|earlier| *earlier != eye) {
+            let at = earlier + self.options.position.0;
+            self.warnings.push(lost_focus("planet", &format!("({}, {}, {})", at.x, at.y, at.z)));
+        }
+        self.wanted = Some(eye);
+        Ok(())
+    }
+
+    /// Height (m) of the ground in a direction from its middle; below the water that of the sea's floor.
+    pub fn height(&self, direction: Vector) -> Result<f64> {
+        self.known(self.globe.height(towards(direction)?), 0.0)
+    }
+
+    /// Where the ground or the water is (m) in a direction from its middle.
+    pub fn surface(&self, direction: Vector) -> Result<DVec3> {
+        let way = towards(direction)?;
+        let height = self.known(self.globe.height(way), 0.0)?;
+        Ok(self.options.position.0 + way * (self.options.radius + self.globe.shown(height)))
+    }
+
+    /// The symbol of the cell in a direction from its middle.
+    pub fn symbol(&self, direction: Vector) -> Result<String> {
+        self.known(self.globe.symbol(towards(direction)?), "").map(str::to_owned)
+    }
+
+    /// How many heights are expanded at present.
+    pub fn heights(&self) -> f64 {
+        #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
+        let count = self.globe.heights() as f64;
+        count
+    }
+}
+
+/// No ground is deeper than this part of the radius.
+const DEEP: f64 = 0.1;
+
+impl Planet {
+    /// The type, as scripts see it.
+    pub fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let kind = Kind::new(
+                "planet",
+                "A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.",
+            )
+.example(include_str!("../../scripts/planet.lua"));
+            Arc::new(
+                kind.made_of(PlanetOptions::fields(), |table| Planet::new(PlanetOptions::from_table(table)?))
+                    .methods(Planet::methods())
+                    .begins_empty()
+                    .shows::<Planet>()
+                    .expands::<Planet>(),
+            )
+        });
+        &KIND
+    }
+
+    /// What was `found`; where nothing is expanded, an error, or `even` while the script is only checked.
+    fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
+        match found {
+            None if self.sketched => Ok(even),
+            found => found.ok_or_else(nothing),
+        }
+    }
+
+    /// A planet of which nothing is expanded.
+    pub fn new(options: PlanetOptions) -> Result<Self> {
+        if !(options.radius > 0.0 && options.radius <= 1e9) {
+            return Err(Error::argument(format!("planet: radius is {} m", options.radius))
+                .help("give a length above 0 and up to 1e9 m"));
+        }
+        if options.error < 0.0 {
+            return Err(Error::argument("planet: error is below 0")
+                .help("give a part of a cell's size, such as 0.05"));
+        }
+        if !(DETAIL..=DEEPEST).contains(&options.levels) {
+            return Err(Error::argument(format!("planet: levels is {}", options.levels))
+                .help(format!("divide its faces from {DETAIL} to {DEEPEST} times")));
+        }
+        if !(0.0..=100.0).contains(&options.closeness) {
+            return Err(Error::argument(format!("planet: closeness is {}", options.closeness))
+                .help("give a number from 0 to 100, such as 3"));
+        }
+        if options.axis.0.length() <= 0.0 {
+            return Err(Error::argument("planet: axis has no direction").help("write axis = { 0, 0, 1 }"));
+        }
+        if options.rules.0.is_empty() {
+            return Err(rules::none("planet"));
+        }
+        let built =
+            options.rules.build("planet", options.start.as_ref(), (options.height, options.decay), 0)?;
+        let key = options.seed.map_or(ModuleKey::default(), |seed| ModuleKey::seed(seed.0));
+        let world = World {
+            corner: glam::DVec2::ZERO,
+            size: options.radius,
+            layers: built.layers,
+            smooth: options.smooth,
+            key: built.drawn.then_some(key),
+            remap: Vec::new(),
+            measured: None,
+        };
+        let sea = options.water.as_ref().map(|water| water.level);
+        Ok(Self {
+            warnings: options.rules.warnings("planet"),
+            globe: Globe::new(world, options.radius, sea),
+            options: Arc::new(options),
+            wanted: None,
+            sketched: false,
+            eye: None,
+        })
+    }
+
+    /// The globe that is expanded.
+    pub fn globe(&self) -> &Globe {
+        &self.globe
+    }
+}
+
+fn towards(direction: Vector) -> Result<DVec3> {
+    direction.0.try_normalize().ok_or_else(|| {
+        Error::argument("planet: the direction has no length")
+            .help("give a place seen from its middle, such as { 1, 0, 0 }")
+    })
+}
+
+fn nothing() -> Error {
+    Error::script("planet: nothing is expanded yet").help("it is from the end of the first pass on")
+}
+
+impl std::fmt::Debug for Planet {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "planet of {} heights", self.globe.heights())
+    }
+}
+
+impl Object for Planet {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn seed(&mut self, seed: u64) {
+        if self.options.seed.is_some() {
+            return;
+        }
+        let world = self.globe.world();
+        let world = World { key: world.key.map(|_| ModuleKey(seed)), ..world.clone() };
+        self.globe = Globe::new(world, self.options.radius, self.globe.sea());
+    }
+
+    fn begin(&mut self) {
+        self.wanted = None;
+    }
+
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        std::mem::take(&mut self.warnings)
+    }
+}
+
+impl Expand for Planet {
+    fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
+        let divide = &Cells::new(rules);
+        if let Some(world) = self.globe.world().begun(divide)? {
+            self.globe = Globe::new(world, self.options.radius, self.globe.sea());
+        }
+        self.eye = self.wanted;
+        self.globe.focus(self.eye, self.options.closeness, self.options.levels, divide)
+    }
+
+    fn sketch(&mut self) {
+        self.sketched = true;
+    }
+}
+
+impl Show for Planet {
+    fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
+        let globe = &self.globe;
+        let mesh = GlobeMesh::new(globe, self.options.error);
+        for cover in self.options.covers.iter().chain(&self.options.ice) {
+            cover.on.check("planet", globe.world())?;
+        }
+        let hidden = self.eye.filter(|_| self.options.horizon);
+        let tiles: Vec<_> = globe.tiles().collect();
+        let made: Vec<_> = tiles
+            .into_par_iter()
+            .map(|(face, tile)| {
+                let pieces = mesh.write(face, tile, looks::begin(globe, tile), hidden);
+                if pieces.is_empty() {
+                    return Ok(None);
+                }
+                let place = tile.place;
+                let of = format!("{name} {face}/{}/{}/{}", place.level, place.x, place.y);
+                let looks = looks::of(&self.options, globe, (face, tile), &of)?;
+                Ok(Some((of, pieces, looks)))
+            })
+            .collect::<Result<_>>()?;
+        for (of, pieces, land) in made.into_iter().flatten() {
+            let water = Material { name: format!("{} water", land.name), roughness: 0.3, ..land.clone() };
+            let mut parts = Vec::new();
+            for (mut part, material) in [(pieces.land, land), (pieces.water, water)] {
+                if !part.triangles.is_empty() {
+                    part.material = scene.material(&material);
+                    parts.push(part);
+                }
+            }
+            scene.meshes.push(Mesh { name: of.clone(), parts, ..Mesh::default() });
+            scene.instances.push(Instance {
+                mesh: scene.meshes.len() - 1,
+                transform: DAffine3::from_translation(pieces.origin + self.options.position.0),
+                name: of,
+                feature: feature.map(str::to_owned),
+                origin: None,
+                placement: None,
+            });
+        }
+        Ok(())
+    }
+}

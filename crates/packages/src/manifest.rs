@@ -1,0 +1,378 @@
+//! `mod.toml`: what a package says of itself.
+
+use std::path::Path;
+
+use burgeon_base::error::{Error, Result, SourcePlace};
+use semver::{Version, VersionReq};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::locate::FileName;
+
+/// What the file is called.
+pub const MANIFEST: &str = "mod.toml";
+
+/// The most (bytes) that a `mod.toml` may have.
+const LARGEST: u64 = 65_536;
+
+/// The most letters that a package's name may have.
+const LONGEST: usize = 40;
+
+/// What may stand in a `mod.toml`.
+const KEYS: [&str; 11] = [
+    "name",
+    "version",
+    "api",
+    "doc",
+    "authors",
+    "licence",
+    "depends",
+    "optional",
+    "conflicts",
+    "replaces",
+    "params",
+];
+
+/// What a package says of itself.
+#[derive(Debug, Clone)]
+pub struct Manifest {
+    /// Its name, as scripts write it behind an `@`.
+    pub name: String,
+    /// Its version.
+    pub version: Version,
+    /// The versions of the script API that it can be used with.
+    pub api: VersionReq,
+    /// What it is, for people; may be empty.
+    pub doc: String,
+    /// Who made it.
+    pub authors: Vec<String>,
+    /// What others may do with it; may be empty.
+    pub licence: String,
+    /// What must be there.
+    pub depends: Vec<Dependency>,
+    /// What it uses where it is there.
+    pub optional: Vec<Dependency>,
+    /// What it cannot be used with.
+    pub conflicts: Vec<Dependency>,
+    /// The files of other packages in whose place it has its own.
+    pub replaces: Vec<Replacement>,
+    /// Other defaults for parameters of packages.
+    pub params: Vec<ParamDefault>,
+    /// Where the version of the script API stands.
+    pub(crate) api_line: usize,
+    /// The file, as people find it.
+    pub(crate) file: String,
+}
+
+/// Versions of another package.
+#[derive(Debug, Clone)]
+pub struct Dependency {
+    /// The other package.
+    pub name: String,
+    /// Its versions that are meant.
+    pub versions: VersionReq,
+    /// Where it stands in the file.
+    pub(crate) line: usize,
+}
+
+/// A file in the place of one of another package.
+#[derive(Debug, Clone)]
+pub struct Replacement {
+    /// The file that is replaced.
+    pub target: FileName,
+    /// The file of its own, from its folder.
+    pub file: String,
+    /// Where it stands in the file.
+    pub(crate) line: usize,
+}
+
+/// Another default of a parameter.
+#[derive(Debug, Clone)]
+pub struct ParamDefault {
+    /// The package whose files declare the parameter.
+    pub package: String,
+    /// The parameter.
+    pub name: String,
+    /// The default as text, as a command line would give it.
+    pub value: String,
+    /// Where it stands in the file.
+    pub(crate) line: usize,
+}
+
+/// Whether `name` can be a package's: it begins with a small letter, and has small letters, digits, `_` and `-`.
+pub fn is_name(name: &str) -> bool {
+    let mut letters = name.chars();
+    letters.next().is_some_and(|first| first.is_ascii_lowercase())
+        && letters
+            .all(|letter| letter.is_ascii_lowercase() || letter.is_ascii_digit() || "_-".contains(letter))
+        && name.len() <= LONGEST
+}
+
+impl Manifest {
+    /// Reads the `mod.toml` in `folder`; people find the folder as `shown`.
+    ///
+    /// Fails, with the line, for a file that is not of this form, and for one that a link leads out of the folder to.
+    pub fn read(folder: &Path, shown: &Path) -> Result<Self> {
+        let (path, shown) = (folder.join(MANIFEST), shown.join(MANIFEST));
+        let name = shown.display().to_string();
+        let cannot = |why: &dyn std::fmt::Display| {
+            Error::file(&shown, format!("cannot read {name}: {why}"))
+                .help("a package is a folder with a text file mod.toml")
+        };
+        let inside = path
+            .canonicalize()
+            .is_ok_and(|found| folder.canonicalize().is_ok_and(|it| found.starts_with(it)));
+        if path.exists() && !inside {
+            return Err(cannot(&"it is a link to a file outside the package"));
+        }
+        let bytes = burgeon_base::files::read(&path, LARGEST).map_err(|error| cannot(&error))?;
+        let text = String::from_utf8(bytes).map_err(|_| cannot(&"it is not a text file"))?;
+        Self::parse(text.strip_prefix('\u{feff}').unwrap_or(&text), &name)
+    }
+
+    /// Reads `text`, the content of the file that people find as `file`.
+    pub fn parse(text: &str, file: &str) -> Result<Self> {
+        let file = File { text, name: file };
+        let table = DeTable::parse(text).map_err(|error| {
+            let at = error.span().map_or(0, |span| span.start);
+            let said = error.message().lines().next().unwrap_or_default();
+            Error::data(format!("this is not TOML: {said}"))
+                .at(Some(file.place(at)))
+                .help("write name = \"castle\", one field a line")
+        })?;
+        let table = table.get_ref();
+        for key in table.keys() {
+            if !KEYS.contains(&&**key.get_ref()) {
+                let message = format!("mod.toml has no field called {}", key.get_ref());
+                return Err(Error::not_found("field", key.get_ref(), KEYS, message)
+                    .help(format!("it has {}", KEYS.join(", ")))
+                    .at(Some(file.place(key.span().start))));
+            }
+        }
+        let name = file.text_of(table, "name")?.ok_or_else(|| file.lacks("name", "castle"))?;
+        if !is_name(&name.0) {
+            return Err(Error::data(format!("{:?} cannot be the name of a package", name.0))
+                .help(format!("a name begins with a small letter, and has small letters, digits, _ and -, {LONGEST} at most"))
+                .at(Some(file.place(name.1))));
+        }
+        let version = file.text_of(table, "version")?.ok_or_else(|| file.lacks("version", "1.0.0"))?;
+        let version = Version::parse(&version.0).map_err(|error| {
+            Error::data(format!("{:?} is no version: {error}", version.0))
+                .help("a version has three numbers: version = \"1.0.0\"")
+                .at(Some(file.place(version.1)))
+        })?;
+        let api = file.text_of(table, "api")?.ok_or_else(|| file.lacks("api", "1.0"))?;
+        Ok(Self {
+            name: name.0,
+            version,
+            api_line: file.line(api.1),
+            api: file.versions(&api.0, api.1)?,
+            doc: file.text_of(table, "doc")?.unwrap_or_default().0,
+            authors: file.authors(table)?,
+            licence: file.text_of(table, "licence")?.unwrap_or_default().0,
+            depends: file.dependencies(table, "depends")?,
+            optional: file.dependencies(table, "optional")?,
+            conflicts: file.dependencies(table, "conflicts")?,
+            replaces: file.replacements(table)?,
+            params: file.params(table)?,
+            file: file.name.to_owned(),
+        })
+    }
+
+    /// A line of the file.
+    pub(crate) fn place(&self, line: usize) -> SourcePlace {
+        SourcePlace { file: self.file.clone(), line }
+    }
+
+    /// Where it begins.
+    pub fn begin(&self) -> SourcePlace {
+        self.place(1)
+    }
+
+    /// What it must or may have before it.
+    pub fn wanted(&self) -> impl Iterator<Item = &Dependency> {
+        self.depends.iter().chain(&self.optional)
+    }
+
+    /// Whether it may use the files of the package `name`.
+    pub fn may_use(&self, name: &str) -> bool {
+        self.name == name || self.wanted().any(|wanted| wanted.name == name)
+    }
+}
+
+impl ParamDefault {
+    /// Where it stands in the `mod.toml` of `package`.
+    pub fn place(&self, package: &Manifest) -> SourcePlace {
+        package.place(self.line)
+    }
+}
+
+/// A `mod.toml` that is being read.
+struct File<'a> {
+    text: &'a str,
+    name: &'a str,
+}
+
+/// A text, and where it begins.
+type Text = (String, usize);
+
+impl File<'_> {
+    fn line(&self, at: usize) -> usize {
+        1 + self.text.as_bytes().iter().take(at).filter(|byte| **byte == b'\n').count()
+    }
+
+    fn place(&self, at: usize) -> SourcePlace {
+        SourcePlace { file: self.name.to_owned(), line: self.line(at) }
+    }
+
+    fn lacks(&self, field: &str, example: &str) -> Error {
+        Error::data(format!("mod.toml has no {field}"))
+            .help(format!("write {field} = {example:?}"))
+            .at(Some(self.place(0)))
+    }
+
+    /// The error for a `field` whose value should be `what`.
+    fn refuse(&self, field: &str, what: &str, value: &Spanned<DeValue<'_>>) -> Error {
+        Error::data(format!("{field} must be {what}, not {}", kind(value.get_ref())))
+            .at(Some(self.place(value.span().start)))
+    }
+
+    fn text_of(&self, table: &DeTable<'_>, field: &str) -> Result<Option<Text>> {
+        let Some(value) = table.get(field) else { return Ok(None) };
+        match value.get_ref().as_str() {
+            Some(text) => Ok(Some((text.to_owned(), value.span().start))),
+            None => {
+                Err(self.refuse(field, "a text in quotes", value).help(format!("write {field} = \"...\"")))
+            }
+        }
+    }
+
+    fn authors(&self, table: &DeTable<'_>) -> Result<Vec<String>> {
+        let Some(value) = table.get("authors") else { return Ok(Vec::new()) };
+        let list = value.get_ref().as_array().into_iter().flat_map(|list| list.iter());
+        let texts: Option<Vec<String>> = list.map(|one| one.get_ref().as_str().map(str::to_owned)).collect();
+        texts
+            .filter(|_| value.get_ref().is_array())
+            .ok_or_else(|| self.refuse("authors", "a list of texts", value).help("write authors = [\"Ada\"]"))
+    }
+
+    /// The table `field`, whose members are given as key, where the key begins, and value.
+    fn members<'t, 'i>(
+        &self,
+        table: &'t DeTable<'i>,
+        field: &str,
+        example: &str,
+    ) -> Result<Vec<(&'t str, usize, &'t Spanned<DeValue<'i>>)>> {
+        let Some(value) = table.get(field) else { return Ok(Vec::new()) };
+        let members = value.get_ref().as_table().ok_or_else(|| {
+            let short = field.rsplit('.').next().unwrap_or(field);
+            self.refuse(short, "a table", value).help(format!("write {example}"))
+        })?;
+        // In the order of the file, which is what people see.
+        let mut members: Vec<_> =
+            members.iter().map(|(key, value)| (&**key.get_ref(), key.span().start, value)).collect();
+        members.sort_by_key(|(_, at, _)| *at);
+        Ok(members)
+    }
+
+    fn versions(&self, text: &str, at: usize) -> Result<VersionReq> {
+        VersionReq::parse(text).map_err(|error| {
+            Error::data(format!("{text:?} names no versions: {error}"))
+                .help("write \"1.2\" for 1.2.0 up to, but not, 2.0.0; \">=1.2, <1.5\"; or \"*\" for all")
+                .at(Some(self.place(at)))
+        })
+    }
+
+    fn dependencies(&self, table: &DeTable<'_>, field: &str) -> Result<Vec<Dependency>> {
+        let example = format!("[{field}] and below it masonry = \"1.0\"");
+        let members = self.members(table, field, &example)?.into_iter();
+        members
+            .map(|(name, at, value)| {
+                if !is_name(name) {
+                    return Err(Error::data(format!("{field}: {name:?} cannot be the name of a package"))
+                        .help(format!("write {example}"))
+                        .at(Some(self.place(at))));
+                }
+                let Some(text) = value.get_ref().as_str() else {
+                    return Err(self
+                        .refuse(&format!("{field}: {name}"), "a text in quotes", value)
+                        .help("write \"1.0\""));
+                };
+                let versions = self.versions(text, value.span().start)?;
+                Ok(Dependency { name: name.to_owned(), versions, line: self.line(at) })
+            })
+            .collect()
+    }
+
+    fn replacements(&self, table: &DeTable<'_>) -> Result<Vec<Replacement>> {
+        let example = "[replaces] and below it \"@castle/stone.png\" = \"stone.png\"";
+        let members = self.members(table, "replaces", example)?.into_iter();
+        members
+            .map(|(target, at, value)| {
+                let place = Some(self.place(at));
+                let target =
+                    FileName::parse(target).map_err(|error| error.at(place.clone()).help(example))?;
+                if target.path.is_empty() {
+                    return Err(Error::data(format!("replaces: @{} names no file", target.package))
+                        .help(format!("write {example}"))
+                        .at(place));
+                }
+                let Some(file) = value.get_ref().as_str() else {
+                    return Err(self
+                        .refuse(&format!("replaces: {target}"), "a file of the package", value)
+                        .help(format!("write {example}")));
+                };
+                // A path that is sound is so behind any name.
+                FileName::parse(&format!("@own/{file}")).map_err(|_| {
+                    Error::file(file, format!("replaces: {file:?} is no file of the package"))
+                        .help("name it from the package's folder: \"textures/stone.png\"")
+                        .at(place.clone())
+                })?;
+                Ok(Replacement { target, file: file.to_owned(), line: self.line(at) })
+            })
+            .collect()
+    }
+
+    fn params(&self, table: &DeTable<'_>) -> Result<Vec<ParamDefault>> {
+        let example = "[params.castle] and below it height = 12";
+        let mut params = Vec::new();
+        for (package, _, value) in self.members(table, "params", example)? {
+            let Some(inner) = value.get_ref().as_table() else {
+                return Err(self
+                    .refuse(&format!("params: {package}"), "a table", value)
+                    .help(format!("write {example}")));
+            };
+            let mut inner: Vec<_> = inner.iter().collect();
+            inner.sort_by_key(|(key, _)| key.span().start);
+            for (name, value) in inner {
+                let text = match value.get_ref() {
+                    DeValue::Integer(number) if number.radix() == 10 => number.as_str().to_owned(),
+                    DeValue::Float(number) => number.as_str().to_owned(),
+                    DeValue::Boolean(value) => value.to_string(),
+                    DeValue::String(text) => text.to_string(),
+                    _ => {
+                        let what = format!("params: {package}: {}", name.get_ref());
+                        return Err(self
+                            .refuse(&what, "a number, a switch or a text", value)
+                            .help(format!("write {example}")));
+                    }
+                };
+                let (package, line) = (package.to_owned(), self.line(name.span().start));
+                params.push(ParamDefault { package, name: name.get_ref().to_string(), value: text, line });
+            }
+        }
+        Ok(params)
+    }
+}
+
+/// What a value is, for people.
+fn kind(value: &DeValue<'_>) -> &'static str {
+    match value {
+        DeValue::String(_) => "a text",
+        DeValue::Integer(_) | DeValue::Float(_) => "a number",
+        DeValue::Boolean(_) => "a switch",
+        DeValue::Datetime(_) => "a date",
+        DeValue::Array(_) => "a list",
+        DeValue::Table(_) => "a table",
+    }
+}

@@ -1,0 +1,96 @@
+//! Packages that come as zips. Nothing that a zip says of itself is believed.
+
+use std::collections::BTreeSet;
+use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::path::Path;
+
+use burgeon_base::error::{Error, Limit, Result};
+use zip::ZipArchive;
+
+use super::install::{LARGEST, MOST, PackageCopy, no_file};
+
+/// What an entry of a zip's list begins with, and how long it is without its name and what follows that.
+const ENTRY: &[u8; 4] = b"PK\x01\x02";
+const ENTRY_LENGTH: usize = 46;
+
+/// The bits of a mode that say what a file is, and those of a plain file and of a link.
+const KIND: u32 = 0o170_000;
+const PLAIN: u32 = 0o100_000;
+const LINK: u32 = 0o120_000;
+
+/// Unpacks the zip `from`.
+pub(crate) fn unpack(from: &Path, copy: &mut PackageCopy) -> Result<()> {
+    let shown = from.display();
+    let damaged = || {
+        Error::data(format!("{shown} cannot be unpacked"))
+            .help("name a zip, or the folder that has the mod.toml; a damaged one has to be got again")
+    };
+    let (file, meta) = burgeon_base::files::open(from).map_err(|error| {
+        Error::file(from, format!("cannot read {shown}: {error}")).help("name a folder or a zip")
+    })?;
+    if meta.len() > LARGEST {
+        return Err(Error::limit(Limit::Size, format!("{shown} has more than {} MB", LARGEST / 1_000_000))
+            .help("a package may not be larger"));
+    }
+    let mut archive = ZipArchive::new(BufReader::new(file)).map_err(|_| damaged())?;
+    if archive.len() > MOST {
+        return Err(Error::limit(Limit::Size, format!("{shown} has more than {MOST} files and folders"))
+            .help("a package may not have more"));
+    }
+    let (mut file, _) = burgeon_base::files::open(from).map_err(|_| damaged())?;
+    let names = listed(&mut file, archive.central_directory_start()).ok_or_else(damaged)?;
+    let mut known = BTreeSet::new();
+    if let Some(twice) = names.iter().find(|name| !known.insert(*name)) {
+        let name = String::from_utf8_lossy(twice);
+        return Err(Error::data(format!("{shown} has {} twice", name.escape_debug()))
+            .help("this is no sound package; do not use it"));
+    }
+    if names.len() != archive.len() {
+        return Err(damaged());
+    }
+    for index in 0..archive.len() {
+        let mut entry = archive.by_index(index).map_err(|error| match error {
+            zip::result::ZipError::UnsupportedArchive(zip::result::ZipError::PASSWORD_REQUIRED) => {
+                Error::data(format!("{shown} needs a password")).help("unpack it, and name its folder")
+            }
+            zip::result::ZipError::UnsupportedArchive(_) => {
+                Error::data(format!("{shown} is packed in a way that cannot be read"))
+                    .help("unpack it, and name its folder")
+            }
+            _ => damaged(),
+        })?;
+        let name = std::str::from_utf8(entry.name_raw())
+            .map_err(|_| Error::data(format!("{shown} has a file whose name is no text")).help("rename it"))?
+            .to_owned();
+        let kind = entry.unix_mode().map_or(PLAIN, |mode| mode & KIND);
+        match name.strip_suffix('/') {
+            // A folder comes into being with the first file in it; its name counts all the same.
+            Some(folder) => copy.check_folder(from, folder)?,
+            None if kind == PLAIN || kind == 0 => copy.add(from, &name, &mut entry)?,
+            None => return Err(no_file(from, &name, kind == LINK)),
+        }
+    }
+    Ok(())
+}
+
+/// The names in the list of a zip that begins at `start`, each as often as it is there; no more than a few over [`MOST`].
+fn listed(file: &mut std::fs::File, start: u64) -> Option<Vec<Vec<u8>>> {
+    file.seek(SeekFrom::Start(start)).ok()?;
+    let mut file = BufReader::new(file);
+    let mut names = Vec::new();
+    while names.len() <= MOST {
+        let mut head = [0; ENTRY_LENGTH];
+        // What ends the list is shorter than an entry.
+        if file.read_exact(&mut head[..4]).is_err() || head[..4] != *ENTRY {
+            break;
+        }
+        file.read_exact(&mut head[4..]).ok()?;
+        let length = |at: usize| usize::from(u16::from_le_bytes([head[at], head[at + 1]]));
+        let mut name = vec![0; length(28)];
+        file.read_exact(&mut name).ok()?;
+        let mut rest = vec![0; length(30) + length(32)];
+        file.read_exact(&mut rest).ok()?;
+        names.push(name);
+    }
+    Some(names)
+}

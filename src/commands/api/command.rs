@@ -1,0 +1,153 @@
+//! The command `api`.
+
+use super::entry::{Entry, Member};
+use super::text;
+use crate::commands::report;
+use burgeon::kit::Registry;
+use burgeon::{Error, Result, script};
+use clap::Args;
+use serde_json::json;
+
+/// Tells what scripts can use: types of objects with their fields and methods, functions and modules
+#[derive(Args)]
+pub(crate) struct ApiCommand {
+    /// One of them, such as extruder, extruder:extrude or extruder.sides; a list of all if left out
+    name: Option<String>,
+
+    /// Prints one JSON document, for machines, in place of text for people
+    #[arg(long)]
+    json: bool,
+}
+
+impl ApiCommand {
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        let entries = entries(&burgeon::objects::registry());
+        let found = self.name.as_deref().map(|name| find(&entries, name)).transpose()?;
+        report::print(&if self.json {
+            let documents: Vec<_> = match &found {
+                None => entries.iter().map(Entry::to_json).collect(),
+                Some(ApiSubject::Entry(entry)) => vec![entry.to_json()],
+                Some(ApiSubject::Member((owner, member))) => vec![member.to_json(owner)],
+            };
+            format!("{}\n", json!({ "ok": true, "entries": documents }))
+        } else {
+            match &found {
+                None => text::list(&entries),
+                Some(ApiSubject::Entry(entry)) => text::entry(entry),
+                Some(ApiSubject::Member((owner, member))) => text::member(owner, member),
+            }
+        })
+    }
+}
+
+/// All that scripts can use, by name.
+fn entries(registry: &Registry) -> Vec<Entry> {
+    let types = registry.kinds().map(|kind| Entry::of_kind(kind));
+    let names = script::names();
+    let mut entries: Vec<Entry> =
+        types.chain(names.iter().map(|name| Entry::of_name(name, registry))).collect();
+    entries.sort_by_cached_key(|entry| (entry.group, entry.name.to_lowercase()));
+    entries
+}
+
+/// What is told of.
+enum ApiSubject<'a> {
+    Entry(&'a Entry),
+    /// A field or a method, and the full name of what has it.
+    Member((String, &'a Member)),
+}
+
+/// What is called `name`.
+fn find<'a>(entries: &'a [Entry], name: &str) -> Result<ApiSubject<'a>> {
+    if let Some(entry) = entries.iter().find(|entry| entry.name == name) {
+        return Ok(ApiSubject::Entry(entry));
+    }
+    if let Some(end) = name.find([':', '.'])
+        && let Some(entry) = entries.iter().find(|entry| entry.name == name[..end])
+    {
+        return within(&entry.name, &entry.members, &name[end..]).map(ApiSubject::Member);
+    }
+    let message = format!("scripts have nothing called {name}");
+    // Whoever gives a method's name alone wants to know whose it is.
+    let owners: Vec<String> = entries
+        .iter()
+        .flat_map(|entry| entry.members.iter().map(move |member| (entry, member)))
+        .filter(|(_, member)| member.name == name)
+        .map(|(entry, member)| member.full_name(&entry.name))
+        .collect();
+    if !owners.is_empty() {
+        return Err(
+            Error::not_found("name", name, [], message).help(format!("there is {}", owners.join(", ")))
+        );
+    }
+    let full: Vec<String> = entries
+        .iter()
+        .flat_map(|entry| entry.members.iter().map(|member| member.full_name(&entry.name)))
+        .collect();
+    let known = entries.iter().map(|entry| entry.name.as_str()).chain(full.iter().map(String::as_str));
+    Err(Error::not_found("name", name, known, message).help("burgeon api lists all names"))
+}
+
+/// The one of `members` that `path` leads to, such as `:roof.details`, and the full name of what has it.
+fn within<'a>(owner: &str, members: &'a [Member], path: &str) -> Result<(String, &'a Member)> {
+    let (separator, path) = path.split_at(1);
+    let (inner, rest) = path.split_at(path.find([':', '.']).unwrap_or(path.len()));
+    let mut called = members.iter().filter(|member| member.name == inner);
+    let full = format!("{owner}{separator}{inner}");
+    // A field and a method may have one name; one of them alone is meant, whatever stands before it.
+    let found = called.clone().find(|member| member.full_name(owner) == full).or_else(|| called.next());
+    match found {
+        Some(member) if rest.is_empty() => Ok((owner.to_owned(), member)),
+        Some(member) => within(&member.full_name(owner), &member.fields, rest),
+        None => {
+            let mut names: Vec<&str> = members.iter().map(|member| member.name.as_str()).collect();
+            names.sort_unstable();
+            names.dedup();
+            let help = if names.is_empty() {
+                "it has none".to_owned()
+            } else {
+                format!("it has {}", names.join(", "))
+            };
+            let message = format!("{owner} has no field or method called {inner}");
+            Err(Error::not_found("name", inner, names, message).help(help))
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::entry;
+    use super::*;
+
+    /// Counts the members that there are, within one another.
+    fn check(entries: &[Entry], owner: &str, members: &[Member]) -> usize {
+        let mut count = 0;
+        for member in members {
+            let name = member.full_name(owner);
+            assert!(member.doc.ends_with('.') && member.doc.len() > 8, "{name}: {}", member.doc);
+            assert!(!member.arguments.iter().any(|argument| argument.luau.is_empty()), "{name}");
+            let ApiSubject::Member((has, found)) = find(entries, &name).unwrap() else { panic!("{name}") };
+            assert!(std::ptr::eq(found, member) && has == owner, "{name}");
+            count += 1 + check(entries, &name, &member.fields);
+        }
+        count
+    }
+
+    #[test]
+    fn every_name_that_is_told_of_has_a_doc() {
+        let entries = entries(&burgeon::objects::registry());
+        assert!(entries.len() > 80, "{}", entries.len());
+        let mut members = 0;
+        for entry in &entries {
+            let has_example = entry.usage.is_empty() || !entry.example.is_empty();
+            assert!(has_example || entry.group != entry::EntryGroup::Type, "{}", entry.name);
+            assert!(entry.doc.ends_with('.') && entry.doc.len() > 15, "{}: {}", entry.name, entry.doc);
+            members += check(&entries, &entry.name, &entry.members);
+        }
+        assert!(members > 400, "{members}");
+    }
+}

@@ -1,0 +1,96 @@
+//! Reads the command line, and runs the command that it names.
+
+use std::io::{ErrorKind, Write as _};
+use std::process::ExitCode;
+
+use super::{api, check, completions, fit, live, mods, new, report, run, sources, variations};
+use burgeon::Error;
+use clap::{Parser, Subcommand};
+
+#[derive(Parser)]
+#[command(
+    name = "burgeon",
+    version,
+    about = "Procedural modelling by rewriting: rules in Lua, geometry in Rust.",
+    after_help = "To begin:\n  burgeon new tree\n  burgeon live tree.lua\n  burgeon run tree.lua -o tree.glb"
+)]
+pub(super) struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    Run(Box<run::RunCommand>),
+    Live(live::LiveCommand),
+    Check(check::CheckCommand),
+    Api(api::ApiCommand),
+    Variations(Box<variations::VariationsCommand>),
+    Fit(fit::FitCommand),
+    Mods(mods::ModsCommand),
+    New(new::NewCommand),
+    Sources(sources::SourcesCommand),
+    Completions(completions::CompletionsCommand),
+}
+
+/// Runs the command that the command line names.
+pub(crate) fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return refuse_command_line(&error),
+    };
+    let (json, result) = match cli.command {
+        Command::Run(command) => (command.json(), command.run()),
+        Command::Live(command) => (command.json(), command.run()),
+        Command::Api(command) => (command.json(), command.run()),
+        Command::Check(command) => (command.json(), command.run()),
+        Command::Variations(command) => (command.json(), command.run()),
+        Command::Fit(command) => (command.json(), command.run()),
+        Command::Mods(command) => (command.json(), command.run()),
+        Command::New(command) => (command.json(), command.run()),
+        Command::Sources(command) => (command.json(), command.run()),
+        Command::Completions(command) => (false, command.run()),
+    };
+    match result {
+        // Whoever reads no further knows it; whoever asks how it ended is told that something was left out.
+        Ok(()) if report::is_closed() => ExitCode::FAILURE,
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            report::error(&error, json);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Prints what was asked about the command line.
+fn print_help(error: &clap::Error) -> ExitCode {
+    // This knows whether a terminal takes colours.
+    let printed = error.print().and_then(|()| std::io::stdout().flush());
+    match printed {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) if error.kind() == ErrorKind::BrokenPipe => ExitCode::FAILURE,
+        Err(error) => {
+            report::error(&Error::system(format!("cannot write to standard output: {error}")), false);
+            ExitCode::FAILURE
+        }
+    }
+}
+
+/// Tells what is wrong with the command line, or what was asked about it.
+fn refuse_command_line(error: &clap::Error) -> ExitCode {
+    let wants_json = std::env::args_os()
+        .skip(1)
+        .take_while(|argument| argument != "--")
+        .any(|argument| argument == "--json");
+    if !error.use_stderr() {
+        return print_help(error);
+    }
+    if !wants_json {
+        error.exit();
+    }
+    let text = error.to_string();
+    let text = text.trim_start_matches("error: ");
+    let (message, help) = text.split_once("\n\n").unwrap_or((text, ""));
+    report::error(&Error::usage(message.trim()).help(help.trim()), true);
+    ExitCode::from(2)
+}

@@ -1,0 +1,246 @@
+//! `burgeon mods` and its parts: `check`, `explain` and `add`.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use burgeon::packages::{self, Package, PackageSearch, Packages};
+use burgeon::script::{Param, RunOptions, api_version};
+use burgeon::{Error, Result, ScriptCheck, Warning};
+use clap::{Args, Subcommand};
+use serde_json::json;
+
+use super::super::report;
+use super::super::shared::user_mods;
+use super::text;
+
+/// Lists the packages that scripts can use, and what they replace; checks, explains and adds them
+#[derive(Args)]
+#[command(args_conflicts_with_subcommands = false)]
+pub(crate) struct ModsCommand {
+    #[command(subcommand)]
+    command: Option<ModsAction>,
+
+    /// The script whose packages are meant, which are in mods/ beside it [default: those in ./mods]
+    #[arg(long, value_name = "SCRIPT", global = true)]
+    script: Option<PathBuf>,
+
+    /// Another folder of packages, or a package; may be repeated
+    #[arg(long, value_name = "FOLDER", global = true)]
+    mods: Vec<PathBuf>,
+
+    /// Prints one JSON document, for machines, in place of text for people
+    #[arg(long, global = true)]
+    json: bool,
+}
+
+#[derive(Subcommand)]
+enum ModsAction {
+    /// Reports what is wrong with packages: their mod.toml, their scripts, and files that are missing
+    Check {
+        /// The folder of one; all that are found if left out
+        folder: Option<PathBuf>,
+    },
+    /// Tells why a package is there, in which order it comes, and what it replaces
+    Explain {
+        /// Its name
+        name: String,
+    },
+    /// Copies a package from a folder or a zip
+    Add {
+        /// The folder that has the mod.toml, or a zip of it
+        #[arg(value_name = "FOLDER|ZIP")]
+        from: PathBuf,
+
+        /// The folder of packages that it becomes a part of [default: mods beside the script, or here]
+        #[arg(long, value_name = "FOLDER")]
+        into: Option<PathBuf>,
+
+        /// Puts it in the place of a package of that name
+        #[arg(long)]
+        replace: bool,
+    },
+}
+
+impl ModsCommand {
+    pub(crate) fn json(&self) -> bool {
+        self.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        match &self.command {
+            None => self.list(),
+            Some(ModsAction::Check { folder }) => self.check(folder.as_deref()),
+            Some(ModsAction::Explain { name }) => self.explain(name),
+            Some(ModsAction::Add { from, into, replace }) => self.add(from, into.as_deref(), *replace),
+        }
+    }
+
+    /// The folder that the script is in.
+    fn beside(&self) -> Result<PathBuf> {
+        let Some(script) = &self.script else { return Ok(PathBuf::new()) };
+        if !script.is_file() {
+            let shown = script.display();
+            return Err(Error::not_found("script", &shown, [], format!("there is no script {shown}"))
+                .help("--script names the script whose packages are meant"));
+        }
+        Ok(script.parent().map(Path::to_path_buf).unwrap_or_default())
+    }
+
+    fn packages(&self) -> Result<Packages> {
+        let search =
+            PackageSearch { script: Some(self.beside()?), given: self.mods.clone(), user: user_mods() };
+        Ok(Packages::find(&search, &api_version()))
+    }
+
+    fn list(&self) -> Result<()> {
+        let packages = self.packages()?;
+        report::print(&match self.json {
+            true => format!("{}\n", text::list_json(&packages)),
+            false => text::list(&packages),
+        })
+    }
+
+    fn explain(&self, name: &str) -> Result<()> {
+        let packages = self.packages()?;
+        let Some(package) = packages.get(name.trim_start_matches('@')) else {
+            let known = packages.order().iter().map(|package| package.manifest.name.as_str());
+            let error = Error::not_found("package", name, known, format!("there is no package {name}"));
+            return Err(error.help("burgeon mods lists those that there are"));
+        };
+        report::print(&match self.json {
+            true => {
+                let mut document = text::package_json(&packages, package);
+                document["ok"] = true.into();
+                format!("{document}\n")
+            }
+            false => text::explain(&packages, package),
+        })
+    }
+
+    fn check(&self, folder: Option<&Path>) -> Result<()> {
+        let mut given = self.mods.clone();
+        given.extend(folder.map(Path::to_path_buf));
+        let search = PackageSearch { script: Some(self.beside()?), given, user: user_mods() };
+        let packages = Packages::find(&search, &api_version());
+        let mut problems = packages.problems.clone();
+        let mut declared: BTreeMap<String, Vec<Param>> = BTreeMap::new();
+        let mut warnings: Vec<Warning> = packages.warnings.clone();
+        let meant = match folder {
+            None => packages.order().iter().collect(),
+            Some(folder) => {
+                let folder = folder.canonicalize().unwrap_or_else(|_| folder.to_path_buf());
+                packages.order().iter().filter(|package| package.folder == folder).collect::<Vec<_>>()
+            }
+        };
+        if let (Some(folder), true, true) = (folder, meant.is_empty(), problems.is_empty()) {
+            let shown = folder.display();
+            let problem =
+                Error::not_found("package", &shown, [], format!("{shown} has no package that is used"));
+            problems.push(problem.help("name the folder that has the mod.toml; burgeon mods lists all"));
+        }
+        for package in &meant {
+            problems
+                .extend(package.problems.iter().filter(|_| problems.is_empty()).cloned().collect::<Vec<_>>());
+        }
+        // What cannot be used together cannot be run.
+        if problems.is_empty() {
+            for package in &meant {
+                let checked = self.declared(package, &search, &mut declared);
+                match checked {
+                    Ok(more) => warnings.extend(more),
+                    Err(error) => problems.extend(error.problems().map(Error::alone)),
+                }
+                problems.extend(self.check_params(&packages, package, &search, &mut declared));
+            }
+        }
+        if !problems.is_empty() {
+            return Err(Error::several(problems));
+        }
+        if self.json {
+            let names: Vec<_> = meant.iter().map(|package| text::package_json(&packages, package)).collect();
+            let warnings = report::warnings_json(&warnings);
+            return report::print(&format!(
+                "{}\n",
+                json!({ "ok": true, "packages": names, "warnings": warnings })
+            ));
+        }
+        report::eprint(&report::warnings(&warnings));
+        for package in meant {
+            let (name, version) = (&package.manifest.name, &package.manifest.version);
+            let scripts = package.scripts().len();
+            let scripts = if scripts == 1 { "1 script".to_owned() } else { format!("{scripts} scripts") };
+            report::eprint(&format!("{name} {version} is fine: {scripts}\n"));
+        }
+        Ok(())
+    }
+
+    /// Checks the scripts of a package, and keeps the parameters that they declare.
+    fn declared(
+        &self,
+        package: &Package,
+        search: &PackageSearch,
+        declared: &mut BTreeMap<String, Vec<Param>>,
+    ) -> Result<Vec<Warning>> {
+        let mut mods = search.given.clone();
+        mods.extend(search.script.as_ref().map(|script| script.join("mods")).filter(|mods| mods.is_dir()));
+        // What the folder of a package is called by is how its files are told of.
+        mods.insert(0, package.shown.clone());
+        let options = RunOptions { mods, user_mods: search.user.clone(), ..burgeon::options() };
+        let ScriptCheck { params, warnings } = burgeon::check_package(&package.shown, options)?;
+        declared.insert(package.manifest.name.clone(), params);
+        Ok(warnings)
+    }
+
+    /// The errors for defaults of parameters that the other package does not declare, or that cannot have them.
+    fn check_params(
+        &self,
+        packages: &Packages,
+        package: &Package,
+        search: &PackageSearch,
+        declared: &mut BTreeMap<String, Vec<Param>>,
+    ) -> Vec<Error> {
+        let mut problems = Vec::new();
+        for default in &package.manifest.params {
+            let Some(other) = packages.get(&default.package) else { continue };
+            // What is wrong with the other package is told of that.
+            if !declared.contains_key(&default.package) && self.declared(other, search, declared).is_err() {
+                continue;
+            }
+            let Some(params) = declared.get(&default.package) else { continue };
+            if !params.iter().any(|param| param.name == default.name) {
+                let names = params.iter().map(|param| param.name.as_str());
+                let message =
+                    format!("the package {} has no parameter called {}", default.package, default.name);
+                let error = Error::not_found("parameter", &default.name, names, message);
+                let error = error.help(format!("burgeon mods explain {} lists what it has", default.package));
+                problems.push(error.at(Some(default.place(&package.manifest))));
+            }
+        }
+        problems
+    }
+
+    fn add(&self, from: &Path, into: Option<&Path>, replace: bool) -> Result<()> {
+        let into = match into {
+            Some(into) => into.to_path_buf(),
+            None => self.beside()?.join("mods"),
+        };
+        let added = packages::install(from, &into, replace)?;
+        let (name, version) = (&added.manifest.name, &added.manifest.version);
+        let replaced = added.replaced.as_ref();
+        if self.json {
+            return report::print(&format!(
+                "{}\n",
+                json!({
+                    "ok": true, "name": name, "version": version.to_string(), "folder": added.folder,
+                    "replaced": replaced.map(ToString::to_string), "files": added.files, "bytes": added.bytes,
+                })
+            ));
+        }
+        let instead = replaced.map_or_else(String::new, |old| format!(" in the place of {old}"));
+        let folder = added.folder.display();
+        report::eprint(&format!(
+            "added {name} {version} to {folder}{instead}; scripts use it with require(\"@{name}\")\n"
+        ));
+        Ok(())
+    }
+}

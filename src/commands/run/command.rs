@@ -1,0 +1,161 @@
+//! The command `run`.
+
+use std::path::PathBuf;
+use std::sync::Arc;
+use std::time::Instant;
+
+use super::watch;
+use crate::commands::progress::ProgressDisplay;
+use crate::commands::report;
+use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
+use burgeon::export;
+use burgeon::presets::Presets;
+use burgeon::script::{Param, Preset, Session};
+use burgeon::{Result, Warning, WarningKind};
+use clap::Args;
+
+/// Runs a script and writes what it makes
+#[derive(Args)]
+pub(crate) struct RunCommand {
+    #[command(flatten)]
+    pub(super) script: ScriptFlags,
+
+    /// Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
+    #[arg(short, long, value_name = "FILE", value_parser = output)]
+    pub(super) output: Vec<PathBuf>,
+
+    /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
+    #[arg(long, value_name = "FILE")]
+    pub(super) chain: Option<PathBuf>,
+
+    /// Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
+    #[arg(long, value_name = "FILE")]
+    pub(super) heights: Option<PathBuf>,
+
+    /// Writes the changes of the ground of the terrain, for edits(FILE) in a script
+    #[arg(long, value_name = "FILE")]
+    pub(super) edits: Option<PathBuf>,
+
+    /// Writes a .glb for each tile of the terrain into this folder
+    #[arg(long, value_name = "FOLDER")]
+    pub(super) tiles: Option<PathBuf>,
+
+    /// Writes which features were skipped or simplified, and why, as JSON; - is standard output
+    #[arg(long, value_name = "FILE")]
+    pub(super) report: Option<PathBuf>,
+
+    /// Runs and writes again whenever a file of the script changes, until interrupted
+    #[arg(long)]
+    watch: bool,
+
+    /// Width and height of a picture in pixels
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = size, default_value = "1280x960", help_heading = "Pictures")]
+    pub(super) size: (u32, u32),
+
+    #[command(flatten)]
+    pub(super) picture: PictureFlags,
+
+    /// Saves the seed and the values of --set and --preset under a name, once the run has succeeded
+    #[arg(long, value_name = "NAME")]
+    save_preset: Option<String>,
+}
+
+impl RunCommand {
+    pub(crate) fn json(&self) -> bool {
+        self.script.json
+    }
+
+    pub(crate) fn run(&self) -> Result<()> {
+        self.check_files()?;
+        if let Some(name) = &self.save_preset {
+            burgeon::presets::check_name(name)?;
+            Presets::read(&self.script.script)?;
+        }
+        if self.watch {
+            return watch::again_and_again(self);
+        }
+        end_on_interrupt()?;
+        let begin = Instant::now();
+        let session = self.session()?;
+        let made = self.make(&session, begin, &|| false)?;
+        // The process ends and gives back all its memory at once, which is faster than piece by piece.
+        std::mem::forget((made, session));
+        Ok(())
+    }
+
+    /// The script as it was named, and how it is run.
+    pub(super) fn session(&self) -> Result<Arc<Session>> {
+        Session::new(&self.script.script, self.script.options()?)
+    }
+
+    /// Runs `session`, writes everything, and says what came of it, unless it is `stale` before anything is written.
+    pub(super) fn make(
+        &self,
+        session: &Arc<Session>,
+        begin: Instant,
+        stale: &dyn Fn() -> bool,
+    ) -> Result<Option<burgeon::Run>> {
+        let (run, writing) = {
+            let _progress = ProgressDisplay::show(session, !self.script.json);
+            let mut run = burgeon::run_session(session)?;
+            if stale() {
+                return Ok(None);
+            }
+            self.warn_of_nothing(session, &mut run)?;
+            let writing = Instant::now();
+            self.write(&run, session)?;
+            if let Some(name) = &self.save_preset {
+                self.save(name, session, &run.params)?;
+            }
+            (run, writing.elapsed())
+        };
+        if self.script.json {
+            let mut summary = report::summary_json(&run, writing, begin.elapsed());
+            if self.chain_in_json() {
+                let texts = run.systems.iter().map(|system| system.chain_text());
+                let lines: Vec<String> =
+                    texts.flat_map(|text| text.lines().map(str::to_owned).collect::<Vec<_>>()).collect();
+                summary["chain"] = lines.into();
+            }
+            report::print(&format!("{summary}\n"))?;
+        } else {
+            report::eprint(&report::summary(&run, writing, begin.elapsed(), self.report.as_deref()));
+        }
+        Ok(Some(run))
+    }
+
+    /// Warns of files without a model in them; such a run fails if it is to be strict.
+    fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
+        let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
+        let place = run.systems.first().map(|system| system.place.clone());
+        let (Some(place), false) = (place, known || self.output.is_empty()) else { return Ok(()) };
+        if run.scene.triangles() > 0 || session.options.steps.is_some() {
+            return Ok(());
+        }
+        let text = "the model is empty, for no system has an object that draws";
+        let warning = Warning::new(WarningKind::EmptyModel, text)
+            .at(place)
+            .help("give one, such as lsystem({ object = turtle() }); chains are written with --chain FILE");
+        if session.options.strict {
+            return Err(warning.into_error());
+        }
+        run.warnings.push(warning);
+        Ok(())
+    }
+
+    /// Saves what this run was given.
+    fn save(&self, name: &str, session: &Session, params: &[Param]) -> Result<()> {
+        let options = &session.options;
+        let preset = options.preset.iter().flat_map(|preset| &preset.params).map(|(name, _)| name);
+        let given: Vec<&String> = preset.chain(options.set.iter().map(|(name, _)| name)).collect();
+        let params = params.iter().filter(|param| given.contains(&&param.name));
+        let params = params.map(|param| (param.name.clone(), param.value.clone())).collect();
+        let preset = Preset { name: name.to_owned(), seed: Some(options.seed), params, ..Preset::default() };
+        Presets::save(&self.script.script, preset).map(|_| ())
+    }
+}
+
+fn output(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    export::Format::of(&path).map(|_| path).map_err(|error| error.to_string())
+}

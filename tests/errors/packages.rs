@@ -1,0 +1,500 @@
+//! Packages: what scripts are told of them, and `burgeon mods`.
+
+use crate::support::{Folder, assert_decent};
+
+/// A script that draws what a package gives it.
+const SCRIPT: &str = "local towers = require(\"@castle/towers\")\n\
+                      local s = lsystem({ object = extruder() })\n\
+                      local A = module(\"A\")\n\
+                      s:axiom(A())\n\
+                      s:interpret(\"A\", function(this) this:extrude(towers.height) end)\n\
+                      s:derive()\n\
+                      print(towers.height, towers.name)\n";
+
+/// The `mod.toml` of a package.
+fn about(name: &str, more: &str) -> String {
+    format!("name = \"{name}\"\nversion = \"1.0.0\"\napi = \"1.0\"\n{more}")
+}
+
+/// A script with a package that it uses, which says `more` of itself.
+fn castle(more: &str) -> Folder {
+    Folder::new()
+        .with("s.lua", SCRIPT)
+        .with("mods/castle/mod.toml", about("castle", more))
+        .with("mods/castle/towers.lua", "return { height = 12, name = \"castle\" }\n")
+}
+
+fn prints(folder: &Folder, flags: &[&str]) -> String {
+    folder.burgeon(&[&["run", "s.lua", "--json"], flags].concat()).done().stderr
+}
+
+/// What a run is told that must fail.
+fn refused(folder: &Folder) -> String {
+    folder.refuses(&["run", "s.lua"])
+}
+
+#[test]
+fn a_script_uses_a_package_beside_it_in_a_folder_that_is_given_or_of_the_user() {
+    assert_eq!(prints(&castle(""), &[]), "12\tcastle\n");
+    let moved = |to: &str| {
+        Folder::new()
+            .with("s.lua", SCRIPT)
+            .with(&format!("{to}/mod.toml"), about("castle", ""))
+            .with(&format!("{to}/towers.lua"), "return { height = 7, name = \"other\" }\n")
+    };
+    assert_eq!(prints(&moved("given/castle"), &["--mods", "given"]), "7\tother\n");
+    assert_eq!(prints(&moved("given/castle"), &["--mods", "given/castle"]), "7\tother\n");
+    assert_eq!(prints(&moved("user/burgeon/mods/castle"), &[]), "7\tother\n");
+}
+
+#[test]
+fn files_of_a_package_find_one_another_and_not_the_scripts() {
+    let folder = castle("")
+        .with(
+            "mods/castle/towers.lua",
+            "local inner = require(\"./parts/wall\")\nreturn { height = inner, name = \"castle\" }",
+        )
+        .with(
+            "mods/castle/parts/wall.lua",
+            "return require(\"stone\") + require(\"../size\") + require(\"@castle/size\")",
+        )
+        .with("mods/castle/parts/stone.lua", "return 1")
+        .with("mods/castle/size.lua", "return 10")
+        .with("own.lua", "return 5");
+    assert_eq!(prints(&folder, &[]), "21\tcastle\n");
+    let folder = folder.with("mods/castle/parts/wall.lua", "return require(\"own\")");
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: mods/castle/parts/wall.lua:1: the package castle has no file parts/own.lua
+      | return require("own")
+      help: it is looked for in mods/castle
+    "#);
+    let folder = folder.with("mods/castle/parts/wall.lua", "return require(\"../../../own\")");
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: mods/castle/parts/wall.lua:1: require("../../../own") leads outside the package castle
+      | return require("../../../own")
+      help: a file of another package is named with it: require("@castle/towers")
+    "#);
+    let folder = folder.with("s.lua", "require(\"stone\")").with("mods/castle/stone.lua", "return 1");
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: s.lua:1: require("stone") finds no file stone.lua
+      | require("stone")
+      help: a package's file is named with it: @castle/stone.lua
+    "#);
+}
+
+#[test]
+fn a_package_begins_with_its_init_file() {
+    let folder =
+        castle("").with("s.lua", "print(require(\"@castle\"))").with("mods/castle/init.lua", "return 3");
+    assert_eq!(prints(&folder, &[]), "3\n");
+    insta::assert_snapshot!(refused(&castle("").with("s.lua", "print(require(\"@castle\"))")), @r#"
+    error: s.lua:1: the package castle has no file init.lua
+      | print(require("@castle"))
+      help: it is looked for in mods/castle
+    "#);
+}
+
+#[test]
+fn what_leads_out_of_a_package_is_refused() {
+    let tried = |call: &str| refused(&castle("").with("s.lua", call).with("secret.lua", "return 1"));
+    insta::assert_snapshot!(tried("require(\"@castle/../../secret\")"), @r#"
+    error: s.lua:1: @castle/../../secret leads outside the package castle
+      | require("@castle/../../secret")
+      help: name a file in its folder or below it: "@castle/stone.png"
+    "#);
+    insta::assert_snapshot!(tried("require(\"@castle//etc/passwd\")"), @r#"
+    error: s.lua:1: @castle//etc/passwd leads outside the package castle
+      | require("@castle//etc/passwd")
+      help: name a file in its folder or below it: "@castle/stone.png"
+    "#);
+    insta::assert_snapshot!(tried("require(\"@../secret\")"), @r#"
+    error: s.lua:1: "@../secret" names no file of a package
+      | require("@../secret")
+      help: write "@castle/stone.png" for stone.png of the package castle
+    "#);
+    insta::assert_snapshot!(tried("model(\"@castle/../secret.glb\")"), @r#"
+    error: s.lua:1: @castle/../secret.glb leads outside the package castle
+      | model("@castle/../secret.glb")
+      help: name a file in its folder or below it: "@castle/stone.png"
+    "#);
+    insta::assert_snapshot!(tried("source(\"@castle/../secret.geojson:lots\")"), @r#"
+    error: s.lua:1: @castle/../secret.geojson leads outside the package castle
+      | source("@castle/../secret.geojson:lots")
+      help: name a file in its folder or below it: "@castle/stone.png"
+    "#);
+    insta::assert_snapshot!(
+        tried("local s = lsystem({ object = extruder({ sides = 4 }) }) local A = module(\"A\") s:axiom(A()) s:interpret(\"A\", function(this) this:material({ texture = \"@castle/../a.png\", texture_size = { 1, 1 } }):extrude(1) end) s:derive()"),
+        @r#"
+    error: @castle/../a.png leads outside the package castle
+      help: name a file in its folder or below it: "@castle/stone.png"
+    "#
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn a_link_out_of_a_package_is_refused() {
+    let folder = castle("").with("secret.lua", "return 1");
+    std::os::unix::fs::symlink("../../secret.lua", folder.path().join("mods/castle/gate.lua")).unwrap();
+    let folder = folder.with("s.lua", "require(\"@castle/gate\")");
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: s.lua:1: mods/castle/gate.lua is a link that leads outside the package castle
+      | require("@castle/gate")
+      help: a package has only files in its own folder
+    "#);
+}
+
+#[test]
+fn files_that_are_missing_are_told_with_the_line_that_asks() {
+    let tried = |call: &str| refused(&castle("").with("s.lua", call).with("mods/castle/stone.png", "x"));
+    insta::assert_snapshot!(tried("require(\"@castle/tower\")"), @r#"
+    error: s.lua:1: the package castle has no file tower.lua
+      | require("@castle/tower")
+      help: did you mean towers.lua?
+    "#);
+    insta::assert_snapshot!(tried("require(\"@castel/towers\")"), @r#"
+    error: s.lua:1: there is no package castel
+      | require("@castel/towers")
+      help: did you mean castle?
+    "#);
+    insta::assert_snapshot!(tried("require(\"@banners\")"), @r#"
+    error: s.lua:1: there is no package banners
+      | require("@banners")
+      help: put its folder into mods/ beside the script, or name the folder that it is in: --mods FOLDER
+    "#);
+    insta::assert_snapshot!(tried("model(\"@castle/door.glb\")"), @r#"
+    error: s.lua:1: the package castle has no model door.glb
+      | model("@castle/door.glb")
+      help: it is looked for in mods/castle
+    "#);
+    insta::assert_snapshot!(tried("source(\"@castle/lots.geojson:lots\")"), @r#"
+    error: s.lua:1: the package castle has no data file lots.geojson
+      | source("@castle/lots.geojson:lots")
+      help: it is looked for in mods/castle
+    "#);
+    insta::assert_snapshot!(
+        tried("local s = lsystem({ object = extruder() }) local A = module(\"A\") s:axiom(A()) s:interpret(\"A\", function(this) this:material({ texture = \"stone.png\", texture_size = { 1, 1 } }):extrude(1) end) s:derive()"),
+        @r"
+    error: there is no texture stone.png
+      help: a package's file is named with it: @castle/stone.png
+    "
+    );
+}
+
+#[test]
+fn a_package_uses_only_those_that_it_depends_on() {
+    let masonry = |more: &str, content: &str| {
+        castle(more)
+            .with("mods/castle/towers.lua", content)
+            .with("mods/masonry/mod.toml", about("masonry", ""))
+            .with("mods/masonry/init.lua", "return { height = 2, name = \"masonry\" }")
+            .with("mods/masonry/stone.png", "x")
+    };
+    let uses = "return require(\"@masonry\")";
+    assert_eq!(prints(&masonry("[depends]\nmasonry = \"1\"", uses), &[]), "2\tmasonry\n");
+    assert_eq!(prints(&masonry("[optional]\nmasonry = \"1\"", uses), &[]), "2\tmasonry\n");
+    insta::assert_snapshot!(refused(&masonry("", uses)), @r#"
+    error: mods/castle/towers.lua:1: the package castle does not depend on masonry
+      | return require("@masonry")
+      help: write into its mod.toml, below [depends]: masonry = "*"
+    "#);
+    // A name that is put together is seen when it is used, and that of a texture where it stands.
+    insta::assert_snapshot!(refused(&masonry("", "return require(\"@\" .. \"masonry\")")), @r#"
+    error: mods/castle/towers.lua:1: the package castle does not depend on masonry
+      | return require("@" .. "masonry")
+      help: write into its mod.toml, below [depends]: masonry = "*"
+    "#);
+    insta::assert_snapshot!(refused(&masonry("", "return { height = 1, texture = \"@masonry/stone.png\" }")), @r#"
+    error: mods/castle/towers.lua:1: the package castle does not depend on masonry
+      | return { height = 1, texture = "@masonry/stone.png" }
+      help: write into its mod.toml, below [depends]: masonry = "*"
+    "#);
+    // Whether a package is there can be asked.
+    let asks = "return if api.has(\"@masonry\") then require(\"@\" .. \"masonry\") else { height = 3, name = \"alone\" }";
+    assert_eq!(
+        prints(&castle("[optional]\nmasonry = \"1\"").with("mods/castle/towers.lua", asks), &[]),
+        "3\talone\n"
+    );
+}
+
+#[test]
+fn packages_that_cannot_be_used_together_end_a_run_before_it_begins() {
+    insta::assert_snapshot!(refused(&castle("[depends]\nmasonry = \"1.2\"\nmortar = \"1\"")), @r#"
+    error: mods/castle/mod.toml:5: the package castle needs masonry ^1.2, which is not there
+      | masonry = "1.2"
+      help: put it beside the other packages: burgeon mods add FOLDER
+    error: mods/castle/mod.toml:6: the package castle needs mortar ^1, which is not there
+      | mortar = "1"
+      help: put it beside the other packages: burgeon mods add FOLDER
+    "#);
+    let masonry =
+        |more: &str, other: &str| castle(more).with("mods/masonry/mod.toml", about("masonry", other));
+    insta::assert_snapshot!(refused(&masonry("[depends]\nmasonry = \"1.2\"", "")), @r#"
+    error: mods/castle/mod.toml:5: the package castle needs masonry ^1.2, but 1.0.0 is in mods/masonry
+      | masonry = "1.2"
+      help: get a masonry of that version
+    "#);
+    insta::assert_snapshot!(refused(&masonry("[depends]\nmasonry = \"1\"", "[depends]\ncastle = \"1\"")), @r#"
+    error: mods/castle/mod.toml:5: packages depend on each other in a circle: castle -> masonry -> castle
+      | masonry = "1"
+      help: move what both need into a third package
+    "#);
+    insta::assert_snapshot!(refused(&masonry("[conflicts]\nmasonry = \"*\"", "")), @r#"
+    error: mods/castle/mod.toml:5: the package castle cannot be used with masonry 1.0.0
+      | masonry = "*"
+      help: remove one of mods/castle and mods/masonry
+    "#);
+    insta::assert_snapshot!(refused(&castle("").with("mods/castle/mod.toml", "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1.99\"")), @r#"
+    error: mods/castle/mod.toml:3: the package castle is made for version ^1.99 of the script API, and this is 1.0.0
+      | api = "1.99"
+      help: get a Burgeon with that version, or a castle for this one
+    "#);
+    insta::assert_snapshot!(refused(&castle("").with("mods/castle-2/mod.toml", "name = \"castle\"\nversion = \"2.0.0\"\napi = \"1.0\"")), @r#"
+    error: mods/castle-2/mod.toml:1: there are two packages castle: castle 1.0.0 in mods/castle, and 2.0.0 in mods/castle-2
+      | name = "castle"
+      help: remove one of them
+    "#);
+    insta::assert_snapshot!(refused(&castle("").with("mods/castle/mod.toml", "nmae = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"")), @r#"
+    error: mods/castle/mod.toml:1: mod.toml has no field called nmae
+      | nmae = "castle"
+      help: did you mean name?
+    "#);
+    insta::assert_snapshot!(castle("").refuses(&["run", "s.lua", "--mods", "nowhere"]), @r"
+    error: there is no folder nowhere
+      help: --mods names a folder of packages
+    ");
+}
+
+#[test]
+fn packages_of_the_user_that_cannot_be_used_together_are_refused_when_they_are() {
+    let folder = Folder::new()
+        .with("s.lua", "require(\"@a\")\nrequire(\"@b\")")
+        .with("user/burgeon/mods/a/mod.toml", about("a", "[conflicts]\nb = \"*\""))
+        .with("user/burgeon/mods/a/init.lua", "return 1")
+        .with("user/burgeon/mods/b/mod.toml", about("b", ""))
+        .with("user/burgeon/mods/b/init.lua", "return 1")
+        .with("user/burgeon/mods/c/mod.toml", "nonsense");
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: FOLDER/user/burgeon/mods/a/mod.toml:5: the package a cannot be used with b 1.0.0
+      | b = "*"
+      help: remove one of FOLDER/user/burgeon/mods/a and FOLDER/user/burgeon/mods/b
+    "#);
+    assert_eq!(prints(&folder.with("s.lua", "print(require(\"@b\"))"), &[]), "1\n");
+}
+
+#[test]
+fn a_later_package_replaces_a_file_and_builds_on_the_one_before() {
+    let ruins = "local before = require(\"@castle/towers\")\nreturn { height = before.height / 2, name = \"ruined \" .. before.name }";
+    let folder = castle("")
+        .with(
+            "mods/ruins/mod.toml",
+            about("ruins", "[depends]\ncastle = \"1\"\n[replaces]\n\"@castle/towers.lua\" = \"towers.lua\""),
+        )
+        .with("mods/ruins/towers.lua", ruins);
+    assert_eq!(prints(&folder, &[]), "6\truined castle\n");
+    // So do the package's own files get it.
+    let folder = folder.with("mods/castle/init.lua", "return require(\"./towers\")");
+    let folder = folder.with("s.lua", "print(require(\"@castle\").name)");
+    assert_eq!(prints(&folder, &[]), "ruined castle\n");
+    insta::assert_snapshot!(folder.burgeon(&["mods"]).done().stdout, @r"
+    castle 1.0.0  mods/castle
+      @castle/towers.lua is replaced by ruins
+    ruins 1.0.0  mods/ruins
+      depends on castle ^1
+      replaces @castle/towers.lua with towers.lua
+    ");
+    insta::assert_snapshot!(folder.burgeon(&["mods", "explain", "castle"]).done().stdout, @r"
+    castle 1.0.0 in mods/castle
+    found: it is in mods beside the script
+    order: 1 of 2
+    used by: ruins
+    script API: ^1.0
+      @castle/towers.lua is replaced by ruins
+    ");
+    let machine = folder.burgeon(&["mods", "--json"]).done().json();
+    assert_eq!(machine["packages"][0]["replaced"]["@castle/towers.lua"], "ruins");
+    assert_eq!(machine["packages"][1]["order"], 2);
+    let folder = folder.with("mods/ruins/towers.lua", "return require(\"../castle/towers\")");
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: mods/ruins/towers.lua:1: require("../castle/towers") leads outside the package ruins
+      | return require("../castle/towers")
+      help: a file of another package is named with it: require("@castle/towers")
+    "#);
+    std::fs::remove_file(folder.path().join("mods/ruins/towers.lua")).unwrap();
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: mods/ruins/mod.toml:7: the package ruins has no file towers.lua, which it puts in the place of @castle/towers.lua
+      | "@castle/towers.lua" = "towers.lua"
+      help: it is looked for in mods/ruins
+    "#);
+    // In the user's folder it changes no script that does not ask for it.
+    std::fs::create_dir_all(folder.path().join("user/burgeon/mods")).unwrap();
+    std::fs::rename(folder.path().join("mods/ruins"), folder.path().join("user/burgeon/mods/ruins")).unwrap();
+    assert_eq!(prints(&folder, &[]), "castle\n");
+}
+
+#[test]
+fn two_packages_that_replace_the_same_are_warned_of() {
+    let replacing = |folder: Folder, name: &str| {
+        folder
+            .with(
+                &format!("mods/{name}/mod.toml"),
+                about(name, "[depends]\ncastle = \"1\"\n[replaces]\n\"@castle/towers.lua\" = \"towers.lua\""),
+            )
+            .with(&format!("mods/{name}/towers.lua"), format!("return {{ height = 1, name = \"{name}\" }}"))
+    };
+    let folder = replacing(replacing(castle(""), "snow"), "ruins");
+    assert!(prints(&folder, &[]).contains("1\tsnow"));
+    let folder = folder.with("s.lua", SCRIPT.replace("print", "local _ = tostring"));
+    insta::assert_snapshot!(folder.warned(&["run", "s.lua"]), @r#"
+    warning: mods/ruins/mod.toml:7: ruins and snow both replace @castle/towers.lua, and that of snow counts
+      | "@castle/towers.lua" = "towers.lua"
+      help: remove one of them, or let snow depend on ruins if that is meant
+    "#);
+}
+
+#[test]
+fn a_package_sets_other_defaults_of_another_ones_parameters() {
+    let declares = "local height = param(\"height\", { default = 12, min = 3, max = 40 })\nreturn { height = height, name = \"castle\" }";
+    let with = |value: &str| {
+        castle("").with("mods/castle/towers.lua", declares).with(
+            "mods/ruins/mod.toml",
+            about("ruins", &format!("[depends]\ncastle = \"1\"\n[params.castle]\n{value}")),
+        )
+    };
+    assert_eq!(prints(&with("height = 5"), &[]), "5\tcastle\n");
+    assert_eq!(prints(&with("height = 5"), &["--set", "height=9"]), "9\tcastle\n");
+    insta::assert_snapshot!(refused(&with("height = 50")), @r"
+    error: mods/ruins/mod.toml:7: the default that the package ruins sets: param height is 50, out of its range
+      | height = 50
+      help: it goes from 3 to 40
+    ");
+    insta::assert_snapshot!(refused(&with("height = true")), @r#"
+    error: mods/ruins/mod.toml:7: the default that the package ruins sets: param height must be a number, not "true"
+      | height = true
+      help: its default is 12
+    "#);
+    // A parameter of the script's own is the script's.
+    let own = "print(param(\"height\", { default = 12 }))";
+    assert_eq!(prints(&with("height = 5").with("s.lua", own), &[]), "12\n");
+    insta::assert_snapshot!(with("heigth = 5").refuses(&["mods", "check"]), @r"
+    error: mods/ruins/mod.toml:7: the package castle has no parameter called heigth
+      | heigth = 5
+      help: did you mean height?
+    ");
+}
+
+#[test]
+fn a_package_brings_presets() {
+    let declares =
+        "local height = param(\"height\", { default = 12 })\nreturn { height = height, name = \"castle\" }";
+    let folder = castle("")
+        .with("mods/castle/towers.lua", declares)
+        .with("mods/castle/presets.json", "{ \"grand\": { \"seed\": 3, \"params\": { \"height\": 30 } } }");
+    assert_eq!(prints(&folder, &["--preset", "@castle/grand"]), "30\tcastle\n");
+    insta::assert_snapshot!(folder.refuses(&["run", "s.lua", "--preset", "@castle/small"]), @r"
+    error: mods/castle/presets.json has no preset called small
+      help: it has grand
+    ");
+    insta::assert_snapshot!(castle("").refuses(&["run", "s.lua", "--preset", "@castle/small"]), @r"
+    error: the package castle has no file of presets presets.json
+      help: it is looked for in mods/castle
+    ");
+}
+
+#[test]
+fn packages_are_checked() {
+    let checked = castle("").burgeon(&["mods", "check"]).done();
+    insta::assert_snapshot!(checked.stderr, @"castle 1.0.0 is fine: 1 script");
+    let folder = castle("[replaces]\n\"@castle/gate.lua\" = \"gat.lua\"\n")
+        .with("mods/castle/towers.lua", "local a = unknown\nreturn {")
+        .with(
+            "mods/castle/gate.lua",
+            "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone",
+        )
+        .with("mods/castle/stone.png", "x");
+    insta::assert_snapshot!(folder.refuses(&["mods", "check", "mods/castle"]), @r#"
+    error: mods/castle/mod.toml:5: the package castle replaces a file of castle, which it does not depend on
+      | "@castle/gate.lua" = "gat.lua"
+      help: write below [depends]: castle = "*"
+    "#);
+    insta::assert_snapshot!(castle("").with("mods/castle/gate.lua", "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone, a").refuses(&["mods", "check", "mods/castle"]), @r#"
+    error: mods/castle/gate.lua:1: the package castle has no file ston.png
+      | local stone = "@castle/ston.png"
+      help: it is looked for in mods/castle
+    error: mods/castle/gate.lua:2: unknown name lenght
+      | local a = lenght(3)
+      help: declare it: local lenght = ...
+    "#);
+    insta::assert_snapshot!(castle("").refuses(&["mods", "check", "nowhere"]), @r"
+    error: there is no folder nowhere
+      help: --mods names a folder of packages
+    ");
+    insta::assert_snapshot!(castle("").refuses(&["mods", "explain", "castel"]), @r"
+    error: there is no package castel
+      help: did you mean castle?
+    ");
+    insta::assert_snapshot!(castle("").refuses(&["mods", "--script", "t.lua"]), @r"
+    error: there is no script t.lua
+      help: --script names the script whose packages are meant
+    ");
+    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"there are no packages; add one: burgeon mods add FOLDER");
+}
+
+#[test]
+fn packages_are_added_and_replaced_only_if_asked() {
+    let folder = Folder::new()
+        .with("s.lua", SCRIPT)
+        .with("work/mod.toml", about("castle", ""))
+        .with("work/towers.lua", "return { height = 1, name = \"added\" }");
+    let said = folder.burgeon(&["mods", "add", "work"]).done();
+    insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to mods/castle; scripts use it with require("@castle")"#);
+    assert_eq!(prints(&folder, &[]), "1\tadded\n");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r"
+    error: there is a package castle 1.0.0 in mods/castle already
+      help: put castle 1.0.0 in its place: --replace
+    ");
+    let said = folder.burgeon(&["mods", "add", "work", "--replace", "--json"]).done();
+    assert_eq!(said.json()["replaced"], "1.0.0");
+    let said = folder.burgeon(&["mods", "add", "work", "--into", "user/burgeon/mods"]).done();
+    insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to user/burgeon/mods/castle; scripts use it with require("@castle")"#);
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "s.lua"]), @r"
+    error: s.lua cannot be unpacked
+      help: name a zip, or the folder that has the mod.toml; a damaged one has to be got again
+    ");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "nowhere.zip"]), @r"
+    error: there is no folder or zip nowhere.zip
+      help: name the folder that has the mod.toml, or a zip of it
+    ");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "user"]), @r"
+    error: user has no mod.toml
+      help: a package is a folder with a mod.toml, or a zip of one
+    ");
+}
+
+#[test]
+fn scripts_ask_what_there_is() {
+    let asks = "print(api.version)\n\
+                for _, name in { \"lsystem\", \"extruder\", \"extruder.bend\", \"extruder:bend\", \"turtle.step\", \"math.floor\", \"system.rule\", \"@castle\", \"extruder.bnd\", \"nothing\", \"@nothing\", \"math.random\" } do print(name, api.has(name)) end";
+    insta::assert_snapshot!(prints(&castle("").with("s.lua", asks), &[]), @r"
+    1.0.0
+    lsystem	true
+    extruder	true
+    extruder.bend	true
+    extruder:bend	true
+    turtle.step	true
+    math.floor	false
+    system.rule	true
+    @castle	true
+    extruder.bnd	false
+    nothing	false
+    @nothing	false
+    math.random	false
+    ");
+    let said = refused(&castle("").with("s.lua", "api.has(3)"));
+    assert_decent(&said);
+    insta::assert_snapshot!(said, @r#"
+    error: s.lua:1: api.has takes a name
+      | api.has(3)
+      help: write api.has("extruder.bend")
+    "#);
+}

@@ -1,0 +1,116 @@
+//! A type's name is found once in the tree, and is a noun.
+
+use std::collections::BTreeMap;
+
+use crate::sources::{Source, words};
+use crate::{members, root};
+
+/// A type as a file declares it.
+struct Declaration {
+    name: String,
+    /// Whether more than its own module may see it.
+    is_shared: bool,
+    /// The file.
+    place: String,
+}
+
+/// The types that `code` declares, without those of traits: whether more than its own module sees it, and the name.
+fn declarations(code: &str) -> Vec<(bool, String)> {
+    let mut found = Vec::new();
+    for line in code.lines() {
+        let mut rest = line.trim_start();
+        let is_shared = rest.starts_with("pub");
+        if is_shared {
+            rest = rest[3..].trim_start();
+            if let Some((_, behind)) = rest.strip_prefix('(').and_then(|within| within.split_once(')')) {
+                rest = behind.trim_start();
+            }
+        }
+        rest = rest.strip_prefix("unsafe ").unwrap_or(rest);
+        let Some((keyword, rest)) = rest.split_once(' ') else { continue };
+        // An indented `type` belongs to a trait.
+        let declares = match keyword {
+            "struct" | "enum" | "trait" | "union" => true,
+            "type" => !line.starts_with(' '),
+            _ => false,
+        };
+        if let Some(name) = words(rest).next().filter(|_| declares) {
+            found.push((is_shared, name.to_owned()));
+        }
+    }
+    found
+}
+
+/// All types of the program and the members. A file `absent.rs` has the same types as another, for a build without a
+/// feature, so it is left out.
+fn all() -> Vec<Declaration> {
+    let folders = members().into_iter().map(|member| root().join("crates").join(member).join("src"));
+    let mut found = Vec::new();
+    for source in folders.chain([root().join("src")]).flat_map(|folder| Source::all(&folder)) {
+        if source.path.ends_with("absent.rs") {
+            continue;
+        }
+        for code in [&source.code, &source.tests] {
+            found.extend(declarations(code).into_iter().map(|(is_shared, name)| {
+                let place = source.path.strip_prefix(root()).unwrap().display().to_string();
+                Declaration { name, is_shared, place }
+            }));
+        }
+    }
+    assert!(found.len() > 400, "{} types", found.len());
+    found
+}
+
+#[test]
+fn the_name_of_a_type_that_others_see_is_found_once_in_the_tree() {
+    let mut places: BTreeMap<String, Vec<Declaration>> = BTreeMap::new();
+    for declaration in all() {
+        places.entry(declaration.name.clone()).or_default().push(declaration);
+    }
+    let twice: Vec<String> = places
+        .iter()
+        .filter(|(_, those)| those.len() > 1 && those.iter().any(|one| one.is_shared))
+        .map(|(name, those)| {
+            let places: Vec<&str> = those.iter().map(|one| one.place.as_str()).collect();
+            format!("{name}: {}", places.join(", "))
+        })
+        .collect();
+    assert!(twice.is_empty(), "a compound of subject and thing tells them apart:\n{}", twice.join("\n"));
+}
+
+/// Participles and other words that do not end as most do, and name nothing by themselves.
+const NO_NOUNS: [&str; 39] = [
+    "Above", "After", "Ahead", "Around", "Before", "Behind", "Beyond", "Built", "Drawn", "Due", "Eager",
+    "Found", "Frozen", "Given", "Held", "Hidden", "Into", "Kept", "Known", "Laid", "Left", "Lost", "Made",
+    "Meant", "Now", "Over", "Put", "Ran", "Read", "Seen", "Sent", "Shown", "Sold", "Sure", "Taken", "Told",
+    "What", "Which", "Written",
+];
+
+/// The last word of a name: `Ring` of `NamedRing`.
+fn last_word(name: &str) -> &str {
+    &name[name.rfind(char::is_uppercase).unwrap_or(0)..]
+}
+
+#[test]
+fn types_are_called_by_nouns_and_not_by_participles() {
+    let mut wrong = Vec::new();
+    for Declaration { name, place, .. } in all() {
+        let word = last_word(&name);
+        // `Expected` is no thing; `Seed` is one.
+        let is_participle = word.len() > 4 && word.ends_with("ed");
+        if is_participle || NO_NOUNS.contains(&word) {
+            wrong.push(format!("{name}: {place}"));
+        }
+    }
+    assert!(wrong.is_empty(), "a type is a thing, and so is its name:\n{}", wrong.join("\n"));
+}
+
+#[test]
+fn declarations_are_found_however_widely_they_are_seen() {
+    let code = "pub struct A;\n    pub(in crate::b) enum C {}\nunion D {}\npub unsafe trait E<F> {}\n\
+                impl G for H {\n    type I = J;\n}\npub(super) type K<'a> = L;\nlet m = \"struct N\";\n";
+    let found = declarations(code);
+    let expected = [(true, "A"), (true, "C"), (false, "D"), (true, "E"), (true, "K")];
+    assert_eq!(found, expected.map(|(is_shared, name)| (is_shared, name.to_owned())));
+    assert_eq!(last_word("NamedRing"), "Ring");
+}
