@@ -23,21 +23,27 @@ local cells = object("cells", {
         return count - (if self.taken[`{x} {y} {z}`] then 1 else 0)
       end,
     },
-    free = { doc = "Whether a cell is not taken.", function(self, x: number, y: number, z: number)
-      return not self.taken[`{x} {y} {z}`]
-    end },
+    free = {
+      doc = "Whether a cell is not taken.",
+      function(self, x: number, y: number, z: number)
+        return not self.taken[`{x} {y} {z}`]
+      end,
+    },
   },
   changes = {
-    take = { doc = "Takes a cell and draws its cube.", function(self, x: number, y: number, z: number, age: number)
-      local key = `{x} {y} {z}`
-      if self.taken[key] then
-        return
-      end
-      self.taken[key] = true
-      local warm = math.clamp(age / 24, 0, 1)
-      self.cube:color({ 0.55 + 0.4 * warm, 0.16 + 0.5 * warm, 0.2 + 0.12 * warm })
-      self.cube:jump({ x, y, z }):rectangle(self.size, self.size):extrude(self.size)
-    end },
+    take = {
+      doc = "Takes a cell and draws its cube.",
+      function(self, x: number, y: number, z: number, age: number)
+        local key = `{x} {y} {z}`
+        if self.taken[key] then
+          return
+        end
+        self.taken[key] = true
+        local warm = math.clamp(age / 24, 0, 1)
+        self.cube:color({ 0.55 + 0.4 * warm, 0.16 + 0.5 * warm, 0.2 + 0.12 * warm })
+        self.cube:jump({ x, y, z }):rectangle(self.size, self.size):extrude(self.size)
+      end,
+    },
   },
 })
 

@@ -11,18 +11,32 @@ local lantern = object("lantern", {
   },
   state = { lamps = 0 },
   reads = {
-    lamps = { doc = "How many lamps it has.", function(self)
-      return self.lamps
-    end },
+    lamps = {
+      doc = "How many lamps it has.",
+      function(self)
+        return self.lamps
+      end,
+    },
   },
   changes = {
-    mast = { doc = "Draws the foot and the mast.", function(self)
-      self:material({ color = self.metal, roughness = 0.45, metallic = 0.8 }):smooth(true):regular(24)
-      -- The foot narrows into the shaft, and rings mark where it begins and where the arms are.
-      self:scale(0.16):extrude(0.12):taper(0.1):extrude(0.1):scale(0.1):extrude(0.5):taper(0.06):extrude(0.15)
-      self:scale(0.085):extrude(0.04):scale(0.055):taper(0.04):extrude(self.height - 1.06)
-      self:scale(0.07):extrude(0.05):scale(0.03):taper(0.004):extrude(0.25)
-    end },
+    mast = {
+      doc = "Draws the foot and the mast.",
+      function(self)
+        self:material({ color = self.metal, roughness = 0.45, metallic = 0.8 }):smooth(true):regular(24)
+        -- The foot narrows into the shaft, and rings mark where it begins and where the arms are.
+        self
+          :scale(0.16)
+          :extrude(0.12)
+          :taper(0.1)
+          :extrude(0.1)
+          :scale(0.1)
+          :extrude(0.5)
+          :taper(0.06)
+          :extrude(0.15)
+        self:scale(0.085):extrude(0.04):scale(0.055):taper(0.04):extrude(self.height - 1.06)
+        self:scale(0.07):extrude(0.05):scale(0.03):taper(0.004):extrude(0.25)
+      end,
+    },
     lamp = {
       doc = "Draws an arm that reaches out by `reach` (m) to the side at `toward` (degrees), and a lamp at its end.",
       function(self, reach: number, toward: number)
