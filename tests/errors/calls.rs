@@ -26,7 +26,7 @@ fn a_method_that_there_is_not_is_found() {
     assert_snapshot!(drawn("this:window()"), @r"
     error: s.lua:5: rule A(x) (interpretation): extruder has no method or field called window
       | this:window()
-      help: it has regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, position, heading, distance, open_edges
+      help: it has regular, star, rectangle, polygon, direction, resolution, scale, taper, bend, twist, caps, smooth, extrude, advance, shift, jump, turn, pitch, roll, color, material, mesh, place, position, heading, distance, open_edges
     ");
     assert_snapshot!(check("s:derve()"), @r"
     error: s.lua:4: a system has no method called derve

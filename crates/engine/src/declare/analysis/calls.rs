@@ -23,7 +23,7 @@ use burgeon_language::{CallForm, Literal, Name, NameKind, SYSTEM, names};
 
 /// What is known of a value.
 #[derive(Clone)]
-pub(super) enum Known {
+pub(super) enum Inference {
     /// Nothing.
     Unknown,
     /// It stands in the script, or is of this type.
@@ -45,7 +45,7 @@ pub(super) struct CallCheck<'a> {
     file: &'a str,
     pub(super) registry: &'a Registry,
     /// The variables in scope.
-    scope: Vec<(String, Known)>,
+    scope: Vec<(String, Inference)>,
     /// The names of variables that are set more than once.
     assigned: BTreeSet<String>,
     /// What the function is for that is being walked.
@@ -65,8 +65,8 @@ pub(super) fn problems(file: &str, ast: &Ast, registry: &Registry) -> Vec<Error>
 /// The names that something is assigned to, wherever that is.
 fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
     use full_moon::visitors::Visitor;
-    struct Assigned<'a>(&'a mut BTreeSet<String>);
-    impl Visitor for Assigned<'_> {
+    struct AssignmentNames<'a>(&'a mut BTreeSet<String>);
+    impl Visitor for AssignmentNames<'_> {
         fn visit_assignment(&mut self, assignment: &full_moon::ast::Assignment) {
             for variable in assignment.variables() {
                 if let Var::Name(name) = variable {
@@ -81,7 +81,7 @@ fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
             }
         }
     }
-    Assigned(names).visit_ast(ast);
+    AssignmentNames(names).visit_ast(ast);
 }
 
 impl<'a> CallCheck<'a> {
@@ -124,11 +124,11 @@ impl<'a> CallCheck<'a> {
             }
             Stmt::FunctionDeclaration(declaration) => self.function(declaration.body(), None),
             Stmt::LocalFunction(function) => {
-                self.declare(function.name(), Known::Unknown);
+                self.declare(function.name(), Inference::Unknown);
                 self.function(function.body(), None);
             }
             Stmt::ConstFunction(function) => {
-                self.declare(function.name(), Known::Unknown);
+                self.declare(function.name(), Inference::Unknown);
                 self.function(function.body(), None);
             }
             Stmt::LocalAssignment(local) => self.local(local.names(), local.expressions()),
@@ -137,7 +137,7 @@ impl<'a> CallCheck<'a> {
                 self.expressions(generic.expressions());
                 let outside = self.scope.len();
                 for name in generic.names() {
-                    self.declare(name, Known::Unknown);
+                    self.declare(name, Inference::Unknown);
                 }
                 self.block(generic.block());
                 self.scope.truncate(outside);
@@ -149,7 +149,7 @@ impl<'a> CallCheck<'a> {
                     self.expression(step);
                 }
                 let outside = self.scope.len();
-                self.declare(numeric.index_variable(), Known::Value(Literal::Number));
+                self.declare(numeric.index_variable(), Inference::Value(Literal::Number));
                 self.block(numeric.block());
                 self.scope.truncate(outside);
             }
@@ -179,17 +179,17 @@ impl<'a> CallCheck<'a> {
     }
 
     fn local(&mut self, names: &Punctuated<TokenReference>, values: &Punctuated<Expression>) {
-        let found: Vec<Known> = values.iter().map(|value| self.expression(value)).collect();
+        let found: Vec<Inference> = values.iter().map(|value| self.expression(value)).collect();
         let mut found = found.into_iter();
         for name in names {
-            let known = found.next().unwrap_or(Known::Unknown);
+            let known = found.next().unwrap_or(Inference::Unknown);
             self.declare(name, known);
         }
     }
 
-    fn declare(&mut self, name: &TokenReference, known: Known) {
+    fn declare(&mut self, name: &TokenReference, known: Inference) {
         let name = text_of(name);
-        let known = if self.assigned.contains(&name) { Known::Unknown } else { known };
+        let known = if self.assigned.contains(&name) { Inference::Unknown } else { known };
         self.scope.push((name, known));
     }
 
@@ -199,7 +199,10 @@ impl<'a> CallCheck<'a> {
         for (index, parameter) in body.parameters().iter().enumerate() {
             if let Parameter::Name(name) = parameter {
                 let this = this.filter(|_| index == 0);
-                self.declare(name, this.map_or(Known::Unknown, |kind| Known::Object(Arc::clone(kind))));
+                self.declare(
+                    name,
+                    this.map_or(Inference::Unknown, |kind| Inference::Object(Arc::clone(kind))),
+                );
             }
         }
         self.block(body.block());
@@ -207,7 +210,7 @@ impl<'a> CallCheck<'a> {
     }
 
     /// Walks what is given to a method of systems; functions have `this` and a role.
-    fn rule(&mut self, call: &str, args: &[&Expression], kind: Option<&Arc<Kind>>) -> Vec<Known> {
+    fn rule(&mut self, call: &str, args: &[&Expression], kind: Option<&Arc<Kind>>) -> Vec<Inference> {
         let outer = (self.role, self.rule.take());
         if let Some(Expression::String(text)) = args.first() {
             self.rule = string_of(text).map(|pattern| match call {
@@ -221,7 +224,7 @@ impl<'a> CallCheck<'a> {
                 self.role = role;
                 self.function(function.body(), kind);
                 self.role = outer.0;
-                Known::Value(Literal::Function)
+                Inference::Value(Literal::Function)
             }
             Expression::TableConstructor(table) => {
                 for field in table.fields() {
@@ -238,7 +241,7 @@ impl<'a> CallCheck<'a> {
                         _ => {}
                     }
                 }
-                Known::Value(Literal::Table)
+                Inference::Value(Literal::Table)
             }
             other => self.expression(other),
         });
@@ -253,28 +256,28 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    pub(super) fn expression(&mut self, expression: &Expression) -> Known {
+    pub(super) fn expression(&mut self, expression: &Expression) -> Inference {
         match expression {
             Expression::BinaryOperator { lhs, rhs, .. } => {
                 self.expression(lhs);
                 self.expression(rhs);
-                Known::Unknown
+                Inference::Unknown
             }
             Expression::Parentheses { expression, .. } => self.expression(expression),
             Expression::TypeAssertion { expression, .. } => {
                 self.expression(expression);
-                Known::Unknown
+                Inference::Unknown
             }
             Expression::UnaryOperator { unop, expression } => {
                 let known = self.expression(expression);
                 match (unop, known) {
-                    (UnOp::Minus(_), Known::Value(Literal::Number)) => Known::Value(Literal::Number),
-                    _ => Known::Unknown,
+                    (UnOp::Minus(_), Inference::Value(Literal::Number)) => Inference::Value(Literal::Number),
+                    _ => Inference::Unknown,
                 }
             }
             Expression::Function(function) => {
                 self.function(function.body(), None);
-                Known::Value(Literal::Function)
+                Inference::Value(Literal::Function)
             }
             Expression::FunctionCall(call) => self.call(call),
             Expression::IfExpression(branches) => {
@@ -285,23 +288,23 @@ impl<'a> CallCheck<'a> {
                     self.expression(branch.expression());
                 }
                 self.expression(branches.else_expression());
-                Known::Unknown
+                Inference::Unknown
             }
-            Expression::Number(_) => Known::Value(Literal::Number),
+            Expression::Number(_) => Inference::Value(Literal::Number),
             Expression::String(token) => {
-                string_of(token).map_or(Known::Unknown, |text| Known::Value(Literal::Text(text)))
+                string_of(token).map_or(Inference::Unknown, |text| Inference::Value(Literal::Text(text)))
             }
             Expression::Symbol(symbol) => match text_of(symbol).as_str() {
-                "nil" => Known::Value(Literal::Nil),
-                "true" | "false" => Known::Value(Literal::Boolean),
-                _ => Known::Unknown,
+                "nil" => Inference::Value(Literal::Nil),
+                "true" | "false" => Inference::Value(Literal::Boolean),
+                _ => Inference::Unknown,
             },
             Expression::TableConstructor(table) => {
                 self.table(table);
-                Known::Value(Literal::Table)
+                Inference::Value(Literal::Table)
             }
             Expression::Var(variable) => self.variable(variable),
-            _ => Known::Unknown,
+            _ => Inference::Unknown,
         }
     }
 
@@ -319,42 +322,42 @@ impl<'a> CallCheck<'a> {
         }
     }
 
-    fn variable(&mut self, variable: &Var) -> Known {
+    fn variable(&mut self, variable: &Var) -> Inference {
         match variable {
             Var::Name(name) => self.named(name),
             Var::Expression(inner) => {
                 let suffixes: Vec<&Suffix> = inner.suffixes().collect();
                 self.suffixes(inner.prefix(), &suffixes)
             }
-            _ => Known::Unknown,
+            _ => Inference::Unknown,
         }
     }
 
-    fn named(&self, name: &TokenReference) -> Known {
+    fn named(&self, name: &TokenReference) -> Inference {
         let text = text_of(name);
         if let Some((_, known)) = self.scope.iter().rev().find(|(name, _)| *name == text) {
             return known.clone();
         }
         if let Some(kind) = self.registry.get(&text) {
             return match kind.construct {
-                Construct::Given => Known::Unknown,
-                _ => Known::Constructor(Arc::clone(kind)),
+                Construct::Given => Inference::Unknown,
+                _ => Inference::Constructor(Arc::clone(kind)),
             };
         }
         let given = |name: &&Name| name.name == text && name.sort != NameKind::Given;
-        names().iter().find(given).map_or(Known::Unknown, Known::Name)
+        names().iter().find(given).map_or(Inference::Unknown, Inference::Name)
     }
 
-    fn call(&mut self, call: &FunctionCall) -> Known {
+    fn call(&mut self, call: &FunctionCall) -> Inference {
         let suffixes: Vec<&Suffix> = call.suffixes().collect();
         self.suffixes(call.prefix(), &suffixes)
     }
 
-    fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Known {
+    fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference {
         let mut known = match prefix {
             Prefix::Name(name) => self.named(name),
             Prefix::Expression(expression) => self.expression(expression),
-            _ => Known::Unknown,
+            _ => Inference::Unknown,
         };
         let (mut word, mut path) = match prefix {
             Prefix::Name(name) => (Some(name), text_of(name)),
@@ -369,48 +372,48 @@ impl<'a> CallCheck<'a> {
                 }
                 Suffix::Index(Index::Brackets { expression, .. }) => {
                     self.expression(expression);
-                    Known::Unknown
+                    Inference::Unknown
                 }
                 Suffix::Call(Call::AnonymousCall(args)) => self.called(&known, word, &path, args),
                 Suffix::Call(Call::MethodCall(method)) => {
                     word = Some(method.name());
                     self.method(&known, method.name(), method.args())
                 }
-                _ => Known::Unknown,
+                _ => Inference::Unknown,
             };
         }
         known
     }
 
     /// What a field of something is.
-    fn field(&mut self, of: &Known, name: &TokenReference) -> Known {
+    fn field(&mut self, of: &Inference, name: &TokenReference) -> Inference {
         let text = text_of(name);
         match of {
-            Known::Name(library) if !library.functions.is_empty() => {
-                library.find(&text).map_or(Known::Unknown, Known::Name)
+            Inference::Name(library) if !library.functions.is_empty() => {
+                library.find(&text).map_or(Inference::Unknown, Inference::Name)
             }
-            Known::Given(given) => {
+            Inference::Given(given) => {
                 let field = given.fields.iter().find(|field| field.name == text);
-                field.map_or(Known::Unknown, |field| self.of_type(&field.luau))
+                field.map_or(Inference::Unknown, |field| self.of_type(&field.luau))
             }
-            _ => Known::Unknown,
+            _ => Inference::Unknown,
         }
     }
 
     /// What is known of a value of this type.
-    fn of_type(&self, luau: &str) -> Known {
+    fn of_type(&self, luau: &str) -> Inference {
         match luau {
-            "number" => Known::Value(Literal::Number),
-            "boolean" => Known::Value(Literal::Boolean),
-            "" | "any" | "()" => Known::Unknown,
-            "System<T>" => Known::System(None),
+            "number" => Inference::Value(Literal::Number),
+            "boolean" => Inference::Value(Literal::Boolean),
+            "" | "any" | "()" => Inference::Unknown,
+            "System<T>" => Inference::System(None),
             _ => {
                 let given = |name: &&Name| name.sort == NameKind::Given && name.luau == luau;
                 if let Some(name) = names().iter().find(given) {
-                    return Known::Given(name);
+                    return Inference::Given(name);
                 }
                 let kind = self.registry.kinds().find(|kind| kind.luau() == luau);
-                kind.map_or(Known::Unknown, |kind| Known::Object(Arc::clone(kind)))
+                kind.map_or(Inference::Unknown, |kind| Inference::Object(Arc::clone(kind)))
             }
         }
     }
@@ -418,22 +421,22 @@ impl<'a> CallCheck<'a> {
     /// Something is called by itself, which the script names by `path`.
     fn called(
         &mut self,
-        what: &Known,
+        what: &Inference,
         word: Option<&TokenReference>,
         path: &str,
         args: &FunctionArgs,
-    ) -> Known {
+    ) -> Inference {
         let Some(word) = word else {
             self.arguments(args);
-            return Known::Unknown;
+            return Inference::Unknown;
         };
         match what {
-            Known::Constructor(kind) => {
+            Inference::Constructor(kind) => {
                 let given = self.arguments(args);
                 self.hold_constructor(kind, word, args, &given);
-                Known::Object(Arc::clone(kind))
+                Inference::Object(Arc::clone(kind))
             }
-            Known::Name(name) if !name.forms.is_empty() => {
+            Inference::Name(name) if !name.forms.is_empty() => {
                 let given = self.arguments(args);
                 let is_module = matches!(name.sort, NameKind::Module { .. });
                 if !is_module {
@@ -444,14 +447,14 @@ impl<'a> CallCheck<'a> {
             }
             _ => {
                 self.arguments(args);
-                Known::Unknown
+                Inference::Unknown
             }
         }
     }
 
     /// What a function of the language gives for certain.
-    fn result(&mut self, name: &'static Name, args: &FunctionArgs) -> Known {
-        let [form] = &name.forms[..] else { return Known::Unknown };
+    fn result(&mut self, name: &'static Name, args: &FunctionArgs) -> Inference {
+        let [form] = &name.forms[..] else { return Inference::Unknown };
         if form.returns == "System<T>" {
             let object = expressions_of(args).first().and_then(|first| match first {
                 Expression::TableConstructor(table) => field_named(table, "object"),
@@ -460,8 +463,8 @@ impl<'a> CallCheck<'a> {
             let outer = std::mem::take(&mut self.problems);
             let known = object.map(|object| self.expression(object));
             self.problems = outer;
-            return Known::System(match known {
-                Some(Known::Object(kind) | Known::Constructor(kind)) => Some(kind),
+            return Inference::System(match known {
+                Some(Inference::Object(kind) | Inference::Constructor(kind)) => Some(kind),
                 _ => None,
             });
         }
@@ -469,14 +472,14 @@ impl<'a> CallCheck<'a> {
     }
 
     /// A method of something is called.
-    fn method(&mut self, of: &Known, name: &TokenReference, args: &FunctionArgs) -> Known {
+    fn method(&mut self, of: &Inference, name: &TokenReference, args: &FunctionArgs) -> Inference {
         let text = text_of(name);
         match of {
-            Known::Object(kind) => {
+            Inference::Object(kind) => {
                 let given = self.arguments(args);
                 let Some(method) = kind.method(&text) else {
                     self.problem(name, kind.unknown_method(&text));
-                    return Known::Unknown;
+                    return Inference::Unknown;
                 };
                 let full = format!("{}:{text}", kind.name);
                 if matches!(method.call, MethodCall::Write { .. })
@@ -491,7 +494,7 @@ impl<'a> CallCheck<'a> {
                 self.hold_call(name, &full, &[form], args, &given, false);
                 if method.returns.is_empty() { of.clone() } else { self.of_type(&method.returns) }
             }
-            Known::System(kind) => {
+            Inference::System(kind) => {
                 let kind = kind.clone();
                 let given = self.rule(&text, &expressions_of(args), kind.as_ref());
                 let Some(method) = SYSTEM.find(&text) else {
@@ -499,40 +502,42 @@ impl<'a> CallCheck<'a> {
                     let message = format!("a system has no method called {text}");
                     let error = Error::not_found("method", &text, known.iter().copied(), message);
                     self.problem(name, error.help(format!("it has {}", known.join(", "))));
-                    return Known::Unknown;
+                    return Inference::Unknown;
                 };
                 self.hold_call(name, &format!("system:{text}"), &method.forms, args, &given, false);
                 match method.forms.first() {
-                    Some(form) if form.returns == "System<T>" => Known::System(kind),
+                    Some(form) if form.returns == "System<T>" => Inference::System(kind),
                     Some(form) => self.of_type(&form.returns),
-                    None => Known::Unknown,
+                    None => Inference::Unknown,
                 }
             }
-            Known::Given(known) => {
+            Inference::Given(known) => {
                 let given = self.arguments(args);
-                let Some(method) = known.find(&text) else { return Known::Unknown };
+                let Some(method) = known.find(&text) else { return Inference::Unknown };
                 let full = format!("{}:{text}", known.name);
                 self.hold_call(name, &full, &method.forms, args, &given, false);
-                method.forms.first().map_or(Known::Unknown, |form| self.of_type(&form.returns))
+                method.forms.first().map_or(Inference::Unknown, |form| self.of_type(&form.returns))
             }
             _ => {
                 self.arguments(args);
-                Known::Unknown
+                Inference::Unknown
             }
         }
     }
 
-    fn arguments(&mut self, args: &FunctionArgs) -> Vec<Known> {
+    fn arguments(&mut self, args: &FunctionArgs) -> Vec<Inference> {
         match args {
             FunctionArgs::Parentheses { arguments, .. } => {
                 arguments.iter().map(|argument| self.expression(argument)).collect()
             }
             FunctionArgs::String(token) => {
-                vec![string_of(token).map_or(Known::Unknown, |text| Known::Value(Literal::Text(text)))]
+                vec![
+                    string_of(token).map_or(Inference::Unknown, |text| Inference::Value(Literal::Text(text))),
+                ]
             }
             FunctionArgs::TableConstructor(table) => {
                 self.table(table);
-                vec![Known::Value(Literal::Table)]
+                vec![Inference::Value(Literal::Table)]
             }
             _ => Vec::new(),
         }

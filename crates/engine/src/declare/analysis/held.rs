@@ -3,7 +3,7 @@
 use full_moon::ast::{Expression, Field, FunctionArgs, TableConstructor};
 use full_moon::tokenizer::TokenReference;
 
-use super::calls::{CallCheck, Known, expressions_of, line_of};
+use super::calls::{CallCheck, Inference, expressions_of, line_of};
 use super::syntax::{is_open, text_of};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};
@@ -17,7 +17,7 @@ impl CallCheck<'_> {
         name: &str,
         forms: &[CallForm],
         args: &FunctionArgs,
-        given: &[Known],
+        given: &[Inference],
         is_luau: bool,
     ) {
         let written = expressions_of(args);
@@ -71,7 +71,7 @@ impl CallCheck<'_> {
         kind: &Kind,
         word: &TokenReference,
         args: &FunctionArgs,
-        given: &[Known],
+        given: &[Inference],
     ) {
         let written = expressions_of(args);
         let most = 1 + usize::from(
@@ -134,7 +134,7 @@ impl CallCheck<'_> {
             let found = self.expression(value);
             self.problems = outer;
             // What is left out may be written as nil, as well.
-            let is_nil = matches!(&found, Known::Value(Literal::Nil));
+            let is_nil = matches!(&found, Inference::Value(Literal::Nil));
             let argument = Argument {
                 luau: known.luau.clone(),
                 fields: known.fields.clone(),
@@ -149,16 +149,20 @@ impl CallCheck<'_> {
     }
 
     /// Whether a value may be given for an argument or a field.
-    fn may_be(&self, known: &Known, argument: &Argument, is_luau: bool) -> bool {
+    fn may_be(&self, known: &Inference, argument: &Argument, is_luau: bool) -> bool {
         let literal = match known {
-            Known::Value(Literal::Text(text)) if is_luau && text.trim().parse::<f64>().is_ok() => {
+            Inference::Value(Literal::Text(text)) if is_luau && text.trim().parse::<f64>().is_ok() => {
                 return true;
             }
-            Known::Value(literal) => literal.clone(),
-            Known::Object(kind) => Literal::Object(kind.luau()),
-            Known::Given(name) if name.luau == "Vector" => Literal::Object("Vector".to_owned()),
-            Known::Name(name) if !name.forms.is_empty() => Literal::Function,
-            Known::Unknown | Known::Constructor(_) | Known::System(_) | Known::Given(_) | Known::Name(_) => {
+            Inference::Value(literal) => literal.clone(),
+            Inference::Object(kind) => Literal::Object(kind.luau()),
+            Inference::Given(name) if name.luau == "Vector" => Literal::Object("Vector".to_owned()),
+            Inference::Name(name) if !name.forms.is_empty() => Literal::Function,
+            Inference::Unknown
+            | Inference::Constructor(_)
+            | Inference::System(_)
+            | Inference::Given(_)
+            | Inference::Name(_) => {
                 return true;
             }
         };
@@ -211,7 +215,7 @@ fn count(forms: &[CallForm]) -> String {
 }
 
 /// What is wrong with a value.
-fn refused(owner: &str, name: &str, luau: &str, found: &Known) -> String {
+fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
     let wanted = match luau.trim_end_matches('?') {
         "number" => "a number",
         "string" => "a string",
@@ -222,13 +226,13 @@ fn refused(owner: &str, name: &str, luau: &str, found: &Known) -> String {
         luau => luau,
     };
     let found = match found {
-        Known::Value(Literal::Text(text)) => format!("{text:?}"),
-        Known::Value(Literal::Nil) => "nothing".to_owned(),
-        Known::Value(Literal::Boolean) => "a boolean".to_owned(),
-        Known::Value(Literal::Number) => "a number".to_owned(),
-        Known::Value(Literal::Table) => "a table".to_owned(),
-        Known::Value(Literal::Function) | Known::Name(_) => "a function".to_owned(),
-        Known::Object(kind) => format!("an object of type {}", kind.name),
+        Inference::Value(Literal::Text(text)) => format!("{text:?}"),
+        Inference::Value(Literal::Nil) => "nothing".to_owned(),
+        Inference::Value(Literal::Boolean) => "a boolean".to_owned(),
+        Inference::Value(Literal::Number) => "a number".to_owned(),
+        Inference::Value(Literal::Table) => "a table".to_owned(),
+        Inference::Value(Literal::Function) | Inference::Name(_) => "a function".to_owned(),
+        Inference::Object(kind) => format!("an object of type {}", kind.name),
         _ => "a vector".to_owned(),
     };
     format!("{owner}: {name} must be {wanted}, not {found}")
@@ -259,7 +263,7 @@ mod tests {
         let registry = burgeon_objects::registry();
         let ast = full_moon::parse("").expect("nothing");
         let check = CallCheck::new("s.lua", &ast, &registry);
-        let fits = |literal: &Literal| check.may_be(&Known::Value(literal.clone()), argument, false);
+        let fits = |literal: &Literal| check.may_be(&Inference::Value(literal.clone()), argument, false);
         let find =
             |wanted: bool| VALUES.iter().find(|(_, literal)| fits(literal) == wanted).map(|(text, _)| *text);
         (find(true), find(false))
