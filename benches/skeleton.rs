@@ -60,7 +60,7 @@ fn town() -> Option<Vec<Polygon>> {
     let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
     let table = Source::open(&path, "france").ok()?.read("france", &wanted).ok()?;
     let layer = Layer::new(table, &mut None).ok()?;
-    let plan = |feature: &burgeon::sources::Feature| Some(Plan::new(&rings(&feature.geometry)?).ok()?.flat());
+    let plan = |feature: &burgeon::sources::Feature| Some(Plan::new(rings(&feature.geometry)?).ok()?.flat());
     Some(layer.features.iter().filter_map(plan).collect())
 }
 

@@ -25,7 +25,8 @@ pub struct BeadsOptions {
 }
 
 /// Balls on top of one another.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
+#[draw(crate = burgeon::kit)]
 pub struct Beads {
     options: BeadsOptions,
     height: f64,
@@ -78,16 +79,6 @@ impl Object for Beads {
     fn begin(&mut self) {
         self.height = 0.0;
         self.drawing.clear();
-    }
-}
-
-impl Draw for Beads {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
     }
 }
 

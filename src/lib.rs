@@ -18,7 +18,7 @@
 //! macros     uses ──► nothing
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
-//! data       uses ──► base
+//! data       uses ──► base, geometry
 //! kit        uses ──► base, data, geometry, macros, scene
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain

@@ -53,13 +53,11 @@ fn layer(path: &Path, name: &str, condition: Option<&str>) -> Layer {
 /// The area (m²) within a polygon, of which holes are taken away since they turn the other way.
 fn area(geometry: &Geometry) -> f64 {
     let Geometry::Polygon(rings) = geometry else { return 0.0 };
-    let ring = |ring: &Vec<[f64; 3]>| -> f64 {
+    let ring = |ring: &Vec<DVec3>| -> f64 {
         let next = ring.iter().cycle().skip(1);
         ring.iter()
             .zip(next)
-            .map(|(a, b)| {
-                (a[0] - ring[0][0]) * (b[1] - ring[0][1]) - (b[0] - ring[0][0]) * (a[1] - ring[0][1])
-            })
+            .map(|(a, b)| (a - ring[0]).truncate().perp_dot((b - ring[0]).truncate()))
             .sum::<f64>()
             / 2.0
     };

@@ -31,7 +31,7 @@ fn buildings(name: &str) -> Option<Vec<Rings>> {
     let wanted = SourceOptions { layer: Some("buildings".into()), ..SourceOptions::default() };
     let table = Source::open(&shared(name)?, "file").unwrap().read("file", &wanted).unwrap();
     let layer = Layer::new(table, &mut None).unwrap();
-    Some(layer.features.iter().filter_map(|feature| rings(&feature.geometry)).collect())
+    Some(layer.features.iter().filter_map(|feature| rings(&feature.geometry).cloned()).collect())
 }
 
 fn table(entries: &[(&str, Value)]) -> Table {

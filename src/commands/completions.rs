@@ -14,7 +14,7 @@ pub(crate) struct CompletionsCommand {
 impl CompletionsCommand {
     pub(crate) fn run(&self) -> Result<()> {
         let mut script = Vec::new();
-        clap_complete::generate(self.shell, &mut super::Cli::command(), "burgeon", &mut script);
+        clap_complete::generate(self.shell, &mut super::command_line::Cli::command(), "burgeon", &mut script);
         super::report::print(&String::from_utf8_lossy(&script))
     }
 }

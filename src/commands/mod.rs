@@ -19,5 +19,4 @@ mod shared;
 mod sources;
 mod variations;
 
-use command_line::Cli;
 pub(crate) use command_line::main;

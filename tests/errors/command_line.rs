@@ -354,6 +354,10 @@ fn help_reads_well() {
           --module-limit <N>          Modules that a system's chains may have [default: 50000000]
           --triangle-limit <N>        Triangles that a system may draw [default: 50000000]
     ");
+}
+
+#[test]
+fn a_program_without_a_command_says_how_it_is_used_and_which_version_it_is() {
     let said = Folder::new().burgeon(&[]);
     assert_eq!((said.status, said.stdout.as_str()), (2, ""));
     let version = Folder::new().burgeon(&["--version"]).done().stdout;

@@ -29,5 +29,6 @@ mod successors;
 mod support;
 mod syntax;
 mod terrain;
+mod unseen;
 mod variations;
 mod warnings;

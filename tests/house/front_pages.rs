@@ -26,11 +26,12 @@ fn without_attributes(code: &str) -> String {
 /// The items of `code` that do more than name what stands elsewhere.
 fn work(code: &str) -> Vec<String> {
     let listed = |item: &&str| {
+        let is_shown = item.starts_with("pub");
         let item = item.strip_prefix("pub").unwrap_or(item);
         let item =
             item.strip_prefix('(').and_then(|scope| scope.split_once(')')).map_or(item, |(_, rest)| rest);
         let item = item.trim_start();
-        item.starts_with("use ") || item.starts_with("mod ") && !item.contains('{')
+        item.starts_with("use ") && is_shown || item.starts_with("mod ") && !item.contains('{')
     };
     let code = without_attributes(code);
     let items = code.split(';').map(str::trim).filter(|item| !item.is_empty());
@@ -52,11 +53,16 @@ fn a_mod_rs_lists_what_is_in_its_folder_and_holds_no_work() {
 
 #[test]
 fn work_is_told_from_a_list() {
-    let list = "#![allow(a, reason = \"[b]\")]\n#[cfg(test)]\nmod c;\npub(in crate::d) mod e;\npub use c::{F, G};\nuse e::h;\n";
+    let list = "#![allow(a, reason = \"[b]\")]\n#[cfg(test)]\nmod c;\npub(in crate::d) mod e;\npub use c::{F, G};\npub(super) use e::h;\n";
     assert_eq!(work(list), [""; 0]);
-    for item in
-        ["fn a() {}", "pub struct B;", "const C: u32 = 1;", "mod d {\n    fn e() {}\n}", "impl F for G {}"]
-    {
+    for item in [
+        "fn a() {}",
+        "pub struct B;",
+        "const C: u32 = 1;",
+        "mod d {\n    fn e() {}\n}",
+        "impl F for G {}",
+        "use i::J;",
+    ] {
         assert_eq!(work(&format!("{list}{item}\n")).len(), 1, "{item}");
     }
 }

@@ -25,12 +25,11 @@ pub struct Corners(Vec<DVec3>);
 
 impl Corners {
     fn of(geometry: &Geometry) -> Self {
-        let points = match geometry {
+        Self(match geometry {
             Geometry::Polygon(rings) => rings.first().cloned().unwrap_or_default(),
             Geometry::Line(points) => points.clone(),
             Geometry::Point(point) => vec![*point],
-        };
-        Self(points.into_iter().map(DVec3::from).collect())
+        })
     }
 
     fn middle(&self) -> DVec3 {
@@ -95,7 +94,8 @@ pub struct OrchardOptions {
 }
 
 /// Rows of trees on a field.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
+#[draw(crate = burgeon::kit)]
 pub struct Orchard {
     corners: Corners,
     wells: Whole,
@@ -152,7 +152,7 @@ impl Orchard {
     fn from_table(table: &Table) -> Result<Self> {
         let OrchardOptions { geometry, wells, spacing } = OrchardOptions::from_table(table)?;
         let middle = prefetched(table).unwrap_or_else(|| geometry.middle());
-        let (trees, drawing) = (Vec::new(), Drawing::default());
+        let (trees, drawing) = (Vec::new(), Drawing::at(middle));
         Ok(Self { corners: geometry, wells, spacing, middle, nearest: f64::INFINITY, trees, drawing })
     }
 }
@@ -223,20 +223,6 @@ impl Object for Orchard {
 
     fn begin(&mut self) {
         self.drawing.clear();
-    }
-}
-
-impl Draw for Orchard {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.middle
     }
 }
 

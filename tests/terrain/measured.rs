@@ -262,14 +262,19 @@ fn measure(
     if (area - size * size).abs() > 1e-4 * area {
         return Err(format!("triangles cover {area} of {} m2", size * size));
     }
-    let span = size as f32;
+    check_gaps(&edges, size as f32)?;
+    Ok(worst)
+}
+
+/// Refuses edges inside a square of this size that triangles do not run along as often one way as the other.
+fn check_gaps(edges: &HashMap<[[u32; 3]; 2], i32>, size: f32) -> Result<(), String> {
     for (edge, _) in edges.iter().filter(|(_, count)| **count != 0) {
         let on = |axis: usize, rim: f32| {
-            edge.iter().all(|end| (f32::from_bits(end[axis]) - rim).abs() < 1e-5 * span + 2e-4)
+            edge.iter().all(|end| (f32::from_bits(end[axis]) - rim).abs() < 1e-5 * size + 2e-4)
         };
-        if !(0..2).any(|axis| on(axis, 0.0) || on(axis, span)) {
+        if !(0..2).any(|axis| on(axis, 0.0) || on(axis, size)) {
             return Err(format!("a gap at {:?}", edge.map(|end| end.map(f32::from_bits))));
         }
     }
-    Ok(worst)
+    Ok(())
 }

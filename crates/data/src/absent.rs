@@ -50,7 +50,7 @@ pub(crate) mod projection {
 
 pub(crate) mod geotiff {
     use super::{Error, Result, left_out};
-    use crate::elevation::raster::RasterHeader;
+    use crate::heights::RasterHeader;
 
     pub(crate) fn read<'a>(_bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
         left_out().map_err(|error: Error| error.about(name))
@@ -59,7 +59,7 @@ pub(crate) mod geotiff {
 
 pub(crate) mod png {
     use super::Result;
-    use crate::elevation::{HeightOptions, raster::RasterHeader};
+    use crate::heights::{HeightOptions, RasterHeader};
 
     pub(crate) fn read<'a>(
         bytes: &'a [u8],

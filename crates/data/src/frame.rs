@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use glam::DVec3;
 use rayon::prelude::*;
 
 use super::formats::projection::{Projection, known};
@@ -135,7 +136,7 @@ impl ReferenceFrame {
         }
         let reached = |frame: &Self| -> Result<Vec<bool>> {
             let passage = frame.passage(&crs)?;
-            let near = |at: &[f64; 3]| within(passage.enter([at[0], at[1]]));
+            let near = |at: &DVec3| within(passage.enter([at[0], at[1]]));
             Ok(table.features.par_iter().map(|feature| feature.geometry.points().all(near)).collect())
         };
         if reached(&frame)?.iter().all(|near| *near) {
@@ -201,10 +202,10 @@ impl ReferenceFrame {
         let passage = self.passage(&crs)?;
         let name = table.shown.clone();
         table.refuse_those(|feature| {
-            let place = |point: &mut [f64; 3]| -> Option<[f64; 3]> {
+            let place = |point: &mut DVec3| -> Option<DVec3> {
                 let was = *point;
-                [point[0], point[1]] = passage.enter([was[0], was[1]]);
-                let near = within([point[0], point[1]]) && was[2].abs() <= FARTHEST;
+                [point.x, point.y] = passage.enter([was.x, was.y]);
+                let near = within([point.x, point.y]) && was.z.abs() <= FARTHEST;
                 (!near).then_some(was)
             };
             let at = feature.geometry.points_mut().find_map(place)?;
@@ -280,7 +281,8 @@ fn refuse_odd_degrees(crs: &Crs, table: &mut FeatureTable) -> Result<()> {
     }
     let name = table.shown.clone();
     table.refuse_those(|feature| {
-        let [x, y, _] = *feature.geometry.points().find(|at| at[0].abs() > 360.0 || at[1].abs() > 90.0)?;
+        let DVec3 { x, y, .. } =
+            *feature.geometry.points().find(|at| at.x.abs() > 360.0 || at.y.abs() > 90.0)?;
         let id = shown(&feature.id);
         let message = format!("feature {id} of {name} lies at {x}, {y}, which is no longitude and latitude");
         let help = "name the coordinate system of the file: source(file, { crs = 3067 })";
@@ -346,14 +348,14 @@ mod tests {
     fn table(code: u32, points: &[[f64; 2]]) -> FeatureTable {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(code), std::sync::Arc::default());
         for [x, y] in points {
-            table.push("p", vec![Geometry::Point([*x, *y, 5.0])], Vec::new()).unwrap();
+            table.push("p", vec![Geometry::Point(DVec3::new(*x, *y, 5.0))], Vec::new()).unwrap();
         }
         table
     }
 
     fn placed(frame: &ReferenceFrame, mut table: FeatureTable) -> Vec<[f64; 3]> {
         frame.bring(&mut table).unwrap();
-        table.features.iter().flat_map(|feature| feature.geometry.points().copied()).collect()
+        table.features.iter().flat_map(|feature| feature.geometry.points().map(DVec3::to_array)).collect()
     }
 
     #[test]

@@ -78,13 +78,9 @@ impl Layer {
         let nothing = || [[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]];
         let turned = table.features.par_iter_mut().map(|feature| {
             if let super::Geometry::Polygon(rings) = &mut feature.geometry {
-                for (index, ring) in rings.iter_mut().enumerate() {
-                    if (doubled_area(ring) > 0.0) != (index == 0) {
-                        ring.reverse();
-                    }
-                }
+                rings.turn();
             }
-            feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [*point; 2]))
+            feature.geometry.points().fold(nothing(), |bounds, point| around(bounds, [point.to_array(); 2]))
         });
         let bounds = turned.reduce(nothing, around);
         Ok(Self {
@@ -109,32 +105,26 @@ fn around([a, b]: [[f64; 3]; 2], [c, d]: [[f64; 3]; 2]) -> [[f64; 3]; 2] {
     [each(f64::min, a, c), each(f64::max, b, d)]
 }
 
-/// Twice the area within a ring (m²), negative if it is clockwise.
-fn doubled_area(ring: &[[f64; 3]]) -> f64 {
-    let Some(first) = ring.first() else { return 0.0 };
-    let from_first = |point: &[f64; 3]| [point[0] - first[0], point[1] - first[1]];
-    ring.windows(2)
-        .map(|pair| {
-            let ([ax, ay], [bx, by]) = (from_first(&pair[0]), from_first(&pair[1]));
-            ax * by - ay * bx
-        })
-        .sum()
-}
-
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::super::{Crs, Geometry};
     use super::*;
+    use burgeon_geometry::Rings;
 
     #[test]
     fn outer_rings_turn_left_and_holes_turn_right() {
-        let square = |size: f64| vec![[0.0, 0.0, 0.0], [0.0, size, 0.0], [size, size, 0.0], [size, 0.0, 0.0]];
-        let hole = square(1.0).into_iter().rev().collect();
+        let square = |size: f64| {
+            [[0.0, 0.0], [0.0, size], [size, size], [size, 0.0]].map(|[x, y]| DVec3::new(x, y, 0.0)).to_vec()
+        };
+        let hole: Vec<DVec3> = square(1.0).into_iter().rev().collect();
         let mut table = FeatureTable::new("a", "a", Crs::epsg(3067), std::sync::Arc::default());
-        table.push("1", vec![Geometry::Polygon(vec![square(4.0), hole])], Vec::new()).unwrap();
+        table.push("1", vec![Geometry::Polygon(Rings(vec![square(4.0), hole.clone()]))], Vec::new()).unwrap();
         let layer = Layer::new(table, &mut None).unwrap();
-        let Geometry::Polygon(rings) = &layer.features[0].geometry else { panic!("a polygon") };
-        assert_eq!((doubled_area(&rings[0]), doubled_area(&rings[1])), (32.0, -2.0));
+        let outer = square(4.0).into_iter().rev().collect();
+        let hole = hole.into_iter().rev().collect();
+        assert_eq!(layer.features[0].geometry, Geometry::Polygon(Rings(vec![outer, hole])));
         assert_eq!(layer.bounds, [[0.0; 3], [4.0, 4.0, 0.0]]);
     }
 }

@@ -11,6 +11,7 @@ pub mod elevation;
 mod formats;
 mod frame;
 mod geojson;
+mod heights;
 mod layer;
 mod listing;
 mod table;

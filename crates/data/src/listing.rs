@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 use std::sync::Arc;
 
+use glam::DVec3;
 use serde_json::{Value, json};
 
 use super::{Attribute, FeatureTable, GeometryKind, Source, SourceOptions};
@@ -148,7 +149,7 @@ impl LayerListing {
             for (index, value) in feature.attributes.iter() {
                 attributes[*index].add(value);
             }
-            for [x, y, _] in feature.geometry.points() {
+            for DVec3 { x, y, .. } in feature.geometry.points() {
                 let [west, south, east, north] = extent.get_or_insert([*x, *y, *x, *y]);
                 (*west, *south, *east, *north) = (west.min(*x), south.min(*y), east.max(*x), north.max(*y));
             }

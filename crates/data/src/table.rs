@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -9,6 +10,7 @@ use super::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
+use burgeon_geometry::Rings;
 
 /// The kinds of geometry.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,15 +37,15 @@ impl GeometryKind {
     }
 }
 
-/// A geometry of one part.
+/// A geometry of one part, as its file has it: nothing is promised of its points.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Geometry {
     /// Its place.
-    Point([f64; 3]),
+    Point(DVec3),
     /// Its points, at least two.
-    Line(Vec<[f64; 3]>),
+    Line(Vec<DVec3>),
     /// Its outer ring and then its holes, each of at least three points, without the first one again at the end.
-    Polygon(Vec<Vec<[f64; 3]>>),
+    Polygon(Rings),
 }
 
 impl Geometry {
@@ -57,33 +59,32 @@ impl Geometry {
     }
 
     /// All of its points.
-    pub fn points(&self) -> impl Iterator<Item = &[f64; 3]> {
-        let lists: &[Vec<[f64; 3]>] = if let Self::Polygon(rings) = self { rings } else { &[] };
-        let single: &[[f64; 3]] = match self {
-            Self::Point(point) => std::slice::from_ref(point),
-            Self::Line(points) => points,
-            Self::Polygon(_) => &[],
+    pub fn points(&self) -> impl Iterator<Item = &DVec3> {
+        let (single, rings): (&[DVec3], &[Vec<DVec3>]) = match self {
+            Self::Point(point) => (std::slice::from_ref(point), &[]),
+            Self::Line(points) => (points, &[]),
+            Self::Polygon(rings) => (&[], rings),
         };
-        single.iter().chain(lists.iter().flatten())
+        single.iter().chain(rings.iter().flatten())
     }
 
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut [f64; 3]> {
-        let (single, lists): (&mut [[f64; 3]], &mut [Vec<[f64; 3]>]) = match self {
+    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
+        let (single, rings): (&mut [DVec3], &mut [Vec<DVec3>]) = match self {
             Self::Point(point) => (std::slice::from_mut(point), &mut []),
             Self::Line(points) => (points, &mut []),
-            Self::Polygon(rings) => (&mut [], rings),
+            Self::Polygon(rings) => (&mut [], &mut rings.0),
         };
-        single.iter_mut().chain(lists.iter_mut().flatten())
+        single.iter_mut().chain(rings.iter_mut().flatten())
     }
 
     /// A line, or nothing if it has fewer than two points.
-    pub(super) fn line(points: Vec<[f64; 3]>) -> Option<Self> {
+    pub(super) fn line(points: Vec<DVec3>) -> Option<Self> {
         (points.len() >= 2).then_some(Self::Line(points))
     }
 
     /// A polygon from rings that end where they begin; nothing if the outer one has no three points. Holes that
     /// have not are left out.
-    pub(super) fn polygon(mut rings: Vec<Vec<[f64; 3]>>) -> Option<Self> {
+    pub(super) fn polygon(mut rings: Vec<Vec<DVec3>>) -> Option<Self> {
         for ring in &mut rings {
             while ring.len() > 1 && ring.first() == ring.last() {
                 ring.pop();
@@ -93,7 +94,7 @@ impl Geometry {
             return None;
         }
         rings.retain(|ring| ring.len() >= 3);
-        Some(Self::Polygon(rings))
+        Some(Self::Polygon(Rings(rings)))
     }
 }
 
@@ -218,7 +219,7 @@ impl FeatureTable {
     pub(super) fn refuse_endless(&mut self) -> Result<()> {
         let name = self.shown.clone();
         self.refuse_those(|feature| {
-            let endless = feature.geometry.points().any(|point| point.iter().any(|it| !it.is_finite()));
+            let endless = feature.geometry.points().any(|point| !point.is_finite());
             endless.then(|| {
                 let id = shown(&feature.id);
                 Error::data(format!("feature {id} of {name} has a coordinate that is not a finite number"))
@@ -339,7 +340,7 @@ mod tests {
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
-        let point = Geometry::Point([0.0; 3]);
+        let point = Geometry::Point(DVec3::ZERO);
         table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
         table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
         table.push("12", vec![point], Vec::new()).unwrap();
@@ -351,7 +352,7 @@ mod tests {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
         for number in 0..200_000 {
             let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
-            table.push(&id, vec![Geometry::Point([0.0; 3])], Vec::new()).unwrap();
+            table.push(&id, vec![Geometry::Point(DVec3::ZERO)], Vec::new()).unwrap();
         }
         let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &feature.id).collect();
         assert_eq!(ids.len(), 200_000);

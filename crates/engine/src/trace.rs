@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::declare::{RunOptions, Session, TraceRequest};
-use crate::results::{Ancestor, MadeBy, Module, RuleName, Trace};
+use crate::results::{Ancestor, Module, RuleName, RuleProducts, Trace};
 use crate::run::run_traced;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::Makers;
@@ -114,7 +114,7 @@ pub fn highlight(
     let (mut found, mut nearest) = (LineProducts::default(), 0);
     for system in 0..systems {
         let trace = trace(script, options, TraceRequest { system, chain: None })?;
-        let Some(MadeBy { name, line, made }) = trace.made_by(file, line) else { continue };
+        let Some(RuleProducts { name, line, made }) = trace.made_by(file, line) else { continue };
         if line < nearest {
             continue;
         }

@@ -22,14 +22,14 @@ pub type Crossing = [u32; 2];
 /// Whatever meets the outline at those places has no T-junction with it, and there is none inside.
 ///
 /// ```
-/// use burgeon_geometry::{Cell, Union};
+/// use burgeon_geometry::{UnionCell, Union};
 ///
 /// // A storey of three panes with a window in the middle: lines 0 to 3 across, 0 to 3 up.
 /// let mut cells = vec![
-///     Cell { y: [0, 1], x: [0, 3] },
-///     Cell { y: [1, 2], x: [0, 1] },
-///     Cell { y: [1, 2], x: [2, 3] },
-///     Cell { y: [2, 3], x: [0, 3] },
+///     UnionCell { y: [0, 1], x: [0, 3] },
+///     UnionCell { y: [1, 2], x: [0, 1] },
+///     UnionCell { y: [1, 2], x: [2, 3] },
+///     UnionCell { y: [2, 3], x: [0, 3] },
 /// ];
 /// cells.sort_unstable();
 /// let mut union = Union::default();

@@ -2,8 +2,6 @@
 
 use std::any::Any;
 
-use glam::DVec3;
-
 use super::{Drawing, Note, Object, Rewriter};
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
@@ -86,18 +84,14 @@ pub trait Show {
     }
 }
 
-/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what.
+/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what. It can be
+/// derived.
 pub trait Draw {
     /// What it has drawn.
     fn drawing(&self) -> &Drawing;
 
     /// The same, to draw more.
     fn drawing_mut(&mut self) -> &mut Drawing;
-
-    /// Where the drawing has its origin (m).
-    fn origin(&self) -> DVec3 {
-        DVec3::ZERO
-    }
 }
 
 impl<T: Draw> Show for T {
@@ -106,13 +100,12 @@ impl<T: Draw> Show for T {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.drawing().clone().show(scene, self.origin(), name, feature);
+        self.drawing().clone().show(scene, name, feature);
         Ok(())
     }
 
     fn hand_over(&mut self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        let origin = self.origin();
-        std::mem::take(self.drawing_mut()).show(scene, origin, name, feature);
+        std::mem::take(self.drawing_mut()).show(scene, name, feature);
         Ok(())
     }
 }

@@ -12,6 +12,8 @@ use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene};
 /// The faces that an object has drawn, by material, and the models that it has placed.
 #[derive(Clone, Default)]
 pub struct Drawing {
+    /// Where it lies in the scene (m).
+    origin: DVec3,
     materials: Vec<Material>,
     parts: Vec<Part>,
     /// What was placed, and where; the same thing once.
@@ -26,6 +28,16 @@ pub struct Drawing {
 }
 
 impl Drawing {
+    /// An empty drawing whose origin is at `origin` (m).
+    pub fn at(origin: DVec3) -> Self {
+        Self { origin, ..Self::default() }
+    }
+
+    /// Where its origin is (m).
+    pub fn origin(&self) -> DVec3 {
+        self.origin
+    }
+
     /// Forgets all faces and models.
     pub fn clear(&mut self) {
         self.nearest.take();
@@ -168,13 +180,13 @@ impl Drawing {
         self.makers.take().map(|makers| makers.shown(&shown))
     }
 
-    /// Adds the drawing to `scene` at `origin` (m): one mesh, unless it is empty, and what was placed.
-    pub fn show(self, scene: &mut Scene, origin: DVec3, name: &str, feature: Option<&str>) {
+    /// Adds the drawing to `scene` at its origin: one mesh, unless it is empty, and what was placed.
+    pub fn show(self, scene: &mut Scene, name: &str, feature: Option<&str>) {
         let parts = self.parts.into_iter().filter(|part| !part.triangles.is_empty());
         let parts =
             parts.map(|part| Part { material: scene.material(&self.materials[part.material]), ..part });
         let mesh = Mesh { name: name.to_owned(), parts: parts.collect(), ..Mesh::default() };
-        let origin = DAffine3::from_translation(origin);
+        let origin = DAffine3::from_translation(self.origin);
         if !mesh.parts.is_empty() {
             scene.meshes.push(mesh);
             scene.instances.push(Instance {

@@ -2,6 +2,8 @@
 
 use std::sync::{Arc, LazyLock};
 
+use glam::DVec3;
+
 use super::{Kind, Object, Parameter, Prefetch, Table, TableKey, Value};
 use burgeon_data::{Geometry, Layer};
 
@@ -52,7 +54,8 @@ impl FeatureShape {
 
     /// The table that scripts see.
     pub fn to_table(&self) -> Value {
-        let points = |points: &[[f64; 3]]| points.iter().map(|point| point.to_vec()).collect::<Vec<_>>();
+        let points =
+            |points: &[DVec3]| points.iter().map(|point| point.to_array().to_vec()).collect::<Vec<_>>();
         let geometry = self.geometry();
         let (name, lists) = match geometry {
             Geometry::Polygon(rings) => {

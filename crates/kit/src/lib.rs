@@ -8,10 +8,10 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
-mod boxed;
 mod capability;
 mod color;
 mod colors;
+mod column_value;
 mod distance;
 mod drawing;
 mod features;
@@ -32,9 +32,9 @@ pub mod rules;
 mod seed;
 mod value;
 
-pub use boxed::ColumnValue;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
+pub use column_value::ColumnValue;
 pub use drawing::Drawing;
 pub use features::{FeatureShape, Features};
 pub use fields::{Fields, TableOf};
@@ -56,4 +56,4 @@ pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
-pub use burgeon_macros::{fields, methods};
+pub use burgeon_macros::{Draw, fields, methods};

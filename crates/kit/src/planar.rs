@@ -10,19 +10,14 @@ use burgeon_geometry::{Line, Rings};
 
 impl FeatureShape {
     /// The rings of its geometry, if that is a polygon.
-    pub fn rings(&self) -> Option<Rings> {
+    pub fn rings(&self) -> Option<&Rings> {
         rings(self.geometry())
     }
 }
 
 /// The rings of a geometry, if it is a polygon.
-pub fn rings(geometry: &Geometry) -> Option<Rings> {
-    let Geometry::Polygon(rings) = geometry else { return None };
-    Some(rings.iter().map(|ring| points(ring)).collect())
-}
-
-fn points(points: &[[f64; 3]]) -> Vec<DVec3> {
-    points.iter().copied().map(DVec3::from).collect()
+pub fn rings(geometry: &Geometry) -> Option<&Rings> {
+    if let Geometry::Polygon(rings) = geometry { Some(rings) } else { None }
 }
 
 /// Points as scripts have them.
@@ -52,7 +47,7 @@ impl Parameter for Rings {
             Value::Object(object) => {
                 let any: &dyn std::any::Any = &**object;
                 let shape = any.downcast_ref::<FeatureShape>().ok_or_else(what)?;
-                return shape.rings().ok_or_else(|| not_this(shape.geometry().kind().name()));
+                return shape.rings().cloned().ok_or_else(|| not_this(shape.geometry().kind().name()));
             }
             _ => return Err(what()),
         };
@@ -165,10 +160,10 @@ impl Lines {
 
     fn add(&mut self, geometry: &Geometry) {
         match geometry {
-            Geometry::Line(line) => self.lines.extend(Line::without_repeats(points(line))),
+            Geometry::Line(line) => self.lines.extend(Line::without_repeats(line.clone())),
             // A square is walked around.
             Geometry::Polygon(rings) => {
-                self.lines.extend(rings.iter().filter_map(|ring| around(points(ring))));
+                self.lines.extend(rings.iter().filter_map(|ring| around(ring.clone())));
             }
             Geometry::Point(_) => {}
         }

@@ -9,6 +9,8 @@ use burgeon_base::error::{Error, Result};
 #[derive(Debug, Clone, Default)]
 pub struct Registry {
     kinds: Vec<Arc<Kind>>,
+    /// Why a type is left out of those that the registry was made of.
+    problem: Option<Error>,
 }
 
 impl Registry {
@@ -23,6 +25,11 @@ impl Registry {
         Ok(())
     }
 
+    /// Fails if the registry was made of types of which two have one name.
+    pub fn check(&self) -> Result<()> {
+        self.problem.clone().map_or(Ok(()), Err)
+    }
+
     /// The type called `name`.
     pub fn get(&self, name: &str) -> Option<&Arc<Kind>> {
         self.kinds.iter().find(|kind| kind.name == name)
@@ -31,5 +38,35 @@ impl Registry {
     /// All types, in the order in which they were added.
     pub fn kinds(&self) -> impl Iterator<Item = &Arc<Kind>> {
         self.kinds.iter()
+    }
+}
+
+/// All types of a list. Of two with one name only the first is there, which [`Registry::check`] tells; no script runs with
+/// such a registry.
+impl FromIterator<Arc<Kind>> for Registry {
+    fn from_iter<I: IntoIterator<Item = Arc<Kind>>>(kinds: I) -> Self {
+        let mut registry = Self::default();
+        for kind in kinds {
+            if let Err(error) = registry.add(kind) {
+                registry.problem.get_or_insert(error);
+            }
+        }
+        registry
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_name_that_stands_twice_in_a_list_is_told() {
+        let kind = |name: &'static str| Arc::new(Kind::new(name, "A thing."));
+        let registry: Registry = ["bead", "string"].map(kind).into_iter().collect();
+        assert!(registry.check().is_ok());
+        let registry: Registry = ["bead", "string", "bead", "string"].map(kind).into_iter().collect();
+        assert_eq!(registry.kinds().count(), 2);
+        let error = registry.check().expect_err("two of a name").to_string();
+        assert!(error.contains("there is a type of object called bead already"), "{error}");
     }
 }

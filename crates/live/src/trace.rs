@@ -8,7 +8,7 @@ use std::time::Duration;
 use super::layout::Indices;
 use super::message::{
     AroundMessage, CountMessage, Event, HighlightMessage, ModuleMessage, NamedValue, OriginMessage,
-    PickCommand, PickMessage, RuleAt, RuleMessage, StepMessage,
+    PickCommand, PickMessage, RuleMessage, RulePlace, StepMessage,
 };
 use super::state::{PresentModel, ServerState};
 use super::work;
@@ -139,7 +139,7 @@ fn system_of(run: &Run, number: usize) -> Option<&Arc<DerivedSystem>> {
 fn tell_made(state: &ServerState, shown: &PresentModel, made: &engine::ModuleOrigin) -> OriginMessage {
     let rule_at = |rule: &RuleName| {
         let (file, line) = place(state, rule.place.as_ref());
-        RuleAt { text: rule.text.clone(), file, line }
+        RulePlace { text: rule.text.clone(), file, line }
     };
     let path = made.path.iter().map(|ancestor| {
         let rule = ancestor.rule.as_ref();

@@ -5,7 +5,7 @@ use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Attribute, Error, Expr, Field, Fields, Ident, ItemStruct, Result, Type, Visibility};
 
-use crate::declared::AttributeArguments;
+use crate::attribute::AttributeArguments;
 use crate::doc;
 use crate::methods::{at, option};
 

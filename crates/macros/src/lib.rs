@@ -1,10 +1,11 @@
-//! Attributes that declare what scripts can do with a type of object.
+//! Attributes that declare what scripts can do with a type of object, and where it draws.
 //!
 //! Comes in: an `impl` block or a struct, as anyone would write it. Goes out: the same, and what the contract of
 //! objects, the crate `burgeon_kit`, needs to know of it. They never read a file, and keep nothing.
 
-mod declared;
+mod attribute;
 mod doc;
+mod draw;
 mod fields;
 mod methods;
 
@@ -87,7 +88,7 @@ use proc_macro::TokenStream;
 /// ```
 #[proc_macro_attribute]
 pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    declared::expand(arguments.into(), item.into(), methods::expand).into()
+    attribute::expand(arguments.into(), item.into(), methods::expand).into()
 }
 
 /// Declares the table that a constructor or a method takes: a struct with documented, defaulted fields.
@@ -129,5 +130,36 @@ pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// ```
 #[proc_macro_attribute]
 pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
-    declared::expand(arguments.into(), item.into(), fields::expand).into()
+    attribute::expand(arguments.into(), item.into(), fields::expand).into()
+}
+
+/// Says where an object has its drawing: `Draw` for a struct with one field of type `Drawing`.
+///
+/// The path of the contract, where that is not `::burgeon_kit`, stands beside it: `#[draw(crate = burgeon::kit)]`.
+///
+/// ```
+/// # use std::sync::Arc;
+/// # use burgeon_kit::{Draw, Drawing, Kind, Object};
+/// #[derive(Clone, Draw)]
+/// pub struct Tower {
+///     height: f64,
+///     drawing: Drawing,
+/// }
+///
+/// let tower = Tower { height: 12.0, drawing: Drawing::default() };
+/// assert_eq!(tower.drawing().triangles(), 0);
+/// ```
+///
+/// Without a drawing there is nothing to say.
+///
+/// ```compile_fail
+/// # use burgeon_kit::Draw;
+/// #[derive(Draw)]
+/// pub struct Tower {
+///     height: f64,
+/// }
+/// ```
+#[proc_macro_derive(Draw, attributes(draw))]
+pub fn draw(item: TokenStream) -> TokenStream {
+    draw::expand(item.into()).unwrap_or_else(syn::Error::into_compile_error).into()
 }

@@ -8,7 +8,7 @@ use syn::{
     Signature, Type, Visibility,
 };
 
-use crate::declared::AttributeArguments;
+use crate::attribute::AttributeArguments;
 use crate::doc;
 
 /// Where what is no method for scripts belongs.
@@ -324,7 +324,7 @@ mod tests {
         // With an error, too: an editor then still completes its methods.
         let block: TokenStream = "impl Tower { fn raise(&self) {} }".parse().unwrap();
         let given = block.to_string();
-        let expanded = crate::declared::expand("\"tower\"".parse().unwrap(), block, expand).to_string();
+        let expanded = crate::attribute::expand("\"tower\"".parse().unwrap(), block, expand).to_string();
         assert!(expanded.starts_with(&given) && expanded.contains("compile_error"), "{expanded}");
     }
 }

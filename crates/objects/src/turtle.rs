@@ -51,7 +51,7 @@ pub struct TurtleOptions {
 }
 
 /// A turtle as in *The Algorithmic Beauty of Plants*, which draws round branches in three dimensions.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
 pub struct Turtle {
     options: TurtleOptions,
     state: TurtleState,
@@ -326,7 +326,7 @@ impl Turtle {
         if options.heading.0.length_squared() < 1e-24 {
             return Err(Error::argument("turtle: heading has no length"));
         }
-        let mut drawing = Drawing::default();
+        let mut drawing = Drawing::at(options.position.0);
         let state = TurtleState::begin(&options, &mut drawing);
         Ok(Self {
             options,
@@ -459,19 +459,5 @@ impl Object for Turtle {
             .help("end it with EndPolygon()"));
         }
         Ok(())
-    }
-}
-
-impl Draw for Turtle {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.options.position.0
     }
 }

@@ -6,7 +6,7 @@ use glam::DVec2;
 use rayon::prelude::*;
 
 use super::block::{Area, Block};
-use super::measured::HeightSource;
+use super::height_source::HeightSource;
 use super::table::RuleTable;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{ModuleKey, Symbol};

@@ -4,11 +4,11 @@
 //! its picture or its error; [`sheet`] puts the pictures side by side. The same input gives the same bytes for
 //! any number of threads. An error in one run never touches the others.
 
+mod axis;
 mod letters;
-mod over;
 mod sheet;
 
-pub use over::{MOST, VariationAxis};
+pub use axis::{MOST, VariationAxis};
 pub use sheet::{SheetLayout, sheet};
 
 use std::collections::BTreeMap;
@@ -121,7 +121,7 @@ impl Variations {
                     .collect::<Result<_>>()?
             }
         };
-        over::check_count(plans.len() as f64, "take fewer of them")?;
+        axis::check_count(plans.len() as f64, "take fewer of them")?;
         let script = script.to_path_buf();
         Ok(Self { stop: Arc::default(), script, options, plans, ran: AtomicUsize::new(0) })
     }

@@ -1,6 +1,6 @@
 //! Fills holes in heights smoothly from their rims.
 
-use super::raster::count;
+use crate::heights::count;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
 
@@ -108,7 +108,7 @@ mod tests {
     /// A sloping plane of 200 by 120 samples.
     fn plane() -> Vec<f32> {
         let slope = |index: usize| 0.5 * count(index % 200) - 0.2 * count(index / 200) + 300.0;
-        (0..200 * 120).map(|index| super::super::raw::narrow(slope(index))).collect()
+        (0..200 * 120).map(|index| crate::heights::narrow(slope(index))).collect()
     }
 
     #[test]

@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::super::formats::{geotiff, png, zipped};
-use super::raster::RasterHeader;
-use super::{HeightOptions, ascii, hgt, raw};
+use crate::formats::{geotiff, png, zipped};
+use crate::heights::{HeightOptions, RasterHeader, ascii, hgt, raw};
 use burgeon_base::error::{Error, Result};
 
 /// The formats that are read.

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::raster::count;
+use crate::heights::count;
 
 /// The side (m) of a cell of the first, coarsest lattice.
 const COARSEST: f64 = 50_000.0;

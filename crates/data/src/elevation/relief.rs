@@ -8,7 +8,8 @@ use glam::{DMat2, DVec2, DVec3};
 use super::super::ReferenceFrame;
 use super::super::frame::FARTHEST;
 use super::lattice::Lattice;
-use super::raster::{Raster, SampleGrid, count};
+use super::raster::Raster;
+use crate::heights::{SampleGrid, count};
 use burgeon_base::error::{Error, Result};
 
 /// Into how many pieces each edge is divided to find the box around it.

@@ -4,7 +4,7 @@
 
 use std::f64::consts::TAU;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 /// How far (m) a line may be from the arc that it stands for.
 pub(super) const NEAR: f64 = 0.01;
@@ -16,10 +16,10 @@ const MOST: f64 = 65_536.0;
 /// `near` from it; all three are among them. Heights change evenly from each to the next.
 ///
 /// Where both ends are the same place, it is a circle, and `by` lies opposite. What lies on one line stays one.
-pub(super) fn add(points: &mut Vec<[f64; 3]>, [from, by, to]: [[f64; 3]; 3], near: f64) {
+pub(super) fn add(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
     // All as seen from the first point.
-    let start = DVec2::new(from[0], from[1]);
-    let [a, b] = [by, to].map(|point| DVec2::new(point[0], point[1]) - start);
+    let start = from.truncate();
+    let [a, b] = [by, to].map(|point| point.truncate() - start);
     let is_circle = b == DVec2::ZERO;
     let twice = 2.0 * a.perp_dot(b);
     let centre = match is_circle {
@@ -42,7 +42,7 @@ pub(super) fn add(points: &mut Vec<[f64; 3]>, [from, by, to]: [[f64; 3]; 3], nea
         for step in 1..count as u32 {
             let part = f64::from(step) / count;
             let at = start + centre + DVec2::from_angle(first + turn * part) * radius;
-            points.push([at.x, at.y, one[2] + (two[2] - one[2]) * part]);
+            points.push(at.extend(one.z + (two.z - one.z) * part));
         }
         points.push(two);
     }
@@ -52,7 +52,8 @@ pub(super) fn add(points: &mut Vec<[f64; 3]>, [from, by, to]: [[f64; 3]; 3], nea
 mod tests {
     use super::*;
 
-    fn arc(places: [[f64; 3]; 3]) -> Vec<[f64; 3]> {
+    fn arc(places: [[f64; 3]; 3]) -> Vec<DVec3> {
+        let places = places.map(DVec3::from);
         let mut points = vec![places[0]];
         add(&mut points, places, NEAR);
         points
@@ -68,7 +69,7 @@ mod tests {
                 let at = |angle: f64, z: f64| [cx + radius * angle.cos(), cy + radius * angle.sin(), z];
                 let given = [at(begin, 0.0), at(begin + half, 4.0), at(begin + 2.0 * half, 6.0)];
                 let points = arc(given);
-                assert!(given.iter().all(|point| points.contains(point)));
+                assert!(given.iter().all(|point| points.contains(&DVec3::from(*point))));
                 let mut length = 0.0;
                 for pair in points.windows(2) {
                     let middle = [(pair[0][0] + pair[1][0]) / 2.0, (pair[0][1] + pair[1][1]) / 2.0];
@@ -92,7 +93,7 @@ mod tests {
             circle.windows(2).map(|it| it[0][0] * it[1][1] - it[0][1] * it[1][0]).sum::<f64>() / 2.0;
         assert!((area - std::f64::consts::PI).abs() < 0.05, "{area}");
         let line = [[0.0; 3], [1.0, 1.0, 1.0], [3.0, 3.0, 2.0]];
-        assert_eq!(arc(line), line);
+        assert_eq!(arc(line), line.map(DVec3::from));
         for odd in [[f64::NAN; 3], [f64::INFINITY; 3], [1e300; 3], [0.0; 3]] {
             assert!(arc([[0.0; 3], odd, [1.0, 0.0, 0.0]]).len() < 10);
         }

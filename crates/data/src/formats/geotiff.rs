@@ -6,11 +6,11 @@ use tiff::TiffError;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::Tag;
 
-use super::super::Crs;
-use super::super::elevation::names::tiff_key as keys;
-use super::super::elevation::raster::{RasterHeader, SampleGrid, check_size, count};
 use super::meaning::Meaning;
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use crate::Crs;
+use crate::heights::names::tiff_key as keys;
+use crate::heights::{RasterHeader, SampleGrid, check_size, count};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 

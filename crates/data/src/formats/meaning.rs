@@ -2,9 +2,9 @@
 
 use tiff::tags::Tag;
 
-use super::super::elevation::names::tiff_key as keys;
-use super::super::elevation::raw::narrow;
 use super::geotiff::{Keys, Tiff};
+use crate::heights::names::tiff_key as keys;
+use crate::heights::narrow;
 use burgeon_base::error::{Error, Result};
 
 /// What GDAL tells of a file and its bands, as XML.

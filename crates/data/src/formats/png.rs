@@ -4,11 +4,9 @@ use std::io::Cursor;
 
 use ::png::{BitDepth, ColorType, Decoder, DecodingError, Limits, Transformations};
 
-use super::super::elevation::names::png_text as text;
-use super::super::elevation::raster::{RasterHeader, check_size};
-use super::super::elevation::raw::narrow;
-use super::super::elevation::{HeightOptions, MOST};
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use crate::heights::names::png_text as text;
+use crate::heights::{HeightOptions, MOST, RasterHeader, check_size, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 

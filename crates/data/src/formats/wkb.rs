@@ -5,6 +5,8 @@
 //! The reader is our own, since it must be bounded: 13 bytes that claim 2^32 points make geozero ask for the memory
 //! of all of them, which ends the program. Here room is made for what is there.
 
+use glam::DVec3;
+
 use super::super::{DEEPEST, Geometry};
 use super::arc;
 use burgeon_base::budget::Budget;
@@ -83,22 +85,22 @@ impl WkbReader<'_> {
         Ok(count)
     }
 
-    fn point(&mut self, head: GeometryHeader) -> Result<[f64; 3], String> {
-        let point = [self.f64()?, self.f64()?, if head.z { self.f64()? } else { 0.0 }];
+    fn point(&mut self, head: GeometryHeader) -> Result<DVec3, String> {
+        let point = DVec3::new(self.f64()?, self.f64()?, if head.z { self.f64()? } else { 0.0 });
         if head.m {
             self.f64()?;
         }
         // Some programs write a height that is not known so.
-        Ok(if point[2].is_nan() { [point[0], point[1], 0.0] } else { point })
+        Ok(if point.z.is_nan() { point.with_z(0.0) } else { point })
     }
 
-    fn points(&mut self, head: GeometryHeader) -> Result<Vec<[f64; 3]>, String> {
+    fn points(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
         let count = self.count(size)?;
         (0..count).map(|_| self.point(head)).collect()
     }
 
-    fn rings(&mut self, head: GeometryHeader) -> Result<Vec<Vec<[f64; 3]>>, String> {
+    fn rings(&mut self, head: GeometryHeader) -> Result<Vec<Vec<DVec3>>, String> {
         let count = self.count(4)?;
         (0..count).map(|_| self.points(head)).collect()
     }
@@ -140,7 +142,7 @@ impl WkbReader<'_> {
             1 => {
                 let point = self.point(head)?;
                 // So is an empty point written.
-                if !(point[0].is_nan() && point[1].is_nan()) {
+                if !(point.x.is_nan() && point.y.is_nan()) {
                     parts.push(Geometry::Point(point));
                 }
             }
@@ -171,13 +173,13 @@ impl WkbReader<'_> {
     }
 
     /// The points of a curve of a type that is `allowed` here.
-    fn curve(&mut self, allowed: TypeFilter) -> Result<Vec<[f64; 3]>, String> {
+    fn curve(&mut self, allowed: TypeFilter) -> Result<Vec<DVec3>, String> {
         let head = self.head(allowed)?;
         self.curve_of(head)
     }
 
     /// The points of a line, a circular string or a compound of these, whose head has been read.
-    fn curve_of(&mut self, head: GeometryHeader) -> Result<Vec<[f64; 3]>, String> {
+    fn curve_of(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
         match head.kind {
             8 => {
                 let given = self.points(head)?;
@@ -199,7 +201,7 @@ impl WkbReader<'_> {
                 Ok(points)
             }
             9 => {
-                let mut points: Vec<[f64; 3]> = Vec::new();
+                let mut points: Vec<DVec3> = Vec::new();
                 for _ in 0..self.count(9)? {
                     let part = self.curve(|kind| matches!(kind, 2 | 8))?;
                     // Each begins where the one before it ends.
@@ -257,7 +259,11 @@ mod tests {
             for (envelope, size) in [(0, 0), (1, 32), (2, 48), (3, 48), (4, 64)] {
                 for (code, words, z) in &cases {
                     let read = read_blob(&blob(envelope << 1, size, &body(little, *code, words)));
-                    assert_eq!(read, Ok(vec![Geometry::Point([1.0, 2.0, *z])]), "{code} {envelope}");
+                    assert_eq!(
+                        read,
+                        Ok(vec![Geometry::Point(DVec3::new(1.0, 2.0, *z))]),
+                        "{code} {envelope}"
+                    );
                 }
             }
         }
@@ -308,7 +314,7 @@ mod tests {
         let half = of_points(8, &[[4.0, 0.0], [2.0, 2.0], [0.0, 0.0]]);
         let compound = of_parts(9, &[straight.clone(), half.clone()]);
         let [Geometry::Line(line)] = &read(&compound)[..] else { panic!("a line") };
-        assert_eq!((line[0], line[1], line.last()), ([0.0; 3], [4.0, 0.0, 0.0], Some(&[0.0; 3])));
+        assert_eq!((line[0], line[1], line.last()), (DVec3::ZERO, DVec3::X * 4.0, Some(&DVec3::ZERO)));
         assert!(
             line.len() > 10 && line[1..].iter().all(|it| ((it[0] - 2.0).hypot(it[1]) - 2.0).abs() < 1e-9)
         );

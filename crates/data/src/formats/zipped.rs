@@ -2,16 +2,15 @@
 
 use std::io::{Cursor, Read};
 
-use super::super::elevation::HeightOptions;
-use super::super::elevation::hgt::{height, place, size};
-use super::super::elevation::raster::RasterHeader;
 use super::packed::{DEFLATED, can_hold, cannot_hold};
+use crate::heights::hgt::{height, place, size};
+use crate::heights::{HeightOptions, RasterHeader};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
 /// Reads the one tile in a zip, and unpacks nothing else.
 ///
-/// Fails if it is damaged, holds no tile or several, and as [`read`](super::super::elevation::hgt::read) does.
+/// Fails if it is damaged, holds no tile or several, and as [`read`](crate::heights::hgt::read) does.
 pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let damaged = move || {
         Error::data(format!("{name} cannot be unpacked"))

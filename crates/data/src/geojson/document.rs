@@ -6,7 +6,7 @@ use serde::de::{DeserializeSeed, Error as _, IgnoredAny, MapAccess, SeqAccess, V
 use serde_json::Value;
 use serde_json::value::RawValue;
 
-use super::FeatureReader;
+use super::reader::FeatureReader;
 
 /// What a text says besides the features of its collection.
 #[derive(Default)]

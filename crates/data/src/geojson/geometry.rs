@@ -1,14 +1,14 @@
 //! The geometries of GeoJSON: coordinates are read straight into points, as their type says.
 
-use crate::SourceOptions;
 use std::fmt;
 
+use glam::DVec3;
 use serde::Deserialize;
 use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_json::value::RawValue;
 
-use super::{LARGE, words};
-use crate::{DEEPEST, Geometry};
+use super::reader::{LARGE, words};
+use crate::{DEEPEST, Geometry, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::text::shown;
 
@@ -170,23 +170,23 @@ fn read_as<'t, S: DeserializeSeed<'t>>(text: &'t str, seed: S) -> Result<S::Valu
 struct One<'b>(&'b Budget);
 
 impl<'t> DeserializeSeed<'t> for One<'_> {
-    type Value = [f64; 3];
+    type Value = DVec3;
 
-    fn deserialize<D: Deserializer<'t>>(self, deserializer: D) -> Result<[f64; 3], D::Error> {
+    fn deserialize<D: Deserializer<'t>>(self, deserializer: D) -> Result<DVec3, D::Error> {
         self.0.tick().map_err(|error| D::Error::custom(error.message()))?;
         deserializer.deserialize_any(self)
     }
 }
 
 impl<'t> Visitor<'t> for One<'_> {
-    type Value = [f64; 3];
+    type Value = DVec3;
 
     fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("a point")
     }
 
-    fn visit_seq<A: SeqAccess<'t>>(self, mut list: A) -> Result<[f64; 3], A::Error> {
-        let mut point = [0.0; 3];
+    fn visit_seq<A: SeqAccess<'t>>(self, mut list: A) -> Result<DVec3, A::Error> {
+        let mut point = DVec3::ZERO;
         let mut count = 0;
         while count < 3
             && let Some(Number(number)) = list.next_element()?
@@ -201,7 +201,7 @@ impl<'t> Visitor<'t> for One<'_> {
         Ok(point)
     }
 
-    no_list!('t, [f64; 3]);
+    no_list!('t, DVec3);
 }
 
 /// A number of a point.

@@ -9,5 +9,4 @@ mod reader;
 #[cfg(test)]
 mod tests;
 
-use reader::{FeatureReader, LARGE, words};
 pub(super) use reader::{LARGEST, read};

@@ -120,6 +120,7 @@ pub struct Session {
 impl Session {
     /// A run of the file `script`.
     pub fn new(script: &Path, options: RunOptions) -> Result<Arc<Self>> {
+        options.registry.check()?;
         let path = script.canonicalize().map_err(|error| unreadable(script, &error))?;
         let root = path.parent().map_or_else(PathBuf::new, Path::to_path_buf);
         let stdlib = options.stdlib.as_deref().map(read_stdlib).transpose()?;

@@ -3,10 +3,10 @@
 use std::sync::Arc;
 use std::time::Instant;
 
-use super::DerivationPlan;
 use super::functions::{Applications, Failure, RuleFunctions};
 use super::group::{ModuleOrder, RuleGroup};
 use super::output::Output;
+use super::plan::DerivationPlan;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Bindings, Chain, ContextMatcher, Links, Mark, ModuleKey, Values, module_brief};
 

@@ -21,6 +21,4 @@ mod splice;
 mod step;
 mod threads;
 
-use lead::{Ending, lead};
-use plan::DerivationPlan;
 pub(crate) use threads::ThreadPool;

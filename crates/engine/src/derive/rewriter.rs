@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::DerivationPlan;
+use super::plan::DerivationPlan;
 use super::step::{StepOutcome, Stepper};
 use super::threads::ThreadPool;
 use crate::machine::{Interpretations, Machine, SystemFunctions};

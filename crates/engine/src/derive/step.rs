@@ -3,10 +3,10 @@
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, PoisonError};
 
-use super::DerivationPlan;
 use super::batch::{Batch, ChainPiece, Scratch};
 use super::functions::LuaFunctions;
 use super::output::Output;
+use super::plan::DerivationPlan;
 use super::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Machine, SystemFunctions};
 use crate::results::Use;

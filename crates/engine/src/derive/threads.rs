@@ -12,8 +12,8 @@ use rustc_hash::FxHashMap;
 
 use super::batch::Scratch;
 use super::interpret::InterpretationPass;
+use super::lead::{Ending, lead};
 use super::step::RewritingStep;
-use super::{Ending, lead};
 use crate::declare::Session;
 use crate::machine::{Driver, Machine, SystemFunctions, Watchdog};
 use crate::results::{DerivedSystem, Trace};

@@ -10,7 +10,7 @@ use crate::machine::convert::{to_lua, to_value};
 use crate::machine::handles::ObjectHandle;
 use crate::machine::library::Library;
 use burgeon_base::error::{Error, Limit};
-use burgeon_kit::rules::{DEEPEST, module_text};
+use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
 use burgeon_kit::{Call, Value};
 
 /// While guards run, in `prelude.luau`.
@@ -21,17 +21,61 @@ const TOP: u8 = 0;
 pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
     host.set("deepest", DEEPEST)?;
+    add_values(lua, &host, current, library)?;
+    add_tables(lua, &host)?;
+    add_applications(lua, &host, current)?;
+    add_methods(lua, &host, current)?;
+    Ok(host)
+}
+
+/// Those that pack values into columns and take them out again.
+fn add_values(lua: &Lua, host: &Table, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
         "pack",
         lua.create_function(move |_, value: LuaValue| {
             let value = to_value(&value, true).map_err(mlua::Error::external)?;
-            match burgeon_kit::rules::ColumnValue::unpack(state.session.values.pack(value)) {
-                burgeon_kit::rules::ColumnValue::Handle(handle) => Ok(handle),
+            match ColumnValue::unpack(state.session.values.pack(value)) {
+                ColumnValue::Handle(handle) => Ok(handle),
                 _ => Err(mlua::Error::external(Error::argument("this value cannot be a parameter"))),
             }
         })?,
     )?;
+    let state = Rc::clone(current);
+    host.set(
+        "unpack",
+        lua.create_function(move |lua, handle: u32| {
+            to_lua(lua, &state.session.values.get(handle).unwrap_or(Value::Nil), true)
+        })?,
+    )?;
+    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "shape",
+        lua.create_function(move |_, (number, symbols): (usize, Vec<u16>)| {
+            state.add_shape(number, symbols, &shelf.symbols.borrow().arities());
+            Ok(())
+        })?,
+    )?;
+    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
+    host.set(
+        "module_text",
+        lua.create_function(move |_, module: Table| {
+            let symbol: u16 = module.raw_get(1)?;
+            let given: usize = module.raw_get(2)?;
+            let mut params = Vec::new();
+            for index in 0..given {
+                let value = to_value(&module.raw_get::<LuaValue>(index + 3)?, false)
+                    .map_err(mlua::Error::external)?;
+                params.push(state.session.values.pack(value));
+            }
+            Ok(module_text(&shelf.symbols.borrow(), &state.session.values, symbol, &params))
+        })?,
+    )?;
+    Ok(())
+}
+
+/// Those for functions, tables and errors of Lua.
+fn add_tables(lua: &Lua, host: &Table) -> mlua::Result<()> {
     host.set(
         "native",
         lua.create_function(|lua, function: mlua::Function| {
@@ -50,28 +94,18 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
         "told",
         lua.create_function(|lua, value: LuaValue| match value {
             LuaValue::Error(error) => {
-                let error = super::translate(&error);
+                let error = super::virtual_machine::translate(&error);
                 let place = error.place().map_or_else(String::new, |place| format!("{place}: "));
                 Ok(LuaValue::String(lua.create_string(format!("{place}{}", error.message()))?))
             }
             other => Ok(other),
         })?,
     )?;
-    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
-    host.set(
-        "shape",
-        lua.create_function(move |_, (number, symbols): (usize, Vec<u16>)| {
-            state.add_shape(number, symbols, &shelf.symbols.borrow().arities());
-            Ok(())
-        })?,
-    )?;
-    let state = Rc::clone(current);
-    host.set(
-        "unpack",
-        lua.create_function(move |lua, handle: u32| {
-            to_lua(lua, &state.session.values.get(handle).unwrap_or(Value::Nil), true)
-        })?,
-    )?;
+    Ok(())
+}
+
+/// Those that rules and interpretations call while they run.
+fn add_applications(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
         "check_growth",
@@ -121,6 +155,11 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
             Ok(())
         })?,
     )?;
+    Ok(())
+}
+
+/// Those that call methods of objects.
+fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
     let state = Rc::clone(current);
     host.set(
         "call",
@@ -157,22 +196,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
             }
         })?,
     )?;
-    let (state, shelf) = (Rc::clone(current), Rc::clone(library));
-    host.set(
-        "module_text",
-        lua.create_function(move |_, module: Table| {
-            let symbol: u16 = module.raw_get(1)?;
-            let given: usize = module.raw_get(2)?;
-            let mut params = Vec::new();
-            for index in 0..given {
-                let value = to_value(&module.raw_get::<LuaValue>(index + 3)?, false)
-                    .map_err(mlua::Error::external)?;
-                params.push(state.session.values.pack(value));
-            }
-            Ok(module_text(&shelf.symbols.borrow(), &state.session.values, symbol, &params))
-        })?,
-    )?;
-    Ok(host)
+    Ok(())
 }
 
 /// Whether Luau makes native code for this processor. Asking takes tens of microseconds where the computer is virtual.

@@ -26,6 +26,5 @@ pub(crate) use handles::Objects;
 pub(crate) use host::native;
 pub(crate) use system::{Axiom, Interpretations, SystemFunctions, returns_modules};
 pub use virtual_machine::Machine;
-use virtual_machine::{OUT_OF_MEMORY_IN_LUA, compiler, translate};
 pub(crate) use virtual_machine::{compile, read_column, write_column};
 pub use watchdog::Watchdog;

@@ -6,7 +6,8 @@ use std::ffi::{CStr, c_int};
 
 use mlua::{Lua, ffi};
 
-use super::{Machine, OUT_OF_MEMORY_IN_LUA};
+use super::Machine;
+use super::virtual_machine::OUT_OF_MEMORY_IN_LUA;
 use burgeon_base::error::SourcePlace;
 
 thread_local! {

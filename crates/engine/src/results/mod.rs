@@ -3,13 +3,13 @@
 //! Comes in: what the derivation hands over. Goes out: the same, to be asked by scripts, by commands and by the page.
 //! It never runs a rule.
 
-mod derived;
+mod derived_system;
 mod remark;
 mod trace;
 mod uses;
 
-pub use derived::{DerivedSystem, RuleReport, Times};
+pub use derived_system::{DerivedSystem, RuleReport, Times};
 pub use remark::{FeatureReport, Remark};
-pub use trace::{Ancestor, MadeBy, Module, RuleName, Trace};
+pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{Step, around};
 pub use uses::Use;

@@ -56,7 +56,7 @@ pub struct Ancestor {
 
 /// What a rule, an interpretation rule or the axiom has made.
 #[derive(Debug, Clone, PartialEq, Eq)]
-pub struct MadeBy {
+pub struct RuleProducts {
     /// Its pattern, or "axiom".
     pub name: String,
     /// The line where it begins.
@@ -207,7 +207,7 @@ impl Trace {
 
     /// What the rule, interpretation rule or axiom at a line, or the last one above it, has made in the end. `None` if
     /// there is none.
-    pub fn made_by(&self, file: &str, line: usize) -> Option<MadeBy> {
+    pub fn made_by(&self, file: &str, line: usize) -> Option<RuleProducts> {
         let (what, line) = self.line(file, line)?;
         let (name, made) = match what {
             LineSubject::Axiom => ("axiom".to_owned(), vec![true; self.chain.symbols.len()]),
@@ -231,7 +231,7 @@ impl Trace {
                 (self.rules[usize::from(wanted)].text.clone(), made)
             }
         };
-        Some(MadeBy { name, line, made })
+        Some(RuleProducts { name, line, made })
     }
 
     /// For each traced chain, where its symbols begin in the final chain.

@@ -4,7 +4,7 @@ use super::super::check::SceneCheck;
 use super::super::color::fraction;
 use super::super::texture::Images;
 use super::body::{Body, BodyArray};
-use super::{Textures, name, uri};
+use super::document::{Textures, name, uri};
 use burgeon_scene::Material;
 use gltf_json as json;
 use json::material::{AlphaMode, EmissiveFactor, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};

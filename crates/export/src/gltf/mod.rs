@@ -19,6 +19,5 @@ mod tests;
 mod weld;
 
 pub use document::{Layout, glb, glb_for_viewer, glb_with_texture_coordinates};
-use document::{Textures, name, uri};
 pub(super) use document::{write_glb, write_gltf};
 pub use place::InstancePlace;

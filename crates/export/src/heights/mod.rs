@@ -11,5 +11,4 @@ mod height_map;
 #[cfg_attr(not(feature = "data"), path = "absent.rs")]
 mod packed;
 
-use height_map::narrow;
 pub use height_map::{HeightMap, check_name, write};

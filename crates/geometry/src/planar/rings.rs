@@ -4,7 +4,8 @@ use std::ops::Deref;
 
 use glam::{DVec2, DVec3};
 
-use super::Polygon;
+use super::measure::twice_area;
+use super::{Point, Polygon};
 
 /// Rings as somebody gave them, the outer one first: nothing is promised of their points.
 ///
@@ -16,6 +17,18 @@ impl Rings<DVec2> {
     /// The rings at a height (m).
     pub fn at_height(&self, height: f64) -> Rings {
         self.iter().map(|ring| ring.iter().map(|at| at.extend(height)).collect()).collect()
+    }
+}
+
+impl<P: Point> Rings<P> {
+    /// Turns those rings around that run the wrong way: the outer one is to be counter-clockwise, holes clockwise. A ring
+    /// without area is taken for clockwise.
+    pub fn turn(&mut self) {
+        for (index, ring) in self.0.iter_mut().enumerate() {
+            if (twice_area(ring.iter().map(|point| point.flat())) > 0.0) != (index == 0) {
+                ring.reverse();
+            }
+        }
     }
 }
 

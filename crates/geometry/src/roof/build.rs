@@ -49,14 +49,14 @@ impl RoofShape {
     /// Fails if there is no skeleton for it.
     ///
     /// ```
-    /// use burgeon_geometry::roof::{Eaves, Ends, PatchKind, Rise, Shape, Surface};
+    /// use burgeon_geometry::roof::{Eaves, Ends, PatchKind, Rise, RoofShape, RoofSurface};
     /// use burgeon_geometry::{Polygon, Rings};
     /// use glam::DVec2;
     ///
     /// let walls = [(0.0, 0.0), (12.0, 0.0), (12.0, 8.0), (0.0, 8.0)].map(DVec2::from);
     /// let walls = Polygon::new(Rings(vec![walls.to_vec()]))?;
-    /// let surface = Surface::Sloped(Ends::Gables, &[]);
-    /// let roof = Shape { surface, rise: Rise::Height(4.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
+    /// let surface = RoofSurface::Sloped(Ends::Gables, &[]);
+    /// let roof = RoofShape { surface, rise: Rise::Height(4.0), overhang: 0.0, eaves: Eaves::Closed, slab: 0.0 };
     /// let cover = roof.cover(&walls, 3.0)?;
     /// let count = |kind: PatchKind| cover.patches.iter().filter(|patch| patch.kind == kind).count();
     /// assert_eq!((count(PatchKind::Slope), count(PatchKind::Gable)), (2, 2));

@@ -2,5 +2,3 @@
 
 mod forms;
 mod properties;
-
-use forms::{least_cosine, near, solid, swept, texture_area, tower};

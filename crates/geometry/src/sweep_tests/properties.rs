@@ -7,7 +7,7 @@ use proptest::prelude::*;
 
 use super::super::solid::{area, check, volume};
 use super::super::{Frame, Section, SectionPoint, Segment, Station, SweepOptions};
-use super::{least_cosine, near, solid, swept, texture_area, tower};
+use super::forms::{least_cosine, near, solid, swept, texture_area, tower};
 
 /// Points around a centre at random angles and distances: an outline that does not meet itself.
 fn outline(low: f64, high: f64) -> impl Strategy<Value = Vec<SectionPoint>> {

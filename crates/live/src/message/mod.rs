@@ -17,6 +17,6 @@ pub use model::{
     TimesMessage, json,
 };
 pub use origin::{
-    AroundMessage, HighlightMessage, ModuleMessage, NamedValue, OriginMessage, PickMessage, Range, RuleAt,
+    AroundMessage, HighlightMessage, ModuleMessage, NamedValue, OriginMessage, PickMessage, Range, RulePlace,
     StepMessage,
 };

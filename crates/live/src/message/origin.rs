@@ -30,7 +30,7 @@ pub struct OriginMessage {
     /// The module.
     pub module: ModuleMessage,
     /// The rule that interprets it, unless the standard library does.
-    pub interpretation: Option<RuleAt>,
+    pub interpretation: Option<RulePlace>,
     /// The modules that led to it, from the axiom on.
     pub path: Vec<StepMessage>,
     /// The chain around it.
@@ -63,7 +63,7 @@ pub struct NamedValue {
 
 /// A rule and its place.
 #[derive(Debug, Clone, Serialize)]
-pub struct RuleAt {
+pub struct RulePlace {
     /// Its pattern.
     pub text: String,
     /// The file that has it; none if it is the engine's own.

@@ -57,7 +57,7 @@ const CREASE: f64 = 40.0;
 ///
 /// Segments that continue one another exactly make one solid; a jump in place, direction, scale or section
 /// closes it and begins another.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
 pub struct Extruder {
     options: ExtruderOptions,
     first_section: Arc<Section>,
@@ -276,13 +276,14 @@ impl Extruder {
         };
         let section = Arc::new(section);
         let state = ExtruderState::begin(&options, &section);
+        let drawing = Drawing::at(options.position.0);
         Ok(Self {
             options,
             first_section: section,
             state,
             stack: Vec::new(),
             known: Vec::new(),
-            drawing: Drawing::default(),
+            drawing,
             open_edges: 0,
             warnings: Vec::new(),
         })
@@ -431,19 +432,5 @@ impl Object for Extruder {
 
     fn take_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
-    }
-}
-
-impl Draw for Extruder {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.options.position.0
     }
 }

@@ -167,7 +167,7 @@ fn eaves_do_not_cut_into_neighbours_that_are_as_high_or_higher() {
             for part in house.drawing.parts() {
                 for corners in &part.triangles {
                     let corners =
-                        corners.map(|corner| part.positions[corner as usize].as_dvec3() + house.origin);
+                        corners.map(|corner| part.positions[corner as usize].as_dvec3() + house.origin());
                     for (side, step) in (0..3).flat_map(|side| (0..10).map(move |step| (side, step))) {
                         let at = corners[side].lerp(corners[(side + 1) % 3], f64::from(step) / 10.0);
                         furthest = furthest.max(-depth(&all[own].0[0], at.truncate()));

@@ -116,7 +116,7 @@ fn street(footprint: &Footprint, touch: &Touch) -> Option<usize> {
         let mut near: Vec<(usize, f64)> = Vec::new();
         let mut least = f64::INFINITY;
         for &edge in &free {
-            let [a, b] = outer[edge].map(|point| point + footprint.origin.truncate());
+            let [a, b] = outer[edge].map(|point| point + footprint.origin().truncate());
             if let Some(distance) = streets.faced(a, b, least + NEARER) {
                 least = least.min(distance);
                 near.push((edge, distance));
@@ -155,7 +155,7 @@ impl Footprint {
     /// edges where a neighbour stands that is as high, or lower by so little that its roof would be in the way.
     pub(super) fn reach(&self, furthest: f64, drop: f64) -> Vec<f64> {
         let Some((all, own)) = &self.place else { return Vec::new() };
-        let height = self.origin.z + self.shell.top - drop - LOWER;
+        let height = self.origin().z + self.shell.top - drop - LOWER;
         all.reach(*own, furthest, height)
     }
 

@@ -18,6 +18,5 @@ mod walls;
 
 pub use edges::EdgeKeywords;
 pub use object::Footprint;
-use object::{along, check_height, unknown};
 pub use roof::{Roof, RoofDetail};
 pub use walls::Walls;

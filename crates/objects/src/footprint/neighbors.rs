@@ -86,9 +86,9 @@ pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
             any.downcast_mut::<Footprint>()
         })
         .collect();
-    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin.truncate()));
+    let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin().truncate()));
     let top = |footprint: &&mut Footprint| {
-        footprint.options.height.map(|height| footprint.origin.z + footprint.plan.ground().1 + height.0)
+        footprint.options.height.map(|height| footprint.origin().z + footprint.plan.ground().1 + height.0)
     };
     let (plans, tops) = (plans.collect(), found.iter().map(top).collect());
     let all = Arc::new(Neighborhood { plans, tops, map: OnceLock::new() });

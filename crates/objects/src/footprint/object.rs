@@ -66,12 +66,10 @@ const HIGHEST: f64 = 2000.0;
 /// A plan on the ground, from which groundwork, walls and a roof rise as one closed solid.
 ///
 /// Walls stand on the groundwork or on earlier walls, the roof stands on the walls and ends the building.
-#[derive(Clone)]
+#[derive(Clone, Draw)]
 pub struct Footprint {
     pub(super) options: Arc<FootprintOptions>,
     pub(super) plan: Arc<Plan>,
-    /// Where the mesh has its origin (m): a whole number of metres near the plan.
-    pub(super) origin: DVec3,
     /// What is known of the edges, once someone has asked.
     pub(super) edges: Arc<OnceLock<Edges>>,
     /// The footprints of its system, and its number among them.
@@ -169,12 +167,12 @@ impl Footprint {
 
     /// The lowest ground at its points (m).
     pub fn lowest(&self) -> f64 {
-        self.origin.z + self.plan.ground().0
+        self.origin().z + self.plan.ground().0
     }
 
     /// The highest ground at its points (m).
     pub fn highest(&self) -> f64 {
-        self.origin.z + self.plan.ground().1
+        self.origin().z + self.plan.ground().1
     }
 
     /// How high the walls are that it was made with (m); 0 if it was not told.
@@ -189,7 +187,7 @@ impl Footprint {
 
     /// Distance (m) from a place to the nearest point of what it has drawn.
     pub fn distance(&self, place: Vector) -> f64 {
-        self.drawing.distance(place.0 - self.origin)
+        self.drawing.distance(place.0 - self.origin())
     }
 }
 
@@ -238,12 +236,11 @@ impl Footprint {
         let footprint = Self {
             options: Arc::new(options),
             plan,
-            origin,
             edges: Arc::default(),
             place: None,
             shell,
             sides: Vec::new(),
-            drawing: Drawing::default(),
+            drawing: Drawing::at(origin),
             seed: 0,
             detail: 3,
             raised: 0,
@@ -252,6 +249,11 @@ impl Footprint {
         };
         footprint.check_edge_keywords()?;
         Ok(footprint)
+    }
+
+    /// Where the mesh has its origin (m): a whole number of metres near the plan.
+    pub(super) fn origin(&self) -> DVec3 {
+        self.drawing.origin()
     }
 
     /// The part with this material, or with this colour, or with the footprint's own.
@@ -343,19 +345,5 @@ impl LevelOfDetail for Footprint {
 impl Report for Footprint {
     fn notes(&self) -> &[Note] {
         &self.notes
-    }
-}
-
-impl Draw for Footprint {
-    fn drawing(&self) -> &Drawing {
-        &self.drawing
-    }
-
-    fn drawing_mut(&mut self) -> &mut Drawing {
-        &mut self.drawing
-    }
-
-    fn origin(&self) -> DVec3 {
-        self.origin
     }
 }

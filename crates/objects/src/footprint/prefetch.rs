@@ -102,7 +102,7 @@ impl Prefetch for PlanPrefetch {
             drop(state);
             let numbers = next..features.len().min(next + BATCH);
             next = numbers.end;
-            let plan = |number: usize| Some((number, LocalPlan::new(&rings(&features[number].geometry)?)));
+            let plan = |number: usize| Some((number, LocalPlan::new(rings(&features[number].geometry)?)));
             let made: Vec<_> = numbers.filter_map(plan).collect();
             state = self.state();
             state.made.extend(made);
@@ -119,14 +119,14 @@ impl Prefetch for PlanPrefetch {
 mod tests {
     use super::*;
     use burgeon_data::{Feature, Geometry};
-    use burgeon_geometry::Polygon;
+    use burgeon_geometry::{Polygon, Rings};
 
     /// Squares on a line, every seventh of which has no area.
     fn squares(count: u32) -> Arc<Layer> {
         let square = |number: u32| {
             let (x, size) = (10.0 * f64::from(number), if number.is_multiple_of(7) { 0.0 } else { 4.0 });
-            let ring = vec![[x, 0.0, 1.0], [x + 4.0, 0.0, 1.0], [x + 4.0, size, 1.0], [x, size, 1.0]];
-            let geometry = Geometry::Polygon(vec![ring]);
+            let ring = [[x, 0.0, 1.0], [x + 4.0, 0.0, 1.0], [x + 4.0, size, 1.0], [x, size, 1.0]];
+            let geometry = Geometry::Polygon(Rings(vec![ring.map(DVec3::from).to_vec()]));
             Feature { id: number.to_string(), geometry, attributes: Arc::default() }
         };
         Arc::new(Layer {
@@ -160,7 +160,7 @@ mod tests {
                     continue;
                 };
                 ready += 1;
-                let here = LocalPlan::new(&rings(&layer.features[number].geometry).unwrap());
+                let here = LocalPlan::new(rings(&layer.features[number].geometry).unwrap());
                 assert_eq!(told(plan), told(here), "{number}");
                 assert!(ahead.state().made.len() < READY + BATCH);
             }

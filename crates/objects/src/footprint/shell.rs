@@ -3,7 +3,8 @@
 use crate::MaterialOptions;
 use glam::DVec3;
 
-use super::{Footprint, along, unknown};
+use super::Footprint;
+use super::object::{along, unknown};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Ring, fill};
 

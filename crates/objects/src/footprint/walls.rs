@@ -2,9 +2,10 @@
 
 use glam::{DAffine3, DMat3, DVec2, DVec3};
 
+use super::Footprint;
 use super::object::Height;
+use super::object::{along, check_height};
 use super::sides::material_of;
-use super::{Footprint, along, check_height};
 use crate::MaterialOptions;
 use crate::facade::lay::MOST;
 use crate::facade::template::BLIND;

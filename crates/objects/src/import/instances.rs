@@ -6,8 +6,8 @@ use glam::{DAffine3, DQuat, DVec3};
 use gltf_json::scene::Node;
 use gltf_json::{Accessor, Index};
 
-use super::OBJECT;
 use super::bytes::NumberColumns;
+use super::gltf_file::OBJECT;
 use burgeon_base::error::{Error, Result};
 
 /// The extension's name.

@@ -15,4 +15,3 @@ mod tests;
 mod tints;
 
 pub(super) use gltf_file::kind;
-use gltf_file::{ImportOptions, OBJECT, broken};

@@ -2,8 +2,7 @@
 
 use glam::{DAffine3, DVec3, Vec2, Vec3};
 
-use super::gltf_file::read;
-use super::*;
+use super::gltf_file::{ImportOptions, read};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Error;
 use burgeon_base::error::Result;

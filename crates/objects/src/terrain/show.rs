@@ -58,7 +58,7 @@ impl Terrain {
                 placement: None,
             });
         }
-        let mut drawing = Drawing::default();
+        let mut drawing = Drawing::at(lift);
         if let Some(base) = self.options.base {
             let material =
                 Material { base_color: self.options.sides.0, roughness: 1.0, ..Material::default() };
@@ -80,7 +80,7 @@ impl Terrain {
             let key = ModuleKey(self.key.0.wrapping_add(number)).child(0);
             plants.scatter(ground, key, &mut drawing)?;
         }
-        drawing.show(scene, lift, name, feature);
+        drawing.show(scene, name, feature);
         Ok(())
     }
 

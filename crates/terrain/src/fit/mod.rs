@@ -4,14 +4,14 @@
 //! itself as a module for scripts. It reads no clock and no files: who calls it says when to stop.
 
 mod code;
-mod fitted;
 mod moves;
+mod result;
 mod search;
 mod solve;
 mod targets;
 #[cfg(test)]
 mod tests;
 
-pub use fitted::FitResult;
+pub use result::FitResult;
 pub use search::Search;
 pub use targets::Target;

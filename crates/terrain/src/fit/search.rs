@@ -8,8 +8,8 @@
 use rayon::prelude::*;
 
 use super::code::{Code, SymbolRule, along};
-use super::fitted::FitResult;
 use super::moves::Problem;
+use super::result::FitResult;
 use super::targets::{Target, number};
 use burgeon_kit::random::Stream;
 

@@ -15,5 +15,4 @@ mod walk;
 
 pub(crate) use peeks::peeks;
 pub(crate) use pure::has_metatables;
-use script::marked;
 pub(crate) use script::{Analysis, Globals, ScriptReader, analyse, unmarked};

@@ -85,7 +85,7 @@ impl Walk<'_> {
             _ => false,
         };
         let line = begin.line() + usize::from(left_out);
-        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::marked(line)));
+        self.edit(begin.bytes(), begin.bytes(), format!("\"{}\"..", super::script::marked(line)));
     }
 
     /// Walks a function of a rule, and lets the script say that it has been seen.

@@ -8,7 +8,7 @@ use std::time::{Duration, Instant};
 
 use super::Applier;
 use super::notices::{Notices, ObjectNotice};
-use crate::derive::DerivationPlan;
+use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::{ThreadJob, ThreadPool};
 use crate::machine::{Flusher, Machine, write_column};
 use crate::results::Use;

@@ -296,7 +296,7 @@ impl Maker {
             Geometry::Point(_) => numbers.push(1.0),
         }
         let lists = numbers.len();
-        numbers.extend(geometry.points().flatten());
+        numbers.extend(geometry.points().flat_map(|point| point.to_array()));
         let mut column = self.column.borrow_mut();
         if column.len() < numbers.len() * 8 {
             *column = lua.create_buffer(vec![0; numbers.len() * 16])?;

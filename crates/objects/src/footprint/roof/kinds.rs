@@ -1,8 +1,8 @@
 //! The kinds of roof that scripts can name.
 
-use super::super::unknown;
+use super::super::object::unknown;
 use super::Roof;
-use crate::footprint::check_height;
+use crate::footprint::object::check_height;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::roof::{Border, Eaves, Ends, Rise, RoofShape, RoofSurface};
 

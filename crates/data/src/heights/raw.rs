@@ -1,11 +1,11 @@
 //! Raw squares of little-endian floats, of 4 bytes (`.r32`, `.f32`) or of 8 (`.r64`, `.f64`).
 
-use super::raster::{RasterHeader, check_size};
+use super::{RasterHeader, check_size, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
 /// Reads a square of floats of `SIZE` bytes. Fails if it is not square.
-pub(super) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result<RasterHeader<'a>> {
+pub(crate) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result<RasterHeader<'a>> {
     let side = (bytes.len() / SIZE).isqrt();
     if side * side * SIZE != bytes.len() {
         let next = side + 1;
@@ -28,10 +28,4 @@ pub(super) fn read<'a, const SIZE: usize>(bytes: &'a [u8], name: &str) -> Result
     };
     let heights = move |_: &Budget| Ok(bytes.chunks_exact(SIZE).map(height).collect());
     Ok(RasterHeader { columns: side, rows: side, grid: None, crs: Ok(None), heights: Box::new(heights) })
-}
-
-/// A height (m) as rasters hold it: to a millimetre below 16 km.
-#[allow(clippy::cast_possible_truncation, reason = "heights are f32")]
-pub(crate) fn narrow(height: f64) -> f32 {
-    height as f32
 }

@@ -1,8 +1,7 @@
 //! SRTM tiles (`.hgt`): a square of big-endian 16-bit heights of a degree, named after its corner; zipped or not.
 
-use super::super::Crs;
-use super::HeightOptions;
-use super::raster::{RasterHeader, SampleGrid, check_size, count};
+use super::{HeightOptions, RasterHeader, SampleGrid, check_size, count};
+use crate::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -16,7 +15,7 @@ const SIZES: [[usize; 2]; 4] = [[1201, 1201], [3601, 3601], [1801, 3601], [7201,
 ///
 /// Fails if neither its name nor `wanted` tells where it lies, and if it has another size than tiles have: a square of
 /// any, where `wanted` tells.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &str, wanted: &HeightOptions) -> Result<RasterHeader<'a>> {
     let [columns, rows] = size(bytes.len(), name, wanted)?;
     let (grid, crs) = place(name, wanted, [columns, rows])?;
     let heights = move |_: &Budget| Ok(bytes.chunks_exact(2).map(height).collect());

@@ -1,7 +1,6 @@
 //! ESRI ASCII grids (`.asc`): a header of names and numbers, then heights as text.
 
-use super::raster::{RasterHeader, SampleGrid, check_size, count};
-use super::raw::narrow;
+use super::{RasterHeader, SampleGrid, check_size, count, narrow};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 
@@ -49,7 +48,7 @@ impl Header {
 ///
 /// Fails if its header lacks something, if a height is no number, and if there are fewer than it says; those that are too
 /// many come last.
-pub(super) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
+pub(crate) fn read<'a>(bytes: &'a [u8], name: &'a str) -> Result<RasterHeader<'a>> {
     let text = std::str::from_utf8(bytes).map_err(|_| {
         Error::data(format!("{name} is no ASCII grid: it has bytes that are no text")).help(REMEDY)
     })?;
@@ -146,7 +145,8 @@ fn shorten(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{HeightOptions, Raster};
+    use crate::elevation::Raster;
+    use crate::heights::HeightOptions;
     use burgeon_base::budget::Budget;
 
     fn read(text: &str) -> Raster {
