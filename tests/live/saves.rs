@@ -358,3 +358,17 @@ fn files_of_packages_are_followed_and_one_that_goes_leaves_the_last_model_with_t
     server.write("given/castle/mod.toml", about);
     page.next("model");
 }
+
+#[test]
+fn a_package_that_is_missing_is_waited_for() {
+    let server = Server::new(Some(&script(3).replacen("local", "require(\"@castle/size\")\nlocal", 1)));
+    let mut page = server.page();
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("there is no package castle"), "{error}");
+    let staged = server.path("mods.new/castle");
+    fs::create_dir_all(&staged).unwrap();
+    fs::write(staged.join("mod.toml"), "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n").unwrap();
+    fs::write(staged.join("size.lua"), "return 3").unwrap();
+    fs::rename(server.path("mods.new"), server.path("mods")).unwrap();
+    page.next("model");
+}
