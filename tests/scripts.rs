@@ -170,7 +170,7 @@ fn every_lua_block_of_the_readme_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 10);
+    assert_eq!(count, 11);
     assert_eq!(count, README.matches("```lua").count(), "a fragment would go untested");
 }
 

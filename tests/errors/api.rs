@@ -139,7 +139,7 @@ fn a_name_that_there_is_not_is_likely_another() {
     ");
     assert_snapshot!(failed("extruder:window"), @r"
     error: extruder has no field or method called window
-      help: it has advance, along, around, bend, caps, color, direction, distance, extrude, heading, jump, material, metallic, open_edges, pitch, polygon, position, rectangle, regular, resolution, roll, roughness, scale, shape, shift, sides, smooth, star, taper, turn, twist
+      help: it has advance, along, around, bend, caps, color, direction, distance, extrude, heading, jump, material, mesh, metallic, open_edges, pitch, place, polygon, position, rectangle, regular, resolution, roll, roughness, scale, shape, shift, sides, smooth, star, taper, turn, twist
     ");
     assert_snapshot!(failed("footprint:roof.detail"), @r"
     error: footprint:roof has no field or method called detail

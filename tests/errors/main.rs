@@ -30,6 +30,7 @@ mod successors;
 mod support;
 mod syntax;
 mod terrain;
+mod types;
 mod unseen;
 mod variations;
 mod warnings;

@@ -4,6 +4,7 @@
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 #![allow(unreachable_pub, reason = "what scripts can use is public")]
 
+mod fuse;
 mod orchard;
 
 use std::path::PathBuf;
@@ -15,12 +16,14 @@ use burgeon::kit::{Call, Construct, Kind, Registry, Table, TableKey, Value};
 use burgeon::picture::Picture;
 use burgeon::script::RunOptions;
 use burgeon::trace::{Pick, pick};
+use fuse::Fuse;
 use orchard::{EXPANSIONS, LOOKED_FOR, Orchard};
 
 /// All types that come with Burgeon, and one that does not.
 fn registry() -> Registry {
     let mut registry = burgeon::objects::registry();
     registry.add(Arc::clone(Orchard::kind())).unwrap();
+    registry.add(Arc::clone(Fuse::kind())).unwrap();
     assert!(registry.add(Arc::clone(Orchard::kind())).is_err(), "the name is taken");
     assert!(registry.kinds().count() > 10);
     registry
@@ -187,4 +190,36 @@ fn a_name_that_will_go_warns_once_with_its_line_and_what_is_used_instead() {
     assert_eq!(one, warned(2));
     let current = burgeon::run(&script, options(1)).unwrap();
     assert!(!current.warnings.iter().any(|warning| warning.kind() == burgeon::WarningKind::Deprecated));
+}
+
+const FUSES: &str = r#"
+local land = source("land.geojson")
+local Ball, Bud = module("Ball", "radius"), module("Bud")
+local fuses = lsystem({ object = fuse })
+fuses:axiom(land, function(feature)
+  return fuse({ blown = tonumber(feature.id) % 10 == 3 }), Ball(1), Bud()
+end)
+fuses:rule("Bud", function(this)
+  WHERE
+  return nil
+end)
+fuses:interpret("Ball(r)", function(this, r) this:ball(r) end)
+fuses:ignore("Bud")
+fuses:derive()
+"#;
+
+#[test]
+fn a_type_that_panics_costs_only_its_own_chain_and_is_told() {
+    for rule in ["", "this:ask()"] {
+        let (_folder, script) = folder();
+        std::fs::write(&script, FUSES.replace("WHERE", rule)).unwrap();
+        for threads in [1, 2] {
+            let run = burgeon::run(&script, options(threads)).unwrap();
+            let system = &run.systems[0];
+            assert_eq!(system.features.len() - run.scene.instances.len(), 30, "{rule}");
+            let report = run.report();
+            let text = format!("{report:?}");
+            assert!(text.contains("the fuse is blown"), "{rule}: {text}");
+        }
+    }
 }

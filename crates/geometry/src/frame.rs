@@ -80,6 +80,17 @@ impl Frame {
         self.rotate(DQuat::from_rotation_arc(self.heading, direction.normalize()));
     }
 
+    /// Turns the heading to `direction`, and rolls so that `up` looks as nearly to `above` as it can; neither is zero. Where
+    /// both are the same way, it rolls as [`Frame::face`] does.
+    pub fn look(&mut self, direction: DVec3, above: DVec3) {
+        self.face(direction);
+        let left = above.cross(self.heading);
+        if left.length_squared() > 1e-18 * above.length_squared() {
+            self.left = left.normalize();
+            self.up = self.heading.cross(self.left);
+        }
+    }
+
     /// Turns all axes.
     pub fn rotate(&mut self, rotation: DQuat) {
         self.heading = rotation * self.heading;

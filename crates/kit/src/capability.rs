@@ -1,7 +1,6 @@
 //! What some types of objects can do and others cannot, as their kinds declare it.
 
-use std::any::Any;
-
+use super::declare::{as_mut, as_ref};
 use super::{Drawing, Note, Object, Rewriter};
 use burgeon_base::error::Result;
 use burgeon_scene::Scene;
@@ -21,7 +20,8 @@ impl<C: ?Sized> Clone for Capability<C> {
 impl<C: ?Sized> Copy for Capability<C> {}
 
 impl<C: ?Sized> Capability<C> {
-    /// The object as one that can; `None` if its type is not the one whose kind declared this.
+    /// The object as one that can; `None` if neither its type nor that of an object it extends is
+    /// the one whose kind declared this.
     pub fn of<'a>(&self, object: &'a dyn Object) -> Option<&'a C> {
         (self.of)(object)
     }
@@ -36,14 +36,8 @@ impl<C: ?Sized> Capability<C> {
 macro_rules! capability {
     ($object:ident: $capability:ident) => {
         Capability {
-            of: |object| {
-                let any: &dyn Any = object;
-                any.downcast_ref::<$object>().map(|it| it as &dyn $capability)
-            },
-            of_mut: |object| {
-                let any: &mut dyn Any = object;
-                any.downcast_mut::<$object>().map(|it| it as &mut dyn $capability)
-            },
+            of: |object| as_ref::<$object>(object).map(|it| it as &dyn $capability),
+            of_mut: |object| as_mut::<$object>(object).map(|it| it as &mut dyn $capability),
         }
     };
 }

@@ -1,5 +1,7 @@
 //! How an object type says what scripts can do with it: said once, in the type's own file.
 
+use std::any::Any;
+
 use super::{ColumnValue, Object, Parameter, Table, TableKey, Value};
 use burgeon_base::error::{Error, Result};
 
@@ -103,17 +105,35 @@ impl<'a> Numbers<'a> {
     pub fn end(&self) {}
 }
 
-/// The object of type `T` that a method is called for.
+/// The object of type `T` that a method is called for: this one, or one that it extends.
 pub fn downcast_ref<T: Object>(object: &dyn Object) -> Result<&T> {
-    let any: &dyn std::any::Any = object;
-    any.downcast_ref().ok_or_else(wrong_type)
+    as_ref(object).ok_or_else(wrong_type)
 }
 
-/// The object of type `T` that a method that changes it is called for.
+/// The object of type `T` that a method that changes it is called for: this one, or one that it extends.
 #[inline]
 pub fn downcast_mut<T: Object>(object: &mut dyn Object) -> Result<&mut T> {
-    let any: &mut dyn std::any::Any = object;
-    any.downcast_mut().ok_or_else(wrong_type)
+    as_mut(object).ok_or_else(wrong_type)
+}
+
+/// `object` as a `T`, or the object that it extends, if one of them is.
+pub fn as_ref<T: Object>(object: &dyn Object) -> Option<&T> {
+    let any: &dyn Any = object;
+    match any.downcast_ref() {
+        Some(found) => Some(found),
+        None => object.base().and_then(as_ref),
+    }
+}
+
+/// The same, to change it.
+#[inline]
+pub fn as_mut<T: Object>(object: &mut dyn Object) -> Option<&mut T> {
+    let is_one = (object as &dyn Any).is::<T>();
+    if is_one {
+        let any: &mut dyn Any = object;
+        return any.downcast_mut();
+    }
+    object.base_mut().and_then(as_mut)
 }
 
 #[cold]

@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::capability::{self, Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
-use super::{BeginPrefetch, Loader, Object, Table, Value};
+use super::{BeginPrefetch, Loader, Object, ScriptType, Table, Value};
 use burgeon_base::error::{Error, Result};
 
 /// Text that a built-in type has in the program, and another brings.
@@ -46,6 +46,8 @@ pub struct Kind {
     pub gather: Option<Gather>,
     /// What a thread may prepare of a layer's features before they are asked for.
     pub prefetch: Option<BeginPrefetch>,
+    /// What a script declared of it, if it comes from one.
+    pub script: Option<Arc<ScriptType>>,
     /// Which of its names will go, and what is used instead.
     pub deprecated: Vec<Deprecation>,
 }
@@ -146,6 +148,22 @@ pub enum Call {
         /// With numbers only, where all its arguments are numbers: the fast way.
         numbers: Option<WriteNumbers>,
     },
+    /// It is a function of the script, which the virtual machine runs.
+    Script {
+        /// Whether it changes the object, so that only interpretation rules may call it.
+        changes: bool,
+    },
+}
+
+impl Call {
+    /// Whether it changes the object, so that only interpretation rules may call it.
+    pub fn changes(&self) -> bool {
+        match self {
+            Self::Read(_) => false,
+            Self::Write { .. } => true,
+            Self::Script { changes } => *changes,
+        }
+    }
 }
 
 impl std::fmt::Debug for Kind {
@@ -173,6 +191,7 @@ impl Kind {
             report: None,
             gather: None,
             prefetch: None,
+            script: None,
             deprecated: Vec::new(),
         }
     }
@@ -291,6 +310,12 @@ impl Kind {
                 Err(Error::argument(format!("{} is not made of fields", self.name)))
             }
         }
+    }
+
+    /// Whether it is called `name`, or extends a type that is.
+    pub fn is_a(&self, name: &str) -> bool {
+        let base = self.script.as_ref().and_then(|script| script.base.as_ref());
+        self.name == name || base.is_some_and(|base| base.is_a(name))
     }
 
     /// The method called `name`.

@@ -29,6 +29,9 @@ pub mod random;
 mod registry;
 mod rewriter;
 pub mod rules;
+mod script_field;
+mod script_object;
+mod script_type;
 mod seed;
 mod value;
 
@@ -51,6 +54,9 @@ pub use planar::{Lines, rings};
 pub use prefetch::{BeginPrefetch, Prefetch};
 pub use registry::Registry;
 pub use rewriter::{RewriteOutcome, Rewriter, RuleSet, System};
+pub use script_field::ScriptField;
+pub use script_object::ScriptObject;
+pub use script_type::ScriptType;
 pub use seed::Seed;
 pub use value::{Table, TableKey, Value};
 

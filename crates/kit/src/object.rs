@@ -37,6 +37,16 @@ pub trait Object: Any + Send + Sync {
     /// Takes the number that its random choices come from; chains with other seeds or features get other ones.
     fn seed(&mut self, _: u64) {}
 
+    /// The object that it extends, whose methods and capabilities it has besides its own.
+    fn base(&self) -> Option<&dyn Object> {
+        None
+    }
+
+    /// The same, to change it.
+    fn base_mut(&mut self) -> Option<&mut dyn Object> {
+        None
+    }
+
     /// Gives away what people should know of how it was made, and of what it was asked since it was asked this last.
     fn take_warnings(&mut self) -> Vec<Warning> {
         Vec::new()

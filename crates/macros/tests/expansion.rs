@@ -103,6 +103,7 @@ fn call(tower: &mut dyn Object, name: &str, values: &[Value]) -> std::result::Re
     let answer = match &Tower::kind().method(name).expect("the method is there").call {
         Call::Read(read) => read(tower, values),
         Call::Write { values: write, .. } => write(tower, values),
+        Call::Script { .. } => panic!("it is of Rust"),
     };
     answer.map_err(|error| error.message().to_owned())
 }
@@ -162,6 +163,7 @@ fn methods_are_listed_as_they_were_written() {
                 Call::Read(_) => "reads",
                 Call::Write { numbers: Some(_), .. } => "changes by numbers",
                 Call::Write { numbers: None, .. } => "changes",
+                Call::Script { .. } => "is of a script",
             };
             let arguments = arguments.collect::<Vec<_>>().join(", ");
             format!("{}({arguments}) -> [{}] {way}: {}", method.name, method.returns, method.doc)

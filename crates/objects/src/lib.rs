@@ -11,6 +11,7 @@ pub mod facade;
 mod footprint;
 mod import;
 mod line_index;
+mod mesh;
 pub mod planet;
 mod surface;
 pub mod terrain;

@@ -5,6 +5,7 @@ use std::sync::{Arc, LazyLock};
 use glam::{DAffine3, DQuat, DVec3};
 
 use super::MaterialOptions;
+use super::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector, fields, methods};
@@ -175,7 +176,7 @@ impl Turtle {
     /// Goes to a place (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
         self.lift();
-        self.state.frame.position = position.0 - self.options.position.0;
+        self.state.frame.position = position.0 - self.drawing.origin();
     }
 
     /// Sets the diameter of what is drawn (m); a branch tapers to it along the next step.
@@ -259,9 +260,15 @@ impl Turtle {
         self.drawing.place(&model, self.state.frame.transform() * scale);
     }
 
+    /// Draws `faces` in the turtle's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
+        let part = self.drawing.part(self.state.part);
+        draw_mesh(("turtle", part), &self.state.frame, &points, &faces)
+    }
+
     /// Its place (m).
     pub fn position(&self) -> DVec3 {
-        self.options.position.0 + self.state.frame.position
+        self.drawing.origin() + self.state.frame.position
     }
 
     /// The direction in which it looks.
@@ -281,7 +288,7 @@ impl Turtle {
 
     /// Distance (m) from a place to the nearest point of what it has drawn.
     pub fn distance(&self, place: Vector) -> f64 {
-        self.drawing.distance(place.0 - self.options.position.0)
+        self.drawing.distance(place.0 - self.drawing.origin())
     }
 }
 

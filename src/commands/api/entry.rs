@@ -1,6 +1,6 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Call, Construct, Deprecation, Field, Kind, Method, Registry};
+use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry};
 use burgeon::script::{Name, NameKind, NameMember};
 use serde_json::{Value, json};
 
@@ -175,7 +175,7 @@ impl Member {
         });
         Self {
             name: method.name.to_string(),
-            what: if matches!(method.call, Call::Read(_)) { MemberKind::Reads } else { MemberKind::Changes },
+            what: if method.call.changes() { MemberKind::Changes } else { MemberKind::Reads },
             luau: method.returns.clone(),
             arguments: arguments.collect(),
             default: String::new(),

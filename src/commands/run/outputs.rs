@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use burgeon::export::{self, Files, Format, heights::HeightMap};
+use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
 use burgeon::results::{DerivedSystem, FeatureReport};
@@ -141,10 +142,7 @@ fn write_tiles(run: &burgeon::Run, folder: &Path, files: &mut Files) -> Result<(
 /// The terrain of a run; there has to be one.
 fn terrain(run: &burgeon::Run) -> Result<&Terrain> {
     let objects = run.systems.iter().flat_map(|system| &system.objects);
-    let mut terrains = objects.filter_map(|object| {
-        let any: &dyn std::any::Any = &**object;
-        any.downcast_ref::<Terrain>()
-    });
+    let mut terrains = objects.filter_map(|object| as_ref::<Terrain>(&**object));
     match (terrains.next(), terrains.next()) {
         (Some(terrain), None) => Ok(terrain),
         (None, _) => Err(Error::script("there is no terrain to write the heights or the edits of")

@@ -7,9 +7,10 @@ use crate::declare::Session;
 use crate::machine::handles::Objects;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
+use burgeon_kit::declare::{downcast_mut, downcast_ref};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::{ModuleKey, Symbol};
-use burgeon_kit::{Call, Kind, Value};
+use burgeon_kit::{Call, Kind, ScriptObject, Table, Value};
 
 /// Applies recorded method calls to objects while a batch is interpreted.
 pub(crate) trait Flusher: std::any::Any {
@@ -102,6 +103,74 @@ impl WorkState {
         Ok(stream.uniform())
     }
 
+    /// The chain that is interpreted, or that of an application in the batch.
+    pub(crate) fn chain_of(&self, application: usize) -> usize {
+        match self.flusher.borrow().as_ref() {
+            Some(flusher) => flusher.chain(),
+            None => self.chains.borrow().get(application).copied().unwrap_or(0) as usize,
+        }
+    }
+
+    /// Asks the object of `chain`, whose type the script declared.
+    pub(crate) fn script_object<T>(
+        &self,
+        chain: usize,
+        ask: impl FnOnce(&ScriptObject) -> Result<T>,
+    ) -> Result<T> {
+        let objects = self.objects.borrow();
+        let objects = objects.as_ref().ok_or_else(outside)?;
+        objects.read(chain, |object| ask(downcast_ref(object)?))
+    }
+
+    /// Keeps the state that a pass has left with the object of `chain`.
+    pub(crate) fn keep_state(&self, chain: usize, state: Arc<Table>) -> Result<()> {
+        let objects = self.objects.borrow();
+        let objects = objects.as_ref().ok_or_else(outside)?;
+        objects.write(chain, |object| {
+            downcast_mut::<ScriptObject>(object)?.set_state(state);
+            Ok(())
+        })
+    }
+
+    /// Calls a method of an object that the one at hand holds.
+    pub(crate) fn call_held(
+        &self,
+        slot: usize,
+        method: usize,
+        application: usize,
+        arguments: &[Value],
+    ) -> Result<Value> {
+        let chain = self.chain_of(application);
+        let objects = self.objects.borrow();
+        let objects = objects.as_ref().ok_or_else(outside)?;
+        let call = objects.read(chain, |object| {
+            let held = downcast_ref::<ScriptObject>(object)?.held(slot)?;
+            let method = held.kind().methods.get(method);
+            method.map(|method| method.call.clone()).ok_or_else(|| Error::internal("there is no such method"))
+        })?;
+        match call {
+            Call::Read(read) => objects
+                .read(chain, |object| read(downcast_ref::<ScriptObject>(object)?.held(slot)?, arguments))
+                .map_err(Error::of_data),
+            Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
+            Call::Write { values, .. } => objects
+                .write(chain, |object| {
+                    downcast_mut::<ScriptObject>(object)?.with_held(slot, |held| values(held, arguments))
+                })
+                .or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil)),
+            Call::Script { .. } => Err(Error::internal("an object of a script's type is not held")),
+        }
+    }
+
+    /// The error for a name that objects of the type `kind` do not have.
+    pub(crate) fn unknown_member(&self, kind: &str, name: &str) -> Error {
+        let of = self.kind.borrow().as_ref().filter(|known| known.name == kind).cloned();
+        match of.or_else(|| self.session.options.registry.get(kind).cloned()) {
+            Some(kind) => kind.unknown_method(name),
+            None => Error::argument(format!("{kind} has no method or field called {name}")),
+        }
+    }
+
     /// Calls a method of `this` at once, while rewriting or interpreting, in the line at `place`.
     pub(crate) fn call(
         &self,
@@ -113,14 +182,12 @@ impl WorkState {
         let kind = self.kind.borrow();
         let methods = kind.as_ref().map_or(&[][..], |kind| &kind.methods);
         let method = methods.get(method).ok_or_else(|| Error::internal("there is no such method"))?;
-        let chain = match self.flusher.borrow().as_ref() {
-            Some(flusher) => flusher.chain(),
-            None => self.chains.borrow().get(application).copied().unwrap_or(0) as usize,
-        };
+        let chain = self.chain_of(application);
         let objects = self.objects.borrow();
-        let objects = objects.as_ref().ok_or_else(|| Error::scope("this is only known within rules"))?;
+        let objects = objects.as_ref().ok_or_else(outside)?;
         match &method.call {
             Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
+            Call::Script { .. } => Err(Error::internal("the script itself runs this method")),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {
                 let mut said = Vec::new();
@@ -139,4 +206,8 @@ impl WorkState {
             }
         }
     }
+}
+
+fn outside() -> Error {
+    Error::scope("this is only known within rules")
 }

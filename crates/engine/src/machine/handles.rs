@@ -5,10 +5,12 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
+use super::convert::to_lua;
 use crate::declare::names::DERIVED;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::Object;
+use burgeon_kit::declare::as_ref;
+use burgeon_kit::{Object, ScriptObject};
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
 pub(crate) struct Objects {
@@ -56,7 +58,7 @@ impl Objects {
 
     pub(crate) fn read<T>(&self, chain: usize, ask: impl FnOnce(&dyn Object) -> Result<T>) -> Result<T> {
         let object = self.list.get(chain).ok_or_else(no_object)?;
-        ask(&**object.read().unwrap_or_else(PoisonError::into_inner))
+        guarded(|| ask(&**object.read().unwrap_or_else(PoisonError::into_inner)))
     }
 
     pub(crate) fn write<T>(
@@ -65,7 +67,7 @@ impl Objects {
         change: impl FnOnce(&mut dyn Object) -> Result<T>,
     ) -> Result<T> {
         let object = self.list.get(chain).ok_or_else(no_object)?;
-        change(&mut **object.write().unwrap_or_else(PoisonError::into_inner))
+        guarded(|| change(&mut **object.write().unwrap_or_else(PoisonError::into_inner)))
     }
 
     /// The objects, each with what its data is at fault for.
@@ -77,6 +79,18 @@ impl Objects {
             })
             .collect()
     }
+}
+
+/// Makes an error of a panic, which a type of object from outside of Burgeon may have: it costs its own chain.
+fn guarded<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
+    std::panic::catch_unwind(std::panic::AssertUnwindSafe(act)).unwrap_or_else(|panic| {
+        let text =
+            panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+        let text = text.unwrap_or("without a message");
+        Err(Error::internal(format!("the type of object panicked: {text}"))
+            .help("the mistake is in the type, not in the script; tell whoever made it")
+            .of_data())
+    })
 }
 
 fn no_object() -> Error {
@@ -91,7 +105,12 @@ impl UserData for ObjectHandle {
         methods.add_meta_method(MetaMethod::Index, |lua, this, name: String| {
             let table: Table = lua.named_registry_value(&methods_key(&this.0.kind().name))?;
             match table.raw_get::<LuaValue>(name.as_str())? {
-                LuaValue::Nil => Err(mlua::Error::external(this.0.kind().unknown_method(&name))),
+                LuaValue::Nil => {
+                    match as_ref::<ScriptObject>(&*this.0).and_then(|object| object.member(&name)) {
+                        Some(value) => to_lua(lua, &value, true),
+                        None => Err(mlua::Error::external(this.0.kind().unknown_method(&name))),
+                    }
+                }
                 method => Ok(method),
             }
         });

@@ -1,7 +1,7 @@
 //! The functions that Rust gives to `prelude.luau`.
 
 use std::rc::Rc;
-use std::sync::LazyLock;
+use std::sync::{Arc, LazyLock};
 
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
@@ -10,8 +10,9 @@ use crate::machine::convert::{to_lua, to_value};
 use crate::machine::handles::ObjectHandle;
 use crate::machine::library::Library;
 use burgeon_base::error::{Error, Limit};
+use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};
-use burgeon_kit::{Call, Value};
+use burgeon_kit::{Call, ScriptObject, Value};
 
 /// While guards run, in `prelude.luau`.
 const GUARD: u8 = 2;
@@ -25,6 +26,7 @@ pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library
     add_tables(lua, &host)?;
     add_applications(lua, &host, current)?;
     add_methods(lua, &host, current)?;
+    add_script_objects(lua, &host, current)?;
     Ok(host)
 }
 
@@ -190,13 +192,103 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
                     let answer = read(&*handle.0, &values(&arguments)?).map_err(mlua::Error::external)?;
                     to_lua(lua, &answer, false)
                 }
-                Call::Write { .. } => Err(mlua::Error::external(Error::scope(format!(
-                    "{name} changes the object, and only interpretation rules may"
-                )))),
+                Call::Write { .. } | Call::Script { .. } => Err(mlua::Error::external(Error::scope(
+                    format!("{name} changes the object, and only interpretation rules may"),
+                ))),
             }
         })?,
     )?;
     Ok(())
+}
+
+/// What is asked of objects whose types the script declares, and kept of them.
+fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result<()> {
+    let state = Rc::clone(current);
+    host.set("chain_of", lua.create_function(move |_, application: usize| Ok(state.chain_of(application)))?)?;
+    let state = Rc::clone(current);
+    host.set("flushed_chain", lua.create_function(move |_, ()| Ok(state.chain_of(0)))?)?;
+    let state = Rc::clone(current);
+    host.set(
+        "fields",
+        lua.create_function(move |lua, chain: usize| {
+            let fields = state.script_object(chain, |object| Ok(Arc::clone(object.fields())));
+            to_lua(lua, &Value::Table(fields.map_err(mlua::Error::external)?), true)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "state",
+        lua.create_function(move |lua, chain: usize| {
+            let kept = state.script_object(chain, |object| Ok(Arc::clone(object.state())));
+            let kept = kept.map_err(mlua::Error::external)?;
+            to_table(lua, &kept)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "keep_state",
+        lua.create_function(move |_, (chain, kept): (usize, Table)| {
+            let mut entries = Vec::new();
+            for pair in kept.pairs::<String, LuaValue>() {
+                let (name, value) = pair?;
+                let value = to_value(&value, false).map_err(|error| {
+                    mlua::Error::external(
+                        Error::argument(format!("{name} of the state cannot be kept: {}", error.message()))
+                            .help("state is numbers, booleans, strings, tables of these, and objects"),
+                    )
+                })?;
+                entries.push((burgeon_kit::TableKey::Name(name.into()), value));
+            }
+            entries.sort_by(|a, b| a.0.cmp(&b.0));
+            let kept = Arc::new(burgeon_kit::Table { class: None, entries });
+            state.keep_state(chain, kept).map_err(mlua::Error::external)
+        })?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "call_held",
+        lua.create_function(
+            move |lua, (slot, method, application, arguments): (usize, usize, usize, MultiValue)| {
+                let arguments = values(&arguments)?;
+                let answer =
+                    state.call_held(slot, method, application, &arguments).map_err(mlua::Error::external)?;
+                to_lua(lua, &answer, false)
+            },
+        )?,
+    )?;
+    let state = Rc::clone(current);
+    host.set(
+        "unknown_member",
+        lua.create_function(move |_, (kind, name): (String, LuaValue)| -> mlua::Result<()> {
+            let name = name.to_string().unwrap_or_default();
+            Err(mlua::Error::external(state.unknown_member(&kind, &name)))
+        })?,
+    )?;
+    host.set(
+        "parts",
+        lua.create_function(|lua, handle: mlua::UserDataRef<ObjectHandle>| {
+            let Some(object) = as_ref::<ScriptObject>(&*handle.0) else {
+                return Err(mlua::Error::external(Error::argument("this object belongs to another type")));
+            };
+            let state = to_table(lua, object.state())?;
+            for (index, (name, _)) in object.held_names().iter().enumerate() {
+                let held = object.held(index).map_err(mlua::Error::external)?.boxed();
+                state.raw_set(&**name, lua.create_userdata(ObjectHandle(Arc::from(held)))?)?;
+            }
+            Ok((state, to_lua(lua, &Value::Table(Arc::clone(object.fields())), true)?))
+        })?,
+    )
+}
+
+/// A table of the script of what Rust keeps, frozen within.
+fn to_table(lua: &Lua, kept: &burgeon_kit::Table) -> mlua::Result<Table> {
+    let table = lua.create_table()?;
+    for (key, value) in &kept.entries {
+        if let burgeon_kit::TableKey::Name(name) = key {
+            table.raw_set(&**name, to_lua(lua, value, true)?)?;
+        }
+    }
+    Ok(table)
 }
 
 /// Whether Luau makes native code for this processor. Asking takes tens of microseconds where the computer is virtual.

@@ -13,16 +13,36 @@ use burgeon_kit::{Call, Construct, Deprecation, Kind, Table as ValueTable, Table
 
 /// Makes the constructor of a type of object and its table of methods.
 pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>) -> mlua::Result<()> {
+    let methods = install_methods(machine, kind)?;
+    let unknown = machine.lua().create_table()?;
+    let of = Arc::clone(kind);
+    unknown.raw_set(
+        "__index",
+        machine.lua().create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
+            Err(mlua::Error::external(of.unknown_method(&name)))
+        })?,
+    )?;
+    methods.set_metatable(Some(unknown))?;
+    match constructor(machine, kind)? {
+        Some(constructor) => globals.raw_set(&*kind.name, constructor),
+        None => Ok(()),
+    }
+}
+
+/// Makes the table of the methods of a type that run in Rust.
+pub(super) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
     let lua = machine.lua();
     let methods = lua.create_table()?;
     for (index, method) in kind.methods.iter().enumerate() {
         let name = format!("{}:{}", kind.name, method.name);
         let function: Function = match &method.call {
+            Call::Script { .. } => continue,
             Call::Write { numbers: Some(_), .. } if method.arguments.len() <= 3 => {
                 machine.prelude().recorder.call((index, name, method.arguments.len()))?
             }
-            Call::Write { .. } => machine.prelude().direct.call((index, name, true))?,
-            Call::Read(_) => machine.prelude().direct.call((index, name, false))?,
+            Call::Write { .. } | Call::Read(_) => {
+                machine.prelude().direct.call((index, name, method.call.changes()))?
+            }
         };
         let function = match kind.deprecation(&method.name) {
             None => function,
@@ -32,19 +52,16 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
         };
         methods.raw_set(&*method.name, function)?;
     }
-    let unknown = lua.create_table()?;
-    let of = Arc::clone(kind);
-    unknown.raw_set(
-        "__index",
-        lua.create_function(move |_, (_, name): (LuaValue, String)| -> mlua::Result<()> {
-            Err(mlua::Error::external(of.unknown_method(&name)))
-        })?,
-    )?;
-    methods.set_metatable(Some(unknown))?;
     lua.set_named_registry_value(&methods_key(&kind.name), &methods)?;
+    Ok(methods)
+}
+
+/// The function that makes objects of a type, if scripts can make them.
+pub(super) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Option<Function>> {
+    let lua = machine.lua();
     let library = std::rc::Rc::clone(&machine.library);
     let constructor = match &kind.construct {
-        Construct::Given => return Ok(()),
+        Construct::Given => return Ok(None),
         Construct::Fields(make) => {
             let (kind, make) = (Arc::clone(kind), Arc::clone(make));
             let session = Arc::clone(&machine.session);
@@ -98,7 +115,8 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
             })?
         }
     };
-    globals.raw_set(&*kind.name, constructor)
+    machine.library.note_constructor(&constructor, kind);
+    Ok(Some(constructor))
 }
 
 /// A function that does what `method` does, and takes notice of where it was used.

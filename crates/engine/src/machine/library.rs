@@ -10,6 +10,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::convert::{class_key, to_lua};
 use super::kinds::{install_kind, named_fields, no_table};
 use super::require::require;
+use super::script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::{Machine, compile, native};
 use crate::declare::analysis::Globals;
@@ -17,8 +18,8 @@ use crate::declare::names::LOCKED;
 use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
-use burgeon_kit::Construct;
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
+use burgeon_kit::{Construct, Kind};
 use burgeon_packages::FileName;
 
 /// The standard library, which every script has, compiled once for all machines.
@@ -54,6 +55,11 @@ pub(crate) struct Library {
     standard_chunk: RefCell<Option<Function>>,
     names: RefCell<Vec<String>>,
     modules: RefCell<FxHashMap<String, Signature>>,
+    /// The types of objects by the addresses of their constructors.
+    constructed: RefCell<FxHashMap<usize, Arc<Kind>>>,
+    /// The types of objects that the script declared, and the functions that it added to others.
+    pub script_types: RefCell<Vec<ScriptTypeEntry>>,
+    pub extensions: RefCell<Vec<ScriptFunction>>,
     /// The constructors of objects, by name.
     kinds: RefCell<Vec<String>>,
     /// The parameters as they were declared first, and where.
@@ -85,6 +91,16 @@ impl Library {
 
     pub(crate) fn set_machine(&self, machine: &std::rc::Rc<Machine>) {
         *self.machine.borrow_mut() = Some(std::rc::Rc::downgrade(machine));
+    }
+
+    /// Notes what `constructor` makes.
+    pub(super) fn note_constructor(&self, constructor: &Function, kind: &Arc<Kind>) {
+        self.constructed.borrow_mut().insert(constructor.to_pointer() as usize, Arc::clone(kind));
+    }
+
+    /// The type of what `constructor` makes, if it makes objects.
+    pub(super) fn kind_of(&self, constructor: &Function) -> Option<Arc<Kind>> {
+        self.constructed.borrow().get(&(constructor.to_pointer() as usize)).cloned()
     }
 
     /// Declares a parameter, or tells that it has been declared before. The same words in another file, or in the same
@@ -316,6 +332,22 @@ impl Library {
                     SystemHandle::create(&library, options.as_ref(), Machine::place(lua))
                 };
                 create().map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "object",
+            lua.create_function(move |_, (name, declared): (LuaValue, LuaValue)| {
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                declare_type(&machine, &name, &declared).map_err(mlua::Error::external)
+            })?,
+        )?;
+        let library = std::rc::Rc::clone(&machine.library);
+        globals.raw_set(
+            "extend",
+            lua.create_function(move |_, (constructor, declared): (LuaValue, LuaValue)| {
+                let machine = library.machine().map_err(mlua::Error::external)?;
+                extend_type(&machine, &constructor, &declared).map_err(mlua::Error::external)
             })?,
         )?;
         let library = std::rc::Rc::clone(&machine.library);

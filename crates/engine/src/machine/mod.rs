@@ -15,6 +15,7 @@ mod library;
 mod prelude;
 mod protected;
 mod require;
+mod script_types;
 mod system;
 mod virtual_machine;
 mod watchdog;

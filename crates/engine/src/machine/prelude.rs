@@ -8,9 +8,13 @@ use mlua::{Buffer, Function, Lua, Table};
 use crate::machine::system::{GEOMETRY, UNREAD};
 
 const TEMPLATE: &str = include_str!("prelude.luau");
+/// The part of it that is about types of objects of scripts.
+const SCRIPT_TYPES: &str = include_str!("script_types.luau");
 
 /// The template written out and compiled, once for all machines.
-static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| super::compile(&expand(TEMPLATE)));
+static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+    super::compile(&expand(&TEMPLATE.replace("--@include script_types.luau", SCRIPT_TYPES)))
+});
 
 /// The functions of `prelude.luau` that Rust calls.
 pub(crate) struct Prelude {
@@ -34,8 +38,14 @@ pub(crate) struct Prelude {
     pub finish: Function,
     /// The application at hand.
     pub at: Function,
-    /// Sets `this`.
+    /// `(object, type)`: sets `this`, and its type if the script declared it.
     pub set_this: Function,
+    /// `(type)`: makes a type known that the script declares.
+    pub script_type: Function,
+    /// `(kind, methods, type, reads, changes)`: adds functions of the script to a type.
+    pub extension: Function,
+    /// `(type)`: what is run at the beginning and the end of a chain, and where a branch opens and closes.
+    pub hooks: Function,
     /// Forgets cached parameters.
     pub forget_values: Function,
     /// Forgets the interpretation rules of the last system.
@@ -79,6 +89,9 @@ impl Prelude {
             finish: table.get("finish")?,
             at: table.get("current")?,
             set_this: table.get("set_this")?,
+            script_type: table.get("script_type")?,
+            extension: table.get("extension")?,
+            hooks: table.get("hooks")?,
             forget_values: table.get("forget_values")?,
             fresh_interpreters: table.get("fresh_interpreters")?,
             globals: table.get("globals")?,

@@ -4,12 +4,13 @@ use std::sync::{Arc, LazyLock};
 
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
+use crate::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{Color, Kind, Object, Vector, fields, methods};
+use burgeon_kit::{Color, Kind, Model, Object, Vector, fields, methods};
 use burgeon_kit::{Draw, Drawing};
-use glam::{DVec2, DVec3};
+use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
 /// What `extruder { ... }` takes.
@@ -105,13 +106,20 @@ impl Extruder {
         Ok(())
     }
 
-    /// Turns the extruding direction to `direction`.
-    pub fn direction(&mut self, direction: Vector) -> Result<()> {
+    /// Turns the extruding direction to `direction`, by the shortest way or so that the cross-section's up looks to `above`.
+    pub fn direction(&mut self, direction: Vector, above: Option<Vector>) -> Result<()> {
         if direction.0.length_squared() < 1e-24 {
             return Err(Error::argument("extruder:direction: direction has no length")
                 .help("give a vector that is not zero"));
         }
-        self.state.frame.face(direction.0);
+        match above {
+            None => self.state.frame.face(direction.0),
+            Some(above) if above.0.length_squared() < 1e-24 => {
+                return Err(Error::argument("extruder:direction: above has no length")
+                    .help("give a vector that is not zero, or leave it out"));
+            }
+            Some(above) => self.state.frame.look(direction.0, above.0),
+        }
         Ok(())
     }
 
@@ -173,7 +181,7 @@ impl Extruder {
 
     /// Goes to a place (m) without drawing.
     pub fn jump(&mut self, position: Vector) {
-        self.state.frame.position = position.0 - self.options.position.0;
+        self.state.frame.position = position.0 - self.drawing.origin();
     }
 
     /// Turns the direction to the left by `angle` (degrees).
@@ -202,9 +210,21 @@ impl Extruder {
         Ok(())
     }
 
+    /// Draws `faces` in the extruder's frame, each the numbers of its corners among `points` (m), such as { 1, 2, 3 }.
+    pub fn mesh(&mut self, points: Vec<Vector>, faces: Vec<Vec<u32>>) -> Result<()> {
+        let part = self.drawing.material(&self.state.material);
+        draw_mesh(("extruder", self.drawing.part(part)), &self.state.frame, &points, &faces)
+    }
+
+    /// Places what another system has drawn at the extruder's frame, scaled.
+    pub fn place(&mut self, model: Arc<Model>, scale: Option<f64>) {
+        let scale = DAffine3::from_scale(DVec3::splat(scale.unwrap_or(1.0)));
+        self.drawing.place(&model, self.state.frame.transform() * scale);
+    }
+
     /// Its place (m).
     pub fn position(&self) -> DVec3 {
-        self.options.position.0 + self.state.frame.position
+        self.drawing.origin() + self.state.frame.position
     }
 
     /// The direction of extruding.
@@ -214,7 +234,7 @@ impl Extruder {
 
     /// Distance (m) from a place to the nearest point of what it has drawn.
     pub fn distance(&self, place: Vector) -> f64 {
-        self.drawing.distance(place.0 - self.options.position.0)
+        self.drawing.distance(place.0 - self.drawing.origin())
     }
 
     /// The number of edges left open by missing caps and open sections.

@@ -44,7 +44,7 @@ pub struct FacadeLayout<'a> {
 
 impl std::fmt::Debug for FacadeLayout<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Laid").field("faces", &self.faces).finish_non_exhaustive()
+        f.debug_struct("FacadeLayout").field("faces", &self.faces).finish_non_exhaustive()
     }
 }
 

@@ -10,6 +10,7 @@ use smallvec::SmallVec;
 use super::Footprint;
 use burgeon_geometry::Plan;
 use burgeon_kit::Object;
+use burgeon_kit::declare::as_mut;
 
 /// How far (m) walls that touch may be apart, or overlap.
 const APART: f64 = 0.3;
@@ -79,13 +80,8 @@ pub(super) struct Touch {
 
 /// Tells the footprints among `objects` of one another.
 pub(super) fn gather(objects: &mut [Box<dyn Object>]) {
-    let mut found: Vec<&mut Footprint> = objects
-        .iter_mut()
-        .filter_map(|object| {
-            let any: &mut dyn std::any::Any = &mut **object;
-            any.downcast_mut::<Footprint>()
-        })
-        .collect();
+    let mut found: Vec<&mut Footprint> =
+        objects.iter_mut().filter_map(|object| as_mut::<Footprint>(&mut **object)).collect();
     let plans = found.iter().map(|footprint| (Arc::clone(&footprint.plan), footprint.origin().truncate()));
     let top = |footprint: &&mut Footprint| {
         footprint.options.height.map(|height| footprint.origin().z + footprint.plan.ground().1 + height.0)

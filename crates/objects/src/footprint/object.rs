@@ -128,6 +128,11 @@ impl Footprint {
         self.ends("edge_length", edge).map(|[a, b]| a.distance(b))
     }
 
+    /// The place (m) where an edge begins, at the height of the lowest ground.
+    pub fn edge_start(&self, edge: u32) -> Result<DVec3> {
+        self.ends("edge_start", edge).map(|[a, _]| a.extend(self.lowest()))
+    }
+
     /// The way an edge faces (degrees): 0 is east, 90 is north.
     pub fn edge_facing(&self, edge: u32) -> Result<f64> {
         self.facing(edge)

@@ -4,8 +4,8 @@ use super::{Name, NameKind, NameMember};
 
 /// All of them.
 pub(super) static NAMES: &[&Name] = &[
-    &API, &LOD, &LSYSTEM, &MODULE, &PARAM, &RANDOM, &REQUIRE, &SOURCE, &DERIVED, &FEATURE, &GEOMETRY, &LAYER,
-    &RULE, &SYSTEM,
+    &API, &EXTEND, &LOD, &LSYSTEM, &MODULE, &OBJECT, &PARAM, &RANDOM, &REQUIRE, &SOURCE, &DERIVED, &FEATURE,
+    &GEOMETRY, &LAYER, &RULE, &SYSTEM,
 ];
 
 static API: Name = Name::new(
@@ -89,6 +89,64 @@ pub(crate) static LSYSTEM: Name = Name::new(
     .or("nil"),
     NameMember::new("seed", "number?", "What its random numbers come from, in place of the run's seed.")
         .or("nil"),
+]);
+
+/// What a type of object is declared with.
+pub(crate) static OBJECT: Name = Name::new(
+    "object",
+    NameKind::Global,
+    "(name: string, declaration: { ... }) -> (fields: { ... }?) -> any",
+    "Declares a type of object, and gives the function that makes objects of it.",
+)
+.parts(&[
+    NameMember::new("doc", "string?", "What it is; the first line is a summary.").or("nil"),
+    NameMember::new(
+        "extends",
+        "((...any) -> any)?",
+        "The constructor of the type whose fields, methods and drawing it has, too.",
+    )
+    .or("nil"),
+    NameMember::new(
+        "fields",
+        "{ [string]: any }?",
+        "What its constructor takes, each as { default =, type =, min =, max =, choices =, unit =, doc = }.",
+    )
+    .or("nil"),
+    NameMember::new(
+        "state",
+        "{ [string]: any }?",
+        "What its functions may assign, with the values that every pass begins with; objects draw into its drawing.",
+    )
+    .or("nil"),
+    NameMember::new("reads", "{ [string]: (self, ...any) -> any }?", "Functions that rules may call, too.").or("nil"),
+    NameMember::new(
+        "changes",
+        "{ [string]: (self, ...any) -> any }?",
+        "Functions that only interpretations may call; without a result they give the object.",
+    )
+    .or("nil"),
+    NameMember::new("begin", "((self) -> ())?", "Runs before a chain is interpreted.").or("nil"),
+    NameMember::new("push", "((self) -> ())?", "Runs where a branch opens.").or("nil"),
+    NameMember::new("pop", "((self) -> ())?", "Runs where a branch closes.").or("nil"),
+    NameMember::new("finish", "((self) -> ())?", "Runs after a chain was interpreted.").or("nil"),
+]);
+
+/// What is added to a type of object.
+pub(crate) static EXTEND: Name = Name::new(
+    "extend",
+    NameKind::Global,
+    "(constructor: (...any) -> any, declaration: { ... }) -> ()",
+    "Adds functions to a type of object, for the scripts of this run.",
+)
+.parts(&[
+    NameMember::new("reads", "{ [string]: (self, ...any) -> any }?", "Functions that rules may call, too.")
+        .or("nil"),
+    NameMember::new(
+        "changes",
+        "{ [string]: (self, ...any) -> any }?",
+        "Functions that only interpretations may call.",
+    )
+    .or("nil"),
 ]);
 
 /// What a system has.

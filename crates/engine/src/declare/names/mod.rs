@@ -8,7 +8,7 @@ mod luau;
 mod name;
 mod standard;
 
-pub(crate) use burgeon::{DERIVED, LAYER, LSYSTEM, PARAM, RULE, SOURCE, SYSTEM};
+pub(crate) use burgeon::{DERIVED, EXTEND, LAYER, LSYSTEM, OBJECT, PARAM, RULE, SOURCE, SYSTEM};
 pub(crate) use luau::LOCKED;
 pub use name::{Name, NameKind, NameMember, names};
 pub(crate) use name::{deprecated_names, is_pure_function, is_pure_library};

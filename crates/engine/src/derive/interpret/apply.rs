@@ -317,7 +317,9 @@ impl Applier {
                 }
                 call(object, &values).map(|_| ())
             }
-            _ => Err(Error::internal("this method cannot be recorded")),
+            Some(Call::Read(_) | Call::Script { .. }) | None => {
+                Err(Error::internal("this method cannot be recorded"))
+            }
         }
     }
 

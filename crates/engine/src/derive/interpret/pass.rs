@@ -120,6 +120,8 @@ impl InterpretationPass {
         let (mut entries, mut ids, mut arguments) = (Vec::new(), Vec::new(), Vec::new());
         let mut param = begin.param;
         let mut module = begin.module;
+        let mut chain = begin.chain;
+        let mut is_begin = true;
         while module < end.module {
             entries.clear();
             ids.clear();
@@ -127,7 +129,20 @@ impl InterpretationPass {
             while module < end.module && entries.len() < ENTRIES {
                 let symbol = usize::from(self.chain.symbols[module]);
                 let id = interpretations.by_symbol[symbol];
-                if id != u16::MAX {
+                #[allow(clippy::cast_precision_loss, reason = "there are fewer than 2^53 chains")]
+                let number = chain as f64;
+                if is_begin && interpretations.begin != u16::MAX {
+                    entries.push((module, param));
+                    ids.push(interpretations.begin);
+                    arguments.push(number);
+                }
+                is_begin = symbol == usize::from(END);
+                chain += usize::from(is_begin);
+                if is_begin && id != u16::MAX {
+                    entries.push((module, param));
+                    ids.push(id);
+                    arguments.push(number);
+                } else if id != u16::MAX {
                     entries.push((module, param));
                     ids.push(id);
                     let bound = interpretations.list[usize::from(id)].bound;
@@ -200,10 +215,16 @@ impl InterpretationPass {
         let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
             Ok((called, _)) => called,
             Err(error) => {
-                let (at, _, called): (usize, f64, usize) = prelude.at.call(()).unwrap_or((0, 0.0, 0));
+                let (at, _, called): (usize, f64, usize) =
+                    prelude.at.call(()).unwrap_or((usize::MAX, 0.0, 0));
                 // A machine that cannot even end the batch is thrown away with the run.
                 let _ = prelude.finish.call::<()>(());
-                let error = self.blame(machine, machine.translate(error), entries.get(at).copied());
+                let error = self.blame(
+                    machine,
+                    machine.translate(error),
+                    ids.get(at).copied(),
+                    entries.get(at).copied(),
+                );
                 let Some((module, _)) = entries.get(at).copied().filter(|_| error.is_of_data()) else {
                     return Err(self.find_line(machine, error));
                 };
@@ -307,11 +328,19 @@ impl InterpretationPass {
     }
 
     /// An error with the interpretation rule and the module where it happened.
-    fn blame(&self, machine: &Machine, error: Error, entry: Option<(usize, usize)>) -> Error {
+    fn blame(
+        &self,
+        machine: &Machine,
+        error: Error,
+        id: Option<u16>,
+        entry: Option<(usize, usize)>,
+    ) -> Error {
         let Some((module, param)) = entry else { return error };
         let symbol = self.chain.symbols[module];
-        if symbol <= END {
-            return error;
+        let interpretations = &self.plan.interpretations;
+        if symbol <= END || id == Some(interpretations.begin) {
+            let known = id.and_then(|id| interpretations.list.get(usize::from(id)));
+            return known.map_or(error.clone(), |known| error.at(known.place.clone()).rule(&known.name));
         }
         let error = match self.interpretation_of(symbol) {
             Some((name, place)) => error.at(place.clone()).rule(name),

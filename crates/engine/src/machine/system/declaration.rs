@@ -9,7 +9,7 @@ use crate::machine::handles::methods_key;
 use crate::machine::library::Library;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::Object;
-use burgeon_kit::rules::{FIRST_SYMBOL, Grammar, Rule, Symbol};
+use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Rule, Symbol};
 use mlua::{Function, Table, Value as LuaValue};
 
 /// What a script declared of one system.
@@ -92,6 +92,8 @@ pub(crate) struct Interpretations {
     pub methods: Vec<u16>,
     /// The interpretations by their numbers.
     pub list: Vec<Interpretation>,
+    /// The number of what runs where a chain begins, or `u16::MAX`.
+    pub begin: u16,
 }
 
 /// An interpretation rule, as it is the same in every machine.
@@ -140,8 +142,7 @@ impl SystemDeclaration {
         let (mut by_symbol, mut methods) = (vec![u16::MAX; symbols], vec![u16::MAX; symbols]);
         let mut list = Vec::new();
         if let Some(object) = &self.object {
-            for standard in library.standard.borrow().iter().filter(|known| known.kind == object.kind().name)
-            {
+            for standard in library.standard.borrow().iter().filter(|known| object.kind().is_a(&known.kind)) {
                 methods[usize::from(standard.symbol)] = u16::try_from(standard.method).unwrap_or(u16::MAX);
             }
             for (index, known) in (0u16..).zip(&self.interpretations) {
@@ -156,7 +157,27 @@ impl SystemDeclaration {
                 });
             }
         }
-        Interpretations { by_symbol, methods, list }
+        let mut begin = u16::MAX;
+        if let Some(kind) = self.object.as_ref().map(|object| object.kind())
+            && let Some(script) = &kind.script
+        {
+            let mut add = |what: &str, bound| {
+                let number = u16::try_from(list.len()).unwrap_or(u16::MAX);
+                let (name, place) = (format!("{}: {what}", kind.name), self.place.clone());
+                list.push(Interpretation { bound, name, place, loses: false });
+                number
+            };
+            begin = add("begin", 1);
+            by_symbol[usize::from(END)] = add("finish", 1);
+            for (symbol, what, runs) in
+                [(OPEN, "push", script.branches[0]), (CLOSE, "pop", script.branches[1])]
+            {
+                if runs {
+                    by_symbol[usize::from(symbol)] = add(what, 0);
+                }
+            }
+        }
+        Interpretations { by_symbol, methods, list, begin }
     }
 
     /// Prepares `machine` for deriving this system: drivers and frozen tables.
@@ -186,11 +207,27 @@ impl SystemDeclaration {
             }
             None => LuaValue::Nil,
         };
-        prelude.set_this.call::<()>(this)?;
+        let kind = self.object.as_ref().map(|object| object.kind());
+        let types = machine.library.script_types.borrow();
+        let of = kind.and_then(|kind| types.iter().find(|known| known.kind.name == kind.name));
+        prelude.set_this.call::<()>((this, of.map(|of| of.table.clone())))?;
         prelude.fresh_interpreters.call::<()>(())?;
         if self.object.is_some() {
             for (index, known) in self.interpretations.iter().enumerate() {
                 prelude.interpreter.call::<()>((index, &known.rule, known.bound))?;
+            }
+        }
+        if let Some(of) = of {
+            let hooks: (Function, Function, Function, Function) = prelude.hooks.call(&of.table)?;
+            let mut index = self.interpretations.len();
+            let [opens, closes] = of.declaration.branches;
+            for (hook, bound, runs) in
+                [(hooks.0, 1, true), (hooks.1, 1, true), (hooks.2, 0, opens), (hooks.3, 0, closes)]
+            {
+                if runs {
+                    prelude.interpreter.call::<()>((index, hook, bound))?;
+                    index += 1;
+                }
             }
         }
         Ok(())
@@ -227,6 +264,14 @@ impl SystemDeclaration {
                 name: known.name.clone(),
                 place: known.place.clone(),
             });
+        }
+        let types = machine.library.script_types.borrow();
+        let functions =
+            types.iter().flat_map(|known| known.functions.iter().map(|it| (&*known.kind.name, it)));
+        let extensions = machine.library.extensions.borrow();
+        for (of, known) in functions.chain(extensions.iter().map(|it| ("extend", it))) {
+            let (name, function) = (format!("{of}: {}", known.name), known.function.clone());
+            reached.push(ReachableFunction { function, name, place: None });
         }
         Ok((drivers, guards))
     }

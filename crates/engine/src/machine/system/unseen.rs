@@ -6,7 +6,7 @@
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::machine::Machine;
-use crate::machine::library::Library;
+use crate::machine::library::{Library, StandardInterpretation};
 use crate::results::DerivedSystem;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
@@ -88,11 +88,12 @@ impl SystemDeclaration {
 
     /// What to tell of a module with this symbol in a chain of this system, if nothing draws it or looks at it.
     fn warning_of(&self, library: &Library, symbol: Symbol) -> Option<Warning> {
-        let kind = &self.object.as_ref()?.kind().name;
+        let of = self.object.as_ref()?.kind();
+        let (kind, is_a) = (&of.name, |known: &StandardInterpretation| of.is_a(&known.kind));
         let (symbols, standard) = (library.symbols.borrow(), library.standard.borrow());
         let signature = symbols.signature(symbol);
         if self.interpretations.iter().any(|known| known.symbol == symbol)
-            || standard.iter().any(|known| known.symbol == symbol && known.kind == *kind)
+            || standard.iter().any(|known| known.symbol == symbol && is_a(known))
         {
             return None;
         }
@@ -103,7 +104,7 @@ impl SystemDeclaration {
         let interpret = format!("system:interpret(\"{pattern}\", function(this{comma}{bare}) ... end)");
         let place = library.places.borrow().get(&symbol).cloned();
         let hidden = standard.iter().find(|known| {
-            known.symbol != symbol && known.kind == *kind && symbols.signature(known.symbol).name == *name
+            known.symbol != symbol && is_a(known) && symbols.signature(known.symbol).name == *name
         });
         if let Some(hidden) = hidden {
             let text = format!(
@@ -115,7 +116,7 @@ impl SystemDeclaration {
             return Some(Warning::new(WarningKind::HiddenModule, text).help(help).at(place));
         }
         // Without interpretations only modules of the standard library are drawn, if the object knows any.
-        let draws = !self.interpretations.is_empty() || standard.iter().any(|known| known.kind == *kind);
+        let draws = !self.interpretations.is_empty() || standard.iter().any(is_a);
         let is_used = !draws
             || self.ignored.contains(&symbol)
             || self.considered.as_ref().is_some_and(|considered| considered.contains(&symbol))

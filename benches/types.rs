@@ -1,0 +1,166 @@
+//! What a type of object in Lua costs beside one in Rust: a method that takes a number, by call, and ten thousand objects
+//! on as many features, by run. `cargo bench --bench types`.
+
+#![allow(clippy::print_stdout, reason = "a bench prints its figures")]
+
+use std::path::Path;
+use std::sync::{Arc, LazyLock};
+
+use burgeon::geometry::sphere;
+use burgeon::kit::{Draw, Drawing, Kind, Object, Table, fields, methods};
+use burgeon::scene::Material;
+use burgeon::script::RunOptions;
+use cpu_time::ProcessTime;
+use glam::DVec3;
+
+/// What `pearls { ... }` takes.
+#[fields("pearls", crate = burgeon::kit)]
+pub struct PearlsOptions {
+    /// Radius of a pearl (m).
+    #[default(0.5)]
+    pub radius: f64,
+}
+
+/// Balls on top of one another.
+#[derive(Clone, Draw)]
+#[draw(crate = burgeon::kit)]
+pub struct Pearls {
+    options: PearlsOptions,
+    height: f64,
+    size: f64,
+    drawing: Drawing,
+}
+
+#[methods("pearls", crate = burgeon::kit)]
+impl Pearls {
+    /// Adds a pearl on top.
+    pub fn add(&mut self) -> burgeon::Result<()> {
+        let radius = self.options.radius;
+        let part = self.drawing.material(&Material::default());
+        sphere(self.drawing.part(part), DVec3::Z * (self.height + radius), radius, 12)?;
+        self.height += 2.0 * radius;
+        Ok(())
+    }
+
+    /// Adds to a number that nothing is drawn with.
+    pub fn grow(&mut self, by: f64) {
+        self.size += by;
+    }
+
+    /// How many.
+    pub fn size(&self) -> f64 {
+        self.size
+    }
+}
+
+impl Pearls {
+    fn kind() -> &'static Arc<Kind> {
+        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
+            let make = |table: &Table| {
+                let options = PearlsOptions::from_table(table)?;
+                Ok(Pearls { options, height: 0.0, size: 0.0, drawing: Drawing::default() })
+            };
+            let kind = Kind::new("pearls", "Balls on top of one another.");
+            let kind = kind.made_of(PearlsOptions::fields(), make).methods(Pearls::methods());
+            Arc::new(kind.begins_empty().draws::<Pearls>())
+        });
+        &KIND
+    }
+}
+
+impl Object for Pearls {
+    fn kind(&self) -> &Arc<Kind> {
+        Self::kind()
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(self.clone())
+    }
+
+    fn begin(&mut self) {
+        (self.height, self.size) = (0.0, 0.0);
+        self.drawing.clear();
+    }
+}
+
+const IN_LUA: &str = r#"
+local pearls = object("lua_pearls", {
+  extends = turtle,
+  fields = { radius = 0.5 },
+  state = { high = 0, grown = 0 },
+  changes = {
+    add = function(self)
+      self:jump({ 0, 0, self.high + self.radius }):sphere(self.radius)
+      self.high += 2 * self.radius
+    end,
+    grow = function(self, by) self.grown += by end,
+  },
+})
+"#;
+
+/// A million modules in one chain, each of which is interpreted by this.
+fn calls(interpretation: &str) -> String {
+    format!(
+        r#"
+local A = module("A", "n")
+local s = lsystem({{ object = pearls(), interpret = "last" }})
+s:axiom(A(20))
+s:rule("A(n)", function(this, n) if n > 0 then return A(n - 1), A(n - 1) end end)
+s:interpret("A(n)", function(this, n) {interpretation} end)
+s:derive(20)
+"#
+    )
+}
+
+const FEATURES: &str = r#"
+local A = module("A", "n")
+local s = lsystem({ object = pearls() })
+s:axiom(source("points.geojson"), function(feature) return pearls({ radius = 0.4 }), A(3) end)
+s:rule("A(n)", function(this, n) if n > 1 then return A(1), A(n - 1) end end)
+s:interpret("A(n)", function(this, n) this:add() end)
+s:derive(3)
+"#;
+
+/// CPU time (s) of the fastest of `rounds` runs of `script`.
+fn time(folder: &Path, rounds: usize, script: &str) -> f64 {
+    let path = folder.join("bench.lua");
+    std::fs::write(&path, script).expect("the temporary folder can be written to");
+    let once = || {
+        let mut registry = burgeon::objects::registry();
+        registry.add(Arc::clone(Pearls::kind())).expect("the name is free");
+        let options = RunOptions { threads: Some(1), registry, ..burgeon::options() };
+        let begin = ProcessTime::now();
+        burgeon::run(&path, options).expect("the script runs");
+        begin.elapsed().as_secs_f64()
+    };
+    (0..rounds).map(|_| once()).fold(f64::INFINITY, f64::min)
+}
+
+fn main() {
+    let folder = std::env::temp_dir().join(format!("burgeon bench types {}", std::process::id()));
+    std::fs::create_dir_all(&folder).expect("the temporary folder can be written to");
+    let points = (0..10_000).map(|number| {
+        let (east, north) = (2.0 + f64::from(number % 100) * 1e-4, 48.0 + f64::from(number / 100) * 1e-4);
+        format!(
+            r#"{{"type":"Feature","id":{number},"properties":{{}},"geometry":{{"type":"Point","coordinates":[{east},{north}]}}}}"#
+        )
+    });
+    let points = points.collect::<Vec<_>>().join(",");
+    let points = format!(r#"{{"type":"FeatureCollection","features":[{points}]}}"#);
+    std::fs::write(folder.join("points.geojson"), points).expect("the temporary folder can be written to");
+    let both = |script: &str| [time(&folder, 5, script), time(&folder, 5, &format!("{IN_LUA}{script}"))];
+    let [base, lua_base] = both(&calls(""));
+    let [rust, lua] = both(&calls("this:grow(n):grow(n):grow(n):grow(n)"));
+    let each = |with: f64, without: f64| (with - without) / (4.0 * f64::from(1 << 20)) * 1e9;
+    let (rust, lua) = (each(rust, base), each(lua, lua_base));
+    println!(
+        "a method that takes a number: {rust:.0} ns a call in Rust, {lua:.0} ns in Lua, {:.2} times",
+        lua / rust
+    );
+    let [rust, lua] = both(FEATURES);
+    println!(
+        "10,000 objects on as many features: {rust:.2} s in Rust, {lua:.2} s in Lua, {:.2} times",
+        lua / rust
+    );
+    std::fs::remove_dir_all(&folder).ok();
+}

@@ -1,0 +1,392 @@
+//! `object` and `extend`: types of objects that a script declares, and methods that it adds to others.
+
+use std::sync::Arc;
+
+use mlua::{Function, Table, Value as LuaValue};
+
+use super::Machine;
+use super::convert::{to_lua, to_value};
+use super::handles::{ObjectHandle, methods_key};
+use super::kinds::{constructor, install_methods};
+use crate::declare::names::{EXTEND, OBJECT};
+use burgeon_base::error::{Error, Result, SourcePlace};
+use burgeon_kit::{
+    Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
+};
+
+/// The functions that run around the interpretation of a chain, as a script names them.
+const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
+
+/// A type that the script declared, as its machine knows it.
+pub(crate) struct ScriptTypeEntry {
+    pub kind: Arc<Kind>,
+    /// As the prelude knows it.
+    pub table: Table,
+    pub declaration: ScriptType,
+    pub functions: Vec<ScriptFunction>,
+    pub place: Option<SourcePlace>,
+}
+
+/// A function of a type.
+#[derive(Clone)]
+pub(crate) struct ScriptFunction {
+    pub name: String,
+    pub doc: String,
+    pub function: Function,
+    pub role: Role,
+}
+
+/// What a function of a type is for.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Role {
+    Read,
+    Change,
+    Hook,
+}
+
+impl ScriptTypeEntry {
+    /// Makes the type that `object(name, declared)` declares.
+    fn declare(machine: &Machine, name: &str, declared: &Table) -> Result<Self> {
+        check_name(machine, name)?;
+        refuse_unknown(&format!("object {name}"), declared, &OBJECT.part_names())?;
+        let mut entry = match declared.raw_get::<LuaValue>("extends").map_err(internal)? {
+            LuaValue::Nil => Parts::default(),
+            LuaValue::Function(function) => Parts::of(machine, &function).ok_or_else(|| not_a_type(name))?,
+            _ => return Err(not_a_type(name)),
+        };
+        let what = |part: &str| format!("{part} of object {name}");
+        for (field, value) in named(declared, "fields", &what("fields"))? {
+            let field = ScriptField::declare(name, &field, &to_value(&value, false)?)?;
+            replace(&mut entry.declaration.fields, field, |known| known.name.to_string());
+        }
+        let mut state = ValueTable::clone(&entry.declaration.state);
+        for (key, value) in named(declared, "state", &what("state"))? {
+            state.entries.retain(|(known, _)| !matches!(known, TableKey::Name(known) if **known == *key));
+            entry.declaration.held.retain(|(known, _)| **known != *key);
+            if let LuaValue::UserData(data) = &value
+                && let Ok(object) = data.borrow::<ObjectHandle>()
+            {
+                entry.declaration.held.push((key.as_str().into(), Arc::clone(&object.0)));
+                continue;
+            }
+            let value = to_value(&value, true).map_err(|error| named_part(error, name, &key))?;
+            state.entries.push((TableKey::Name(key.as_str().into()), value));
+        }
+        state.entries.sort_by(|a, b| a.0.cmp(&b.0));
+        for field in &entry.declaration.fields {
+            let held = entry.declaration.held.iter().any(|(held, _)| *held == field.name);
+            if held || state.get(&field.name).is_some() {
+                let text = format!("{} is a field of {name} and a part of its state", field.name);
+                return Err(Error::argument(text).help("give one of them another name"));
+            }
+        }
+        entry.declaration.state = Arc::new(state);
+        entry.add(declared, &what)?;
+        for hook in HOOKS {
+            match declared.raw_get::<LuaValue>(hook).map_err(internal)? {
+                LuaValue::Nil => {}
+                LuaValue::Function(function) => {
+                    let function = ScriptFunction {
+                        name: hook.to_owned(),
+                        doc: String::new(),
+                        function,
+                        role: Role::Hook,
+                    };
+                    replace(&mut entry.functions, function, |known| known.name.clone());
+                }
+                other => return Err(not_a_function(&what(hook), &other)),
+            }
+        }
+        let has = |hook: &str| entry.functions.iter().any(|it| it.role == Role::Hook && it.name == hook);
+        entry.declaration.branches = [has("push"), has("pop")];
+        let doc = match declared.raw_get::<LuaValue>("doc").map_err(internal)? {
+            LuaValue::Nil => String::new(),
+            LuaValue::String(text) => text.to_string_lossy(),
+            other => {
+                return Err(Error::argument(format!(
+                    "doc of object {name} must be a string, not a {}",
+                    other.type_name()
+                )));
+            }
+        };
+        let methods = entry.functions.iter().filter(|it| it.role != Role::Hook).map(ScriptFunction::method);
+        let kind = entry.declaration.clone().kind(name, &doc, methods.collect())?;
+        let table = entry.table(machine, &kind).map_err(|error| machine.translate(error))?;
+        let Parts { declaration, functions } = entry;
+        Ok(Self { kind, table, declaration, functions, place: Machine::place(machine.lua()) })
+    }
+}
+
+/// What a type is put together of.
+#[derive(Default)]
+struct Parts {
+    declaration: ScriptType,
+    functions: Vec<ScriptFunction>,
+}
+
+impl Parts {
+    /// What a type has that extends the one that `constructor` makes; `None` if it is no constructor.
+    fn of(machine: &Machine, constructor: &Function) -> Option<Self> {
+        let kind = machine.library.kind_of(constructor)?;
+        let types = machine.library.script_types.borrow();
+        Some(match types.iter().find(|known| known.kind.name == kind.name) {
+            Some(known) => {
+                Self { declaration: known.declaration.clone(), functions: known.functions.clone() }
+            }
+            None => Self {
+                declaration: ScriptType { base: Some(kind), ..ScriptType::default() },
+                functions: Vec::new(),
+            },
+        })
+    }
+
+    /// Adds the functions that a table declares as `reads` and `changes`.
+    fn add(&mut self, declared: &Table, what: &dyn Fn(&str) -> String) -> Result<()> {
+        for (part, role) in [("reads", Role::Read), ("changes", Role::Change)] {
+            for (name, value) in named(declared, part, &what(part))? {
+                let (function, doc) = match value {
+                    LuaValue::Function(function) => (function, String::new()),
+                    LuaValue::Table(table) => described(&format!("{name} of {}", what(part)), &table)?,
+                    other => return Err(not_a_function(&format!("{name} of {}", what(part)), &other)),
+                };
+                if self
+                    .functions
+                    .iter()
+                    .any(|known| known.name == name && known.role != role && known.role != Role::Hook)
+                {
+                    return Err(Error::argument(format!(
+                        "{name} stands among the reads and the changes of {}",
+                        what("").trim_start_matches(" of ")
+                    ))
+                    .help("a function either reads or changes the object"));
+                }
+                replace(&mut self.functions, ScriptFunction { name, doc, function, role }, |known| {
+                    known.name.clone()
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// The type as the prelude knows it.
+    fn table(&self, machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
+        let lua = machine.lua();
+        let of = lua.create_table()?;
+        of.raw_set("name", &*kind.name)?;
+        let fields = lua.create_table()?;
+        self.declaration.fields.iter().try_for_each(|field| fields.raw_set(&*field.name, true))?;
+        of.raw_set("fields", fields)?;
+        of.raw_set("start", to_lua(lua, &Value::Table(Arc::clone(&self.declaration.state)), false)?)?;
+        let holds = lua.create_table()?;
+        for (name, object) in &self.declaration.held {
+            let held = lua.create_table()?;
+            held.raw_set("name", &**name)?;
+            held.raw_set("kind", &*object.kind().name)?;
+            let methods = lua.create_table()?;
+            for method in &object.kind().methods {
+                let entry = lua.create_table()?;
+                entry.raw_set("name", &*method.name)?;
+                entry.raw_set("changes", method.call.changes())?;
+                methods.push(entry)?;
+            }
+            held.raw_set("methods", methods)?;
+            holds.push(held)?;
+        }
+        of.raw_set("holds", holds)?;
+        of.raw_set("methods", install_methods(machine, kind)?)?;
+        let (reads, changes) = (lua.create_table()?, lua.create_table()?);
+        for known in &self.functions {
+            match known.role {
+                Role::Read => reads.raw_set(known.name.as_str(), &known.function)?,
+                Role::Change => changes.raw_set(known.name.as_str(), &known.function)?,
+                Role::Hook => of.raw_set(known.name.as_str(), &known.function)?,
+            }
+        }
+        of.raw_set("reads", reads)?;
+        of.raw_set("changes", changes)?;
+        machine.prelude().script_type.call(of)
+    }
+}
+
+impl ScriptFunction {
+    /// The method as people are told of it.
+    fn method(&self) -> Method {
+        let count = self.function.info().num_params.saturating_sub(1);
+        let argument = |index| Argument {
+            name: format!("a{}", index + 1).into(),
+            luau: "any".to_owned(),
+            unit: None,
+            fields: Vec::new(),
+        };
+        Method {
+            name: self.name.clone().into(),
+            doc: self.doc.clone().into(),
+            arguments: (0..count).map(argument).collect(),
+            returns: if self.role == Role::Read { "any".to_owned() } else { String::new() },
+            call: Call::Script { changes: self.role == Role::Change },
+        }
+    }
+}
+
+/// `object(name, declared)`: declares a type, and gives its constructor.
+pub(super) fn declare_type(machine: &Machine, name: &LuaValue, declared: &LuaValue) -> Result<Function> {
+    machine.library.at_top_level("object")?;
+    let usage = "write object(\"lantern\", { changes = { lamp = function(self) ... end } })";
+    let LuaValue::String(name) = name else {
+        return Err(Error::argument("object begins with the name of the type").help(usage));
+    };
+    let LuaValue::Table(declared) = declared else {
+        return Err(Error::argument("object takes a table after the name").help(usage));
+    };
+    let entry = ScriptTypeEntry::declare(machine, &name.to_string_lossy(), declared)?;
+    let constructor = constructor(machine, &entry.kind).map_err(|error| machine.translate(error))?;
+    let constructor = constructor.ok_or_else(|| Error::internal("the type has no constructor"))?;
+    machine.library.stateless.borrow_mut().insert(constructor.to_pointer() as usize);
+    machine.library.script_types.borrow_mut().push(entry);
+    Ok(constructor)
+}
+
+/// `extend(constructor, declared)`: adds functions to a type.
+pub(super) fn extend_type(machine: &Machine, constructor: &LuaValue, declared: &LuaValue) -> Result<()> {
+    machine.library.at_top_level("extend")?;
+    let usage = "write extend(footprint, { reads = { ... }, changes = { ... } })";
+    let kind = match constructor {
+        LuaValue::Function(function) => machine.library.kind_of(function),
+        _ => None,
+    };
+    let kind = kind.ok_or_else(|| {
+        Error::argument(format!("extend takes a type of object first, not a {}", constructor.type_name()))
+            .help(usage)
+    })?;
+    let LuaValue::Table(declared) = declared else {
+        return Err(Error::argument("extend takes a table after the type").help(usage));
+    };
+    refuse_unknown("extend", declared, &EXTEND.part_names())?;
+    let mut parts = Parts::default();
+    parts.add(declared, &|part| format!("{part} of extend({})", kind.name))?;
+    let lua = machine.lua();
+    let types = machine.library.script_types.borrow();
+    let of = types.iter().find(|known| known.kind.name == kind.name).map(|known| known.table.clone());
+    let add = || -> mlua::Result<()> {
+        let methods: Table = lua.named_registry_value(&methods_key(&kind.name))?;
+        let (reads, changes) = (lua.create_table()?, lua.create_table()?);
+        for known in &parts.functions {
+            if methods.raw_get::<LuaValue>(known.name.as_str())? != LuaValue::Nil {
+                let text = format!("{} has a method called {} already", kind.name, known.name);
+                return Err(mlua::Error::external(Error::argument(text).help("give this one another name")));
+            }
+            let into = if known.role == Role::Read { &reads } else { &changes };
+            into.raw_set(known.name.as_str(), &known.function)?;
+        }
+        machine.prelude().extension.call((&*kind.name, methods, of, reads, changes))
+    };
+    add().map_err(|error| machine.translate(error))?;
+    machine.library.extensions.borrow_mut().extend(parts.functions);
+    Ok(())
+}
+
+/// Refuses what cannot be the name of a type.
+fn check_name(machine: &Machine, name: &str) -> Result<()> {
+    let is_name = name.starts_with(|c: char| c.is_ascii_lowercase())
+        && name.chars().all(|c| c.is_ascii_lowercase() || c.is_ascii_digit() || c == '_');
+    if !is_name {
+        return Err(Error::argument(format!("{name:?} is no name for a type of object"))
+            .help("write it with small letters, digits and _, such as \"street_lamp\""));
+    }
+    let place = match machine.library.script_types.borrow().iter().find(|known| known.kind.name == name) {
+        Some(known) => {
+            known.place.as_ref().map_or_else(String::new, |place| format!(", declared in {place}"))
+        }
+        None if machine.session.options.registry.get(name).is_some() => {
+            ", which comes with Burgeon".to_owned()
+        }
+        None => return Ok(()),
+    };
+    Err(Error::argument(format!("there is already a type of object called {name}{place}"))
+        .help("give this one another name, or add to that one: extend(constructor, { ... })"))
+}
+
+/// Refuses keys of `table` that are not `known`.
+fn refuse_unknown(what: &str, table: &Table, known: &[&'static str]) -> Result<()> {
+    for pair in table.pairs::<LuaValue, LuaValue>() {
+        let key = pair.map_err(internal)?.0.to_string().unwrap_or_default();
+        if !known.contains(&key.as_str()) {
+            let message = format!("{what} has no part called {key}");
+            return Err(Error::not_found("part", &key, known.iter().copied(), message)
+                .help(format!("it may have {}", known.join(", "))));
+        }
+    }
+    Ok(())
+}
+
+/// The entries of the table `part`, in the order of their names.
+fn named(declared: &Table, part: &str, what: &str) -> Result<Vec<(String, LuaValue)>> {
+    let table = match declared.raw_get::<LuaValue>(part).map_err(internal)? {
+        LuaValue::Nil => return Ok(Vec::new()),
+        LuaValue::Table(table) => table,
+        other => {
+            return Err(Error::argument(format!(
+                "{what} must be a table of names, not a {}",
+                other.type_name()
+            )));
+        }
+    };
+    let mut entries = Vec::new();
+    for pair in table.pairs::<LuaValue, LuaValue>() {
+        match pair.map_err(internal)? {
+            (LuaValue::String(name), value) => entries.push((name.to_string_lossy(), value)),
+            (key, _) => {
+                return Err(Error::argument(format!(
+                    "{what} must be a table of names, but has {} as a key",
+                    key.to_string().unwrap_or_default()
+                ))
+                .help(format!("write {part} = {{ name = ... }}")));
+            }
+        }
+    }
+    entries.sort_by(|a, b| a.0.cmp(&b.0));
+    Ok(entries)
+}
+
+/// The function and the doc of `{ doc = "...", function(self) ... end }`.
+fn described(what: &str, table: &Table) -> Result<(Function, String)> {
+    let doc = match table.raw_get::<LuaValue>("doc").map_err(internal)? {
+        LuaValue::String(doc) => doc.to_string_lossy(),
+        _ => String::new(),
+    };
+    match table.raw_get::<LuaValue>(1).map_err(internal)? {
+        LuaValue::Function(function) => Ok((function, doc)),
+        other => Err(not_a_function(what, &other)),
+    }
+}
+
+/// Puts `item` in the place of the one of the same name.
+fn replace<T>(list: &mut Vec<T>, item: T, name: impl Fn(&T) -> String) {
+    let wanted = name(&item);
+    match list.iter_mut().find(|known| name(known) == wanted) {
+        Some(known) => *known = item,
+        None => list.push(item),
+    }
+}
+
+fn named_part(error: Error, name: &str, part: &str) -> Error {
+    Error::argument(format!("{part} of the state of {name}: {}", error.message()))
+        .help("state is numbers, booleans, strings, tables of these, and objects")
+}
+
+fn not_a_type(name: &str) -> Error {
+    Error::argument(format!("object {name}: extends must be the constructor of a type"))
+        .help("write extends = extruder, without a table after it")
+}
+
+fn not_a_function(what: &str, found: &LuaValue) -> Error {
+    let found = if found.is_number() || found.is_integer() { "number" } else { found.type_name() };
+    Error::argument(format!("{what} must be a function, not a {found}")).help(
+        "write name = function(self, ...) ... end, or name = { doc = \"...\", function(self, ...) ... end }",
+    )
+}
+
+#[allow(clippy::needless_pass_by_value, reason = "it is for map_err")]
+fn internal(error: mlua::Error) -> Error {
+    Error::internal(error.to_string())
+}

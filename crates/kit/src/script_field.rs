@@ -1,0 +1,259 @@
+//! A field of a type of object that a script declares: what its constructor may be given, and what is refused.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use super::{Expectation, Field, Parameter, Table, TableKey, Value};
+use burgeon_base::error::{Error, Result};
+
+/// What a field is declared with.
+const PARTS: [&str; 7] = ["default", "type", "min", "max", "choices", "unit", "doc"];
+
+/// A field of the table that a constructor takes.
+#[derive(Debug, Clone)]
+pub struct ScriptField {
+    /// Its name.
+    pub name: Arc<str>,
+    /// Its value where it is left out; it must be given where there is none.
+    pub default: Option<Value>,
+    sort: ValueSort,
+    min: Option<f64>,
+    max: Option<f64>,
+    choices: Vec<Arc<str>>,
+    unit: Option<Arc<str>>,
+    doc: Arc<str>,
+}
+
+/// What a field's values are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum ValueSort {
+    Number,
+    Boolean,
+    Text,
+    Table,
+    Object,
+    Any,
+}
+
+impl ValueSort {
+    const ALL: [(&str, Self); 6] = [
+        ("number", Self::Number),
+        ("boolean", Self::Boolean),
+        ("string", Self::Text),
+        ("table", Self::Table),
+        ("object", Self::Object),
+        ("any", Self::Any),
+    ];
+
+    fn of(value: &Value) -> Self {
+        match value {
+            Value::Nil => Self::Any,
+            Value::Boolean(_) => Self::Boolean,
+            Value::Number(_) => Self::Number,
+            Value::Text(_) => Self::Text,
+            Value::Table(_) => Self::Table,
+            Value::Object(_) => Self::Object,
+        }
+    }
+
+    fn name(self) -> &'static str {
+        Self::ALL.iter().find(|(_, sort)| *sort == self).map_or("any", |(name, _)| name)
+    }
+
+    fn article(self) -> &'static str {
+        match self {
+            Self::Number => "a finite number",
+            Self::Boolean => "true or false",
+            Self::Text => "a string",
+            Self::Table => "a table",
+            Self::Object => "an object",
+            Self::Any => "a value",
+        }
+    }
+}
+
+impl ScriptField {
+    /// Reads what a script declares of the field `name` of the type `of`: a table, or the default alone.
+    pub fn declare(of: &str, name: &str, declared: &Value) -> Result<Self> {
+        let owner = format!("{of}.{name}");
+        let bare = Table { class: None, entries: vec![(TableKey::Name("default".into()), declared.clone())] };
+        let table = match declared {
+            Value::Table(table) if table.class.is_none() => &**table,
+            _ => &bare,
+        };
+        for (key, _) in &table.entries {
+            let key = match key {
+                TableKey::Name(key) => key.to_string(),
+                TableKey::Index(index) => index.to_string(),
+            };
+            if !PARTS.contains(&key.as_str()) {
+                let message = format!("the field {owner} is declared with {key}, which means nothing");
+                return Err(Error::not_found("field", &key, PARTS, message).help(format!(
+                    "it may have {}; a table as the default is {{ default = {{ ... }} }}",
+                    PARTS.join(", ")
+                )));
+            }
+        }
+        let default = table.get("default").cloned();
+        let sort = match (read::<String>(&owner, table, "type")?, &default) {
+            (None, Some(default)) => ValueSort::of(default),
+            (None, None) => {
+                return Err(Error::argument(format!("the field {owner} has neither a default nor a type"))
+                    .help("write { default = ... }, or { type = \"number\" } where it must be given"));
+            }
+            (Some(name), _) => {
+                let known = ValueSort::ALL.iter().find(|(known, _)| *known == name);
+                known.map(|(_, sort)| *sort).ok_or_else(|| {
+                    let names = ValueSort::ALL.map(|(name, _)| name);
+                    let message = format!("the field {owner} is of type {name}, which there is not");
+                    Error::not_found("type", &name, names, message)
+                        .help(format!("it may be {}", names.join(", ")))
+                })?
+            }
+        };
+        let (min, max) = (read(&owner, table, "min")?, read(&owner, table, "max")?);
+        let choices: Vec<String> = read(&owner, table, "choices")?.unwrap_or_default();
+        if sort != ValueSort::Number && (min.is_some() || max.is_some()) {
+            return Err(Error::argument(format!("the field {owner} is no number, so it has no min or max")));
+        }
+        if sort != ValueSort::Text && table.get("choices").is_some() {
+            return Err(Error::argument(format!("the field {owner} is no string, so it has no choices")));
+        }
+        let text = |part: &str| read::<String>(&owner, table, part);
+        let (unit, doc) = (text("unit")?, text("doc")?.unwrap_or_default());
+        let field = Self {
+            name: name.into(),
+            default: None,
+            sort,
+            min,
+            max,
+            choices: choices.into_iter().map(Into::into).collect(),
+            unit: unit.map(Into::into),
+            doc: doc.into(),
+        };
+        let default = default.map(|default| field.read(of, default)).transpose()?;
+        Ok(Self { default, ..field })
+    }
+
+    /// The value that a constructor of `of` was given, if the field may have it.
+    pub fn read(&self, of: &str, value: Value) -> Result<Value> {
+        match self.expected(&value) {
+            None => Ok(value),
+            Some(what) => Err(Expectation::new(what).refuse(of, &self.name, &value)),
+        }
+    }
+
+    /// What `value` should be, if it may not be what it is.
+    fn expected(&self, value: &Value) -> Option<String> {
+        let fits = match value {
+            Value::Number(number) => number.is_finite(),
+            _ => true,
+        };
+        if !fits || (self.sort != ValueSort::Any && ValueSort::of(value) != self.sort) {
+            return Some(self.sort.article().to_owned());
+        }
+        match value {
+            Value::Number(number) => {
+                let outside =
+                    self.min.is_some_and(|min| *number < min) || self.max.is_some_and(|max| *number > max);
+                let (min, max) = (self.min.map(Value::Number), self.max.map(Value::Number));
+                outside.then(|| match (min, max) {
+                    (Some(min), Some(max)) => format!("from {min} to {max}"),
+                    (Some(min), None) => format!("{min} or more"),
+                    (_, Some(max)) => format!("{max} or less"),
+                    (None, None) => String::new(),
+                })
+            }
+            Value::Text(text) if !self.choices.is_empty() && !self.choices.contains(text) => {
+                let choices: Vec<String> = self.choices.iter().map(|choice| format!("{choice:?}")).collect();
+                Some(format!("one of {}", choices.join(", ")))
+            }
+            _ => None,
+        }
+    }
+
+    /// The field as people are told of it.
+    pub fn describe(&self) -> Field {
+        Field {
+            name: Cow::Owned(self.name.to_string()),
+            doc: Cow::Owned(self.doc.to_string()),
+            luau: if self.choices.is_empty() {
+                self.sort.name().to_owned()
+            } else {
+                let choices: Vec<String> = self.choices.iter().map(|choice| format!("{choice:?}")).collect();
+                choices.join(" | ")
+            },
+            unit: self.unit.as_ref().map(|unit| Cow::Owned(unit.to_string())),
+            fields: Vec::new(),
+            default: self.default.as_ref().map_or_else(String::new, Value::to_string),
+        }
+    }
+}
+
+/// The part of a declaration called `part`.
+fn read<T: Parameter>(owner: &str, table: &Table, part: &str) -> Result<Option<T>> {
+    let Some(value) = table.get(part) else { return Ok(None) };
+    T::from_value(value.clone()).map(Some).map_err(|expected| expected.refuse(owner, part, value))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(entries: &[(&str, Value)]) -> Value {
+        let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
+        Value::Table(Arc::new(Table { class: None, entries: entries.collect() }))
+    }
+
+    #[test]
+    fn a_number_stays_within_its_bounds() {
+        let declared = table(&[
+            ("default", Value::Number(4.0)),
+            ("min", Value::Number(1.0)),
+            ("max", Value::Number(12.0)),
+        ]);
+        let field = ScriptField::declare("lantern", "height", &declared).unwrap();
+        assert_eq!(field.default, Some(Value::Number(4.0)));
+        for (given, refused) in [
+            (Value::Number(1.0), None),
+            (Value::Number(12.0), None),
+            (Value::Number(0.9), Some("lantern: height must be from 1 to 12, not 0.9")),
+            (Value::Number(f64::NAN), Some("lantern: height must be a finite number, not NaN")),
+            (Value::Text("4".into()), Some("lantern: height must be a finite number, not \"4\"")),
+        ] {
+            let read = field.read("lantern", given);
+            assert_eq!(read.err().map(|error| error.message().to_owned()).as_deref(), refused);
+        }
+    }
+
+    #[test]
+    fn a_declaration_that_means_nothing_is_refused() {
+        let number = Value::Number(4.0);
+        for (declared, message) in [
+            (table(&[]), "the field lantern.height has neither a default nor a type"),
+            (
+                table(&[("defualt", number.clone())]),
+                "the field lantern.height is declared with defualt, which means nothing",
+            ),
+            (
+                table(&[("default", number.clone()), ("min", Value::Number(5.0))]),
+                "lantern: height must be 5 or more, not 4",
+            ),
+            (
+                table(&[("type", Value::Text("numbr".into()))]),
+                "the field lantern.height is of type numbr, which there is not",
+            ),
+            (
+                table(&[("default", Value::Boolean(true)), ("min", number.clone())]),
+                "the field lantern.height is no number, so it has no min or max",
+            ),
+            (
+                table(&[("default", number), ("choices", table(&[]))]),
+                "the field lantern.height is no string, so it has no choices",
+            ),
+        ] {
+            let error = ScriptField::declare("lantern", "height", &declared).expect_err(message);
+            assert_eq!(error.message(), message);
+        }
+    }
+}

@@ -1,0 +1,229 @@
+//! An object whose type a script declares: the object that it extends, its fields, and its state between passes.
+
+use std::sync::Arc;
+
+use super::{Draw, Drawing, Kind, LevelOfDetail, Note, Object, Report, ScriptType, Table, Value};
+use burgeon_base::error::{Error, Result};
+use burgeon_base::warning::Warning;
+use burgeon_macros::methods;
+
+/// An object of a type that a script declares.
+///
+/// While a pass runs, its state lives in the virtual machine that interprets its chain; here is what it was after the
+/// last one.
+pub struct ScriptObject {
+    kind: Arc<Kind>,
+    of: Arc<ScriptType>,
+    base: Option<Box<dyn Object>>,
+    fields: Arc<Table>,
+    state: Arc<Table>,
+    held: Vec<Box<dyn Object>>,
+    /// What it has drawn, where it extends nothing that draws.
+    drawing: Drawing,
+    detail: u8,
+    notes: Vec<Note>,
+}
+
+#[methods("object")]
+impl ScriptObject {
+    /// Notes what was done otherwise than asked, for the report of the run, such as "a short arm instead of a long one".
+    pub fn note(&mut self, what: String, why: Option<String>) {
+        self.notes.push(Note::new(what, why.unwrap_or_default()));
+    }
+
+    /// The level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
+    pub fn detail(&self) -> u32 {
+        u32::from(self.detail)
+    }
+}
+
+impl ScriptObject {
+    /// One with these `fields`, and `base` for what it extends, before its first pass.
+    pub(super) fn new(
+        kind: Arc<Kind>,
+        of: Arc<ScriptType>,
+        base: Option<Box<dyn Object>>,
+        fields: Arc<Table>,
+    ) -> Self {
+        let held = of.held.iter().map(|(_, object)| object.boxed()).collect();
+        let state = Arc::clone(&of.state);
+        Self {
+            kind,
+            of,
+            base,
+            fields,
+            state,
+            held,
+            drawing: Drawing::default(),
+            detail: 3,
+            notes: Vec::new(),
+        }
+    }
+
+    /// The values of the fields that its own type declares.
+    pub fn fields(&self) -> &Arc<Table> {
+        &self.fields
+    }
+
+    /// Its state after the last pass.
+    pub fn state(&self) -> &Arc<Table> {
+        &self.state
+    }
+
+    /// Keeps the state that a pass has left.
+    pub fn set_state(&mut self, state: Arc<Table>) {
+        self.state = state;
+    }
+
+    /// The objects in its state: their names, and what they are at first.
+    pub fn held_names(&self) -> &[(Arc<str>, Arc<dyn Object>)] {
+        &self.of.held
+    }
+
+    /// The field or the part of its state called `name`.
+    pub fn member(&self, name: &str) -> Option<Value> {
+        let held = || {
+            let index = self.of.held.iter().position(|(known, _)| **known == *name)?;
+            Some(Value::Object(Arc::from(self.held[index].boxed())))
+        };
+        self.fields.get(name).or_else(|| self.state.get(name)).cloned().or_else(held)
+    }
+
+    /// The object number `index` in its state, to be asked.
+    pub fn held(&self, index: usize) -> Result<&dyn Object> {
+        self.held.get(index).map(|object| &**object).ok_or_else(none_held)
+    }
+
+    /// Does something with the object number `index` in its state, which draws into this object's drawing.
+    pub fn with_held<T>(
+        &mut self,
+        index: usize,
+        act: impl FnOnce(&mut dyn Object) -> Result<T>,
+    ) -> Result<T> {
+        let Self { base, held, drawing, .. } = self;
+        let shared = base.as_deref_mut().and_then(|base| base.drawing_mut()).unwrap_or(drawing);
+        let object = &mut **held.get_mut(index).ok_or_else(none_held)?;
+        swap(object, shared);
+        let done = act(object);
+        swap(object, shared);
+        done
+    }
+
+    fn each_held(&mut self, mut act: impl FnMut(&mut dyn Object) -> Result<()>) -> Result<()> {
+        (0..self.held.len()).try_for_each(|index| self.with_held(index, &mut act))
+    }
+}
+
+fn swap(object: &mut dyn Object, shared: &mut Drawing) {
+    if let Some(own) = object.drawing_mut() {
+        std::mem::swap(own, shared);
+    }
+}
+
+fn none_held() -> Error {
+    Error::internal("the object holds no such object")
+}
+
+impl Object for ScriptObject {
+    fn kind(&self) -> &Arc<Kind> {
+        &self.kind
+    }
+
+    fn boxed(&self) -> Box<dyn Object> {
+        Box::new(Self {
+            kind: Arc::clone(&self.kind),
+            of: Arc::clone(&self.of),
+            base: self.base.as_ref().map(|base| base.boxed()),
+            fields: Arc::clone(&self.fields),
+            state: Arc::clone(&self.state),
+            held: self.held.iter().map(|object| object.boxed()).collect(),
+            drawing: self.drawing.clone(),
+            detail: self.detail,
+            notes: self.notes.clone(),
+        })
+    }
+
+    fn begin(&mut self) {
+        self.notes.clear();
+        self.drawing.clear();
+        if let Some(base) = &mut self.base {
+            base.begin();
+        }
+        // Beginning refuses nothing.
+        let _: Result<()> = self.each_held(|object| {
+            object.begin();
+            Ok(())
+        });
+    }
+
+    fn push(&mut self) {
+        if let Some(base) = &mut self.base {
+            base.push();
+        }
+        let _: Result<()> = self.each_held(|object| {
+            object.push();
+            Ok(())
+        });
+    }
+
+    fn pop(&mut self) -> Result<()> {
+        self.each_held(|object| object.pop())?;
+        self.base.as_mut().map_or(Ok(()), |base| base.pop())
+    }
+
+    fn end(&mut self) -> Result<()> {
+        self.each_held(|object| object.end())?;
+        if let Some(base) = &mut self.base {
+            base.end()?;
+            self.notes.extend_from_slice(base.notes());
+        }
+        Ok(())
+    }
+
+    fn seed(&mut self, seed: u64) {
+        if let Some(base) = &mut self.base {
+            base.seed(seed);
+        }
+        self.held.iter_mut().for_each(|object| object.seed(seed));
+    }
+
+    fn take_warnings(&mut self) -> Vec<Warning> {
+        let base = self.base.as_mut().map(|base| base.take_warnings());
+        let held = self.held.iter_mut().flat_map(|object| object.take_warnings());
+        base.into_iter().flatten().chain(held).collect()
+    }
+
+    fn base(&self) -> Option<&dyn Object> {
+        self.base.as_deref()
+    }
+
+    fn base_mut(&mut self) -> Option<&mut dyn Object> {
+        self.base.as_deref_mut()
+    }
+}
+
+impl Draw for ScriptObject {
+    fn drawing(&self) -> &Drawing {
+        &self.drawing
+    }
+
+    fn drawing_mut(&mut self) -> &mut Drawing {
+        &mut self.drawing
+    }
+}
+
+impl LevelOfDetail for ScriptObject {
+    fn set_detail(&mut self, detail: u8) {
+        self.detail = detail;
+        if let Some(base) = &mut self.base {
+            base.set_detail(detail);
+        }
+        self.held.iter_mut().for_each(|object| object.set_detail(detail));
+    }
+}
+
+impl Report for ScriptObject {
+    fn notes(&self) -> &[Note] {
+        &self.notes
+    }
+}

@@ -1,0 +1,262 @@
+//! Types of objects that scripts declare: what is wrong with them, or with what they do.
+
+use insta::assert_snapshot;
+
+use crate::support::refused;
+
+#[test]
+fn a_declaration_that_means_nothing_is_refused() {
+    assert_snapshot!(refused("object(\"lamp\", { chnages = {} })"), @r#"
+    error: s.lua:1: object lamp has no part called chnages
+      | object("lamp", { chnages = {} })
+      help: did you mean changes?
+    "#);
+    assert_snapshot!(refused("object(\"Street lamp\", {})"), @r#"
+    error: s.lua:1: "Street lamp" is no name for a type of object
+      | object("Street lamp", {})
+      help: write it with small letters, digits and _, such as "street_lamp"
+    "#);
+    assert_snapshot!(refused("object({})"), @r#"
+    error: s.lua:1: object begins with the name of the type
+      | object({})
+      help: write object("lantern", { changes = { lamp = function(self) ... end } })
+    "#);
+    assert_snapshot!(refused("object(\"lamp\")"), @r#"
+    error: s.lua:1: object takes a table after the name
+      | object("lamp")
+      help: write object("lantern", { changes = { lamp = function(self) ... end } })
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { extends = extruder() })"), @r#"
+    error: s.lua:1: object lamp: extends must be the constructor of a type
+      | object("lamp", { extends = extruder() })
+      help: write extends = extruder, without a table after it
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { extends = elevation })"), @r#"
+    error: s.lua:1: elevation is not made of fields, so lamp cannot extend it
+      | object("lamp", { extends = elevation })
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { changes = { go = 3 } })"), @r#"
+    error: s.lua:1: go of changes of object lamp must be a function, not a number
+      | object("lamp", { changes = { go = 3 } })
+      help: write name = function(self, ...) ... end, or name = { doc = "...", function(self, ...) ... end }
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { fields = { height = { defualt = 3 } } })"), @r#"
+    error: s.lua:1: the field lamp.height is declared with defualt, which means nothing
+      | object("lamp", { fields = { height = { defualt = 3 } } })
+      help: did you mean default?
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { fields = { height = { default = 3, min = 4 } } })"), @r#"
+    error: s.lua:1: lamp: height must be 4 or more, not 3
+      | object("lamp", { fields = { height = { default = 3, min = 4 } } })
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { fields = { height = { doc = \"How high.\" } } })"), @r#"
+    error: s.lua:1: the field lamp.height has neither a default nor a type
+      | object("lamp", { fields = { height = { doc = "How high." } } })
+      help: write { default = ... }, or { type = "number" } where it must be given
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { state = { rail = footprint } })"), @r#"
+    error: s.lua:1: rail of the state of lamp: a function cannot be passed on
+      | object("lamp", { state = { rail = footprint } })
+      help: state is numbers, booleans, strings, tables of these, and objects
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { state = { [1] = 3 } })"), @r#"
+    error: s.lua:1: state of object lamp must be a table of names, but has 1 as a key
+      | object("lamp", { state = { [1] = 3 } })
+      help: write state = { name = ... }
+    "#);
+}
+
+#[test]
+fn a_name_stands_for_one_thing() {
+    assert_snapshot!(refused("object(\"turtle\", {})"), @r#"
+    error: s.lua:1: there is already a type of object called turtle, which comes with Burgeon
+      | object("turtle", {})
+      help: give this one another name, or add to that one: extend(constructor, { ... })
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", {})\nobject(\"lamp\", {})"), @r#"
+    error: s.lua:2: there is already a type of object called lamp, declared in s.lua:1
+      | object("lamp", {})
+      help: give this one another name, or add to that one: extend(constructor, { ... })
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { extends = extruder, changes = { extrude = function(self) end } })"), @r#"
+    error: s.lua:1: extruder has a method called extrude already
+      | object("lamp", { extends = extruder, changes = { extrude = function(self) end } })
+      help: give that of lamp another name
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { fields = { height = 3 }, reads = { height = function(self) return 3 end } })"), @r#"
+    error: s.lua:1: lamp has a field and a method called height
+      | object("lamp", { fields = { height = 3 }, reads = { height = function(self) return 3 end } })
+      help: give one of them another name
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { fields = { height = 3 }, state = { height = 3 } })"), @r#"
+    error: s.lua:1: height is a field of lamp and a part of its state
+      | object("lamp", { fields = { height = 3 }, state = { height = 3 } })
+      help: give one of them another name
+    "#);
+    assert_snapshot!(refused("object(\"lamp\", { reads = { high = function(self) end }, changes = { high = function(self) end } })"), @r#"
+    error: s.lua:1: high stands among the reads and the changes of object lamp
+      | object("lamp", { reads = { high = function(self) end }, changes = { high = function(self) end } })
+      help: a function either reads or changes the object
+    "#);
+    assert_snapshot!(refused("extend(extruder, { changes = { extrude = function(self) end } })"), @r"
+    error: s.lua:1: extruder has a method called extrude already
+      | extend(extruder, { changes = { extrude = function(self) end } })
+      help: give this one another name
+    ");
+    assert_snapshot!(refused("extend(extrude, { changes = {} })"), @r"
+    error: s.lua:1: unknown name extrude
+      | extend(extrude, { changes = {} })
+      help: did you mean extruded?
+    ");
+}
+
+#[test]
+fn a_constructor_takes_what_was_declared() {
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { extends = extruder, fields = { height = { default = 3, max = 9 } } })\nlamp({ height = 10 })"), @r"
+    error: s.lua:2: lamp: height must be 9 or less, not 10
+      | lamp({ height = 10 })
+    ");
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { extends = extruder, fields = { height = { default = 3, max = 9 } } })\nlamp({ hieght = 1 })"), @r"
+    error: s.lua:2: lamp has no field called hieght
+      | lamp({ hieght = 1 })
+      help: did you mean height?
+    ");
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { extends = extruder, fields = { height = { default = 3, max = 9 } } })\nlamp({ sides = \"many\" })"), @r#"
+    error: s.lua:2: extruder: sides must be a whole number from 0, not "many"
+      | lamp({ sides = "many" })
+    "#);
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { fields = { height = { type = \"number\" } } })\nlamp()"), @r"
+    error: s.lua:2: lamp: height must be given
+      | lamp()
+      help: write lamp { height = ... }
+    ");
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { fields = { kind = { default = \"gas\", choices = { \"gas\", \"arc\" } } } })\nlamp({ kind = \"oil\" })"), @r#"
+    error: s.lua:2: lamp: kind must be one of "gas", "arc", not "oil"
+      | lamp({ kind = "oil" })
+    "#);
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { fields = { kind = 3 } })\nlocal one = lamp()\none.kind = 4"), @r"
+    error: s.lua:3: kind of a lamp cannot be assigned
+      | one.kind = 4
+      help: its fields are given when it is made: lamp { kind = ... }
+    ");
+}
+
+#[test]
+fn a_rule_reads_only() {
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:rule(\"A\", function(this)\n    this:go(1)\n  end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", { changes = { go = function(self, n) end } }))\n"), @r"
+    error: s.lua:7: rule A: lamp:go changes the object, so a rule cannot call it
+      | this:go(1)
+      module: A, step 1
+      help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:rule(\"A\", function(this)\n    if this:count() > 0 then return A(), A() end\n  end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { n = 0 },\n  reads = { count = function(self)\n    self.n += 1\n    return self.n\n  end },\n  changes = { go = function(self, n) end },\n}))\n"), @r"
+    error: s.lua:14: rule A: lamp: a function that reads assigns n
+      | self.n += 1
+      module: A, step 1
+      help: put it among the changes of the type, which interpretations may call
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:rule(\"A\", function(this)\n    if this:count() > 0 then return A(), A() end\n  end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  extends = extruder,\n  reads = { count = function(self)\n    self:extrude(1)\n    return 1\n  end },\n  changes = { go = function(self, n) end },\n}))\n"), @r"
+    error: s.lua:14: rule A: lamp:extrude changes the object, and a function that reads does not
+      | self:extrude(1)
+      module: A, step 1
+      help: put it among the changes of the type
+    ");
+    assert_snapshot!(refused("extend(extruder, { changes = { up = function(self, n) self:extrude(n) end } })\nlocal A = module(\"A\")\nlocal s = lsystem({ object = extruder() })\ns:axiom(A())\ns:rule(\"A\", function(this)\n  this:up(1)\n  return A()\nend)\ns:derive(1)\n"), @r"
+    error: s.lua:6: rule A: extruder:up changes the object, so a rule cannot call it
+      | this:up(1)
+      module: A, step 1
+      help: use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)
+    ");
+}
+
+#[test]
+fn a_function_of_a_type_assigns_only_its_state() {
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    self.nothing = n\n  end },\n}))\n"), @r"
+    error: s.lua:10: rule A (interpretation): lamp has no state called nothing
+      | self.nothing = n
+      module: A, step 0
+      help: declare it: state = { nothing = ... }
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  fields = { height = 3 },\n  changes = { go = function(self, n)\n    self.height = n\n  end },\n}))\n"), @r"
+    error: s.lua:11: rule A (interpretation): height is a field of lamp, which is given when one is made
+      | self.height = n
+      module: A, step 0
+      help: keep what changes in its state
+    ");
+    assert_snapshot!(refused("local kept\nlocal A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    kept = self\n  end },\n}))\n"), @r"
+    error: s.lua:11: rule A (interpretation): an interpretation rule assigns kept, a variable from outside it
+      | kept = self
+      module: A, step 0
+      help: a rule writes only its own locals; carry it in a parameter of a module
+    ");
+    assert_snapshot!(refused("local kept = {}\nlocal A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    kept[1] = self\n  end },\n}))\n"), @r"
+    error: s.lua:11: rule A (interpretation): attempt to modify a readonly table
+      | kept[1] = self
+      module: A, step 0
+      help: the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { n = 0 },\n  changes = { go = function(self, n)\n    self.n = function() end\n  end },\n}))\n"), @r"
+    error: s.lua:6: rule lamp: finish: n of the state cannot be kept: a function cannot be passed on
+      | s:derive(1)
+      help: state is numbers, booleans, strings, tables of these, and objects
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { n = 0 },\n  changes = { go = function(self, n)\n    self.n = self\n  end },\n}))\n"), @r"
+    error: s.lua:6: rule lamp: finish: n of the state cannot be kept: a table is nested more than 64 deep, or contains itself
+      | s:derive(1)
+      help: state is numbers, booleans, strings, tables of these, and objects
+    ");
+}
+
+#[test]
+fn what_a_function_of_a_type_does_wrong_is_told_in_its_line() {
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    error(\"out of oil\")\n  end },\n}))\n"), @r#"
+    error: s.lua:10: rule A (interpretation): out of oil
+      | error("out of oil")
+      module: A, step 0
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    coroutine.yield()\n  end },\n}))\n"), @r"
+    error: s.lua:10: rule A (interpretation): attempt to yield across metamethod/C-call boundary
+      | coroutine.yield()
+      module: A, step 0
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self)\n  end },\n}))\n"), @r#"
+    error: s.lua:5: rule A (interpretation): lamp:go takes no arguments
+      | s:interpret("A", function(this) this:go(2) end)
+      module: A, step 0
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { goo = function(self)\n  end },\n}))\n"), @r#"
+    error: s.lua:5: rule A (interpretation): lamp has no method or field called go
+      | s:interpret("A", function(this) this:go(2) end)
+      module: A, step 0
+      help: did you mean goo?
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  extends = extruder,\n  changes = { go = function(self, n)\n    self:scale(\"big\")\n  end },\n}))\n"), @r#"
+    error: s.lua:11: rule A (interpretation): lamp:scale: argument 1 must be a number, not the string "big"
+      | self:scale("big")
+      module: A, step 0
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  extends = extruder,\n  changes = { go = function(self, n)\n    self:scale(1 / 0):extrude(n)\n  end },\n}))\n"), @r"
+    error: s.lua:11: rule A (interpretation): extruder:scale: scale must be a finite number, not infinity
+      | self:scale(1 / 0):extrude(n)
+      module: A, step 0
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { rail = extruder() },\n  changes = { go = function(self, n)\n    self.rail:scale(1 / 0)\n  end },\n}))\n"), @r"
+    error: s.lua:11: rule A (interpretation): extruder:scale: scale must be a finite number, not infinity
+      | self.rail:scale(1 / 0)
+      module: A, step 0
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { rail = extruder() },\n  changes = { go = function(self, n)\n    self.rail:extrud(1)\n  end },\n}))\n"), @r"
+    error: s.lua:11: rule A (interpretation): extruder has no method or field called extrud
+      | self.rail:extrud(1)
+      module: A, step 0
+      help: did you mean extrude?
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  begin = function(self)\n    error(\"no oil\")\n  end,\n  changes = { go = function(self, n) end },\n}))\n"), @r#"
+    error: s.lua:10: rule lamp: begin: no oil
+      | error("no oil")
+    "#);
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { a = 1 },\n  finish = function(self)\n    self.a = nil + 1\n  end,\n  changes = { go = function(self, n) end },\n}))\n"), @r"
+    error: s.lua:11: rule lamp: finish: attempt to perform arithmetic (add) on nil and number
+      | self.a = nil + 1
+    ");
+}
