@@ -473,3 +473,39 @@ fn scripts_ask_what_there_is() {
       help: write api.has("extruder.bend")
     "#);
 }
+
+#[test]
+fn what_a_package_gives_is_changed_by_nobody() {
+    for (assignment, key) in [("towers.height = 3", "height"), ("towers.parts.x = 3", "x")] {
+        let script = format!("local towers = require(\"@castle/towers\")\n{assignment}\n");
+        let folder = castle("")
+            .with("mods/castle/towers.lua", "return { height = 12, parts = { x = 1 } }\n")
+            .with("s.lua", script);
+        let text = refused(&folder);
+        assert!(text.starts_with("error: s.lua:2: attempt to modify a readonly table"), "{key}: {text}");
+    }
+}
+
+#[test]
+fn a_package_brings_a_type_of_object_which_another_extends() {
+    let folder = castle("")
+        .with(
+            "mods/castle/towers.lua",
+            "return object(\"tower\", { extends = extruder, state = { n = 0 }, reads = { count = function(self) return self.n end },\n\
+             changes = { raise = function(self, h) self.n += 1 self:extrude(h) end } })\n",
+        )
+        .with(
+            "s.lua",
+            "local tower = require(\"@castle/towers\")\n\
+             local keep = object(\"keep\", { extends = tower, changes = { raise = function(self, h) self.n += 2 self:extrude(2 * h) end } })\n\
+             local A = module(\"A\")\n\
+             local function count(constructor)\n\
+             local s = lsystem({ object = constructor() })\n\
+             s:axiom(A(), A())\n\
+             s:interpret(\"A\", function(this) this:raise(3) end)\n\
+             return s:derive(0).objects[1]:count()\n\
+             end\n\
+             print(count(tower), count(keep))\n",
+        );
+    assert_eq!(prints(&folder, &[]), "2\t4\n");
+}
