@@ -1,6 +1,6 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Construct, Field, Kind, Method, Registry};
+use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry};
 use burgeon::language::{CallForm, Name, NameKind, module_form};
 use serde_json::{Value, json};
 
@@ -76,8 +76,12 @@ impl Entry {
             (Construct::Given, _) => String::new(),
         };
         let fields = kind.fields.iter().map(Member::of_field);
-        let members = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
-        let (name, doc) = (kind.name.to_string(), kind.doc.to_string());
+        let mut members: Vec<Member> = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
+        for member in &mut members {
+            member.doc += &deprecation(kind.deprecation(&member.name));
+        }
+        let (name, doc) =
+            (kind.name.to_string(), format!("{}{}", kind.doc, deprecation(kind.deprecation(""))));
         Self {
             name,
             group: EntryGroup::Type,
@@ -109,6 +113,7 @@ impl Entry {
             "" => written(&name.name, &forms),
             luau => format!("{}: {luau}", name.name),
         };
+        doc += &deprecation(name.deprecated.as_ref());
         let fields = name.options().chain(&name.fields).map(Member::of_field);
         let what = if group == EntryGroup::Given { MemberKind::Declares } else { MemberKind::Function };
         let functions = name.functions.iter().map(|function| Member::of_function(function, what));
@@ -138,6 +143,11 @@ impl Entry {
             "fields": fields, "methods": methods, "example": self.example,
         })
     }
+}
+
+/// What is told of a name that will go, behind what it does.
+fn deprecation(found: Option<&Deprecation>) -> String {
+    found.map_or_else(String::new, |it| format!(" Deprecated since {}: use {}.", it.since, it.instead))
 }
 
 impl Member {

@@ -55,9 +55,10 @@ impl ScriptTypeEntry {
             _ => return Err(not_a_type(name)),
         };
         let what = |part: &str| format!("{part} of object {name}");
+        let inherited = entry.declaration.fields.len();
         for (field, value) in named(declared, "fields", &what("fields"))? {
             let field = ScriptField::declare(name, &field, &to_value(&value, false)?)?;
-            replace(&mut entry.declaration.fields, field, |known| known.name.to_string());
+            replace(&mut entry.declaration.fields, inherited, field, |a, b| a.name == b.name);
         }
         let mut state = ValueTable::clone(&entry.declaration.state);
         for (key, value) in named(declared, "state", &what("state"))? {
@@ -81,6 +82,7 @@ impl ScriptTypeEntry {
             }
         }
         entry.declaration.state = Arc::new(state);
+        let functions = entry.functions.len();
         entry.add(declared, &what)?;
         for hook in HOOKS {
             match declared.raw_get::<LuaValue>(hook).map_err(internal)? {
@@ -92,7 +94,7 @@ impl ScriptTypeEntry {
                         function,
                         role: Role::Hook,
                     };
-                    replace(&mut entry.functions, function, |known| known.name.clone());
+                    replace(&mut entry.functions, functions, function, ScriptFunction::is_same);
                 }
                 other => return Err(not_a_function(&what(hook), &other)),
             }
@@ -142,6 +144,7 @@ impl Parts {
 
     /// Adds the functions that a table declares as `reads` and `changes`.
     fn add(&mut self, declared: &Table, what: &dyn Fn(&str) -> String) -> Result<()> {
+        let inherited = self.functions.len();
         for (part, role) in [("reads", Role::Read), ("changes", Role::Change)] {
             for (name, value) in named(declared, part, &what(part))? {
                 let (function, doc) = match value {
@@ -160,9 +163,8 @@ impl Parts {
                     ))
                     .help("a function either reads or changes the object"));
                 }
-                replace(&mut self.functions, ScriptFunction { name, doc, function, role }, |known| {
-                    known.name.clone()
-                });
+                let function = ScriptFunction { name, doc, function, role };
+                replace(&mut self.functions, inherited, function, ScriptFunction::is_same);
             }
         }
         Ok(())
@@ -209,6 +211,11 @@ impl Parts {
 }
 
 impl ScriptFunction {
+    /// Whether it stands for the same method or the same hook as `other`.
+    fn is_same(&self, other: &Self) -> bool {
+        self.name == other.name && (self.role == Role::Hook) == (other.role == Role::Hook)
+    }
+
     /// The method as people are told of it.
     fn method(&self) -> Method {
         let count = self.function.info().num_params.saturating_sub(1);
@@ -363,10 +370,9 @@ fn described(what: &str, table: &Table) -> Result<(Function, String)> {
     }
 }
 
-/// Puts `item` in the place of the one of the same name.
-fn replace<T>(list: &mut Vec<T>, item: T, name: impl Fn(&T) -> String) {
-    let wanted = name(&item);
-    match list.iter_mut().find(|known| name(known) == wanted) {
+/// Puts `item` in the place of the one that is the same among the first `inherited`.
+fn replace<T>(list: &mut Vec<T>, inherited: usize, item: T, same: impl Fn(&T, &T) -> bool) {
+    match list[..inherited].iter_mut().find(|known| same(known, &item)) {
         Some(known) => *known = item,
         None => list.push(item),
     }
