@@ -52,7 +52,9 @@ fn body(text: &mut String, entry: &Entry, level: usize) {
     }
     let _ = writeln!(text, "{}", plain(&entry.doc));
     if !entry.example.is_empty() {
-        let _ = writeln!(text, "\n```lua\n{}\n```", entry.example.trim_end());
+        // What needs a file runs only beside one.
+        let language = if entry.usage.contains("(file") { "text" } else { "lua" };
+        let _ = writeln!(text, "\n```{language}\n{}\n```", entry.example.trim_end());
     }
     let heading = "#".repeat(level);
     for (what, title) in [
