@@ -14,6 +14,7 @@ mod fitting;
 mod footprints;
 mod foreign;
 mod limits;
+mod mods;
 mod neighbors;
 mod outputs;
 mod packages;

@@ -352,3 +352,56 @@ fn a_type_of_object_in_a_file_of_its_own_is_changed_while_the_page_looks_on() {
     server.write("post.lua", post(3, ""));
     assert_eq!(page.next("model")["url"], second["url"]);
 }
+
+#[test]
+fn files_of_packages_are_followed_and_one_that_goes_leaves_the_last_model_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    let about = "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n";
+    write("given/castle/mod.toml", about);
+    write("given/castle/size.lua", "return 3");
+    write(
+        "s.lua",
+        "local size = require(\"@castle/size\")\nlocal A = module(\"A\")\n\
+         local s = lsystem({ object = extruder({ sides = 4, smooth = false }) })\ns:axiom(A())\n\
+         s:interpret(\"A\", function(this) for _ = 1, size do this:extrude(1):advance(1) end end)\ns:derive()\n",
+    );
+    let server = Server::start(folder, &["--mods", "given"]);
+    let mut page = server.page();
+    let first = page.next("model");
+    server.write("given/castle/size.lua", "return 5");
+    let model = page.next("model");
+    assert!(model["triangles"].as_u64() > first["triangles"].as_u64());
+    fs::remove_file(server.path("given/castle/size.lua")).unwrap();
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("the package castle has no file size.lua"), "{error}");
+    // Whoever comes now sees the last good model, and why there is no newer one.
+    let mut second = server.page();
+    assert_eq!(second.next("model")["url"], model["url"]);
+    second.next("error");
+    server.write("given/castle/size.lua", "return 4");
+    page.next("model");
+    server.write("given/castle/mod.toml", about.replace("castle", "Castle"));
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("cannot be the name of a package"), "{error}");
+    server.write("given/castle/mod.toml", about);
+    page.next("model");
+}
+
+#[test]
+fn a_package_that_is_missing_is_waited_for() {
+    let server = Server::new(Some(&script(3).replacen("local", "require(\"@castle/size\")\nlocal", 1)));
+    let mut page = server.page();
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("there is no package castle"), "{error}");
+    let staged = server.path("mods.new/castle");
+    fs::create_dir_all(&staged).unwrap();
+    fs::write(staged.join("mod.toml"), "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n").unwrap();
+    fs::write(staged.join("size.lua"), "return 3").unwrap();
+    fs::rename(server.path("mods.new"), server.path("mods")).unwrap();
+    page.next("model");
+}

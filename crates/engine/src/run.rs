@@ -284,7 +284,7 @@ fn find_textures(scene: &mut Scene, session: &Session) -> Result<()> {
     for texture in textures.filter(|texture| texture.content.is_none()) {
         let shown = texture.path.display().to_string();
         if let Some(found) = session.package_file("texture", &shown, None) {
-            texture.path = readable(found?, &shown)?;
+            texture.path = readable(found?.path, &shown)?;
             continue;
         }
         let path = session.root().join(&texture.path);

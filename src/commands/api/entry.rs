@@ -1,6 +1,6 @@
 //! What there is to tell of a name that scripts can use.
 
-use burgeon::kit::{Construct, Field, Kind, Method, Registry};
+use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry};
 use burgeon::script::{Name, NameKind, NameMember};
 use serde_json::{Value, json};
 
@@ -78,8 +78,12 @@ impl Entry {
             (Construct::Given, _) => String::new(),
         };
         let fields = kind.fields.iter().map(Member::of_field);
-        let members = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
-        let (name, doc) = (kind.name.to_string(), kind.doc.to_string());
+        let mut members: Vec<Member> = fields.chain(kind.methods.iter().map(Member::of_method)).collect();
+        for member in &mut members {
+            member.doc += &deprecation(kind.deprecation(&member.name));
+        }
+        let (name, doc) =
+            (kind.name.to_string(), format!("{}{}", kind.doc, deprecation(kind.deprecation(""))));
         Self { name, group: EntryGroup::Type, usage, doc, members, example: kind.example.to_string() }
     }
 
@@ -102,6 +106,7 @@ impl Entry {
         {
             doc = format!("{} {doc}", method.doc);
         }
+        doc += &deprecation(name.deprecated.as_ref());
         let members = name.parts.iter().map(Member::of_part).collect();
         Self { name: name.name.to_string(), group, usage, doc, members, example: String::new() }
     }
@@ -128,6 +133,11 @@ impl Entry {
             "fields": fields, "methods": methods, "example": self.example,
         })
     }
+}
+
+/// What is told of a name that will go, behind what it does.
+fn deprecation(found: Option<&Deprecation>) -> String {
+    found.map_or_else(String::new, |it| format!(" Deprecated since {}: use {}.", it.since, it.instead))
 }
 
 impl Member {
