@@ -20,7 +20,7 @@ use glam::{DVec2, Vec3};
 #[path = "../crates/geometry/src/skeleton/samples.rs"]
 mod samples;
 
-use samples::{FAMILIES, Family, Random};
+use samples::{FAMILIES, Family, Random, still};
 
 fn main() {
     // Cargo adds `--bench`.
@@ -86,8 +86,8 @@ fn each(plans: &[Polygon]) {
 /// What is wrong with the skeletons and hip roofs of so many plans of a family: as they are, 1 m and 1 km wide, and far
 /// from the origin.
 fn regular(family: &Family, count: usize) {
-    let mut random = Random(1);
-    let (mut failed, mut open, mut times) = ([0; 4], 0, Vec::new());
+    let (mut random, mut chance) = (Random(1), Random(3));
+    let (mut failed, mut open, mut stuck, mut times) = ([0; 4], 0, 0, Vec::new());
     for _ in 0..count {
         let rings = (family.make)(&mut random);
         let size = rings.iter().flatten().map(|at| at.abs().max_element()).fold(0.0, f64::max);
@@ -104,13 +104,17 @@ fn regular(family: &Family, count: usize) {
             if variant == 0 {
                 times.push(begin.elapsed().as_secs_f64() * 1e6);
                 open += usize::from(!is_closed(&rings));
+                let paces = still(&mut chance).into_iter().map(|[speed, rest]| Pace { speed, rest });
+                let paces: Vec<Pace> = paces.take(walls.size()).collect();
+                stuck += usize::from(Skeleton::new(&walls, &paces).is_err());
             }
             *failed += usize::from(found.is_err());
         }
     }
     times.sort_by(f64::total_cmp);
     println!(
-        "{}: {} plans, median {:.0} us; without a skeleton {}, 1 m wide {}, 1 km wide {}, 1,000 km away {}; open {open}",
+        "{}: {} plans, median {:.0} us; without a skeleton {}, 1 m wide {}, 1 km wide {}, 1,000 km away {}, \
+         with edges that rest or stand still {stuck}; open {open}",
         family.name,
         times.len(),
         times[times.len() / 2],

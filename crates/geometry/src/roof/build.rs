@@ -3,6 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::super::skeleton::{Pace, Skeleton};
+use super::mesh;
 use super::outset::Outset;
 use super::overhang::{Rake, Rim, SkeletonFaces};
 use super::patches::{leveled, patches};
@@ -70,12 +71,18 @@ impl RoofShape {
 
     /// The roof over what stands below it. Fails if there is no skeleton for it.
     pub fn cover_on(&self, support: &Support<'_>) -> Result<RoofCover> {
-        let Some(outermost) = support.outermost() else { return self.cover_walls(support) };
-        let pairs = support.within_reach(f64::INFINITY).into_iter().zip(&outermost.distances);
-        let reach: Vec<f64> = pairs.map(|(reach, jut)| reach - jut).collect();
-        let mut cover =
-            self.cover_walls(&Support { walls: &outermost.polygon, juts: &[], reach: &reach, ..*support })?;
-        support.add_soffit(&outermost, &mut cover.patches);
+        let mut cover = match support.outermost() {
+            None => self.cover_walls(support)?,
+            Some(outermost) => {
+                let pairs = support.within_reach(f64::INFINITY).into_iter().zip(&outermost.distances);
+                let reach: Vec<f64> = pairs.map(|(reach, jut)| reach - jut).collect();
+                let walls = &outermost.polygon;
+                let mut cover = self.cover_walls(&Support { walls, juts: &[], reach: &reach, ..*support })?;
+                support.add_soffit(&outermost, &mut cover.patches);
+                cover
+            }
+        };
+        mesh::mend(&mut cover.patches);
         Ok(cover)
     }
 

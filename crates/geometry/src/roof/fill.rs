@@ -18,7 +18,7 @@ const MOST: usize = 200;
 const SMALL: usize = 16;
 
 /// Triangles as places in a ring.
-type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
+pub(super) type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
 
 /// Adds a flat polygon with holes to `part`, counter-clockwise as seen along `-normal`.
 ///
@@ -38,39 +38,64 @@ type TriangleIndices = SmallVec<[[usize; 3]; 16]>;
 /// # Ok::<(), burgeon_base::error::Error>(())
 /// ```
 pub fn fill(part: &mut Part, rings: &[Ring<DVec3>], right: DVec3, origin: DVec3) -> Result<()> {
-    let normal = rings.iter().fold(DVec3::ZERO, |sum, ring| sum + newell(ring)).normalize_or_zero();
-    let right = (right - normal * normal.dot(right)).normalize_or_zero();
-    let up = normal.cross(right);
-    let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
-    let flats: SmallVec<[DVec2; 16]> = rings.iter().flatten().map(flat).collect();
-    let triangles: TriangleIndices = match rings {
-        [_] => match star(&flats) {
-            Some(apex) => fan(flats.len(), apex).collect(),
-            None => match cap::triangulate(&[flats.as_slice()]) {
-                Ok(triangles) => without_slivers(&flats, triangles.into()),
-                // It almost touches itself.
-                Err(_) => fan(flats.len(), widest(&flats)).collect(),
-            },
-        },
-        _ => {
-            let mut rest = flats.as_slice();
-            let nested = rings.iter().map(|ring| {
-                let (own, others) = rest.split_at(ring.len());
-                rest = others;
-                own
-            });
-            cap::triangulate(&nested.collect::<Vec<_>>())?.into()
-        }
-    };
+    let FilledPolygon { normal, corners, triangles } = FilledPolygon::new(rings, right, origin)?;
     let base = u32::try_from(part.positions.len())
         .map_err(|_| Error::limit(Limit::Size, "a mesh holds too many vertices"))?;
-    part.make_room(flats.len(), triangles.len());
+    part.make_room(corners.len(), triangles.len());
     part.positions.extend(rings.iter().flatten().map(DVec3::as_vec3));
     part.normals.resize(part.positions.len(), normal.into());
-    part.uvs.extend(flats.iter().map(DVec2::as_vec2));
+    part.uvs.extend(corners.iter().map(DVec2::as_vec2));
     #[allow(clippy::cast_possible_truncation, reason = "a polygon has fewer than 2^32 corners")]
     part.triangles.extend(triangles.into_iter().map(|triangle| triangle.map(|corner| corner as u32 + base)));
     Ok(())
+}
+
+/// A flat polygon with holes and what fills it.
+pub(super) struct FilledPolygon {
+    /// The unit normal.
+    pub normal: DVec3,
+    /// The corners of all rings in its plane (m).
+    pub corners: SmallVec<[DVec2; 16]>,
+    /// Counter-clockwise triangles of the corners' numbers.
+    pub triangles: TriangleIndices,
+}
+
+impl FilledPolygon {
+    pub(super) fn new(rings: &[impl AsRef<[DVec3]>], right: DVec3, origin: DVec3) -> Result<Self> {
+        let rings: SmallVec<[&[DVec3]; 2]> = rings.iter().map(AsRef::as_ref).collect();
+        let normal = rings.iter().fold(DVec3::ZERO, |sum, ring| sum + newell(ring)).normalize_or_zero();
+        let right = (right - normal * normal.dot(right)).normalize_or_zero();
+        let up = normal.cross(right);
+        let flat = |point: &DVec3| DVec2::new((*point - origin).dot(right), (*point - origin).dot(up));
+        let corners: SmallVec<[DVec2; 16]> = rings.iter().flat_map(|ring| ring.iter()).map(flat).collect();
+        let triangles: TriangleIndices = match rings.as_slice() {
+            [_] => match star(&corners) {
+                Some(apex) => fan(corners.len(), apex).collect(),
+                None => {
+                    let clipped = cap::triangulate(&[corners.as_slice()]).map(TriangleIndices::from);
+                    // Where there are none, it almost touches itself.
+                    let triangles =
+                        clipped.unwrap_or_else(|_| fan(corners.len(), widest(&corners)).collect());
+                    without_slivers(&corners, triangles)
+                }
+            },
+            _ => {
+                let mut rest = corners.as_slice();
+                let nested = rings.iter().map(|ring| {
+                    let (own, others) = rest.split_at(ring.len());
+                    rest = others;
+                    own
+                });
+                cap::triangulate(&nested.collect::<Vec<_>>())?.into()
+            }
+        };
+        Ok(Self { normal, corners, triangles })
+    }
+
+    /// How wide a triangle is (m), negative if it is clockwise.
+    pub(super) fn width(&self, triangle: [usize; 3]) -> f64 {
+        width(&self.corners, triangle)
+    }
 }
 
 /// The triangles of a ring, or others where some of them are slivers and others need not be: those whose thinnest is
@@ -116,7 +141,7 @@ fn without_slivers(ring: &[DVec2], triangles: TriangleIndices) -> TriangleIndice
 fn width(points: &[DVec2], triangle: [usize; 3]) -> f64 {
     let [a, b, c] = triangle.map(|corner| points[corner]);
     let longest = [a - b, b - c, c - a].map(DVec2::length_squared).into_iter().fold(0.0, f64::max);
-    (b - a).perp_dot(c - a) / longest.sqrt()
+    (b - a).perp_dot(c - a) / longest.sqrt().max(f64::MIN_POSITIVE)
 }
 
 /// The triangles between a corner of a ring and all edges that it is not on.

@@ -5,6 +5,7 @@
 mod build;
 mod fill;
 mod lines;
+mod mesh;
 mod outset;
 mod overhang;
 mod patch;
@@ -16,7 +17,6 @@ mod shape;
 mod shed;
 #[cfg(test)]
 mod sliver_tests;
-mod subdivision;
 mod support;
 #[cfg(test)]
 mod tests;

@@ -9,12 +9,11 @@ use super::super::skeleton::{Pace, Skeleton};
 use super::overhang::Rake;
 use super::plate::is_at;
 use super::shape::{Profile, between};
-use super::subdivision::{FacePiece, PieceCorners};
 use super::{Patch, PatchKind};
 use crate::planar::edges;
 
 /// Corners that are as near to a level of the profile as this (m) are on it.
-pub(super) const ON_LEVEL: f64 = 2e-3;
+const ON_LEVEL: f64 = 2e-3;
 
 /// The peaks of a skeleton with their times (m); those near a level are on it.
 pub(super) fn leveled(skeleton: &Skeleton, paces: &[Pace], profile: &Profile) -> Vec<DVec3> {
@@ -46,18 +45,8 @@ pub(super) fn patches(
     mut points: Vec<DVec3>,
     rakes: &[Option<Rake>],
 ) -> Vec<Patch> {
-    let levels: Vec<f64> = profile.corners.iter().map(|corner| corner.x).collect();
-    let passes = points.len();
     let spans: Vec<Spans> = paces.iter().map(|pace| spans(profile, pace)).collect();
-    let pieces = cut(faces, &spans, &mut points, |edge, number| {
-        let is_upright = !paces[edge].moves_at(spans[edge][number].low);
-        let is_border = number == 0 && profile.first > 1;
-        // What is below the slopes of a plate has been drawn with its rim.
-        let is_below = paces[edge].moves_at(profile.beyond()) || (profile.beyond() > 0.0 && number == 0);
-        is_upright && !is_border && (is_below || rakes[edge].is_some())
-    });
-    let corners = PieceCorners { points: &points, outline: faces.len(), passes, levels: &levels };
-    let pieces = corners.subdivide(pieces);
+    let pieces = cut(faces, &spans, &mut points);
     let mut patches = Vec::with_capacity(pieces.len());
     let mut rest = pieces.as_slice();
     for (edge, (face, pace)) in faces.iter().zip(paces).enumerate() {
@@ -106,12 +95,7 @@ pub(super) fn patches(
 
 /// The pieces of all faces between the levels of their spans, by edge and span; borders pass a level in one point for both
 /// neighbours.
-fn cut(
-    faces: &[Vec<usize>],
-    spans: &[Spans],
-    points: &mut Vec<DVec3>,
-    is_fixed: impl Fn(usize, usize) -> bool,
-) -> Vec<FacePiece> {
+fn cut(faces: &[Vec<usize>], spans: &[Spans], points: &mut Vec<DVec3>) -> Vec<FacePiece> {
     let mut passes = FxHashMap::default();
     let mut all = Vec::with_capacity(faces.len());
     for (edge, face) in faces.iter().enumerate() {
@@ -119,18 +103,27 @@ fn cut(
         for (number, span) in spans[edge].iter().enumerate().filter(|(_, span)| !span.is_step()) {
             let last = number + 1 == spans[edge].len();
             let mut above = Vec::new();
-            let is_fixed = is_fixed(edge, number);
             for piece in pieces {
                 let ring =
                     if last { piece } else { divide(&piece, span.high, points, &mut passes, &mut above) };
                 if ring.len() > 2 {
-                    all.push(FacePiece { edge, number, ring, is_fixed });
+                    all.push(FacePiece { edge, number, ring });
                 }
             }
             pieces = above;
         }
     }
     all
+}
+
+/// A part of a face.
+struct FacePiece {
+    /// The edge of the outline that it belongs to.
+    edge: usize,
+    /// The number of the interval of the profile that it is in.
+    number: usize,
+    /// Its corners, counter-clockwise.
+    ring: Vec<usize>,
 }
 
 type Spans = SmallVec<[ProfileSpan; 4]>;

@@ -25,7 +25,8 @@ pub(super) fn at_walls(
 ) -> Result<Vec<Vec<usize>>, Vec<usize>> {
     let mut between: FxHashMap<[usize; 2], usize> = FxHashMap::default();
     let mut faces = Vec::with_capacity(rings.len());
-    stand_still(rings, points, rests);
+    let before = before(rings);
+    stand_still(rings, &before, points, rests);
     for (face, &[left, right]) in rings.iter().zip(ends) {
         let mut ring = Vec::with_capacity(face.len() + 2);
         for (index, &a) in face.iter().enumerate() {
@@ -49,19 +50,32 @@ pub(super) fn at_walls(
         }
         faces.push(ring);
     }
-    let astray: Vec<usize> = (0..faces.len())
-        .filter(|&edge| !free[edge] && !reaches(&faces[edge], points, beyond, ends[edge]))
-        .collect();
+    let passes: Vec<Option<[bool; 2]>> =
+        faces.iter().zip(ends).map(|(face, ends)| passes(face, points, beyond, *ends)).collect();
+    // Two that go on beyond the corner between them leave it alone.
+    let misses = |one: usize, two: usize| {
+        !free[one] && !free[two] && matches!((passes[one], passes[two]), (Some([_, true]), Some([true, _])))
+    };
+    let is_astray = |edge: &usize| {
+        !free[*edge]
+            && (passes[*edge].is_none() || misses(before[*edge], *edge) || misses(*edge, faces[*edge][1]))
+    };
+    let astray: Vec<usize> = (0..faces.len()).filter(is_astray).collect();
     if astray.is_empty() { Ok(faces) } else { Err(astray) }
 }
 
-/// Puts what is above a corner of the outline while both of its edges stand still exactly there.
-fn stand_still(rings: &[Vec<usize>], points: &mut [DVec3], rests: &[f64]) {
+/// For each edge the one before it.
+fn before(rings: &[Vec<usize>]) -> Vec<usize> {
     // A corner of the outline has the number of the edge that begins there.
     let mut before = vec![0; rings.len()];
     for (edge, face) in rings.iter().enumerate() {
         before[face[1]] = edge;
     }
+    before
+}
+
+/// Puts what is above a corner of the outline while both of its edges stand still exactly there.
+fn stand_still(rings: &[Vec<usize>], before: &[usize], points: &mut [DVec3], rests: &[f64]) {
     for face in rings {
         for (corner, next) in [(face[0], face[face.len() - 1]), (face[1], face[2])] {
             let still = rests[before[corner]].min(rests[corner]);
@@ -79,9 +93,9 @@ pub(super) fn is_at(point: DVec3, level: f64) -> bool {
     point.z == level
 }
 
-/// Whether a face passes the top of the walls once, from the right end of its wall, or from beyond it in its line, to
-/// the left one.
-fn reaches(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2; 2]) -> bool {
+/// Whether a face that passes the top of the walls once does so beyond the left and the right end of its wall, in its
+/// line, or just there; none if it does so otherwise.
+fn passes(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2; 2]) -> Option<[bool; 2]> {
     let mut found: Vec<DVec2> = face
         .iter()
         .map(|&index| points[index])
@@ -89,13 +103,15 @@ fn reaches(face: &[usize], points: &[DVec3], beyond: f64, [left, right]: [DVec2;
         .map(DVec3::truncate)
         .collect();
     found.dedup();
-    let &[from, to] = found.as_slice() else { return false };
+    let &[from, to] = found.as_slice() else { return None };
     let along = (right - left).normalize_or_zero();
-    let out = |at: DVec2, end: DVec2, way: f64| {
+    let is_beyond = |at: DVec2, end: DVec2, way: f64| {
         let off = at - end;
-        off == DVec2::ZERO || (along.perp_dot(off).abs() < AT_CORNER && way * along.dot(off) > 0.0)
+        let in_line =
+            off == DVec2::ZERO || (along.perp_dot(off).abs() < AT_CORNER && way * along.dot(off) > 0.0);
+        in_line.then_some(off != DVec2::ZERO)
     };
-    out(from, right, 1.0) && out(to, left, -1.0)
+    Some([is_beyond(to, left, -1.0)?, is_beyond(from, right, 1.0)?])
 }
 
 /// The points of a face from its right end to its left one, up to a level; of those above one another the highest.
@@ -104,7 +120,7 @@ pub(super) fn border(face: &[usize], points: &[DVec3], level: f64) -> Vec<DVec3>
     let around = face[1..].iter().chain(&face[..1]);
     for point in around.map(|&index| points[index]).filter(|point| point.z <= level) {
         match border.last_mut() {
-            Some(last) if last.truncate().distance(point.truncate()) < UPRIGHT => {
+            Some(last) if is_above(*last, point) || is_above(point, *last) => {
                 if last.z < point.z {
                     *last = point;
                 }
@@ -113,6 +129,11 @@ pub(super) fn border(face: &[usize], points: &[DVec3], level: f64) -> Vec<DVec3>
         }
     }
     border
+}
+
+/// Whether a point is above another one.
+fn is_above(point: DVec3, other: DVec3) -> bool {
+    point.z > other.z && point.truncate().distance(other.truncate()) < UPRIGHT
 }
 
 /// The part of a face between two levels, from its lowest edge on.

@@ -3,13 +3,12 @@
 use std::cmp::{Ordering, Reverse};
 
 use super::edge::Direction;
+use super::fronts::{CornerCourse, EdgeFront};
 use super::lines::EventTime;
-use super::wavefront::{CornerKind, EdgeFront, Wavefront};
+use super::wavefront::{CornerKind, Wavefront};
 
 /// Times that may be off by more than this (m) are made exact before they are compared.
 const COARSE: f64 = 1e-6;
-/// Lines that near each other at this rate do so far faster than rounding could make them.
-const FAST: f64 = 1e-6;
 /// How many edges that a reflex corner may reach are foreseen at once.
 const FORESEEN: usize = 8;
 
@@ -102,53 +101,62 @@ impl Wavefront {
         let pair = if self.lines.turn(a, b) == Ordering::Less { [b, a] } else { [a, b] };
         let [l, m] = pair.map(|line| *self.lines.line(line));
         let own = pair.map(|line| (self.lines.direction(line), self.lines.line(line).speed));
-        // What the sums over three lines, by which they meet, have of two.
-        let cross = l.normal.perp_dot(m.normal);
-        let levels = l.normal * m.level - m.normal * l.level;
-        let speeds = l.normal * m.speed - m.normal * l.speed;
         let noise = self.lines.noise();
-        let slack = noise[0] + l.slack + m.slack;
+        let course = CornerCourse {
+            cross: l.normal.perp_dot(m.normal),
+            levels: l.normal * m.level - m.normal * l.level,
+            speeds: l.normal * m.speed - m.normal * l.speed,
+            slack: noise[0] + l.slack + m.slack,
+            noise: noise[1],
+            now: self.now,
+            sorts: corner.edges.map(|edge| self.current.sort(edge)),
+        };
         let mut found: [(f64, usize); FORESEEN] = [(f64::INFINITY, usize::MAX); FORESEEN];
-        for &EdgeFront { line: edge, direction, edge: number } in &self.current {
-            let rate = edge.speed * cross + edge.normal.perp_dot(speeds);
-            if rate < -noise[1] {
-                continue;
-            }
-            let sum = edge.level * cross + edge.normal.perp_dot(levels);
-            let slack = slack + edge.slack;
-            // Most lines are reached too late, or have been, to be divided for it.
-            if rate > FAST {
-                let off = sum.abs() * 1e-6 + 3.0 * slack;
-                if -sum - off > found[FORESEEN - 1].0 * rate || off - sum < self.now * rate {
-                    continue;
+        for block in self.current.blocks_around(corner.edges[1]) {
+            let mut within = self.current.within_reach(block, &course, found[FORESEEN - 1].0);
+            while within > 0 {
+                let lane = within.trailing_zeros();
+                within &= within - 1;
+                let Some(&EdgeFront { line: edge, direction, edge: number }) =
+                    self.current.get(block, lane as usize)
+                else {
+                    break;
+                };
+                let [rate, sum] = course.sums(&edge);
+                let slack = course.slack + edge.slack;
+                let low = if rate > 2.0 * noise[1] {
+                    let time = -sum / rate;
+                    let slack = (slack + time.abs() * noise[1]) / (rate - noise[1]) * (1.0 + 1e-9);
+                    if time + slack < self.now {
+                        continue;
+                    }
+                    time - slack
+                } else {
+                    let is_alike = |&(own, speed): &(Direction, f64)| {
+                        speed == edge.speed && (own == direction || own.runs_as(direction))
+                    };
+                    if own.iter().any(is_alike) || corner.edges.contains(&number) {
+                        continue;
+                    }
+                    let line = self.traced.edges[number].line;
+                    let Some(mut when) = self.lines.nearing([pair[0], pair[1], line], false) else {
+                        continue;
+                    };
+                    self.lines.refine(&mut when);
+                    if when.high() < self.now {
+                        continue;
+                    }
+                    when.low()
+                };
+                let candidate = (low, number);
+                if candidate < found[FORESEEN - 1] && candidate > last && !corner.edges.contains(&number) {
+                    let mut rank = FORESEEN - 1;
+                    while rank > 0 && candidate < found[rank - 1] {
+                        found[rank] = found[rank - 1];
+                        rank -= 1;
+                    }
+                    found[rank] = candidate;
                 }
-            }
-            let low = if rate > 2.0 * noise[1] {
-                let time = -sum / rate;
-                let slack = (slack + time.abs() * noise[1]) / (rate - noise[1]) * (1.0 + 1e-9);
-                if time + slack < self.now {
-                    continue;
-                }
-                time - slack
-            } else {
-                let is_alike =
-                    |&(own, speed): &(Direction, f64)| speed == edge.speed && own.runs_as(direction);
-                if own.iter().any(is_alike) || corner.edges.contains(&number) {
-                    continue;
-                }
-                let line = self.traced.edges[number].line;
-                let Some(mut when) = self.lines.nearing([pair[0], pair[1], line], false) else { continue };
-                self.lines.refine(&mut when);
-                if when.high() < self.now {
-                    continue;
-                }
-                when.low()
-            };
-            let candidate = (low, number);
-            if candidate < found[FORESEEN - 1] && candidate > last && !corner.edges.contains(&number) {
-                let rank = found.partition_point(|known| *known < candidate);
-                found[rank..].rotate_right(1);
-                found[rank] = candidate;
             }
         }
         let begin = self.foreseen.len();

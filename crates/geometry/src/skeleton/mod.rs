@@ -7,6 +7,7 @@ mod edge;
 mod events;
 mod exact;
 mod faces;
+mod fronts;
 mod lines;
 mod meeting;
 #[cfg(test)]

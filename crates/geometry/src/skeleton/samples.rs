@@ -121,7 +121,7 @@ pub(crate) struct Family {
 }
 
 /// All sorts of regular plans.
-pub(crate) const FAMILIES: [Family; 17] = [
+pub(crate) const FAMILIES: [Family; 18] = [
     Family { name: "double combs, noise of 0.5 mm", make: |random| noisy(double_comb(random), 5e-4, random) },
     Family { name: "double combs, noise of 1 mm", make: |random| noisy(double_comb(random), 1e-3, random) },
     Family { name: "double combs, noise of 3 mm", make: |random| noisy(double_comb(random), 3e-3, random) },
@@ -138,6 +138,7 @@ pub(crate) const FAMILIES: [Family; 17] = [
     },
     Family { name: "lattice plans, exact", make: lattice },
     Family { name: "lattice plans, nearly exact", make: |random| anyhow(lattice(random), random) },
+    Family { name: "lattice plans, off by as much as rounding", make: rounded },
     Family { name: "regular polygons", make: |random| anyhow(regular(random), random) },
     Family { name: "wheels", make: |random| anyhow(vec![wheel(random)], random) },
     Family { name: "combs of narrow gaps", make: |random| anyhow(vec![comb(random)], random) },
@@ -150,6 +151,30 @@ fn anyhow(rings: Vec<Points>, random: &mut Random) -> Vec<Points> {
     let rings = noisy(rings, noise, random);
     let turn = [0.0, PI / 4.0, random.between(0.0, TAU)][random.whole(0, 2) as usize];
     if turn == 0.0 { rings } else { turned(&rings, turn) }
+}
+
+/// A plan on a lattice, turned or not, of which every coordinate is off by from 1e-9 m to 1e-6 m.
+pub(crate) fn rounded(random: &mut Random) -> Vec<Points> {
+    let noise = 10f64.powf(-random.between(6.0, 9.0));
+    let rings = noisy(lattice(random), noise, random);
+    let turn = [0.0, PI / 4.0, random.between(0.0, TAU)][random.whole(0, 2) as usize];
+    if turn == 0.0 { rings } else { turned(&rings, turn) }
+}
+
+/// For each of 400 edges how fast it moves, and how long (m) it stands still at first: some do so for ever, some for a
+/// while, and no two after one another.
+pub(crate) fn still(random: &mut Random) -> Vec<[f64; 2]> {
+    let mut last = 1.0;
+    let pace = |chance: f64| {
+        let chance = if last < 0.2 { 1.0 } else { chance };
+        last = chance;
+        match chance {
+            chance if chance < 0.1 => [0.0, 0.0],
+            chance if chance < 0.15 => [1.0, (chance * 1024.0).round() / 64.0],
+            _ => [1.0, 0.0],
+        }
+    };
+    (0..400).map(|_| random.next()).map(pace).collect()
 }
 
 fn turned(rings: &[Points], angle: f64) -> Vec<Points> {

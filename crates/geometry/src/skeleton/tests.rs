@@ -1,7 +1,7 @@
 //! Tests of straight skeletons.
 
 use super::super::{Plan, Polygon, Rings};
-use super::samples::{FAMILIES, Random, mixed};
+use super::samples::{FAMILIES, Random, mixed, still};
 use super::*;
 use crate::planar::twice_area;
 use glam::DVec2;
@@ -80,6 +80,41 @@ fn regular_plans_with_and_without_noise_have_sound_skeletons_at_every_size_and_p
         let count = all_are_sound(plans.into_iter(), &mut random);
         assert!(count > 150, "{count} {}", family.name);
     }
+}
+
+/// The paces of a plan's edges, of which some stand still.
+fn paces(polygon: &Polygon, still: &[[f64; 2]]) -> Vec<Pace> {
+    still.iter().map(|&[speed, rest]| Pace { speed, rest }).take(polygon.size()).collect()
+}
+
+#[test]
+fn regular_plans_with_edges_that_rest_or_stand_still_have_sound_skeletons() {
+    for family in &FAMILIES {
+        let mut random = Random(5);
+        let mut count = 0;
+        for round in 0..60 {
+            let (rings, still) = ((family.make)(&mut random), still(&mut random));
+            let Some(polygon) = plan(&rings).filter(|polygon| polygon.size() <= still.len()) else {
+                continue;
+            };
+            let found = Skeleton::new(&polygon, &paces(&polygon, &still));
+            assert!(found.is_ok(), "{} {round}: {found:?} {polygon:?}", family.name);
+            count += 1;
+        }
+        assert!(count > 45, "{count} {}", family.name);
+    }
+}
+
+#[test]
+fn an_edge_that_is_gone_before_it_begins_to_move_hides_nothing_that_others_reach() {
+    // A corner of a wheel reaches the line of such an edge before it reaches an edge that is still there.
+    let wheels = FAMILIES.iter().find(|family| family.name == "wheels").expect("wheels");
+    let mut random = Random(3);
+    let mut next = || ((wheels.make)(&mut random), still(&mut random));
+    let (rings, still) = (0..=984).map(|_| next()).last().expect("a wheel");
+    let polygon = plan(&rings).expect("a polygon");
+    assert_eq!(polygon.size(), 18);
+    assert!(Skeleton::new(&polygon, &paces(&polygon, &still)).is_ok());
 }
 
 #[test]

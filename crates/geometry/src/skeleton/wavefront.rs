@@ -10,7 +10,8 @@ use smallvec::SmallVec;
 
 use super::edge::{Direction, SkeletonEdge, metres};
 use super::events::{WavefrontEvent, WavefrontEventKind, short};
-use super::lines::{EventTime, LineMeeting, MovingLine, MovingLines};
+use super::fronts::{EdgeFront, EdgeFronts};
+use super::lines::{EventTime, LineMeeting, MovingLines};
 use super::meeting::EventPoint;
 use super::{Pace, Peak};
 use burgeon_base::error::{Error, Result};
@@ -72,20 +73,12 @@ impl WavefrontCorner {
     }
 }
 
-/// An edge and its line at present.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct EdgeFront {
-    pub line: MovingLine,
-    pub direction: Direction,
-    pub edge: usize,
-}
-
 #[derive(Default)]
 pub(super) struct Wavefront {
     pub traced: WavefrontTrace,
     pub lines: MovingLines,
-    /// The edges that are still there, with their lines at present.
-    pub current: Vec<EdgeFront>,
+    /// The edges that are still there.
+    pub current: EdgeFronts,
     /// How many pieces there are of each edge.
     alive: Vec<u32>,
     /// How many corners there had been when it was last asked which edges are still there.
@@ -291,7 +284,12 @@ impl Wavefront {
     }
 
     /// Lets an edge that stood still move from `time` on; corners along it begin anew.
+    ///
+    /// Of one that is gone the line stays as it is: corners that were to reach it next would forget what comes after.
     pub(super) fn start(&mut self, edge: usize, when: &mut EventTime) {
+        if self.alive[edge] == 0 {
+            return;
+        }
         for number in 0..self.pieces[edge].len() {
             let from = self.pieces[edge][number];
             if self.corners[from].alive {
@@ -304,9 +302,7 @@ impl Wavefront {
         let Pace { speed, rest } = self.traced.edges[edge].pace;
         let direction = self.lines.direction(self.traced.edges[edge].line);
         let line = self.lines.add(direction, self.through[edge], speed, rest);
-        for front in self.current.iter_mut().filter(|front| front.edge == edge) {
-            front.line = *self.lines.line(line);
-        }
+        self.current.turn_to(edge, *self.lines.line(line));
         self.traced.edges[edge].line = line;
         self.restarted = true;
     }
@@ -392,7 +388,7 @@ impl Wavefront {
     pub(super) fn go_on(&mut self, fresh: &[usize]) {
         if self.corners.len() > self.known + self.current.len() / 2 {
             self.known = self.corners.len();
-            self.current.retain(|front| self.alive[front.edge] > 0);
+            self.current.retain(|edge| self.alive[edge] > 0);
         }
         for &index in fresh {
             let WavefrontCorner { alive, before, after, .. } = self.corners[index];

@@ -1,0 +1,225 @@
+//! The patches of a finished roof as one mesh, so that no triangle of it is thinner than 32-bit numbers can show.
+
+use glam::DVec3;
+use rustc_hash::{FxHashMap, FxHashSet};
+use smallvec::SmallVec;
+
+use super::Patch;
+use super::fill::FilledPolygon;
+use crate::planar::{Ring, edges};
+
+/// Triangles that are less wide than this (m) are slivers.
+const SLIVER: f64 = 1.5e-4;
+/// Triangles that are wider than this (m) in the first place are not looked at twice.
+const WIDE: f64 = 0.01;
+/// Corners nearer than this (m) are one, and others are moved so far from a border that they all but touch.
+const NEAR: f64 = 2.5e-4;
+/// How often the triangles are looked at anew at most.
+const ROUNDS: usize = 64;
+
+/// Mends patches with slivers.
+///
+/// Of such a triangle two corners that all but touch become one. Otherwise the corner in the middle becomes one of the
+/// border that it is on, in the patches on both of its sides, or goes as far from it as a triangle has to be wide.
+///
+/// What the walls below share with the roof stays exactly where it is.
+pub(super) fn mend(patches: &mut Vec<Patch>) {
+    let is_thin = |patch: &Patch| !is_wide(&patch.rings) && thin(&patch.rings, patch).is_some();
+    if !patches.iter().any(is_thin) {
+        return;
+    }
+    let mut mesh = RoofMesh::new(patches);
+    for _ in 0..ROUNDS {
+        if !mesh.mend(patches) {
+            break;
+        }
+    }
+    mesh.finish(patches);
+}
+
+/// A triangle that is too thin.
+struct Sliver {
+    /// Its corners, the one opposite its longest side last.
+    corners: [usize; 3],
+    /// The direction from that side to that corner.
+    out: DVec3,
+    /// How wide it is (m).
+    width: f64,
+}
+
+/// Whether a patch is a triangle or a quadrilateral whose triangles are far from being slivers.
+fn is_wide(rings: &[Ring<DVec3>]) -> bool {
+    let [ring] = rings else { return false };
+    let ([a, b, c] | [a, b, c, _]) = ring[..] else { return false };
+    let d = ring[ring.len() - 1];
+    let normals = [[a, b, c], [a, c, d]].map(|[a, b, c]| (b - a).cross(c - a));
+    let longest =
+        [a - b, b - c, a - c, c - d, a - d].map(DVec3::length_squared).into_iter().fold(0.0, f64::max);
+    let wide = |normal: &DVec3| normal.length_squared() > WIDE * WIDE * longest;
+    wide(&normals[0]) && (ring.len() == 3 || (wide(&normals[1]) && normals[0].dot(normals[1]) > 0.0))
+}
+
+/// The thinnest triangle of a patch with these rings, if it is a sliver.
+fn thin(rings: &[impl AsRef<[DVec3]>], patch: &Patch) -> Option<Sliver> {
+    let origin = rings.first()?.as_ref().first()?;
+    let flat = FilledPolygon::new(rings, patch.along.extend(0.0), *origin).ok()?;
+    let widths = flat.triangles.iter().map(|&triangle| (flat.width(triangle), triangle));
+    let (width, [a, b, c]) = widths.min_by(|a, b| a.0.total_cmp(&b.0)).filter(|least| least.0 < SLIVER)?;
+    let length = |from: usize, to: usize| flat.corners[from].distance_squared(flat.corners[to]);
+    let turned = [[a, b, c], [b, c, a], [c, a, b]];
+    let corners =
+        turned.into_iter().max_by(|one, two| length(one[0], one[1]).total_cmp(&length(two[0], two[1])))?;
+    let place = |corner: usize| rings.iter().flat_map(|ring| ring.as_ref()).nth(corner).copied();
+    let side = place(corners[1])? - place(corners[0])?;
+    Some(Sliver { corners, out: flat.normal.cross(side).normalize_or_zero(), width })
+}
+
+/// The corners of all patches, each once, and their rings.
+struct RoofMesh {
+    points: Vec<DVec3>,
+    /// Whether a corner is one of the walls.
+    fixed: Vec<bool>,
+    /// For each face the patch that it is of, and its rings; a patch may fall into several faces.
+    faces: Vec<(usize, Vec<Vec<usize>>)>,
+}
+
+impl RoofMesh {
+    fn new(patches: &[Patch]) -> Self {
+        let (mut points, mut known) = (Vec::new(), FxHashMap::default());
+        let mut number = |at: &DVec3| {
+            *known.entry((*at + DVec3::ZERO).to_array().map(f64::to_bits)).or_insert_with(|| {
+                points.push(*at);
+                points.len() - 1
+            })
+        };
+        let rings =
+            |patch: &Patch| patch.rings.iter().map(|ring| ring.iter().map(&mut number).collect()).collect();
+        let faces: Vec<(usize, Vec<Vec<usize>>)> = patches.iter().map(rings).enumerate().collect();
+        // Beside the walls a border has the roof on one side only.
+        let borders: FxHashSet<[usize; 2]> =
+            faces.iter().flat_map(|face| &face.1).flat_map(|ring| edges(ring)).collect();
+        let mut fixed = vec![false; points.len()];
+        for [a, b] in faces.iter().flat_map(|face| &face.1).flat_map(|ring| edges(ring)) {
+            if !borders.contains(&[b, a]) {
+                (fixed[a], fixed[b]) = (true, true);
+            }
+        }
+        Self { points, fixed, faces }
+    }
+
+    fn places(&self, rings: &[Vec<usize>]) -> SmallVec<[Vec<DVec3>; 1]> {
+        rings.iter().map(|ring| ring.iter().map(|&corner| self.points[corner]).collect()).collect()
+    }
+
+    /// Mends the thinnest triangle of each face that has a sliver; whether it has done anything.
+    fn mend(&mut self, patches: &[Patch]) -> bool {
+        let mut done = false;
+        let mut face = 0;
+        // Faces may fall into several meanwhile.
+        while let Some((patch, rings)) = self.faces.get(face) {
+            if let Some(sliver) = thin(&self.places(rings), &patches[*patch]) {
+                let all: SmallVec<[usize; 16]> = rings.iter().flatten().copied().collect();
+                let corners = sliver.corners.map(|corner| all[corner]);
+                done |=
+                    self.joins(corners) || self.divides(corners, sliver.out) || self.widens(corners, &sliver);
+            }
+            face += 1;
+        }
+        done
+    }
+
+    /// Makes the two nearest of three corners one, if they all but touch; whether they do.
+    fn joins(&mut self, [a, b, c]: [usize; 3]) -> bool {
+        let distance = |[one, two]: [usize; 2]| self.points[one].distance_squared(self.points[two]);
+        let pairs = [[a, b], [b, c], [c, a]];
+        let Some([one, two]) = pairs.into_iter().min_by(|&a, &b| distance(a).total_cmp(&distance(b))) else {
+            return false;
+        };
+        let rank = |corner: usize| (!self.fixed[corner], corner);
+        let [kept, gone] = if rank(one) < rank(two) { [one, two] } else { [two, one] };
+        if distance([one, two]) >= NEAR * NEAR || self.fixed[gone] {
+            return false;
+        }
+        for ring in self.faces.iter_mut().flat_map(|face| &mut face.1) {
+            ring.iter_mut().filter(|corner| **corner == gone).for_each(|corner| *corner = kept);
+        }
+        self.part();
+        true
+    }
+
+    /// Makes a corner one of the border from `a` to `b` that it is on, on both of its sides; whether it is.
+    fn divides(&mut self, [a, b, corner]: [usize; 3], out: DVec3) -> bool {
+        let runs = |ring: &Vec<usize>, ends: [usize; 2]| edges(ring).filter(|border| *border == ends).count();
+        let count = |ends: [usize; 2]| -> usize {
+            self.faces.iter().flat_map(|face| &face.1).map(|ring| runs(ring, ends)).sum()
+        };
+        let (way, off) = (self.points[b] - self.points[a], self.points[corner] - self.points[a]);
+        let along = off.dot(way) / way.length_squared();
+        let beside = !(along > 0.0 && along < 1.0) || off.dot(out).abs() >= NEAR;
+        if beside || count([a, b]) != 1 || count([b, a]) != 1 {
+            return false;
+        }
+        for ring in self.faces.iter_mut().flat_map(|face| &mut face.1) {
+            let at = edges(ring).position(|[from, to]| [from, to] == [a, b] || [from, to] == [b, a]);
+            if let Some(at) = at {
+                ring.insert(at + 1, corner);
+            }
+        }
+        self.part();
+        true
+    }
+
+    /// Moves a corner away from the side opposite it, or that side away from it; whether either may be moved.
+    fn widens(&mut self, [a, b, corner]: [usize; 3], sliver: &Sliver) -> bool {
+        let by = sliver.out * (NEAR - sliver.width);
+        let distance = |end: usize| self.points[end].distance_squared(self.points[corner]);
+        let ends = if distance(a) < distance(b) { [(a, -1.0), (b, -1.0)] } else { [(b, -1.0), (a, -1.0)] };
+        let mut all = [(corner, 1.0)].into_iter().chain(ends);
+        let Some((moved, side)) = all.find(|(moved, _)| !self.fixed[*moved]) else { return false };
+        self.points[moved] += by * side;
+        true
+    }
+
+    /// Parts faces that touch themselves; what has no area left is left out.
+    fn part(&mut self) {
+        let mut faces = Vec::with_capacity(self.faces.len());
+        for (patch, mut rings) in std::mem::take(&mut self.faces) {
+            if let [ring] = rings.as_mut_slice() {
+                faces.extend(simple(ring).into_iter().map(|ring| (patch, vec![ring])));
+            } else {
+                rings.iter_mut().for_each(|ring| ring.dedup());
+                faces.push((patch, rings));
+            }
+        }
+        self.faces = faces;
+    }
+
+    /// The patches with these corners.
+    fn finish(&self, patches: &mut Vec<Patch>) {
+        let patch = |(patch, rings): &(usize, Vec<Vec<usize>>)| {
+            let rings: Option<Vec<Ring<DVec3>>> =
+                self.places(rings).into_iter().map(Ring::without_repeats).collect();
+            Some(Patch { rings: rings?, ..patches[*patch].clone() })
+        };
+        *patches = self.faces.iter().filter_map(patch).collect();
+    }
+}
+
+/// The rings without repeated corners that a ring falls into; the one with its first corners is the first.
+fn simple(ring: &[usize]) -> SmallVec<[Vec<usize>; 2]> {
+    let mut left: Vec<usize> = Vec::with_capacity(ring.len());
+    let mut parts = SmallVec::new();
+    for &corner in ring {
+        if let Some(at) = left.iter().position(|&other| other == corner) {
+            if left.len() > at + 2 {
+                parts.push(left[at..].to_vec());
+            }
+            left.truncate(at);
+        }
+        left.push(corner);
+    }
+    if left.len() > 2 {
+        parts.insert(0, left);
+    }
+    parts
+}
