@@ -61,7 +61,9 @@ fn the_gallery_shows_every_script_and_no_other() {
     assert_eq!(shipped.len(), 19);
     assert_eq!(named("](scripts/", ".lua)"), shipped);
     let mut shown = named("](docs/pictures/", ".png)");
-    assert!(["variations", "live", "village", "roofs", "quay"].iter().all(|name| shown.remove(*name)));
+    assert!(
+        ["variations", "live", "village", "castle", "roofs", "quay"].iter().all(|name| shown.remove(*name))
+    );
     assert_eq!(shown, shipped);
     for name in &shipped {
         assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
@@ -210,6 +212,30 @@ fn landscapes_of_all_kinds_and_sizes_come_out_and_no_tree_stands_in_the_sea() {
         }
     }
     assert!(trees > 10_000, "{trees} trees");
+}
+
+#[test]
+fn the_castle_of_the_examples_is_built_with_two_packages() {
+    let script = root().join("examples/castle.lua");
+    let made = run(&script, 2);
+    assert!(made.warnings.is_empty() && made.report().is_clean(), "{:?} {}", made.warnings, made.report());
+    assert!(made.scene.triangles() > 20_000, "{}", made.scene.triangles());
+    let textures: BTreeSet<String> = made
+        .scene
+        .materials
+        .iter()
+        .filter_map(|material| {
+            Some(material.texture.as_ref()?.path.file_name()?.to_string_lossy().into_owned())
+        })
+        .collect();
+    assert_eq!(textures, BTreeSet::from(["ashlar.png", "oak.png", "slate.png"].map(str::to_owned)));
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(glb(&made, folder.path()), glb(&run(&script, 1), folder.path()));
+    for package in ["masonry", "castle"] {
+        let mods = vec![root().join("examples/mods")];
+        let options = RunOptions { mods, ..burgeon::options() };
+        burgeon::check_package(&root().join("examples/mods").join(package), options).unwrap();
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use std::time::{Duration, SystemTime};
 
 use burgeon::kit::rules::{Pattern, Signature, Symbols};
 use burgeon::kit::{Construct, LoadRequest, Resources, Table};
+use burgeon::packages::{Manifest, install, is_name};
 use burgeon::presets::Presets;
 use burgeon::script::{Limits, Print, RunOptions};
 use burgeon::sources::elevation::{HeightOptions as WantedHeights, Raster, Relief};
@@ -44,7 +45,7 @@ const JSON: &[&str] = &[
 ];
 
 /// All of them.
-pub(crate) const TARGETS: [Target; 13] = [
+pub(crate) const TARGETS: [Target; 15] = [
     Target {
         name: "geojson",
         read: |bytes, folder| layer(bytes, &folder.join("a.geojson")),
@@ -78,6 +79,30 @@ pub(crate) const TARGETS: [Target; 13] = [
         name: "zip",
         read: |bytes, _| heights(bytes, "N43E007.zip"),
         words: &["N43E007.hgt", "PK\u{1}\u{2}"],
+    },
+    Target {
+        name: "manifest",
+        read: manifest,
+        words: &[
+            "name",
+            "version",
+            "api",
+            "[depends]",
+            "[replaces]",
+            "[params.a]",
+            "\"@a/b\"",
+            " = ",
+            "\"1.0.0\"",
+            "\n",
+            "..",
+            "{",
+            "[",
+        ],
+    },
+    Target {
+        name: "package",
+        read: package,
+        words: &["mod.toml", "../", "/", "PK\u{1}\u{2}", "PK\u{3}\u{4}", "a.lua"],
     },
     Target {
         name: "png",
@@ -141,6 +166,30 @@ pub(crate) const TARGETS: [Target; 13] = [
 ];
 
 /// What one reading may take.
+/// What a package says of itself.
+fn manifest(bytes: &[u8], _: &Path) -> bool {
+    let read = String::from_utf8(bytes.to_vec()).map(|text| Manifest::parse(&text, "mod.toml"));
+    let Ok(Ok(manifest)) = read else { return false };
+    assert!(is_name(&manifest.name));
+    for one in &manifest.replaces {
+        assert!(!one.target.path.split('/').chain(one.file.split('/')).any(|part| part == ".."));
+    }
+    true
+}
+
+/// A package in a zip: nothing of it is anywhere but in its own folder.
+fn package(bytes: &[u8], folder: &Path) -> bool {
+    let (zip, into) = (folder.join("a.zip"), folder.join("into"));
+    // Without the file it is refused, which is told.
+    let _ = fs::remove_dir_all(&into);
+    let _ = fs::write(&zip, bytes);
+    let made = install(&zip, &into, false);
+    let there = fs::read_dir(&into).into_iter().flatten().flatten().count();
+    assert_eq!(there, usize::from(made.is_ok()));
+    let _ = fs::remove_dir_all(&into);
+    made.is_ok()
+}
+
 fn budget() -> Arc<Budget> {
     Budget::within(Duration::from_secs(10), 100_000_000)
 }

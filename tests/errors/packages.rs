@@ -1,9 +1,9 @@
-//! Packages: what scripts are told of them, and `burgeon mods`.
+//! Packages: what scripts are told of them.
 
 use crate::support::{Folder, assert_decent};
 
 /// A script that draws what a package gives it.
-const SCRIPT: &str = "local towers = require(\"@castle/towers\")\n\
+pub(crate) const SCRIPT: &str = "local towers = require(\"@castle/towers\")\n\
                       local s = lsystem({ object = extruder() })\n\
                       local A = module(\"A\")\n\
                       s:axiom(A())\n\
@@ -12,19 +12,19 @@ const SCRIPT: &str = "local towers = require(\"@castle/towers\")\n\
                       print(towers.height, towers.name)\n";
 
 /// The `mod.toml` of a package.
-fn about(name: &str, more: &str) -> String {
+pub(crate) fn about(name: &str, more: &str) -> String {
     format!("name = \"{name}\"\nversion = \"1.0.0\"\napi = \"1.0\"\n{more}")
 }
 
 /// A script with a package that it uses, which says `more` of itself.
-fn castle(more: &str) -> Folder {
+pub(crate) fn castle(more: &str) -> Folder {
     Folder::new()
         .with("s.lua", SCRIPT)
         .with("mods/castle/mod.toml", about("castle", more))
         .with("mods/castle/towers.lua", "return { height = 12, name = \"castle\" }\n")
 }
 
-fn prints(folder: &Folder, flags: &[&str]) -> String {
+pub(crate) fn prints(folder: &Folder, flags: &[&str]) -> String {
     folder.burgeon(&[&["run", "s.lua", "--json"], flags].concat()).done().stderr
 }
 
@@ -333,6 +333,51 @@ fn a_later_package_replaces_a_file_and_builds_on_the_one_before() {
 }
 
 #[test]
+fn a_model_names_files_of_its_own_package_also_where_it_replaces_another() {
+    let door = |points: usize| {
+        let bytes = points * 12;
+        format!(
+            r#"{{"asset":{{"version":"2.0"}},"scene":0,"scenes":[{{"nodes":[0]}}],"nodes":[{{"mesh":0}}],
+            "meshes":[{{"primitives":[{{"attributes":{{"POSITION":0}}}}]}}],"buffers":[{{"uri":"door.bin","byteLength":{bytes}}}],
+            "bufferViews":[{{"buffer":0,"byteLength":{bytes}}}],
+            "accessors":[{{"bufferView":0,"componentType":5126,"count":{points},"type":"VEC3","min":[0,0,0],"max":[1,1,1]}}]}}"#
+        )
+    };
+    let corners = |count: usize| -> Vec<u8> {
+        let corners = [[0.0_f32, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].concat();
+        corners.iter().cycle().take(count * 3).flat_map(|number| number.to_le_bytes()).collect()
+    };
+    let folder = castle("")
+        .with("mods/castle/parts/door.gltf", door(3))
+        .with("mods/castle/parts/door.bin", corners(3))
+        .with(
+            "s.lua",
+            "local door = model(\"@castle/parts/door.gltf\")\nlocal A = module(\"A\")\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\n\
+             s:interpret(\"A\", function(this) this:place(door) end)\ns:derive()\n",
+        );
+    let triangles =
+        |folder: &Folder| folder.burgeon(&["run", "s.lua", "--json"]).done().json()["triangles"].clone();
+    assert_eq!(triangles(&folder), 1);
+    let folder = folder
+        .with(
+            "mods/ruins/mod.toml",
+            about(
+                "ruins",
+                "[depends]\ncastle = \"1\"\n[replaces]\n\"@castle/parts/door.gltf\" = \"door.gltf\"",
+            ),
+        )
+        .with("mods/ruins/door.gltf", door(6))
+        .with("mods/ruins/door.bin", corners(6));
+    assert_eq!(triangles(&folder), 2);
+    let folder = folder.with("mods/ruins/door.gltf", door(6).replace("door.bin", "../castle/parts/door.bin"));
+    insta::assert_snapshot!(refused(&folder), @r#"
+    error: s.lua:1: @ruins/../castle/parts/door.bin leads outside the package ruins
+      | local door = model("@castle/parts/door.gltf")
+      help: name a file in its folder or below it: "@ruins/stone.png"
+    "#);
+}
+
+#[test]
 fn two_packages_that_replace_the_same_are_warned_of() {
     let replacing = |folder: Folder, name: &str| {
         folder
@@ -402,76 +447,6 @@ fn a_package_brings_presets() {
 }
 
 #[test]
-fn packages_are_checked() {
-    let checked = castle("").burgeon(&["mods", "check"]).done();
-    insta::assert_snapshot!(checked.stderr, @"castle 1.0.0 is fine: 1 script");
-    let folder = castle("[replaces]\n\"@castle/gate.lua\" = \"gat.lua\"\n")
-        .with("mods/castle/towers.lua", "local a = unknown\nreturn {")
-        .with(
-            "mods/castle/gate.lua",
-            "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone",
-        )
-        .with("mods/castle/stone.png", "x");
-    insta::assert_snapshot!(folder.refuses(&["mods", "check", "mods/castle"]), @r#"
-    error: mods/castle/mod.toml:5: the package castle replaces a file of castle, which it does not depend on
-      | "@castle/gate.lua" = "gat.lua"
-      help: write below [depends]: castle = "*"
-    "#);
-    insta::assert_snapshot!(castle("").with("mods/castle/gate.lua", "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone, a").refuses(&["mods", "check", "mods/castle"]), @r#"
-    error: mods/castle/gate.lua:1: the package castle has no file ston.png
-      | local stone = "@castle/ston.png"
-      help: it is looked for in mods/castle
-    error: mods/castle/gate.lua:2: unknown name lenght
-      | local a = lenght(3)
-      help: declare it: local lenght = ...
-    "#);
-    insta::assert_snapshot!(castle("").refuses(&["mods", "check", "nowhere"]), @r"
-    error: there is no folder nowhere
-      help: --mods names a folder of packages
-    ");
-    insta::assert_snapshot!(castle("").refuses(&["mods", "explain", "castel"]), @r"
-    error: there is no package castel
-      help: did you mean castle?
-    ");
-    insta::assert_snapshot!(castle("").refuses(&["mods", "--script", "t.lua"]), @r"
-    error: there is no script t.lua
-      help: --script names the script whose packages are meant
-    ");
-    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"there are no packages; add one: burgeon mods add FOLDER");
-}
-
-#[test]
-fn packages_are_added_and_replaced_only_if_asked() {
-    let folder = Folder::new()
-        .with("s.lua", SCRIPT)
-        .with("work/mod.toml", about("castle", ""))
-        .with("work/towers.lua", "return { height = 1, name = \"added\" }");
-    let said = folder.burgeon(&["mods", "add", "work"]).done();
-    insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to mods/castle; scripts use it with require("@castle")"#);
-    assert_eq!(prints(&folder, &[]), "1\tadded\n");
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r"
-    error: there is a package castle 1.0.0 in mods/castle already
-      help: put castle 1.0.0 in its place: --replace
-    ");
-    let said = folder.burgeon(&["mods", "add", "work", "--replace", "--json"]).done();
-    assert_eq!(said.json()["replaced"], "1.0.0");
-    let said = folder.burgeon(&["mods", "add", "work", "--into", "user/burgeon/mods"]).done();
-    insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to user/burgeon/mods/castle; scripts use it with require("@castle")"#);
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "s.lua"]), @r"
-    error: s.lua cannot be unpacked
-      help: name a zip, or the folder that has the mod.toml; a damaged one has to be got again
-    ");
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "nowhere.zip"]), @r"
-    error: there is no folder or zip nowhere.zip
-      help: name the folder that has the mod.toml, or a zip of it
-    ");
-    insta::assert_snapshot!(folder.refuses(&["mods", "add", "user"]), @r"
-    error: user has no mod.toml
-      help: a package is a folder with a mod.toml, or a zip of one
-    ");
-}
-
-#[test]
 fn scripts_ask_what_there_is() {
     let asks = "print(api.version)\n\
                 for _, name in { \"lsystem\", \"extruder\", \"extruder.bend\", \"extruder:bend\", \"turtle.step\", \"math.floor\", \"system.rule\", \"@castle\", \"extruder.bnd\", \"nothing\", \"@nothing\", \"math.random\" } do print(name, api.has(name)) end";
@@ -497,4 +472,40 @@ fn scripts_ask_what_there_is() {
       | api.has(3)
       help: write api.has("extruder.bend")
     "#);
+}
+
+#[test]
+fn what_a_package_gives_is_changed_by_nobody() {
+    for (assignment, key) in [("towers.height = 3", "height"), ("towers.parts.x = 3", "x")] {
+        let script = format!("local towers = require(\"@castle/towers\")\n{assignment}\n");
+        let folder = castle("")
+            .with("mods/castle/towers.lua", "return { height = 12, parts = { x = 1 } }\n")
+            .with("s.lua", script);
+        let text = refused(&folder);
+        assert!(text.starts_with("error: s.lua:2: attempt to modify a readonly table"), "{key}: {text}");
+    }
+}
+
+#[test]
+fn a_package_brings_a_type_of_object_which_another_extends() {
+    let folder = castle("")
+        .with(
+            "mods/castle/towers.lua",
+            "return object(\"tower\", { extends = extruder, state = { n = 0 }, reads = { count = function(self) return self.n end },\n\
+             changes = { raise = function(self, h) self.n += 1 self:extrude(h) end } })\n",
+        )
+        .with(
+            "s.lua",
+            "local tower = require(\"@castle/towers\")\n\
+             local keep = object(\"keep\", { extends = tower, changes = { raise = function(self, h) self.n += 2 self:extrude(2 * h) end } })\n\
+             local A = module(\"A\")\n\
+             local function count(constructor)\n\
+             local s = lsystem({ object = constructor() })\n\
+             s:axiom(A(), A())\n\
+             s:interpret(\"A\", function(this) this:raise(3) end)\n\
+             return s:derive(0).objects[1]:count()\n\
+             end\n\
+             print(count(tower), count(keep))\n",
+        );
+    assert_eq!(prints(&folder, &[]), "2\t4\n");
 }

@@ -2,7 +2,7 @@
 
 use insta::assert_snapshot;
 
-use crate::support::refused;
+use crate::support::{refused, stopped};
 
 #[test]
 fn a_declaration_that_means_nothing_is_refused() {
@@ -258,5 +258,94 @@ fn what_a_function_of_a_type_does_wrong_is_told_in_its_line() {
     assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { a = 1 },\n  finish = function(self)\n    self.a = nil + 1\n  end,\n  changes = { go = function(self, n) end },\n}))\n"), @r"
     error: s.lua:11: rule lamp: finish: attempt to perform arithmetic (add) on nil and number
       | self.a = nil + 1
+    ");
+}
+
+#[test]
+fn what_never_ends_is_stopped_wherever_it_stands() {
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    while true do end\n  end },\n}))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:10: the run took longer than 1 s
+      | while true do end
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    pcall(function() while true do end end)\n    while true do end\n  end },\n}))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:10: the run took longer than 1 s
+      | pcall(function() while true do end end)
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  extends = extruder,\n  changes = { go = function(self, n)\n    while true do self:roll(1) end\n  end },\n}))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:11: the run took longer than 1 s
+      | while true do self:roll(1) end
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  begin = function(self)\n    while true do end\n  end,\n  changes = { go = function(self, n) end },\n}))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:10: the run took longer than 1 s
+      | while true do end
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  finish = function(self)\n    while true do end\n  end,\n  changes = { go = function(self, n) end },\n}))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:10: the run took longer than 1 s
+      | while true do end
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:rule(\"A\", function(this)\n    if this:count() then return A(), A() end\n  end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  reads = { count = function(self)\n    while true do end\n  end },\n  changes = { go = function(self, n) end },\n}))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:13: rule A: the run took longer than 1 s
+      | while true do end
+      module: A, step 1
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("print(setmetatable({}, { __tostring = function()\n  while true do end\nend }))\n", &["--time-limit", "1"]), @r"
+    error: s.lua:2: the run took longer than 1 s
+      | while true do end
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+    assert_snapshot!(stopped("for _ in setmetatable({}, { __iter = function() return function() return 1 end end }) do\nend\n", &["--time-limit", "1"]), @r"
+    error: s.lua:1: the run took longer than 1 s
+      | for _ in setmetatable({}, { __iter = function() return function() return 1 end end }) do
+      help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
+    ");
+}
+
+#[test]
+fn what_takes_all_memory_is_stopped_wherever_it_stands() {
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { list = {} },\n  changes = { go = function(self, n)\n    while true do\n      table.insert(self.list, string.rep(\"x\", 1e6) .. #self.list)\n    end\n  end },\n}))\n", &["--memory-limit", "100"]), @r#"
+    error: s.lua:12: rule A (interpretation): the script needs more than 100 MB of memory
+      | table.insert(self.list, string.rep("x", 1e6) .. #self.list)
+      module: A, step 0
+      help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
+    "#);
+    assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  state = { list = {} },\n  begin = function(self)\n    while true do\n      table.insert(self.list, string.rep(\"x\", 1e6) .. #self.list)\n    end\n  end,\n  changes = { go = function(self, n) end },\n}))\n", &["--memory-limit", "100"]), @r#"
+    error: s.lua:12: rule lamp: begin: the script needs more than 100 MB of memory
+      | table.insert(self.list, string.rep("x", 1e6) .. #self.list)
+      help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
+    "#);
+    assert_snapshot!(stopped("object(\"lamp\", { doc = string.rep(\"x\", 3e8) })", &["--memory-limit", "100"]), @r#"
+    error: s.lua:1: the script needs more than 100 MB of memory
+      | object("lamp", { doc = string.rep("x", 3e8) })
+      help: look for a table or a string that grows, or raise the limit: --memory-limit MEGABYTES
+    "#);
+}
+
+#[test]
+fn what_types_share_cannot_be_changed() {
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    setmetatable(self, {})\n  end },\n}))\n"), @r"
+    error: s.lua:10: rule A (interpretation): cannot change a protected metatable
+      | setmetatable(self, {})
+      module: A, step 0
+    ");
+    assert_snapshot!(refused("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    getmetatable(self).__index = nil\n  end },\n}))\n"), @r"
+    error: s.lua:10: rule A (interpretation): attempt to index string with '__index'
+      | getmetatable(self).__index = nil
+      module: A, step 0
+    ");
+    assert_snapshot!(refused("getmetatable(\"\").__index = nil"), @r#"
+    error: s.lua:1: attempt to modify a readonly table
+      | getmetatable("").__index = nil
+      help: the library is read-only, and so are tables from outside a rule while rules run; make a new table, or use table.clone
+    "#);
+    assert_snapshot!(refused("local lamp = object(\"lamp\", { extends = extruder })\nlamp().extrude = nil"), @r"
+    error: s.lua:2: extrude of a lamp cannot be assigned
+      | lamp().extrude = nil
+      help: its fields are given when it is made: lamp { extrude = ... }
     ");
 }

@@ -162,6 +162,36 @@ fn a_script_that_uses_it_can_be_checked_without_expanding_it() {
     burgeon::check(&script, options(1)).unwrap();
 }
 
+#[test]
+fn a_name_that_will_go_warns_once_with_its_line_and_what_is_used_instead() {
+    let (_folder, script) = folder();
+    let warned = |threads: usize| {
+        let mut registry = burgeon::objects::registry();
+        let kind = Kind::clone(Orchard::kind());
+        let kind = kind.deprecates("trees", "1.4", "orchard:count").deprecates("spacing", "1.5", "distance");
+        registry
+            .add(kind.deprecates("", "1.6", "grove").deprecates("nearest", "1.7", "orchard:near"))
+            .unwrap();
+        let run = burgeon::run(&script, RunOptions { registry, ..options(threads) }).unwrap();
+        run.warnings.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+    };
+    let one = warned(1);
+    let file = script.display().to_string();
+    insta::assert_snapshot!(one.replace(&file, "orchards.lua"), @r"
+    orchards.lua:4: orchard is deprecated since version 1.6 of the script API
+      help: use grove instead
+    orchards.lua:6: orchard.spacing is deprecated since version 1.5 of the script API
+      help: use distance instead
+    orchards.lua:9: orchard:nearest is deprecated since version 1.7 of the script API
+      help: use orchard:near instead
+    orchards.lua:9: orchard:trees is deprecated since version 1.4 of the script API
+      help: use orchard:count instead
+    ");
+    assert_eq!(one, warned(2));
+    let current = burgeon::run(&script, options(1)).unwrap();
+    assert!(!current.warnings.iter().any(|warning| warning.kind() == burgeon::WarningKind::Deprecated));
+}
+
 const FUSES: &str = r#"
 local land = source("land.geojson")
 local Ball, Bud = module("Ball", "radius"), module("Bud")

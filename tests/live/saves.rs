@@ -319,3 +319,89 @@ fn a_model_of_nothing_says_why() {
     page.say(&json!({ "type": "steps", "steps": 0 }));
     says(&mut page, "after 0 steps");
 }
+
+#[test]
+fn a_type_of_object_in_a_file_of_its_own_is_changed_while_the_page_looks_on() {
+    let post = |segments: usize, more: &str| {
+        format!(
+            "return object(\"post\", {{ extends = extruder, state = {{ n = 0 }}, changes = {{ raise = function(self)\n\
+             for _ = 1, {segments} do self:extrude(1):roll(5) end\n\
+             self.n += 1 {more}\nend }} }})\n"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("post.lua"), post(1, "")).unwrap();
+    let text = "local post = require(\"post\")\nlocal A = module(\"A\")\n\
+                local s = lsystem({ object = post({ sides = 4 }) })\ns:axiom(A())\n\
+                s:interpret(\"A\", function(this) this:raise() end)\ns:derive(0)\n";
+    fs::write(folder.path().join("s.lua"), text).unwrap();
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    let first = page.next("model");
+    server.write("post.lua", post(3, ""));
+    let second = page.next("model");
+    assert!(second["triangles"].as_u64() > first["triangles"].as_u64(), "{first} {second}");
+    server.write("post.lua", post(3, "self.m = 3"));
+    let error = page.next("error");
+    assert_eq!((&error["errors"][0]["file"], &error["errors"][0]["line"]), (&json!("post.lua"), &json!(3)));
+    assert!(error["text"].as_str().unwrap().contains("post has no state called m"), "{error}");
+    let mut late = server.page();
+    assert_eq!(late.next("model")["url"], second["url"]);
+    fs::remove_file(server.path("post.lua")).unwrap();
+    assert!(page.next("error")["text"].as_str().unwrap().contains("post.lua"));
+    server.write("post.lua", post(3, ""));
+    assert_eq!(page.next("model")["url"], second["url"]);
+}
+
+#[test]
+fn files_of_packages_are_followed_and_one_that_goes_leaves_the_last_model_with_the_reason() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| {
+        let path = folder.path().join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    let about = "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n";
+    write("given/castle/mod.toml", about);
+    write("given/castle/size.lua", "return 3");
+    write(
+        "s.lua",
+        "local size = require(\"@castle/size\")\nlocal A = module(\"A\")\n\
+         local s = lsystem({ object = extruder({ sides = 4, smooth = false }) })\ns:axiom(A())\n\
+         s:interpret(\"A\", function(this) for _ = 1, size do this:extrude(1):advance(1) end end)\ns:derive()\n",
+    );
+    let server = Server::start(folder, &["--mods", "given"]);
+    let mut page = server.page();
+    let first = page.next("model");
+    server.write("given/castle/size.lua", "return 5");
+    let model = page.next("model");
+    assert!(model["triangles"].as_u64() > first["triangles"].as_u64());
+    fs::remove_file(server.path("given/castle/size.lua")).unwrap();
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("the package castle has no file size.lua"), "{error}");
+    // Whoever comes now sees the last good model, and why there is no newer one.
+    let mut second = server.page();
+    assert_eq!(second.next("model")["url"], model["url"]);
+    second.next("error");
+    server.write("given/castle/size.lua", "return 4");
+    page.next("model");
+    server.write("given/castle/mod.toml", about.replace("castle", "Castle"));
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("cannot be the name of a package"), "{error}");
+    server.write("given/castle/mod.toml", about);
+    page.next("model");
+}
+
+#[test]
+fn a_package_that_is_missing_is_waited_for() {
+    let server = Server::new(Some(&script(3).replacen("local", "require(\"@castle/size\")\nlocal", 1)));
+    let mut page = server.page();
+    let error = page.next("error");
+    assert!(error["text"].as_str().unwrap().contains("there is no package castle"), "{error}");
+    let staged = server.path("mods.new/castle");
+    fs::create_dir_all(&staged).unwrap();
+    fs::write(staged.join("mod.toml"), "name = \"castle\"\nversion = \"1.0.0\"\napi = \"1\"\n").unwrap();
+    fs::write(staged.join("size.lua"), "return 3").unwrap();
+    fs::rename(server.path("mods.new"), server.path("mods")).unwrap();
+    page.next("model");
+}

@@ -1,5 +1,6 @@
 //! A type of object that a script declares, as far as Rust knows it; its functions stay in the virtual machine.
 
+use std::collections::BTreeSet;
 use std::sync::{Arc, Weak};
 
 use super::declare::refuse_unknown;
@@ -48,10 +49,9 @@ impl ScriptType {
                 base.name
             )));
         }
-        let own: Vec<String> = self.fields.iter().map(|field| field.name.to_string()).collect();
+        let own: BTreeSet<String> = self.fields.iter().map(|field| field.name.to_string()).collect();
         let inherited = base.iter().flat_map(|base| &base.fields);
-        let inherited: Vec<_> =
-            inherited.filter(|field| !own.iter().any(|own| *own == field.name)).cloned().collect();
+        let inherited: Vec<_> = inherited.filter(|field| !own.contains(&*field.name)).cloned().collect();
         let mut fields: Vec<_> = self.fields.iter().map(ScriptField::describe).collect();
         fields.extend(inherited);
         let mut all: Vec<Method> = base.iter().flat_map(|base| base.methods.iter().cloned()).collect();
@@ -71,9 +71,10 @@ impl ScriptType {
                 None => all.push(method),
             }
         }
-        if let Some(clash) = fields.iter().find(|field| {
-            own.iter().any(|own| *own == field.name) && all.iter().any(|method| method.name == field.name)
-        }) {
+        if let Some(clash) = fields
+            .iter()
+            .find(|field| own.contains(&*field.name) && all.iter().any(|method| method.name == field.name))
+        {
             return Err(Error::argument(format!("{name} has a field and a method called {}", clash.name))
                 .help("give one of them another name"));
         }

@@ -101,10 +101,16 @@ impl Packages {
         let mut found = Self::default();
         if let Some(script) = &search.script {
             let folder = if script.as_os_str().is_empty() { Path::new(".") } else { script };
-            if let (Ok(script_root), Ok(root)) = (folder.canonicalize(), folder.join(BESIDE).canonicalize()) {
+            if let Ok(script_root) = folder.canonicalize() {
+                let root = script_root.join(BESIDE);
                 // A link may lead anywhere.
-                if root.starts_with(&script_root) && root.is_dir() {
-                    found.search(&root, &script.join(BESIDE), PackageOrigin::Beside);
+                match root.canonicalize() {
+                    Ok(root) if root.starts_with(&script_root) && root.is_dir() => {
+                        found.search(&root, &script.join(BESIDE), PackageOrigin::Beside);
+                    }
+                    Ok(_) => {}
+                    // There may be one soon.
+                    Err(_) => found.roots.push(root),
                 }
             }
         }
@@ -251,9 +257,12 @@ impl Packages {
 
 /// The names of what is in a folder, in their own order; what begins with a point is none of them.
 fn names(root: &Path) -> Result<Vec<String>, std::io::Error> {
-    let entries = std::fs::read_dir(root)?.take(MOST);
+    let entries = std::fs::read_dir(root)?.take(MOST + 1);
     let mut names: Vec<String> =
         entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok()).collect();
+    if names.len() > MOST {
+        return Err(std::io::Error::other(format!("it has more than {MOST} entries")));
+    }
     names.retain(|name| !name.starts_with('.'));
     names.sort();
     Ok(names)

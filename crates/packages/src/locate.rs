@@ -52,6 +52,8 @@ impl FileName {
 /// The file that a name means.
 #[derive(Debug, Clone)]
 pub struct PackageFile<'a> {
+    /// Its own name: that of the file that counts, where others replace the one that was asked for.
+    pub name: FileName,
     /// Where it is, without links.
     pub path: PathBuf,
     /// How people find it.
@@ -87,7 +89,8 @@ impl Packages {
         seek(&wanted, found.is_ok());
         match found {
             Ok(found) if found.starts_with(&package.folder) => {
-                Ok(PackageFile { path: found, shown, package })
+                let name = FileName { package: package.manifest.name.clone(), path };
+                Ok(PackageFile { name, path: found, shown, package })
             }
             Ok(_) => Err(Error::file(
                 &shown,

@@ -80,7 +80,12 @@ impl Data {
             return Err(Error::argument(format!("{kind} needs the name of a file"))
                 .help(format!("write {}", loader.example)));
         }
-        let path = find(session, asker, loader.what, name)?;
+        // A file that another one replaces names files of its own package.
+        let located = session.package_file(loader.what, name, asker).transpose()?;
+        let (path, own, asker) = match located {
+            Some(located) => (located.path, located.name.to_string(), Some(located.package)),
+            None => (find(session, asker, loader.what, name)?, name.to_owned(), asker),
+        };
         let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
         let key =
             format!("{kind} {} {:?} {fields:?}", path.display(), asker.map(|asker| &asker.manifest.name));
@@ -90,7 +95,7 @@ impl Data {
         let budget = known.budget(session);
         let before = budget.taken();
         let mut file = LoadRequest {
-            name,
+            name: &own,
             path: &path,
             budget: &budget,
             triangles: session.options.limits.triangles,
@@ -170,7 +175,7 @@ fn read(
 /// `--data`, or in a package's if `name` says so, for the package `asker` if it is one that asks.
 fn find(session: &Session, asker: Option<&Package>, what: &'static str, name: &str) -> Result<PathBuf> {
     if let Some(found) = session.package_file(what, name, asker) {
-        return found;
+        return Ok(found?.path);
     }
     let outside = || {
         Error::file(name, format!("the {what} {name} lies outside the script's folder")).help(

@@ -1,6 +1,6 @@
 //! The files of packages, as a run's scripts ask for them.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::PoisonError;
 
 use super::param::Param;
@@ -54,11 +54,11 @@ impl Session {
         what: &'static str,
         name: &str,
         asker: Option<&Package>,
-    ) -> Option<Result<PathBuf>> {
+    ) -> Option<Result<PackageFile<'_>>> {
         if !FileName::is_meant(name) {
             return None;
         }
-        Some(FileName::parse(name).and_then(|name| Ok(self.locate(what, &name, asker)?.path)))
+        Some(FileName::parse(name).and_then(|name| self.locate(what, &name, asker)))
     }
 
     /// The errors for the texts of a file that name files of packages which the package it is of does not depend on.

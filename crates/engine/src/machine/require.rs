@@ -87,8 +87,25 @@ fn load(
         .and_then(|chunk| machine.call::<LuaValue>(&chunk, ()).map_err(|error| machine.translate(error)));
     library.loading.borrow_mut().pop();
     let value = value?;
+    if session.package_of(shown).is_some() {
+        freeze_all(&value);
+    }
     library.loaded.borrow_mut().insert(path, value.clone());
     Ok(value)
+}
+
+/// Makes what a package gives to others read-only, so that none of them changes it for the rest.
+fn freeze_all(value: &LuaValue) {
+    let mut queue = vec![value.clone()];
+    while let Some(value) = queue.pop() {
+        let LuaValue::Table(table) = value else { continue };
+        if table.is_readonly() {
+            continue;
+        }
+        table.set_readonly(true);
+        queue.extend(table.metatable().map(LuaValue::Table));
+        queue.extend(table.pairs::<LuaValue, LuaValue>().flatten().flat_map(|(key, value)| [key, value]));
+    }
 }
 
 /// The folder of the file that is being run, as people find it.

@@ -1,6 +1,6 @@
 //! `object` and `extend`: types of objects that a script declares, and methods that it adds to others.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use mlua::{Function, Table, Value as LuaValue};
 
@@ -8,11 +8,11 @@ use super::Machine;
 use super::convert::{to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
 use super::kinds::{constructor, install_methods};
-use crate::declare::names::{EXTEND, OBJECT};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
 };
+use burgeon_language::{EXTEND, OBJECT};
 
 /// The functions that run around the interpretation of a chain, as a script names them.
 const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
@@ -55,9 +55,10 @@ impl ScriptTypeEntry {
             _ => return Err(not_a_type(name)),
         };
         let what = |part: &str| format!("{part} of object {name}");
+        let inherited = entry.declaration.fields.len();
         for (field, value) in named(declared, "fields", &what("fields"))? {
             let field = ScriptField::declare(name, &field, &to_value(&value, false)?)?;
-            replace(&mut entry.declaration.fields, field, |known| known.name.to_string());
+            replace(&mut entry.declaration.fields, inherited, field, |a, b| a.name == b.name);
         }
         let mut state = ValueTable::clone(&entry.declaration.state);
         for (key, value) in named(declared, "state", &what("state"))? {
@@ -81,6 +82,7 @@ impl ScriptTypeEntry {
             }
         }
         entry.declaration.state = Arc::new(state);
+        let functions = entry.functions.len();
         entry.add(declared, &what)?;
         for hook in HOOKS {
             match declared.raw_get::<LuaValue>(hook).map_err(internal)? {
@@ -92,7 +94,7 @@ impl ScriptTypeEntry {
                         function,
                         role: Role::Hook,
                     };
-                    replace(&mut entry.functions, function, |known| known.name.clone());
+                    replace(&mut entry.functions, functions, function, ScriptFunction::is_same);
                 }
                 other => return Err(not_a_function(&what(hook), &other)),
             }
@@ -142,6 +144,7 @@ impl Parts {
 
     /// Adds the functions that a table declares as `reads` and `changes`.
     fn add(&mut self, declared: &Table, what: &dyn Fn(&str) -> String) -> Result<()> {
+        let inherited = self.functions.len();
         for (part, role) in [("reads", Role::Read), ("changes", Role::Change)] {
             for (name, value) in named(declared, part, &what(part))? {
                 let (function, doc) = match value {
@@ -160,9 +163,8 @@ impl Parts {
                     ))
                     .help("a function either reads or changes the object"));
                 }
-                replace(&mut self.functions, ScriptFunction { name, doc, function, role }, |known| {
-                    known.name.clone()
-                });
+                let function = ScriptFunction { name, doc, function, role };
+                replace(&mut self.functions, inherited, function, ScriptFunction::is_same);
             }
         }
         Ok(())
@@ -209,6 +211,11 @@ impl Parts {
 }
 
 impl ScriptFunction {
+    /// Whether it stands for the same method or the same hook as `other`.
+    fn is_same(&self, other: &Self) -> bool {
+        self.name == other.name && (self.role == Role::Hook) == (other.role == Role::Hook)
+    }
+
     /// The method as people are told of it.
     fn method(&self) -> Method {
         let count = self.function.info().num_params.saturating_sub(1);
@@ -217,6 +224,7 @@ impl ScriptFunction {
             luau: "any".to_owned(),
             unit: None,
             fields: Vec::new(),
+            default: String::new(),
         };
         Method {
             name: self.name.clone().into(),
@@ -281,6 +289,8 @@ pub(super) fn extend_type(machine: &Machine, constructor: &LuaValue, declared: &
         machine.prelude().extension.call((&*kind.name, methods, of, reads, changes))
     };
     add().map_err(|error| machine.translate(error))?;
+    let names = parts.functions.iter().map(|known| known.name.clone());
+    machine.session.extensions.lock().unwrap_or_else(PoisonError::into_inner).extend(names);
     machine.library.extensions.borrow_mut().extend(parts.functions);
     Ok(())
 }
@@ -360,10 +370,9 @@ fn described(what: &str, table: &Table) -> Result<(Function, String)> {
     }
 }
 
-/// Puts `item` in the place of the one of the same name.
-fn replace<T>(list: &mut Vec<T>, item: T, name: impl Fn(&T) -> String) {
-    let wanted = name(&item);
-    match list.iter_mut().find(|known| name(known) == wanted) {
+/// Puts `item` in the place of the one that is the same among the first `inherited`.
+fn replace<T>(list: &mut Vec<T>, inherited: usize, item: T, same: impl Fn(&T, &T) -> bool) {
+    match list[..inherited].iter_mut().find(|known| same(known, &item)) {
         Some(known) => *known = item,
         None => list.push(item),
     }

@@ -1,0 +1,8 @@
+--!strict
+-- The parts of a castle: require("@castle") gives functions that make models of them.
+return {
+  tower = require("./towers"),
+  curtain = require("./curtain"),
+  gatehouse = require("./gatehouse"),
+  keep = require("./keep"),
+}

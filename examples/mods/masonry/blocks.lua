@@ -1,0 +1,16 @@
+--!strict
+-- Upright blocks for extruders. The extruder looks up before and after, so that x and y are those of the world.
+local blocks = {}
+
+-- A block on `foot`, `length` along `way` and `thick` across it (m), both around the foot, and `height` high.
+function blocks.block(this, foot, way, length: number, thick: number, height: number)
+  local across = vec(-way.y, way.x, 0) * (thick / 2)
+  local half = vec(way.x, way.y, 0) * (length / 2)
+  local corners = {}
+  for _, corner in { half - across, half + across, across - half, half * -1 - across } do
+    table.insert(corners, { corner.x, corner.y })
+  end
+  this:jump(foot):polygon(corners):scale(1):extrude(height)
+end
+
+return blocks

@@ -1,0 +1,74 @@
+//! `burgeon mods`.
+
+use crate::packages::{SCRIPT, about, castle, prints};
+use crate::support::Folder;
+
+#[test]
+fn packages_are_checked() {
+    let checked = castle("").burgeon(&["mods", "check"]).done();
+    insta::assert_snapshot!(checked.stderr, @"castle 1.0.0 is fine: 1 script");
+    let folder = castle("[replaces]\n\"@castle/gate.lua\" = \"gat.lua\"\n")
+        .with("mods/castle/towers.lua", "local a = unknown\nreturn {")
+        .with(
+            "mods/castle/gate.lua",
+            "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone",
+        )
+        .with("mods/castle/stone.png", "x");
+    insta::assert_snapshot!(folder.refuses(&["mods", "check", "mods/castle"]), @r#"
+    error: mods/castle/mod.toml:5: the package castle replaces a file of castle, which it does not depend on
+      | "@castle/gate.lua" = "gat.lua"
+      help: write below [depends]: castle = "*"
+    "#);
+    insta::assert_snapshot!(castle("").with("mods/castle/gate.lua", "local stone = \"@castle/ston.png\"\nlocal a = lenght(3)\nrequire(\"./wall\")\nreturn stone, a").refuses(&["mods", "check", "mods/castle"]), @r#"
+    error: mods/castle/gate.lua:1: the package castle has no file ston.png
+      | local stone = "@castle/ston.png"
+      help: it is looked for in mods/castle
+    error: mods/castle/gate.lua:2: unknown name lenght
+      | local a = lenght(3)
+      help: declare it: local lenght = ...
+    "#);
+    insta::assert_snapshot!(castle("").refuses(&["mods", "check", "nowhere"]), @r"
+    error: there is no folder nowhere
+      help: --mods names a folder of packages
+    ");
+    insta::assert_snapshot!(castle("").refuses(&["mods", "explain", "castel"]), @r"
+    error: there is no package castel
+      help: did you mean castle?
+    ");
+    insta::assert_snapshot!(castle("").refuses(&["mods", "--script", "t.lua"]), @r"
+    error: there is no script t.lua
+      help: --script names the script whose packages are meant
+    ");
+    insta::assert_snapshot!(Folder::new().burgeon(&["mods"]).done().stdout, @"there are no packages; add one: burgeon mods add FOLDER");
+}
+
+#[test]
+fn packages_are_added_and_replaced_only_if_asked() {
+    let folder = Folder::new()
+        .with("s.lua", SCRIPT)
+        .with("work/mod.toml", about("castle", ""))
+        .with("work/towers.lua", "return { height = 1, name = \"added\" }");
+    let said = folder.burgeon(&["mods", "add", "work"]).done();
+    insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to mods/castle; scripts use it with require("@castle")"#);
+    assert_eq!(prints(&folder, &[]), "1\tadded\n");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "work"]), @r"
+    error: there is a package castle 1.0.0 in mods/castle already
+      help: put castle 1.0.0 in its place: --replace
+    ");
+    let said = folder.burgeon(&["mods", "add", "work", "--replace", "--json"]).done();
+    assert_eq!(said.json()["replaced"], "1.0.0");
+    let said = folder.burgeon(&["mods", "add", "work", "--into", "user/burgeon/mods"]).done();
+    insta::assert_snapshot!(said.stderr, @r#"added castle 1.0.0 to user/burgeon/mods/castle; scripts use it with require("@castle")"#);
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "s.lua"]), @r"
+    error: s.lua cannot be unpacked
+      help: name a zip, or the folder that has the mod.toml; a damaged one has to be got again
+    ");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "nowhere.zip"]), @r"
+    error: there is no folder or zip nowhere.zip
+      help: name the folder that has the mod.toml, or a zip of it
+    ");
+    insta::assert_snapshot!(folder.refuses(&["mods", "add", "user"]), @r"
+    error: user has no mod.toml
+      help: a package is a folder with a mod.toml, or a zip of one
+    ");
+}
