@@ -82,8 +82,11 @@ local function from_others(...: any)
   return made(x or 0, y or 0, z or 0)
 end
 
+-- For those who read the library; it is told of in Rust, with its methods.
+type Vector = any
+
 --- A vector of three numbers, or of a list of them; what is left out at the end is 0.
-local function vec(...: any)
+local function vec(...: any): Vector
   local x, y, z, more = ...
   if type(x) == "number" and type(y) == "number" and type(z) == "number" and more == nil then
     return made(x, y, z)
@@ -201,6 +204,7 @@ __class("vec", Vec)
 -- Numbers.
 
 --- From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
+--- (a: Vector, b: Vector, t: number) -> Vector
 local function lerp(a: number, b: number, t: number): number
   if type(a) ~= "number" or type(b) ~= "number" or type(t) ~= "number" then
     if is_vector(a) then
@@ -285,7 +289,7 @@ end
 -- Colours.
 -- As objects take them: { red, green, blue } from 0 to 1, sRGB.
 
---- A colour from hue (degrees), saturation and value (0 to 1).
+--- A colour from `hue` (degrees), `saturation` and `value` (0 to 1).
 local function hsv(hue: number, saturation: number, value: number): { number }
   check_numbers("hsv", hue, saturation, value)
   local function channel(n: number): number

@@ -76,7 +76,7 @@ ways:derive()
 local Building = module("Building", "height", "use", "roof")
 local houses = lsystem({ object = footprint })
 
-houses:axiom(source(buildings), function(feature)
+houses:axiom(source(buildings), function(feature: any)
   local use = feature.use
   local tower = use == "church" and #feature.geometry.rings[1] == 4
   local roof = if tower then "spire" elseif use == "farm" then "dutch_hip" else "gable"

@@ -37,7 +37,7 @@ local dragon = lsystem({
 dragon:axiom(Strip(folds, 1, 0, 1))
 
 -- Both halves of a strip are folded like the whole, but the second one is seen from behind.
-dragon:rule("Strip(n, side, from, to)", function(this, n, side, from, to)
+dragon:rule("Strip(n, side, from, to)", function(this, n: number, side, from, to)
   if n == 0 then
     return nil
   end

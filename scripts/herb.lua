@@ -23,13 +23,13 @@ local Rib = module("Rib", "k", "arch", "width")
 local function blade(color, arch: number, width: number)
   local system = lsystem({ object = turtle({ color = color, roughness = 0.65 }) })
   system:axiom(Rib(0, arch, width))
-  system:rule("Rib(k, arch, width)", function(this, k, arch, width)
+  system:rule("Rib(k, arch, width)", function(this, k: number, arch, width)
     if k == 6 then
       return nil
     end
     local near = width * math.sin(math.pi * (k / 6) ^ 0.8)
     local far = if k == 5 then 0 else width * math.sin(math.pi * ((k + 1) / 6) ^ 0.8)
-    local function strip(side: number)
+    local function strip(side: number): any
       return {
         Roll(side * 16),
         BeginPolygon(),
@@ -99,7 +99,7 @@ herb:rule("Internode(a, s) > Internode(b, t)", {
 }, function(this, a)
   return Internode(a + 1, 1)
 end)
-herb:rule("Internode(a, s)", function(this, a, s)
+herb:rule("Internode(a, s)", function(this, a: number, s)
   return Internode(a + 1, s)
 end)
 herb:rule("Internode(a, s) < Bud", {
@@ -111,13 +111,13 @@ herb:rule("Internode(a, s) < Bud", {
 end)
 
 -- Everything grows with age.
-herb:rule("Leaf(a)", function(this, a)
+herb:rule("Leaf(a)", function(this, a: number)
   return Leaf(a + 1)
 end)
-herb:rule("Stalk(a)", function(this, a)
+herb:rule("Stalk(a)", function(this, a: number)
   return Stalk(a + 1)
 end)
-herb:rule("Flower(a)", function(this, a)
+herb:rule("Flower(a)", function(this, a: number)
   return Flower(a + 1)
 end)
 

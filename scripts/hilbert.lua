@@ -27,7 +27,7 @@ local curve = lsystem({
 
 curve:axiom(Cube(vec(0, 0, 0), vec(1, 0, 0), vec(0, 1, 0), vec(0, 0, 1), level, 0))
 
-curve:rule("Cube(p, a, b, c, n, i)", function(this, p, a, b, c, n, i)
+curve:rule("Cube(p, a, b, c, n, i)", function(this, p, a, b, c, n: number, i)
   if n == 0 then
     return Cell(p, i)
   end

@@ -36,7 +36,7 @@ local function snowflake(generations: number, color)
     Corner(120),
     Edge(side, generations)
   )
-  plate:rule("Edge(l, n)", function(this, l, n)
+  plate:rule("Edge(l, n)", function(this, l, n: number)
     if n == 0 then
       return Along(l)
     end
@@ -71,7 +71,7 @@ local Flake = module("Flake", "radius", "n", "rank")
 local relief = lsystem({ object = turtle({}), interpret = "last" })
 relief:axiom(Flake(radius, terraces, 0))
 
-relief:rule("Flake(r, n, rank)", function(this, r, n, rank)
+relief:rule("Flake(r, n, rank)", function(this, r: number, n: number, rank: number)
   local plate = Place(plates[n][rank], r * (1 - gap))
   if n == 0 then
     return plate

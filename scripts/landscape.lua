@@ -91,14 +91,17 @@ end
 local Ground = module("Ground", "height", "form", "x", "y", "width", "noise")
 local cells = lsystem()
 cells:axiom(Ground(0, 0, 0, 0, 2, shape.noise * size))
-cells:rule("Ground(h, f, x, y, w, d)", function(this, h, f, x, y, w, d)
-  local q = w / 4
-  local function quadrant(x, y)
-    local form = if shape.form then shape.form(x, y) * size else 0
-    return Ground(h + random(-d, d) * if w < 0.1 then rough else 1, form, x, y, w / 2, d * shape.decay)
+cells:rule(
+  "Ground(h, f, x, y, w, d)",
+  function(this, h: number, f: number, x: number, y: number, w: number, d: number)
+    local q = w / 4
+    local function quadrant(x, y)
+      local form = if shape.form then shape.form(x, y) * size else 0
+      return Ground(h + random(-d, d) * if w < 0.1 then rough else 1, form, x, y, w / 2, d * shape.decay)
+    end
+    return quadrant(x - q, y + q), quadrant(x + q, y + q), quadrant(x - q, y - q), quadrant(x + q, y - q)
   end
-  return quadrant(x - q, y + q), quadrant(x + q, y + q), quadrant(x - q, y - q), quadrant(x + q, y - q)
-end)
+)
 
 -- A conifer grows from its whorls: each becomes a cone of branches and a smaller whorl above it.
 local Trunk = module("Trunk", "height")

@@ -45,7 +45,8 @@ window:rule("Rose(r, n, count, tint)", function(this, r, n, count, tint)
   local middle = clear - 2 * small
   -- The middle of the whole is large enough for one more.
   local middle_n = if r == radius then n else n - 1
-  local parts = { { Ring(r, width) }, { Pane(clear, tint + 2) }, { Rose(middle, middle_n, inner, tint + 1) } }
+  local parts: { any } =
+    { { Ring(r, width) }, { Pane(clear, tint + 2) }, { Rose(middle, middle_n, inner, tint + 1) } }
   for k = 1, count do
     table.insert(
       parts,

@@ -13,7 +13,7 @@ local east, north = 0, 0
 for _, name in if only == "all" then build.names else { only } do
   local usual = build.usual[name]
   local w, d = usual.width, usual.depth
-  local function plan(variant: number, points)
+  local function plan(variant: number, points: any)
     local ring = {}
     for _, point in points do
       table.insert(ring, { east + point[1], north + point[2] })

@@ -35,22 +35,25 @@ sweeps:axiom(models, function(model)
 end)
 
 -- A segment bears its arms on a ring where it ends; the foot and the tip bear none.
-sweeps:rule("Arm(n, r, level, fineness)", function(this, n, r, level, fineness)
-  if n == 0 then
-    return Tip(r)
-  end
-  local along = 1 - n / segments
-  local parts = { Segment(r, lerp(6, curl, ease.smooth(along))) }
-  if level > 1 and n > segments / 3 and n < segments then
-    local finer = math.max(math.floor(fineness / 2), 2)
-    for k = 1, arms do
-      local side = Arm(segments - 3, r * 0.36, level - 1, finer)
-      table.insert(parts, { Leave((k + n / 2) * 360 / arms, r), Section(finer), side })
+sweeps:rule(
+  "Arm(n, r, level, fineness)",
+  function(this, n: number, r: number, level: number, fineness: number)
+    if n == 0 then
+      return Tip(r)
     end
+    local along = 1 - n / segments
+    local parts = { Segment(r, lerp(6, curl, ease.smooth(along))) }
+    if level > 1 and n > segments / 3 and n < segments then
+      local finer = math.max(math.floor(fineness / 2), 2)
+      for k = 1, arms do
+        local side = Arm(segments - 3, r * 0.36, level - 1, finer)
+        table.insert(parts, { Leave((k + n / 2) * 360 / arms, r), Section(finer), side })
+      end
+    end
+    table.insert(parts, Arm(n - 1, r * TAPER, level, fineness))
+    return table.unpack(parts)
   end
-  table.insert(parts, Arm(n - 1, r * TAPER, level, fineness))
-  return table.unpack(parts)
-end)
+)
 
 -- The cross-section: a circle with lobes.
 sweeps:interpret("Section(fineness)", function(this, fineness)

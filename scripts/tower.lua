@@ -73,7 +73,7 @@ tower:rule("Pillar(w, h, level)", function(this, w, h, level)
 end)
 
 -- A cornice, and on each of its corners a turret.
-tower:rule("Setback(r)", function(this, r)
+tower:rule("Setback(r)", function(this, r: number)
   local parts = { Drum(r * 0.98, 0.5, 1.07), Drum(r * 1.05, 0.5, 1) }
   for side = 1, sides do
     table.insert(parts, { Roll(side * 360 / sides), Out(r * 0.92), Turret(r * 0.13, 3) })
@@ -81,7 +81,7 @@ tower:rule("Setback(r)", function(this, r)
   return table.unpack(parts)
 end)
 
-tower:rule("Turret(r, n)", function(this, r, n)
+tower:rule("Turret(r, n)", function(this, r, n: number)
   if n == 0 then
     return Drum(r * 1.3, r * 0.4, 1), Spire(r * 1.1, r * 6)
   end

@@ -54,7 +54,7 @@ local of: { [string]: { any } } =
 local lines = {}
 local low, high = town.bounds.min, town.bounds.max
 local x, y = (low[1] + high[1]) / 2 + east, (low[2] + high[2]) / 2 + north
-local function near(point): boolean
+local function near(point: any): boolean
   return radius == 0 or math.max(math.abs(point[1] - x), math.abs(point[2] - y)) <= radius
 end
 for _, feature in town do
@@ -101,7 +101,7 @@ local function one_of(names: { string }): string
   return names[math.min(#names, 1 + math.floor(random() * #names))]
 end
 
-local function extent(geometry): (number, number)
+local function extent(geometry: any): (number, number)
   local area, around = 0, 0
   local ring = geometry.rings[1]
   for index, a in ring do
@@ -157,7 +157,7 @@ houses:axiom(source(of.building), function(feature)
     height = (levels or 1) * 3
   end
   local style = build.style(style_of(feature, height), 1 + math.floor(random() * 60))
-  local known = { streets = along, attributes = { name = feature.name } }
+  local known: FootprintOptions = { streets = along, attributes = { name = feature.name } }
   return footprint(feature.geometry, known),
     build.Building(style, build.levels(style, height), height, feature.use or "")
 end)

@@ -33,7 +33,7 @@ portal:interpret("Arch(angle)", function(this, angle)
 end)
 local ruin = portal:derive()
 
-local function clearance(place): number
+local function clearance(place: any): number
   return ruin.objects[1]:distance(place)
 end
 
@@ -89,7 +89,7 @@ end
 vine:axiom(table.unpack(seedlings))
 
 -- A shoot grows a piece of stem with a leaf, wandering a little and rather upwards, and branches now and then.
-local function grow(place, heading, bend)
+local function grow(place, heading: any, bend)
   local upwards = if place.z < 0.2 then 1 else random(-0.15, 0.6)
   local wander = vec(random(-0.5, 0.5), random(-0.5, 0.5), upwards)
   local way = (heading + bend + wander * 0.5):unit() * stride
@@ -134,7 +134,7 @@ vine:rule("Tip(p, h)", function(this, p, h)
 end)
 
 -- Stems thicken with age.
-vine:rule("Stem(p, way, w)", function(this, p, way, w)
+vine:rule("Stem(p, way, w)", function(this, p, way, w: number)
   return Stem(p, way, math.min(w + 0.0006, 0.06))
 end)
 

@@ -20,16 +20,17 @@
 //! geometry   uses ──► base, scene
 //! data       uses ──► base, geometry
 //! kit        uses ──► base, data, geometry, macros, scene
+//! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
 //! packages   uses ──► base
-//! engine     uses ──► base, data, kit, packages, scene
+//! engine     uses ──► base, data, kit, language, packages, scene
 //! export     uses ──► base, data, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, export, kit, scene
 //! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, live, objects, packages, presets, scene, terrain, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, scene, terrain, variations, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
@@ -43,6 +44,7 @@
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
 //!   [`Object`](kit::Object) can do; a [`Grammar`](kit::rules::Grammar) of [`Pattern`](kit::rules::Pattern)s matches
 //!   along a [`Chain`](kit::rules::Chain), without Lua.
+//! - [`language`]: what scripts can use, told once: [`names`](language::names), and the definition file for editors.
 //! - [`terrain`]: a [`World`](terrain::World) that is divided by rules, the [`Ground`](terrain::Ground) that is expanded
 //!   of it, a [`Globe`](terrain::globe::Globe), and the search for rules that [`fit`](terrain::fit) a height map.
 //! - [`objects`]: the types of objects that come with Burgeon, in one [`registry`](objects::registry).
@@ -102,6 +104,7 @@ pub use burgeon_export as export;
 pub use burgeon_export::picture;
 pub use burgeon_geometry as geometry;
 pub use burgeon_kit as kit;
+pub use burgeon_language as language;
 #[cfg(feature = "live")]
 pub use burgeon_live as live;
 pub use burgeon_objects as objects;

@@ -31,8 +31,8 @@ build.usual = {
 }
 
 -- All variants of all styles in one list, so that a number says which one is meant.
-local styles = {}
-local first = {}
+local styles: { any } = {}
+local first: { [string]: any } = {}
 for _, name in build.names do
   local variants = require(`templates/{name}`)
   first[name] = { at = #styles + 1, count = #variants }
@@ -67,24 +67,25 @@ local TOWER = 130
 function build.system()
   local houses = lsystem({ object = footprint, interpret = "last" })
 
-  houses:rule("Building(style, levels, height, use)", function(this, style, levels, height, use)
-    local chosen = styles[style]
-    local usual = chosen.ground + (levels - 1) * chosen.storey
-    local stretch = if height > 0 then height / usual else 1
-    local chain = { Groundwork(style) }
-    for number = 1, levels do
-      local storey = if number == 1 then chosen.ground else chosen.storey
-      local kind = if chosen.pick
-        then chosen.pick(number, levels, use)
-        elseif number == 1 then "ground"
-        else "upper"
-      table.insert(chain, Storey(style, kind, storey * stretch))
+  houses:rule(
+    "Building(style, levels, height, use)",
+    function(this: Footprint, style: number, levels: number, height: number, use: string)
+      local chosen: any = styles[style]
+      local pick: ((...any) -> string)? = chosen.pick
+      local usual = chosen.ground + (levels - 1) * chosen.storey
+      local stretch = if height > 0 then height / usual else 1
+      local chain = { Groundwork(style) }
+      for number = 1, levels do
+        local storey = if number == 1 then chosen.ground else chosen.storey
+        local kind = if pick then pick(number, levels, use) elseif number == 1 then "ground" else "upper"
+        table.insert(chain, Storey(style, kind, storey * stretch))
+      end
+      local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
+      local kind = if deep and chosen.wide then "wide" elseif small and chosen.tower then "tower" else "roof"
+      table.insert(chain, Roof(style, kind))
+      return table.unpack(chain)
     end
-    local deep, small = 4 * this:area() / this:perimeter() > DEEP, this:area() < TOWER
-    local kind = if deep and chosen.wide then "wide" elseif small and chosen.tower then "tower" else "roof"
-    table.insert(chain, Roof(style, kind))
-    return table.unpack(chain)
-  end)
+  )
 
   houses:interpret("Groundwork(style)", function(this, style)
     this:groundwork("extruded", styles[style].groundwork)

@@ -2,7 +2,7 @@
 -- An Alpine chalet: a white ground floor, boards and a carved balcony above, and a low roof that juts out far.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
-local box = parts.box
+local box: (...any) -> any = parts.box
 
 local WOODS = { "#8f6c4d", "#775d48", "#9b7c5c" }
 local SHUTTERS = { "#566f5a", "#7d4b45", "#54687a" }

@@ -3,7 +3,7 @@
 -- standing out over the one below, under a steep gable.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
-local box, beam = parts.box, parts.beam
+local box: (...any) -> any, beam: (...any) -> any = parts.box, parts.beam
 
 local PLASTERS = { "#e6dcc4", "#dcc79c", "#d3a98b", "#e4e0d6", "#c6c5a8" }
 local TILES = { "#bb8e78", "#c79b80", "#a98271", "#a08d80", "#cba086" }

@@ -37,7 +37,7 @@ local function areas(features, from: number, to: number, color: string)
 end
 
 -- The ground with what lies on it: `of.land`, or a plate under everything, and `of.water`, `of.park` and `of.square`.
-function nature.ground(of, bounds)
+function nature.ground(of, bounds: any)
   local land = of.land
   if #land == 0 then
     local low, high, m = bounds.min, bounds.max, 15
@@ -60,7 +60,7 @@ function nature.ground(of, bounds)
 end
 
 -- The outline of a band along a line, `width` (m) wide.
-local function band(points, width: number)
+local function band(points: any, width: number)
   local left, right = {}, {}
   for index, point in points do
     local before, after = points[math.max(index - 1, 1)], points[math.min(index + 1, #points)]

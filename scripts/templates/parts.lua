@@ -9,14 +9,14 @@ local fine = param("fine", {
   text = "Whether windows, railings and shutters have all their pieces; a city of thousands of buildings needs few",
 })
 -- The shapes and materials are at hand as parts, too.
-local parts = table.clone(pieces)
+local parts: { [string]: (...any) -> any } = table.clone(pieces)
 local box, plate, model = parts.box, parts.plate, parts.model
 
 type Material = { [string]: any }
 type Shape = { [string]: any }
 
 -- The pieces of a casement: a frame, `columns` by `rows` panes and glass. Its front is at the depth `y`.
-local function casement(o): { Shape }
+local function casement(o: any): { Shape }
   local w, h, f, y = o.width / 2, o.height, o.frame or 0.07, o.y or 0
   local low, x0 = o.low or 0, o.x or 0
   local bar = o.bar or 0.035
@@ -61,7 +61,7 @@ function parts.window(o)
 end
 
 -- A sash window, the upper half in front of the lower one.
-function parts.sash(o)
+function parts.sash(o: any)
   local paint = parts.painted(o.color or "#eeece6")
   local half =
     { width = o.width, height = o.height / 2, material = paint, columns = o.columns or 2, bar = 0.03 }
@@ -74,7 +74,7 @@ end
 
 -- What surrounds an opening of the given size and stands out of the wall: jambs, a lintel as high as what is below
 -- the sill, so that its middle is that of the opening. { width, height, jamb, head, sill, out, color, material }
-function parts.surround(o)
+function parts.surround(o: any)
   local w, h, head = o.width / 2, o.height, o.head or 0.16
   local jamb, out, stone = o.jamb or 0, o.out or 0.05, o.material or parts.matt(o.color or "#d9cfba")
   local wide = w + jamb + (o.ears or 0)
@@ -119,7 +119,7 @@ function parts.surround(o)
 end
 
 -- What surrounds a door and stands out of the wall: jambs and a lintel. { width, height, jamb, head, out, material }
-function parts.portal(o)
+function parts.portal(o: any)
   local w, h, jamb, head, out = o.width / 2, o.height, o.jamb, o.head, o.out or 0.05
   local shapes = {
     box(o.material, -w - jamb, -w, -out, 0.02, 0, h),
@@ -142,7 +142,7 @@ function parts.portal(o)
 end
 
 -- An open shutter with slats around x, folded back on the wall.
-function parts.shutter(x, width, height, color): { Shape }
+function parts.shutter(x: number, width: number, height: number, color): { Shape }
   local paint, x0, x1 = parts.painted(color), x - width / 2, x + width / 2
   if not fine then
     return { box(paint, x0, x1, -0.04, 0, 0, height) }
@@ -164,7 +164,15 @@ function parts.shutter(x, width, height, color): { Shape }
 end
 
 -- An iron railing between x0 and x1 at the depth y, from z0 up to z1.
-local function railing(x0, x1, y, z0, z1, step: number?, material: Material?): { Shape }
+local function railing(
+  x0: number,
+  x1: number,
+  y: number,
+  z0: number,
+  z1: number,
+  step: number?,
+  material: Material?
+): { Shape }
   local iron = material or parts.iron
   local shapes = {
     box(iron, x0, x1, y - 0.03, y + 0.03, z1 - 0.04, z1),
@@ -180,10 +188,10 @@ local function railing(x0, x1, y, z0, z1, step: number?, material: Material?): {
   end
   return shapes
 end
-parts.railing = railing
+parts.railing = railing :: any
 
 -- An iron railing across the depth at x, from the depth y0 to the wall.
-local function side_railing(x, y0, z0, z1, material: Material?): { Shape }
+local function side_railing(x: number, y0: number, z0: number, z1: number, material: Material?): { Shape }
   local iron = material or parts.iron
   local shapes = {
     box(iron, x - 0.03, x + 0.03, y0, 0, z1 - 0.04, z1),
@@ -199,7 +207,7 @@ end
 
 -- A balcony of iron before an opening of the given size: a slab on brackets, a railing, and mouldings above the opening
 -- as high as the slab is thick. { width, height, depth, side, slab, material, stone, rail }
-function parts.balcony(o)
+function parts.balcony(o: any)
   local w, d, slab = o.width / 2 + (o.side or 0.3), o.depth or 0.6, o.slab or 0.16
   local stone = o.material or parts.matt("#cfc6b4")
   local shapes = {
@@ -231,7 +239,7 @@ end
 
 -- One bay of a balcony that runs on along a front, for a bay of about `width` by `height`, with a string course at its
 -- top. With `ending` = -1 or 1 it is the end of one, and has a railing across.
-function parts.gallery(o)
+function parts.gallery(o: any)
   local w, d, slab = o.width / 2, o.depth or 0.6, o.slab or 0.18
   local stone = o.material or parts.matt("#cfc6b4")
   local course = o.course or 0.12
@@ -256,7 +264,7 @@ function parts.gallery(o)
 end
 
 -- A door that fills an opening: { width, height, color, wings, transom, glass }.
-function parts.door(o)
+function parts.door(o: any)
   local w, h, paint = o.width / 2, o.height, parts.painted(o.color or "#4a3426")
   local transom = o.transom or 0
   local leaf = h - transom
@@ -289,7 +297,7 @@ end
 
 -- A shop front that fills an opening: a wooden frame, a stall riser, display glass, a door and a sign above.
 -- { width, height, color, sign, awning }
-function parts.shop(o)
+function parts.shop(o: any)
   local w, h, paint = o.width / 2, o.height, parts.painted(o.color or "#2f4038")
   local sign = h * 0.17
   local top = h - sign
@@ -329,7 +337,7 @@ function parts.shop(o)
 end
 
 -- A roller gate that fills an opening, with a frame of steel.
-function parts.gate(o)
+function parts.gate(o: any)
   local w, h, metal = o.width / 2, o.height, parts.painted(o.color or "#7d8587")
   local frame = parts.painted(o.frame or "#3d4245")
   local shapes = {
@@ -348,7 +356,7 @@ end
 
 -- A dormer for a roof: a window between cheeks under a small roof. Its front stands at y = 0, its body reaches back.
 -- { width, height, depth, color, roof, kind = "gable" | "curb", window }
-function parts.dormer(o)
+function parts.dormer(o: any)
   local w, h, d = o.width / 2, o.height, o.depth or 2
   local wall, roof = parts.matt(o.color or "#d9cfba"), o.roof or parts.zinc
   local opening = { width = o.width - 0.3, height = h - 0.2, low = 0.15, y = -0.03, rows = o.rows or 3 }
@@ -400,7 +408,7 @@ end
 
 -- A chimney stack with a cap and pots; its origin is on the roof, and it goes down into it. x is along the ridge.
 -- { width, depth, height, color, material, pots, across }
-function parts.chimney(o)
+function parts.chimney(o: any)
   local w, d, h = (o.width or 0.9) / 2, (o.depth or 0.6) / 2, o.height or 1.6
   if o.across then
     w, d = d, w
@@ -422,7 +430,7 @@ function parts.chimney(o)
 end
 
 -- The railing of a loggia for a bay of `width` by `height`: panes of glass, or boards if `solid`.
-function parts.loggia(o)
+function parts.loggia(o: any)
   local w, h = o.width / 2, o.height
   local frame = o.material or parts.steel
   local pane = if o.solid then parts.matt(o.solid) else parts.clear_glass

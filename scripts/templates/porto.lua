@@ -43,7 +43,7 @@ local frame = parts.surround({ width = 1.05, height = 2.2, jamb = 0.16, head = 0
 local small_frame =
   parts.surround({ width = 0.6, height = 1.8, jamb = 0.12, head = 0.15, material = granite })
 
-local function make(face, door_color: string)
+local function make(face: any, door_color: string)
   local tiles = walls.surface(face[1], face[2], 0.45)
   local door = parts.door({ width = 1.15, height = 2.75, color = door_color, wings = 2, transom = 0.6 })
   local gate = parts.shop({ width = 1.9, height = 2.75, color = door_color, sign = "#e4dcc8" })

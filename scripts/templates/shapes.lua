@@ -38,7 +38,7 @@ end
 shapes.box = box
 
 -- A plate with an outline of points { x, z }, from the depth y0 to y1.
-local function plate(material: Material, outline, y0, y1): Shape
+local function plate(material: Material, outline: any, y0, y1): Shape
   local points = {}
   for _, point in outline do
     table.insert(points, { point[1], -point[2] })
@@ -54,7 +54,7 @@ end
 shapes.prism = prism
 
 -- A beam as wide as `width` from { x, z } to { x, z }, from the depth y0 to y1.
-local function beam(material: Material, from, to, width, y0, y1): Shape
+local function beam(material: Material, from: any, to: any, width, y0, y1): Shape
   local dx, dz = to[1] - from[1], to[2] - from[2]
   local length = math.sqrt(dx * dx + dz * dz)
   local x, z = -dz / length * width / 2, dx / length * width / 2
@@ -76,8 +76,8 @@ end
 -- A model of shapes, or of lists of shapes.
 function shapes.model(...)
   local system = lsystem({ object = extruder({ smooth = false }) })
-  local all = {}
-  for _, given in { ... } do
+  local all: { any } = {}
+  for _, given: any in { ... } do
     if given.kind then
       table.insert(all, given)
     else

@@ -2,7 +2,7 @@
 -- A Victorian terrace house: brick with white lintels, sash windows, a canted bay beside the door, slates and stacks.
 local parts = require("templates/parts")
 local walls = require("templates/walls")
-local box, prism = parts.box, parts.prism
+local box: (...any) -> any, prism: (...any) -> any = parts.box, parts.prism
 
 local BRICKS = { "#a9796a", "#b39478", "#94716a" }
 local DOORS = { "#24405c", "#6b2226", "#2f4d3a" }

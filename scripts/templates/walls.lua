@@ -26,7 +26,7 @@ end
 
 -- A hole of exactly `width` by `height` in the wall with a model that fills it, and a surround that stands out.
 -- { width, height, depth, model, surround, at, reveal }
-function walls.opening(o)
+function walls.opening(o: any)
   local filled = panel({
     model = o.model,
     stretch = true,
@@ -57,7 +57,7 @@ function walls.bay(opening, o)
 end
 
 -- A band along a front, `height` high, that stands out by `depth`.
-function walls.band(height: number, depth: number, material)
+function walls.band(height: number, depth: number, material: any): Wall
   local face = panel({ height = { height, height }, material = material })
   if depth == 0 then
     return face
@@ -66,7 +66,7 @@ function walls.band(height: number, depth: number, material)
 end
 
 -- A cornice of steps, each with its height and how far it stands out.
-function walls.cornice(steps, material)
+function walls.cornice(steps: any, material)
   local bands = {}
   for _, step in steps do
     table.insert(bands, walls.band(step[1], step[2], material))
@@ -83,7 +83,7 @@ end
 --   jut      how far all of it stands out
 --   foot     a band below everything, and `head` one above
 --   material of all that does not say its own, `party` that of party walls
-function walls.storey(o): Facade
+function walls.storey(o: any): Facade
   local templates = {}
   local function add(keywords, wall, weight: number?)
     local stack = {}
@@ -94,9 +94,9 @@ function walls.storey(o): Facade
     if o.head then
       table.insert(stack, o.head)
     end
-    local whole = if #stack > 1 then list(stack, { direction = "vertical" }) else wall
+    local whole: Wall = if #stack > 1 then list(stack, { direction = "vertical" }) else wall
     if o.jut then
-      whole = extruded(whole, { depth = o.jut })
+      whole = extruded(whole, { depth = o.jut :: number })
     end
     table.insert(templates, template(whole, { keywords = keywords, material = o.material, weight = weight }))
   end

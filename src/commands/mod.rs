@@ -15,6 +15,7 @@ mod new;
 mod progress;
 mod report;
 mod run;
+mod setup;
 mod shared;
 mod sources;
 mod variations;

@@ -42,20 +42,22 @@ fn a_type_is_told_with_its_fields_and_methods_and_an_example() {
     ");
     assert_snapshot!(api(&["system"]), @r"
     system
-      A system of rules, as lsystem gives it.
+      A system of rules, as lsystem gives it; T is the type of its object.
 
     Methods
-      axiom(...Module | source, (feature) -> (...Module)) -> System
+      axiom(...Module) -> System<T>
+      axiom(source: Layer, chain: (feature: Feature) -> ...Module) -> System<T>
           Sets what the chain begins as, or the function that makes the chain of each feature of a
           source.
-      rule(pattern: string, options: { ... }?, successor: (this, ...any) -> (...Module) | string) -> System
-          Adds a rule: what replaces a module that the pattern describes. What its options are is told
-          of under rule.
-      interpret(pattern: string, (this, ...any) -> ()) -> System
+      rule(pattern: string, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+      rule(pattern: string, options: { ... }, successor: ((this: T, ...any) -> ...Module) | string) -> System<T>
+          Adds a rule: what replaces a module that the pattern describes.
+          Its fields: burgeon api system:rule
+      interpret(pattern: string, draw: (this: T, ...any) -> ...any) -> System<T>
           Adds an interpretation: what is drawn for a module.
-      ignore(...string) -> System
+      ignore(...string) -> System<T>
           Names modules that matching of contexts passes over.
-      consider(...string) -> System
+      consider(...string) -> System<T>
           Names the only modules that matching of contexts sees.
       derive(steps: number?) -> Derived
           Applies the rules step by step, to the end where no number of steps is given.
@@ -117,10 +119,11 @@ fn a_field_or_a_method_is_told_by_itself() {
     ");
     assert_snapshot!(api(&["lerp"]), @r"
     lerp(a: number, b: number, t: number) -> number
+    lerp(a: Vector, b: Vector, t: number) -> Vector
       From `a` to `b` as `t` goes from 0 to 1: numbers, or vectors.
     ");
     assert_snapshot!(api(&["F"]), @r"
-    F(length: any?) -> Module
+    F(length: number?) -> Module
       Goes forward by `length` (m) and draws a branch; within a polygon it only moves. Calls
       turtle:forward where it is interpreted.
     ");
@@ -180,6 +183,42 @@ fn machines_get_the_same_as_people() {
     assert!(all["entries"].as_array().unwrap().len() > 80);
     let said = Folder::new().burgeon(&["api", "extuder", "--json"]);
     assert_eq!((said.status, &said.json()["errors"][0]["help"]), (1, &"did you mean extruder?".into()));
+}
+
+#[test]
+fn what_the_language_gives_is_told_with_its_arguments() {
+    let said = Folder::new().burgeon(&["api", "system:rule", "--json"]).done().json();
+    let forms = said["entries"][0]["forms"].as_array().unwrap();
+    assert_eq!(forms.len(), 2);
+    assert_eq!(
+        forms[1]["arguments"][0],
+        serde_json::json!({
+            "name": "pattern", "type": "string", "unit": null, "default": "",
+        })
+    );
+    assert_eq!(said["entries"][0]["fields"][0]["name"], "weight");
+    let said = Folder::new().burgeon(&["api", "hsv", "--json"]).done().json();
+    assert_eq!(said["entries"][0]["forms"][0]["arguments"][0]["unit"], "degrees");
+    assert_snapshot!(api(&["math.clamp"]), @r"
+    math.clamp(x: number, low: number, high: number) -> number
+      The number, kept between two others.
+    ");
+}
+
+#[test]
+fn editors_are_given_definitions() {
+    let text = api(&["--luau"]);
+    for part in [
+        "declare class Extruder extends Object",
+        "  function extrude(self, length: number): Extruder",
+        "declare function extruder(options: ExtruderOptions?): Extruder",
+        "export type System<T> = {",
+        "declare function module(name: string, ...: string): ((...any) -> Module)",
+        "declare class Vector extends Object",
+        "declare function F(length: number?): Module",
+    ] {
+        assert!(text.contains(part), "{part}");
+    }
 }
 
 #[test]

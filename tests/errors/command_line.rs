@@ -270,6 +270,7 @@ fn help_reads_well() {
       fit          Searches for a rule table whose terrain is like a height map
       mods         Lists the packages that scripts can use, and what they replace; checks, explains and adds them
       new          Makes a script to start from
+      setup        Writes into a folder what Visual Studio Code with luau-lsp needs to complete and check scripts
       sources      Lists the layers of data files, with their attributes, coordinate systems and extents
       completions  Prints a script that completes the command line in a shell
       help         Print this message or the help of the given subcommand(s)

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 mod api;
+mod calls;
 mod codes;
 mod command_line;
 mod data;
@@ -26,6 +27,7 @@ mod presets;
 mod reports;
 mod sandbox;
 mod scope;
+mod setup;
 mod successors;
 mod support;
 mod syntax;

@@ -2,14 +2,14 @@
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::declare::{Param, RunOptions, Session};
 use crate::derive::ThreadPool;
 use crate::machine::{Machine, Watchdog};
 use crate::results::{DerivedSystem, FeatureReport, Times, Trace};
-use burgeon_base::error::{Error, Result};
+use burgeon_base::error::{Error, ErrorKind, Result};
 use burgeon_base::text::shown;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_data::ReferenceFrame;
@@ -172,9 +172,18 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
     let mut found = Vec::new();
     let ran = declare_with(session, &mut found, run);
     let mut problems = session.problems();
+    // What a script adds to a type is known once it has run; whoever read the calls did not know it.
+    let added = session.extensions.lock().unwrap_or_else(PoisonError::into_inner);
+    problems.retain(|known| {
+        !matches!(known.kind(), ErrorKind::NotFound { what: "method", name, .. } if added.contains(name))
+    });
+    drop(added);
+    problems.retain(|known| !found.iter().any(|found| is_same(known, found)));
     problems.extend(found);
     if let Err(error) = ran {
         for problem in error.problems() {
+            // Whoever ran into it knows more of it than whoever read it.
+            problems.retain(|known| !is_same(known, problem));
             let told =
                 problems.iter().any(|known| known.place().is_some() && known.place() == problem.place());
             if !told {
@@ -194,6 +203,15 @@ fn checked(session: &Arc<Session>, run: impl FnOnce(&Machine) -> Result<()>) -> 
         return Err(Error::several(problems));
     }
     Ok(ScriptCheck { params: session.params(), warnings })
+}
+
+/// Whether two errors miss the same name in the same place.
+fn is_same(one: &Error, other: &Error) -> bool {
+    let missed = |error: &Error| match error.kind() {
+        ErrorKind::NotFound { name, .. } => Some(name.clone()),
+        _ => None,
+    };
+    one.place() == other.place() && missed(one).is_some() && missed(one) == missed(other)
 }
 
 /// A machine for a session's script, which is read in the meantime.
@@ -315,8 +333,8 @@ fn readable(path: PathBuf, shown: &str) -> Result<PathBuf> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::declare::names::LOCKED;
-    use crate::declare::{NameKind, RunOptions, names};
+    use crate::declare::RunOptions;
+    use burgeon_language::{LOCKED, NameKind, names};
 
     #[test]
     fn scripts_have_the_names_that_are_declared_and_no_others() {
@@ -328,7 +346,7 @@ mod tests {
         let (machine, _threads) = leading_machine(&session).unwrap();
         let there = machine.library.globals().names;
         let declared: Vec<String> = names()
-            .into_iter()
+            .iter()
             .filter(|name| name.sort != NameKind::Given)
             .map(|name| name.name.to_string())
             .chain(registry.kinds().map(|kind| kind.name.to_string()))

@@ -28,6 +28,8 @@ pub struct Kind {
     pub first: Option<Text>,
     /// What scripts may call.
     pub methods: Vec<Method>,
+    /// What Luau calls all types of which one may stand where another does, such as `Wall`.
+    pub family: Option<Text>,
     /// How one is made.
     pub construct: Construct,
     /// Whether [`Object::begin`] forgets all that earlier passes did.
@@ -127,6 +129,24 @@ pub struct Argument {
     pub unit: Option<Text>,
     /// What it may have itself, where it is a table of named fields.
     pub fields: Vec<Field>,
+    /// The value where it is left out, as one would write it; empty where that is nothing special.
+    pub default: String,
+}
+
+impl Argument {
+    /// An argument of any type.
+    pub fn new(name: impl Into<Text>) -> Self {
+        let (luau, default) = ("any".to_owned(), String::new());
+        Self { name: name.into(), luau, unit: None, fields: Vec::new(), default }
+    }
+}
+
+impl Field {
+    /// A field of type `luau`, which may be left out if that ends with `?`.
+    pub fn new(name: impl Into<Text>, luau: &str, doc: impl Into<Text>) -> Self {
+        let (luau, default) = (luau.to_owned(), String::new());
+        Self { name: name.into(), doc: doc.into(), luau, unit: None, fields: Vec::new(), default }
+    }
 }
 
 /// Calls a method by itself.
@@ -182,6 +202,7 @@ impl Kind {
             fields: Vec::new(),
             first: None,
             methods: Vec::new(),
+            family: None,
             construct: Construct::Given,
             begins_empty: false,
             show: None,
@@ -254,6 +275,12 @@ impl Kind {
         Self { methods, ..self }
     }
 
+    /// May stand where any type of this family may, which Luau calls `family`.
+    #[must_use]
+    pub fn of_family(self, family: impl Into<Text>) -> Self {
+        Self { family: Some(family.into()), ..self }
+    }
+
     /// Begins each pass as if there had been none before.
     #[must_use]
     pub fn begins_empty(self) -> Self {
@@ -310,6 +337,20 @@ impl Kind {
                 Err(Error::argument(format!("{} is not made of fields", self.name)))
             }
         }
+    }
+
+    /// What Luau calls the type: `Extruder` of `extruder`, `StreetLamp` of `street_lamp`.
+    pub fn luau(&self) -> String {
+        let capital = |word: &str| {
+            let mut letters = word.chars();
+            letters
+                .next()
+                .map(|first| first.to_ascii_uppercase())
+                .into_iter()
+                .chain(letters)
+                .collect::<String>()
+        };
+        self.name.split('_').map(capital).collect()
     }
 
     /// Whether it is called `name`, or extends a type that is.

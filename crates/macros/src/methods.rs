@@ -115,6 +115,7 @@ impl<'a> MethodSource<'a> {
                 luau: #luau,
                 unit: #unit,
                 fields: <#of as #kit::Parameter>::fields(),
+                default: ::std::string::String::new(),
             } }
         });
         let returns = match self.returns {

@@ -4,7 +4,8 @@ use super::entry::{Entry, Member};
 use super::text;
 use crate::commands::report;
 use burgeon::kit::Registry;
-use burgeon::{Error, Result, script};
+use burgeon::language::{definitions, names};
+use burgeon::{Error, Result};
 use clap::Args;
 use serde_json::json;
 
@@ -13,6 +14,10 @@ use serde_json::json;
 pub(crate) struct ApiCommand {
     /// One of them, such as extruder, extruder:extrude or extruder.sides; a list of all if left out
     name: Option<String>,
+
+    /// Prints the definition file that luau-lsp takes, for editors
+    #[arg(long, conflicts_with_all = ["name", "json"])]
+    luau: bool,
 
     /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
@@ -25,6 +30,9 @@ impl ApiCommand {
     }
 
     pub(crate) fn run(&self) -> Result<()> {
+        if self.luau {
+            return report::print(&definitions(&burgeon::objects::registry()).luau);
+        }
         let entries = entries(&burgeon::objects::registry());
         let found = self.name.as_deref().map(|name| find(&entries, name)).transpose()?;
         report::print(&if self.json {
@@ -47,9 +55,8 @@ impl ApiCommand {
 /// All that scripts can use, by name.
 fn entries(registry: &Registry) -> Vec<Entry> {
     let types = registry.kinds().map(|kind| Entry::of_kind(kind));
-    let names = script::names();
     let mut entries: Vec<Entry> =
-        types.chain(names.iter().map(|name| Entry::of_name(name, registry))).collect();
+        types.chain(names().iter().map(|name| Entry::of_name(name, registry))).collect();
     entries.sort_by_cached_key(|entry| (entry.group, entry.name.to_lowercase()));
     entries
 }
@@ -129,7 +136,8 @@ mod tests {
         for member in members {
             let name = member.full_name(owner);
             assert!(member.doc.ends_with('.') && member.doc.len() > 8, "{name}: {}", member.doc);
-            assert!(!member.arguments.iter().any(|argument| argument.luau.is_empty()), "{name}");
+            let mut arguments = member.forms.iter().flat_map(|form| &form.arguments);
+            assert!(!arguments.any(|argument| argument.luau.is_empty()), "{name}");
             let ApiSubject::Member((has, found)) = find(entries, &name).unwrap() else { panic!("{name}") };
             assert!(std::ptr::eq(found, member) && has == owner, "{name}");
             count += 1 + check(entries, &name, &member.fields);

@@ -1,15 +1,17 @@
 //! What there is to tell of a name that scripts can use.
 
 use burgeon::kit::{Construct, Deprecation, Field, Kind, Method, Registry};
-use burgeon::script::{Name, NameKind, NameMember};
+use burgeon::language::{CallForm, Name, NameKind, module_form};
 use serde_json::{Value, json};
 
 /// A name that scripts can use.
 pub(super) struct Entry {
     pub name: String,
     pub group: EntryGroup,
-    /// How it is written; empty where scripts cannot make it.
+    /// How it is written, each way in a line; empty where scripts cannot make it.
     pub usage: String,
+    /// How it is called, if it is a function of the language.
+    pub forms: Vec<CallForm>,
     pub doc: String,
     /// Its fields, then its methods.
     pub members: Vec<Member>,
@@ -36,9 +38,10 @@ pub(super) enum EntryGroup {
 pub(super) struct Member {
     pub name: String,
     pub what: MemberKind,
-    /// The type of a field, or of what a method returns.
+    /// The type of what is not called.
     pub luau: String,
-    pub arguments: Vec<EntryArgument>,
+    /// How it is called.
+    pub forms: Vec<CallForm>,
     /// The value of a field that is left out.
     pub default: String,
     pub unit: Option<String>,
@@ -56,15 +59,10 @@ pub(super) enum MemberKind {
     Reads,
     /// A method that changes its owner.
     Changes,
-    /// A method of what is no object, for the top level of a script.
+    /// A method of what is no object.
     Declares,
-}
-
-/// An argument of a method.
-pub(super) struct EntryArgument {
-    pub name: String,
-    pub luau: String,
-    pub unit: Option<String>,
+    /// A function of a library, or a value.
+    Function,
 }
 
 impl Entry {
@@ -84,7 +82,15 @@ impl Entry {
         }
         let (name, doc) =
             (kind.name.to_string(), format!("{}{}", kind.doc, deprecation(kind.deprecation(""))));
-        Self { name, group: EntryGroup::Type, usage, doc, members, example: kind.example.to_string() }
+        Self {
+            name,
+            group: EntryGroup::Type,
+            usage,
+            forms: Vec::new(),
+            doc,
+            members,
+            example: kind.example.to_string(),
+        }
     }
 
     /// A name that every script has; a module does what the method of a type of object does.
@@ -92,23 +98,27 @@ impl Entry {
         let group = match name.sort {
             NameKind::Global => EntryGroup::Global,
             NameKind::Module { .. } => EntryGroup::Module,
-            NameKind::Given => EntryGroup::Given,
+            NameKind::Given | NameKind::Function => EntryGroup::Given,
             NameKind::Luau => EntryGroup::Luau,
         };
+        let (mut doc, mut forms) = (name.doc.to_string(), name.forms.clone());
+        if let NameKind::Module { kind, method } = name.sort {
+            let method = registry.get(kind).and_then(|kind| kind.method(method));
+            doc = method.map_or(String::new(), |method| format!("{} ", method.doc)) + &doc;
+            forms = vec![module_form(name, method)];
+        }
         let usage = match &*name.luau {
             _ if group == EntryGroup::Given => String::new(),
-            call if call.starts_with('(') => format!("{}{call}", name.name),
+            "" if forms.is_empty() => name.name.to_string(),
+            "" => written(&name.name, &forms),
             luau => format!("{}: {luau}", name.name),
         };
-        let mut doc = name.doc.to_string();
-        if let NameKind::Module { kind, method } = name.sort
-            && let Some(method) = registry.get(kind).and_then(|kind| kind.method(method))
-        {
-            doc = format!("{} {doc}", method.doc);
-        }
         doc += &deprecation(name.deprecated.as_ref());
-        let members = name.parts.iter().map(Member::of_part).collect();
-        Self { name: name.name.to_string(), group, usage, doc, members, example: String::new() }
+        let fields = name.options().chain(&name.fields).map(Member::of_field);
+        let what = if group == EntryGroup::Given { MemberKind::Declares } else { MemberKind::Function };
+        let functions = name.functions.iter().map(|function| Member::of_function(function, what));
+        let members = fields.chain(functions).collect();
+        Self { name: name.name.to_string(), group, usage, forms, doc, members, example: String::new() }
     }
 
     /// Those of its members that are `what`.
@@ -129,7 +139,7 @@ impl Entry {
             EntryGroup::Luau => "luau",
         };
         json!({
-            "name": self.name, "what": what, "usage": self.usage, "doc": self.doc,
+            "name": self.name, "what": what, "usage": self.usage, "forms": forms_json(&self.forms), "doc": self.doc,
             "fields": fields, "methods": methods, "example": self.example,
         })
     }
@@ -146,7 +156,7 @@ impl Member {
             name: field.name.to_string(),
             what: MemberKind::Field,
             luau: field.luau.clone(),
-            arguments: Vec::new(),
+            forms: Vec::new(),
             default: field.default.clone(),
             unit: field.unit.as_ref().map(ToString::to_string),
             doc: field.doc.to_string(),
@@ -154,30 +164,26 @@ impl Member {
         }
     }
 
-    fn of_part(part: &NameMember) -> Self {
+    fn of_function(function: &Name, what: MemberKind) -> Self {
         Self {
-            name: part.name.to_owned(),
-            what: if part.is_method { MemberKind::Declares } else { MemberKind::Field },
-            luau: part.luau.to_owned(),
-            arguments: Vec::new(),
-            default: part.default.to_owned(),
-            unit: part.unit.map(str::to_owned),
-            doc: part.doc.to_owned(),
-            fields: Vec::new(),
+            name: function.name.to_string(),
+            what,
+            luau: function.luau.to_string(),
+            forms: function.forms.clone(),
+            default: String::new(),
+            unit: None,
+            doc: function.doc.to_string(),
+            fields: function.options().map(Self::of_field).collect(),
         }
     }
 
     fn of_method(method: &Method) -> Self {
-        let arguments = method.arguments.iter().map(|argument| EntryArgument {
-            name: argument.name.to_string(),
-            luau: argument.luau.clone(),
-            unit: argument.unit.as_ref().map(ToString::to_string),
-        });
+        let form = CallForm { arguments: method.arguments.clone(), returns: method.returns.clone() };
         Self {
             name: method.name.to_string(),
             what: if method.call.changes() { MemberKind::Changes } else { MemberKind::Reads },
-            luau: method.returns.clone(),
-            arguments: arguments.collect(),
+            luau: String::new(),
+            forms: vec![form],
             default: String::new(),
             unit: None,
             doc: method.doc.to_string(),
@@ -187,7 +193,7 @@ impl Member {
 
     /// Its name after that of its `owner`, as `burgeon api` takes it.
     pub(super) fn full_name(&self, owner: &str) -> String {
-        let separator = if self.what == MemberKind::Field { '.' } else { ':' };
+        let separator = self.what.separator();
         format!("{owner}{separator}{}", self.name)
     }
 
@@ -197,13 +203,8 @@ impl Member {
         match self.what {
             MemberKind::Field if default == "nil" || default.is_empty() => format!("{name}: {luau}"),
             MemberKind::Field => format!("{name}: {luau} = {default}"),
-            MemberKind::Declares => format!("{name}{luau}"),
-            MemberKind::Reads | MemberKind::Changes => {
-                let arguments: Vec<String> =
-                    self.arguments.iter().map(|it| format!("{}: {}", it.name, it.luau)).collect();
-                let returns = if luau.is_empty() { String::new() } else { format!(" -> {luau}") };
-                format!("{name}({}){returns}", arguments.join(", "))
-            }
+            _ if self.forms.is_empty() => format!("{name}: {luau}"),
+            _ => written(name, &self.forms),
         }
     }
 
@@ -216,19 +217,43 @@ impl Member {
                 "default": self.default, "doc": self.doc, "fields": fields,
             });
         }
-        if self.what == MemberKind::Declares {
-            return json!({
-                "name": self.name, "what": "method", "of": owner, "type": self.luau, "doc": self.doc,
-            });
+        let kind = if self.what == MemberKind::Function { "function" } else { "method" };
+        match (self.what, &self.forms[..]) {
+            (MemberKind::Reads | MemberKind::Changes, [form]) => json!({
+                "name": self.name, "what": kind, "of": owner, "changes": self.what == MemberKind::Changes,
+                "arguments": arguments_json(form), "returns": form.returns, "doc": self.doc, "fields": fields,
+            }),
+            (_, forms) => json!({
+                "name": self.name, "what": kind, "of": owner, "type": self.luau, "forms": forms_json(forms),
+                "doc": self.doc, "fields": fields,
+            }),
         }
-        let arguments: Vec<_> = self
-            .arguments
-            .iter()
-            .map(|argument| json!({ "name": argument.name, "type": argument.luau, "unit": argument.unit }))
-            .collect();
-        json!({
-            "name": self.name, "what": "method", "of": owner, "changes": self.what == MemberKind::Changes,
-            "arguments": arguments, "returns": self.luau, "doc": self.doc, "fields": fields,
-        })
     }
+}
+
+impl MemberKind {
+    /// What stands between an owner's name and a member's.
+    pub(super) fn separator(self) -> char {
+        if matches!(self, Self::Field | Self::Function) { '.' } else { ':' }
+    }
+}
+
+/// How something is called, each way in a line.
+fn written(name: &str, forms: &[CallForm]) -> String {
+    let forms: Vec<String> = forms.iter().map(|form| format!("{name}{form}")).collect();
+    forms.join("\n")
+}
+
+fn forms_json(forms: &[CallForm]) -> Value {
+    let form = |form: &CallForm| json!({ "arguments": arguments_json(form), "returns": form.returns });
+    forms.iter().map(form).collect()
+}
+
+fn arguments_json(form: &CallForm) -> Value {
+    let arguments = form.arguments.iter().map(|argument| {
+        json!({
+            "name": argument.name, "type": argument.luau, "unit": argument.unit, "default": argument.default,
+        })
+    });
+    arguments.collect()
 }

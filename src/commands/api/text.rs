@@ -38,6 +38,7 @@ pub(super) fn entry(entry: &Entry) -> String {
     for (what, title) in [
         (MemberKind::Field, "Fields"),
         (MemberKind::Declares, "Methods"),
+        (MemberKind::Function, "Functions"),
         (MemberKind::Reads, "Methods that read: rules and interpretations may call them"),
         (MemberKind::Changes, "Methods that change it: only interpretations may call them"),
     ] {
@@ -59,11 +60,12 @@ pub(super) fn entry(entry: &Entry) -> String {
 
 /// A field or a method by itself; `owner` is what has it.
 pub(super) fn member(owner: &str, member: &Member) -> String {
-    let separator = if member.what == MemberKind::Field { '.' } else { ':' };
-    let mut text = format!("{owner}{separator}{}\n", member.usage());
+    let separator = member.what.separator();
+    let usage = member.usage();
+    let mut text: String = usage.lines().map(|line| format!("{owner}{separator}{line}\n")).collect();
     wrap(&mut text, &member.doc, 2);
     match member.what {
-        MemberKind::Field | MemberKind::Declares => {}
+        MemberKind::Field | MemberKind::Declares | MemberKind::Function => {}
         MemberKind::Reads => wrap(&mut text, "It only reads: rules and interpretations may call it.", 2),
         MemberKind::Changes => wrap(&mut text, "It changes the object: only interpretations may call it.", 2),
     }
@@ -78,7 +80,9 @@ pub(super) fn member(owner: &str, member: &Member) -> String {
 
 /// A member among others, and how to be told what its table may have.
 fn brief(text: &mut String, owner: &str, member: &Member) {
-    let _ = writeln!(text, "  {}", member.usage());
+    for line in member.usage().lines() {
+        let _ = writeln!(text, "  {line}");
+    }
     wrap(text, &member.doc, 6);
     if !member.fields.is_empty() {
         let _ = writeln!(text, "      Its fields: burgeon api {}", member.full_name(owner));

@@ -1,9 +1,8 @@
 //! The version of what scripts can use, and whether a name is part of it.
 
 use burgeon_kit::Registry;
+use burgeon_language::names;
 use burgeon_packages::Version;
-
-use super::names::names;
 
 /// The version of the script API: of the names that scripts have, and of what they mean.
 ///
@@ -27,12 +26,6 @@ pub(crate) fn has_name(name: &str, registry: &Registry) -> bool {
         };
         return member.is_none_or(has);
     }
-    let names = names();
-    let Some(known) = names.iter().find(|known| known.name == owner) else { return false };
-    // A library of Luau's tells its functions in its type.
-    let in_type = |member: &str| {
-        let mut words = known.luau.split(|c: char| !(c.is_alphanumeric() || c == '_'));
-        known.luau.starts_with('{') && words.any(|word| word == member)
-    };
-    member.is_none_or(|member| known.parts.iter().any(|part| part.name == member) || in_type(member))
+    let Some(known) = names().iter().find(|known| known.name == owner) else { return false };
+    member.is_none_or(|member| known.part_names().contains(&member))
 }

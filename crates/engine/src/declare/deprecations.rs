@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, Mutex, PoisonError};
 
-use super::names::deprecated_names;
 use super::session::Session;
 use burgeon_base::error::SourcePlace;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::{Deprecation, Registry};
+use burgeon_language::deprecated_names;
 
 /// The names that will go, and those of them that were used.
 #[derive(Default)]

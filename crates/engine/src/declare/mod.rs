@@ -7,7 +7,6 @@ pub(crate) mod analysis;
 mod api;
 mod data;
 mod deprecations;
-pub(crate) mod names;
 mod options;
 mod packages;
 mod param;
@@ -18,7 +17,6 @@ mod session;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
-pub use names::{Name, NameKind, NameMember, names};
 pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;

@@ -1,9 +1,9 @@
 //! `param`: the values of a script that a person may change without editing it.
 
-use super::names::PARAM;
 use super::preset::Preset;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Color, Parameter, Table, Value};
+use burgeon_language::PARAM;
 
 /// A declared parameter and the value it has in this run.
 #[derive(Debug, Clone, PartialEq)]

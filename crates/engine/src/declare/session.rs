@@ -99,6 +99,8 @@ pub struct Session {
     pub(crate) data: Data,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
+    /// The names of methods that scripts have added to types of objects.
+    pub(crate) extensions: Mutex<BTreeSet<String>>,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
     /// The main file while it is read ahead, and its path.
@@ -146,6 +148,7 @@ impl Session {
             used: Mutex::default(),
             data: Data::default(),
             drawn: RandomPositions::default(),
+            extensions: Mutex::default(),
             stdlib,
             sources: Mutex::default(),
             ahead: Mutex::default(),

@@ -6,11 +6,11 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::convert::to_lua;
-use crate::declare::names::DERIVED;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Object, ScriptObject};
+use burgeon_language::DERIVED;
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
 pub(crate) struct Objects {

@@ -14,12 +14,12 @@ use super::script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::{Machine, compile, native};
 use crate::declare::analysis::Globals;
-use crate::declare::names::LOCKED;
 use crate::declare::{API_VERSION, Param, Print, has_name};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::{Signature, Symbol, Symbols};
 use burgeon_kit::{Construct, Kind};
+use burgeon_language::LOCKED;
 use burgeon_packages::FileName;
 
 /// The standard library, which every script has, compiled once for all machines.
@@ -70,11 +70,16 @@ pub(crate) struct Library {
 impl Library {
     /// What scripts may use without declaring it.
     pub(crate) fn globals(&self) -> Globals {
-        let session = self.machine().map(|machine| Arc::clone(&machine.session));
+        let session = self.machine().map(|machine| Arc::clone(&machine.session)).ok();
         let (shapes, deprecated) = session
+            .as_ref()
             .map(|session| (Arc::clone(&session.shapes), Arc::clone(session.deprecated_names())))
             .unwrap_or_default();
+        let held_against = session
+            .filter(|session| session.options.check)
+            .map(|session| Arc::new(session.options.registry.clone()));
         Globals {
+            held_against,
             names: self.names.borrow().clone(),
             modules: self.modules.borrow().clone(),
             kinds: self.kinds.borrow().clone(),

@@ -1,6 +1,6 @@
 //! `object` and `extend`: types of objects that a script declares, and methods that it adds to others.
 
-use std::sync::Arc;
+use std::sync::{Arc, PoisonError};
 
 use mlua::{Function, Table, Value as LuaValue};
 
@@ -8,11 +8,11 @@ use super::Machine;
 use super::convert::{to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
 use super::kinds::{constructor, install_methods};
-use crate::declare::names::{EXTEND, OBJECT};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
 };
+use burgeon_language::{EXTEND, OBJECT};
 
 /// The functions that run around the interpretation of a chain, as a script names them.
 const HOOKS: [&str; 4] = ["begin", "finish", "push", "pop"];
@@ -224,6 +224,7 @@ impl ScriptFunction {
             luau: "any".to_owned(),
             unit: None,
             fields: Vec::new(),
+            default: String::new(),
         };
         Method {
             name: self.name.clone().into(),
@@ -288,6 +289,8 @@ pub(super) fn extend_type(machine: &Machine, constructor: &LuaValue, declared: &
         machine.prelude().extension.call((&*kind.name, methods, of, reads, changes))
     };
     add().map_err(|error| machine.translate(error))?;
+    let names = parts.functions.iter().map(|known| known.name.clone());
+    machine.session.extensions.lock().unwrap_or_else(PoisonError::into_inner).extend(names);
     machine.library.extensions.borrow_mut().extend(parts.functions);
     Ok(())
 }

@@ -38,7 +38,8 @@ pub fn kind() -> &'static Arc<Kind> {
         Arc::new(
             kind.made_of(BorderedOptions::fields(), |table| make(&BorderedOptions::from_table(table)?))
                 .first("wall")
-                .methods(Wall::methods()),
+                .methods(Wall::methods())
+                .of_family(Wall::FAMILY),
         )
     });
     &KIND

@@ -51,7 +51,8 @@ pub fn kind() -> &'static Arc<Kind> {
         Arc::new(
             kind.made_of(ExtrudedOptions::fields(), |table| make(&ExtrudedOptions::from_table(table)?))
                 .first("wall")
-                .methods(Wall::methods()),
+                .methods(Wall::methods())
+                .of_family(Wall::FAMILY),
         )
     });
     &KIND

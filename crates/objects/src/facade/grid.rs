@@ -34,7 +34,8 @@ pub fn kind() -> &'static Arc<Kind> {
         Arc::new(
             kind.made_of(GridOptions::fields(), |table| make(&GridOptions::from_table(table)?))
                 .first("wall")
-                .methods(Wall::methods()),
+                .methods(Wall::methods())
+                .of_family(Wall::FAMILY),
         )
     });
     &KIND

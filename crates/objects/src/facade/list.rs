@@ -31,7 +31,8 @@ pub fn kind() -> &'static Arc<Kind> {
         Arc::new(
             kind.made_of(ListOptions::fields(), |table| make(&ListOptions::from_table(table)?))
                 .first("walls")
-                .methods(Wall::methods()),
+                .methods(Wall::methods())
+                .of_family(Wall::FAMILY),
         )
     });
     &KIND

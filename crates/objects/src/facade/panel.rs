@@ -39,7 +39,8 @@ pub fn kind() -> &'static Arc<Kind> {
             .example(include_str!("../../scripts/panel.lua"));
         Arc::new(
             kind.made_of(PanelOptions::fields(), |table| make(&PanelOptions::from_table(table)?))
-                .methods(Wall::methods()),
+                .methods(Wall::methods())
+                .of_family(Wall::FAMILY),
         )
     });
     &KIND

@@ -143,9 +143,14 @@ impl WallRule {
     }
 }
 
+impl Wall {
+    /// What Luau calls all types of walls.
+    pub(super) const FAMILY: &str = "Wall";
+}
+
 impl Parameter for Wall {
     fn luau() -> String {
-        "Wall".into()
+        Self::FAMILY.into()
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {

@@ -5,7 +5,9 @@
 //! returns are told apart into nothing, nil and lists; and an assignment in a function to a variable from
 //! outside it is preceded by a check that no rule is running.
 
+mod calls;
 mod expressions;
+mod held;
 mod peeks;
 mod prepare;
 mod pure;

@@ -11,14 +11,7 @@ use full_moon::tokenizer::TokenReference;
 
 use super::syntax::text_of;
 use super::walk::Walk;
-use crate::declare::names::{is_pure_function, is_pure_library};
-
-/// Those of `table`; of the second list those that change the table that they are given first.
-const OF_TABLES: [&str; 7] = ["concat", "create", "find", "isfrozen", "maxn", "pack", "unpack"];
-const CHANGES: [&str; 5] = ["clear", "freeze", "insert", "move", "remove"];
-/// Methods of strings.
-const OF_STRINGS: [&str; 11] =
-    ["byte", "find", "format", "gmatch", "len", "lower", "match", "rep", "reverse", "sub", "upper"];
+use burgeon_language::{Effect, is_pure_function, is_pure_method, library_effect};
 
 /// Whether a script gives tables a behaviour of its own, so that even reading one may leave something behind.
 pub(crate) fn has_metatables(text: &str) -> bool {
@@ -58,7 +51,7 @@ impl Walk<'_> {
                 self.library_called(&text_of(name), &text_of(field), arguments);
             }
             [fields @ .., Suffix::Call(Call::MethodCall(method))]
-                if OF_STRINGS.contains(&text_of(method.name()).as_str())
+                if is_pure_method(&text_of(method.name()))
                     && fields.iter().all(|field| matches!(field, Suffix::Index(_)))
                     && self.find(&text_of(name)).is_some_and(|variable| variable.feature) => {}
             _ => self.impure_from(1),
@@ -81,14 +74,13 @@ impl Walk<'_> {
     }
 
     fn library_called(&mut self, library: &str, function: &str, arguments: &FunctionArgs) {
-        if is_pure_library(library) && function != "gsub"
-            || library == "table" && OF_TABLES.contains(&function)
-        {
+        let effect = library_effect(library, function);
+        if effect == Effect::Pure {
             return;
         }
         let FunctionArgs::Parentheses { arguments, .. } = arguments else { return self.impure_from(1) };
         match arguments.iter().next() {
-            Some(Expression::Var(Var::Name(name))) if library == "table" && CHANGES.contains(&function) => {
+            Some(Expression::Var(Var::Name(name))) if effect == Effect::ChangesFirst => {
                 let owner = self.own_table(name);
                 self.impure_from(owner.map_or(1, |owner| owner + 1));
             }

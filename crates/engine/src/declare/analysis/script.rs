@@ -8,8 +8,8 @@ use std::time::Duration;
 
 use super::walk::{Facts, Walk};
 use burgeon_base::error::{Error, Limit, SourcePlace};
-use burgeon_kit::Deprecation;
 use burgeon_kit::rules::Signature;
+use burgeon_kit::{Deprecation, Registry};
 use burgeon_packages::FileName;
 use full_moon::node::Node;
 use full_moon::tokenizer::TokenType;
@@ -29,6 +29,8 @@ pub(crate) struct Globals {
     pub deprecated: Arc<BTreeMap<String, Deprecation>>,
     /// Counts the shapes of the run's rules.
     pub shapes: Arc<AtomicUsize>,
+    /// What calls are held against, if anybody asks for that.
+    pub held_against: Option<Arc<Registry>>,
 }
 
 /// What reading a script gives.
@@ -150,6 +152,9 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     }
     let pure = pure.into_iter().filter_map(|(line, pure)| pure.then_some(line)).collect();
     let blind = blind.into_iter().filter_map(|(line, blind)| blind.then_some(line)).collect();
+    if let Some(registry) = &globals.held_against {
+        problems.extend(super::calls::problems(file, &ast, registry));
+    }
     problems.sort_by(|a, b| a.place().cmp(&b.place()));
     // What is put before a token comes before what replaces it.
     edits.sort_by_key(|edit| (edit.begin, edit.end > edit.begin, edit.order));

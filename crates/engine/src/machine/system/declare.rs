@@ -4,7 +4,6 @@ use mlua::{Function, Lua, Table, Value as LuaValue};
 
 use crate::declare::Session;
 use crate::declare::analysis::{analyse, unmarked};
-use crate::declare::names::RULE;
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::library::Library;
@@ -13,6 +12,7 @@ use burgeon_base::text::grouped;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::Value;
 use burgeon_kit::rules::{FIRST_SYMBOL, MOST_RULES, Pattern, Rule, Symbol};
+use burgeon_language::RULE;
 
 use super::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule, SourceHandle, SystemDeclaration};
 

@@ -6,7 +6,6 @@ use std::sync::Arc;
 
 use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value as LuaValue};
 
-use crate::declare::names::{LSYSTEM, SYSTEM};
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::handles::{DerivedHandle, ObjectHandle};
@@ -14,6 +13,7 @@ use crate::machine::library::Library;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
+use burgeon_language::{LSYSTEM, SYSTEM};
 
 use super::SystemDeclaration;
 

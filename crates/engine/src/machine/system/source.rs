@@ -6,11 +6,11 @@ use std::sync::Arc;
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::lazy;
-use crate::declare::names::{LAYER, SOURCE};
 use crate::machine::{Machine, native, write_column};
 use burgeon_base::error::{Error, Result};
 use burgeon_data::{Attribute, Feature, Geometry, GeometryKind, Layer, SourceOptions};
 use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
+use burgeon_language::{LAYER, SOURCE};
 
 /// The features of a data source as a script holds them.
 pub(crate) enum SourceHandle {
@@ -67,7 +67,7 @@ impl SourceHandle {
         };
         match (self, name) {
             (Self::List(features), "features") => Ok(LuaValue::Table(features.clone())),
-            (Self::List(_), name) if LAYER.parts.iter().any(|part| part.name == name) => Ok(LuaValue::Nil),
+            (Self::List(_), name) if LAYER.part_names().contains(&name) => Ok(LuaValue::Nil),
             (Self::Layer(layer), "features") => {
                 let table = lua.create_table_with_capacity(layer.features.len(), 0)?;
                 let names = AttributeNames::new(lua, layer, None)?;

@@ -1,9 +1,12 @@
 //! The names of the standard library, read from its own file: what stands above each in `---` is its doc.
 
-use super::{Name, NameKind};
+use burgeon_kit::Argument;
+
+use super::name::{Name, NameKind};
+use crate::form::{CallForm, argument};
 
 /// The text of the standard library.
-const TEXT: &str = include_str!("../../../../../stdlib.lua");
+const TEXT: &str = include_str!("../../../../stdlib.lua");
 
 /// The names that it gives, in the order of the file.
 pub(super) fn names() -> Vec<Name> {
@@ -12,41 +15,65 @@ pub(super) fn names() -> Vec<Name> {
     for (at, line) in lines.iter().enumerate() {
         if let Some(module) = module(line) {
             names.push(module);
-        } else if let Some((name, luau)) = function(line)
+        } else if let Some((name, form)) = function(line)
             && is_given(name)
         {
-            names.push(
-                Name {
-                    luau: luau.into(),
-                    doc: doc(&lines[..at]).into(),
-                    ..Name::new(name, NameKind::Global, "", "")
-                }
-                .pure(),
-            );
+            let doc = doc(&lines[..at]);
+            let mut forms = vec![with_units(form, &doc)];
+            forms.extend(above(&lines[..at]).into_iter().filter_map(CallForm::read));
+            names.push(Name { forms, doc: doc.into(), ..Name::global(name, "") }.pure());
         } else if let Some(name) = line.strip_prefix("local ").and_then(|rest| rest.strip_suffix(" = {"))
             && is_given(name)
         {
             let doc = doc(&lines[..at]).into();
-            names.push(Name { doc, ..Name::new(name, NameKind::Global, "{ ... }", "") }.pure());
+            names.push(Name { doc, ..Name::global(name, "") }.functions(curves(&lines[at + 1..])).pure());
         }
     }
     names
 }
 
-/// The doc in the lines that a declaration follows.
-fn doc(before: &[&str]) -> String {
+/// The functions of a table of curves, each declared by a line of its own.
+fn curves(lines: &[&'static str]) -> Vec<Name> {
+    let within = lines.iter().take_while(|line| **line != "}");
+    let names = within.filter_map(|line| line.strip_prefix("  ")?.split_once(" = curve(\""));
+    let names = names.filter_map(|(_, rest)| Some(rest.split_once('"')?.0));
+    let curve = |name| {
+        let function = Name::function(name, "A curve from 0 to 1, as t goes from 0 to 1.");
+        function.form([argument("t", "number")], "number").pure()
+    };
+    names.map(curve).collect()
+}
+
+/// The lines of doc that a declaration follows.
+fn above<'a>(before: &[&'a str]) -> Vec<&'a str> {
     let lines = before.iter().rev().map_while(|line| line.strip_prefix("---"));
     let mut lines: Vec<&str> = lines.map(str::trim).collect();
     lines.reverse();
+    lines
+}
+
+/// The doc that a declaration follows; lines in it that are types are other forms of calling.
+fn doc(before: &[&str]) -> String {
+    let mut lines = above(before);
+    lines.retain(|line| !line.starts_with('('));
     lines.join(" ")
 }
 
-/// The name of a local function and its type.
-fn function(line: &'static str) -> Option<(&'static str, String)> {
-    let (name, rest) = line.strip_prefix("local function ")?.split_once('(')?;
-    let (parameters, returns) = rest.rsplit_once(')')?;
+/// The name of a local function and how it is called.
+fn function(line: &'static str) -> Option<(&'static str, CallForm)> {
+    let (name, _) = line.strip_prefix("local function ")?.split_once('(')?;
+    let (parameters, returns) = line.split_once('(')?.1.rsplit_once(')')?;
     let returns = returns.strip_prefix(": ").unwrap_or("any");
-    Some((name, format!("({}) -> {returns}", parameters.replace("...: any", "...any"))))
+    Some((name, CallForm::read(&format!("({parameters}) -> {returns}"))?))
+}
+
+/// The form with the units that a doc gives right after the names of arguments.
+fn with_units(mut form: CallForm, doc: &str) -> CallForm {
+    for argument in &mut form.arguments {
+        let after = doc.split_once(&format!("`{}` (", argument.name)).map(|(_, rest)| rest);
+        argument.unit = after.and_then(|rest| Some(rest.split_once(')')?.0.to_owned().into()));
+    }
+    form
 }
 
 /// Whether the library gives a value of this name to scripts.
@@ -77,18 +104,17 @@ fn module(line: &'static str) -> Option<Name> {
         Some(declared) => declared.split('"').skip(1).step_by(2).collect(),
         None => parameters.into_iter().collect(),
     };
-    let parameters: Vec<String> = parameters.into_iter().map(typed).collect();
-    let luau = format!("({}) -> Module", parameters.join(", "));
+    let parameters: Vec<Argument> = parameters.into_iter().map(typed).collect();
     let doc = format!("Calls {kind}:{method} where it is interpreted.");
-    let name = Name::new(name, NameKind::Module { kind, method }, "", "");
-    Some(Name { luau: luau.into(), doc: doc.into(), ..name })
+    let name = Name::new(name, NameKind::Module { kind, method }, "").form(parameters, "Module");
+    Some(Name { doc: doc.into(), ..name })
 }
 
 /// A module's parameter with its type.
-fn typed(parameter: &str) -> String {
+fn typed(parameter: &'static str) -> Argument {
     match parameter.strip_suffix('?') {
-        Some(name) => format!("{name}: any?"),
-        None => format!("{parameter}: any"),
+        Some(name) => argument(name, "any?"),
+        None => argument(parameter, "any"),
     }
 }
 
@@ -101,12 +127,12 @@ mod tests {
         let told = |name: &str| {
             let names = names();
             let found = names.iter().find(|known| known.name == name);
-            found.map(|name| format!("{}: {}", name.luau, name.doc))
+            found.map(|name| format!("{}: {}", name.forms[0], name.doc))
         };
-        let expected = "(hue: number, saturation: number, value: number) -> { number }: A colour from hue (degrees), \
-                        saturation and value (0 to 1).";
+        let expected = "(hue: number, saturation: number, value: number) -> { number }: A colour from `hue` (degrees), \
+                        `saturation` and `value` (0 to 1).";
         assert_eq!(told("hsv").as_deref(), Some(expected));
-        let expected = "(...any) -> any: A vector of three numbers, or of a list of them; what is left out at the end is 0.";
+        let expected = "(...any) -> Vector: A vector of three numbers, or of a list of them; what is left out at the end is 0.";
         assert_eq!(told("vec").as_deref(), Some(expected));
         let expected = "(length: any?) -> Module: Calls turtle:forward where it is interpreted.";
         assert_eq!(told("F").as_deref(), Some(expected));

@@ -1,0 +1,579 @@
+//! Holds a script's calls against what is declared: methods and fields that there are not, arguments that are too many or
+//! of another type, and changes of an object in a rule.
+//!
+//! It tells only of what is certain: of variables that are set once, and of values that stand in the script or that
+//! something declared gives. `burgeon check` asks for it; a run does not.
+
+use std::collections::BTreeSet;
+use std::sync::Arc;
+
+use full_moon::ast::punctuated::Punctuated;
+use full_moon::ast::{
+    Ast, Block, Call, Expression, Field, FunctionArgs, FunctionBody, FunctionCall, Index, LastStmt,
+    Parameter, Prefix, Stmt, Suffix, TableConstructor, UnOp, Var,
+};
+use full_moon::node::Node;
+use full_moon::tokenizer::TokenReference;
+
+use super::syntax::{string_of, text_of};
+use super::walk::FunctionRole;
+use burgeon_base::error::{Error, SourcePlace};
+use burgeon_kit::{Call as MethodCall, Construct, Kind, Registry};
+use burgeon_language::{CallForm, Literal, Name, NameKind, SYSTEM, names};
+
+/// What is known of a value.
+#[derive(Clone)]
+pub(super) enum Inference {
+    /// Nothing.
+    Unknown,
+    /// It stands in the script, or is of this type.
+    Value(Literal),
+    /// An object of this type.
+    Object(Arc<Kind>),
+    /// The constructor of this type.
+    Constructor(Arc<Kind>),
+    /// A system, and its object's type, if that is known.
+    System(Option<Arc<Kind>>),
+    /// What a name of the language gives, such as a vector.
+    Given(&'static Name),
+    /// A function or a library of the language.
+    Name(&'static Name),
+}
+
+/// Walks a script for its calls.
+pub(super) struct CallCheck<'a> {
+    file: &'a str,
+    pub(super) registry: &'a Registry,
+    /// The variables in scope.
+    scope: Vec<(String, Inference)>,
+    /// The names of variables that are set more than once.
+    assigned: BTreeSet<String>,
+    /// What the function is for that is being walked.
+    pub(super) role: FunctionRole,
+    /// The rule that it belongs to, as errors name it.
+    rule: Option<String>,
+    pub(super) problems: Vec<Error>,
+}
+
+/// What is wrong with the calls of a script.
+pub(super) fn problems(file: &str, ast: &Ast, registry: &Registry) -> Vec<Error> {
+    let mut check = CallCheck::new(file, ast, registry);
+    check.block(ast.nodes());
+    check.problems
+}
+
+/// The names that something is assigned to, wherever that is.
+fn collect_assigned(ast: &Ast, names: &mut BTreeSet<String>) {
+    use full_moon::visitors::Visitor;
+    struct AssignmentNames<'a>(&'a mut BTreeSet<String>);
+    impl Visitor for AssignmentNames<'_> {
+        fn visit_assignment(&mut self, assignment: &full_moon::ast::Assignment) {
+            for variable in assignment.variables() {
+                if let Var::Name(name) = variable {
+                    self.0.insert(text_of(name));
+                }
+            }
+        }
+
+        fn visit_compound_assignment(&mut self, assignment: &full_moon::ast::CompoundAssignment) {
+            if let Var::Name(name) = assignment.lhs() {
+                self.0.insert(text_of(name));
+            }
+        }
+    }
+    AssignmentNames(names).visit_ast(ast);
+}
+
+impl<'a> CallCheck<'a> {
+    pub(super) fn new(file: &'a str, ast: &Ast, registry: &'a Registry) -> Self {
+        let mut assigned = BTreeSet::new();
+        collect_assigned(ast, &mut assigned);
+        let (role, rule) = (FunctionRole::Script, None);
+        Self { file, registry, scope: Vec::new(), assigned, role, rule, problems: Vec::new() }
+    }
+
+    fn block(&mut self, block: &Block) {
+        let outside = self.scope.len();
+        self.open_block(block);
+        self.scope.truncate(outside);
+    }
+
+    fn open_block(&mut self, block: &Block) {
+        for statement in block.stmts() {
+            self.statement(statement);
+        }
+        if let Some(LastStmt::Return(last)) = block.last_stmt() {
+            self.expressions(last.returns());
+        }
+    }
+
+    fn statement(&mut self, statement: &Stmt) {
+        match statement {
+            Stmt::Assignment(assignment) => {
+                self.expressions(assignment.expressions());
+                for variable in assignment.variables() {
+                    self.variable(variable);
+                }
+            }
+            Stmt::CompoundAssignment(assignment) => {
+                self.expression(assignment.rhs());
+            }
+            Stmt::Do(inner) => self.block(inner.block()),
+            Stmt::FunctionCall(call) => {
+                self.call(call);
+            }
+            Stmt::FunctionDeclaration(declaration) => self.function(declaration.body(), None),
+            Stmt::LocalFunction(function) => {
+                self.declare(function.name(), Inference::Unknown);
+                self.function(function.body(), None);
+            }
+            Stmt::ConstFunction(function) => {
+                self.declare(function.name(), Inference::Unknown);
+                self.function(function.body(), None);
+            }
+            Stmt::LocalAssignment(local) => self.local(local.names(), local.expressions()),
+            Stmt::ConstAssignment(local) => self.local(local.names(), local.expressions()),
+            Stmt::GenericFor(generic) => {
+                self.expressions(generic.expressions());
+                let outside = self.scope.len();
+                for name in generic.names() {
+                    self.declare(name, Inference::Unknown);
+                }
+                self.block(generic.block());
+                self.scope.truncate(outside);
+            }
+            Stmt::NumericFor(numeric) => {
+                self.expression(numeric.start());
+                self.expression(numeric.end());
+                if let Some(step) = numeric.step() {
+                    self.expression(step);
+                }
+                let outside = self.scope.len();
+                self.declare(numeric.index_variable(), Inference::Value(Literal::Number));
+                self.block(numeric.block());
+                self.scope.truncate(outside);
+            }
+            Stmt::If(branches) => {
+                self.expression(branches.condition());
+                self.block(branches.block());
+                for branch in branches.else_if().into_iter().flatten() {
+                    self.expression(branch.condition());
+                    self.block(branch.block());
+                }
+                if let Some(block) = branches.else_block() {
+                    self.block(block);
+                }
+            }
+            Stmt::Repeat(repeat) => {
+                let outside = self.scope.len();
+                self.open_block(repeat.block());
+                self.expression(repeat.until());
+                self.scope.truncate(outside);
+            }
+            Stmt::While(repeat) => {
+                self.expression(repeat.condition());
+                self.block(repeat.block());
+            }
+            _ => {}
+        }
+    }
+
+    fn local(&mut self, names: &Punctuated<TokenReference>, values: &Punctuated<Expression>) {
+        let found: Vec<Inference> = values.iter().map(|value| self.expression(value)).collect();
+        let mut found = found.into_iter();
+        for name in names {
+            let known = found.next().unwrap_or(Inference::Unknown);
+            self.declare(name, known);
+        }
+    }
+
+    fn declare(&mut self, name: &TokenReference, known: Inference) {
+        let name = text_of(name);
+        let known = if self.assigned.contains(&name) { Inference::Unknown } else { known };
+        self.scope.push((name, known));
+    }
+
+    /// Walks a function; `this` is what its first parameter is, if that is known.
+    fn function(&mut self, body: &FunctionBody, this: Option<&Arc<Kind>>) {
+        let outside = self.scope.len();
+        for (index, parameter) in body.parameters().iter().enumerate() {
+            if let Parameter::Name(name) = parameter {
+                let this = this.filter(|_| index == 0);
+                self.declare(
+                    name,
+                    this.map_or(Inference::Unknown, |kind| Inference::Object(Arc::clone(kind))),
+                );
+            }
+        }
+        self.block(body.block());
+        self.scope.truncate(outside);
+    }
+
+    /// Walks what is given to a method of systems; functions have `this` and a role.
+    fn rule(&mut self, call: &str, args: &[&Expression], kind: Option<&Arc<Kind>>) -> Vec<Inference> {
+        let outer = (self.role, self.rule.take());
+        if let Some(Expression::String(text)) = args.first() {
+            self.rule = string_of(text).map(|pattern| match call {
+                "interpret" => format!("{pattern} (interpretation)"),
+                _ => pattern,
+            });
+        }
+        let role = if call == "interpret" { FunctionRole::Interpretation } else { FunctionRole::Rule };
+        let found = args.iter().map(|arg| match arg {
+            Expression::Function(function) => {
+                self.role = role;
+                self.function(function.body(), kind);
+                self.role = outer.0;
+                Inference::Value(Literal::Function)
+            }
+            Expression::TableConstructor(table) => {
+                for field in table.fields() {
+                    match field {
+                        Field::NameKey { key, value, .. } => match &**value {
+                            Expression::Function(function) if text_of(key) == "when" => {
+                                self.role = FunctionRole::Guard;
+                                self.function(function.body(), kind);
+                                self.role = outer.0;
+                            }
+                            value => drop(self.expression(value)),
+                        },
+                        Field::NoKey(value) => drop(self.expression(value)),
+                        _ => {}
+                    }
+                }
+                Inference::Value(Literal::Table)
+            }
+            other => self.expression(other),
+        });
+        let found = found.collect();
+        (self.role, self.rule) = outer;
+        found
+    }
+
+    fn expressions(&mut self, expressions: &Punctuated<Expression>) {
+        for expression in expressions {
+            self.expression(expression);
+        }
+    }
+
+    pub(super) fn expression(&mut self, expression: &Expression) -> Inference {
+        match expression {
+            Expression::BinaryOperator { lhs, rhs, .. } => {
+                self.expression(lhs);
+                self.expression(rhs);
+                Inference::Unknown
+            }
+            Expression::Parentheses { expression, .. } => self.expression(expression),
+            Expression::TypeAssertion { expression, .. } => {
+                self.expression(expression);
+                Inference::Unknown
+            }
+            Expression::UnaryOperator { unop, expression } => {
+                let known = self.expression(expression);
+                match (unop, known) {
+                    (UnOp::Minus(_), Inference::Value(Literal::Number)) => Inference::Value(Literal::Number),
+                    _ => Inference::Unknown,
+                }
+            }
+            Expression::Function(function) => {
+                self.function(function.body(), None);
+                Inference::Value(Literal::Function)
+            }
+            Expression::FunctionCall(call) => self.call(call),
+            Expression::IfExpression(branches) => {
+                self.expression(branches.condition());
+                self.expression(branches.if_expression());
+                for branch in branches.else_if_expressions().into_iter().flatten() {
+                    self.expression(branch.condition());
+                    self.expression(branch.expression());
+                }
+                self.expression(branches.else_expression());
+                Inference::Unknown
+            }
+            Expression::Number(_) => Inference::Value(Literal::Number),
+            Expression::String(token) => {
+                string_of(token).map_or(Inference::Unknown, |text| Inference::Value(Literal::Text(text)))
+            }
+            Expression::Symbol(symbol) => match text_of(symbol).as_str() {
+                "nil" => Inference::Value(Literal::Nil),
+                "true" | "false" => Inference::Value(Literal::Boolean),
+                _ => Inference::Unknown,
+            },
+            Expression::TableConstructor(table) => {
+                self.table(table);
+                Inference::Value(Literal::Table)
+            }
+            Expression::Var(variable) => self.variable(variable),
+            _ => Inference::Unknown,
+        }
+    }
+
+    fn table(&mut self, table: &TableConstructor) {
+        for field in table.fields() {
+            match field {
+                Field::ExpressionKey { key, value, .. } => {
+                    self.expression(key);
+                    self.expression(value);
+                }
+                Field::NameKey { value, .. } => drop(self.expression(value)),
+                Field::NoKey(value) => drop(self.expression(value)),
+                _ => {}
+            }
+        }
+    }
+
+    fn variable(&mut self, variable: &Var) -> Inference {
+        match variable {
+            Var::Name(name) => self.named(name),
+            Var::Expression(inner) => {
+                let suffixes: Vec<&Suffix> = inner.suffixes().collect();
+                self.suffixes(inner.prefix(), &suffixes)
+            }
+            _ => Inference::Unknown,
+        }
+    }
+
+    fn named(&self, name: &TokenReference) -> Inference {
+        let text = text_of(name);
+        if let Some((_, known)) = self.scope.iter().rev().find(|(name, _)| *name == text) {
+            return known.clone();
+        }
+        if let Some(kind) = self.registry.get(&text) {
+            return match kind.construct {
+                Construct::Given => Inference::Unknown,
+                _ => Inference::Constructor(Arc::clone(kind)),
+            };
+        }
+        let given = |name: &&Name| name.name == text && name.sort != NameKind::Given;
+        names().iter().find(given).map_or(Inference::Unknown, Inference::Name)
+    }
+
+    fn call(&mut self, call: &FunctionCall) -> Inference {
+        let suffixes: Vec<&Suffix> = call.suffixes().collect();
+        self.suffixes(call.prefix(), &suffixes)
+    }
+
+    fn suffixes(&mut self, prefix: &Prefix, suffixes: &[&Suffix]) -> Inference {
+        let mut known = match prefix {
+            Prefix::Name(name) => self.named(name),
+            Prefix::Expression(expression) => self.expression(expression),
+            _ => Inference::Unknown,
+        };
+        let (mut word, mut path) = match prefix {
+            Prefix::Name(name) => (Some(name), text_of(name)),
+            _ => (None, String::new()),
+        };
+        for suffix in suffixes {
+            known = match suffix {
+                Suffix::Index(Index::Dot { name, .. }) => {
+                    word = Some(name);
+                    path = format!("{path}.{}", text_of(name));
+                    self.field(&known, name)
+                }
+                Suffix::Index(Index::Brackets { expression, .. }) => {
+                    self.expression(expression);
+                    Inference::Unknown
+                }
+                Suffix::Call(Call::AnonymousCall(args)) => self.called(&known, word, &path, args),
+                Suffix::Call(Call::MethodCall(method)) => {
+                    word = Some(method.name());
+                    self.method(&known, method.name(), method.args())
+                }
+                _ => Inference::Unknown,
+            };
+        }
+        known
+    }
+
+    /// What a field of something is.
+    fn field(&mut self, of: &Inference, name: &TokenReference) -> Inference {
+        let text = text_of(name);
+        match of {
+            Inference::Name(library) if !library.functions.is_empty() => {
+                library.find(&text).map_or(Inference::Unknown, Inference::Name)
+            }
+            Inference::Given(given) => {
+                let field = given.fields.iter().find(|field| field.name == text);
+                field.map_or(Inference::Unknown, |field| self.of_type(&field.luau))
+            }
+            _ => Inference::Unknown,
+        }
+    }
+
+    /// What is known of a value of this type.
+    fn of_type(&self, luau: &str) -> Inference {
+        match luau {
+            "number" => Inference::Value(Literal::Number),
+            "boolean" => Inference::Value(Literal::Boolean),
+            "" | "any" | "()" => Inference::Unknown,
+            "System<T>" => Inference::System(None),
+            _ => {
+                let given = |name: &&Name| name.sort == NameKind::Given && name.luau == luau;
+                if let Some(name) = names().iter().find(given) {
+                    return Inference::Given(name);
+                }
+                let kind = self.registry.kinds().find(|kind| kind.luau() == luau);
+                kind.map_or(Inference::Unknown, |kind| Inference::Object(Arc::clone(kind)))
+            }
+        }
+    }
+
+    /// Something is called by itself, which the script names by `path`.
+    fn called(
+        &mut self,
+        what: &Inference,
+        word: Option<&TokenReference>,
+        path: &str,
+        args: &FunctionArgs,
+    ) -> Inference {
+        let Some(word) = word else {
+            self.arguments(args);
+            return Inference::Unknown;
+        };
+        match what {
+            Inference::Constructor(kind) => {
+                let given = self.arguments(args);
+                self.hold_constructor(kind, word, args, &given);
+                Inference::Object(Arc::clone(kind))
+            }
+            Inference::Name(name) if !name.forms.is_empty() => {
+                let given = self.arguments(args);
+                let is_module = matches!(name.sort, NameKind::Module { .. });
+                if !is_module {
+                    let is_luau = matches!(name.sort, NameKind::Luau | NameKind::Function);
+                    self.hold_call(word, path, &name.forms, args, &given, is_luau);
+                }
+                self.result(name, args)
+            }
+            _ => {
+                self.arguments(args);
+                Inference::Unknown
+            }
+        }
+    }
+
+    /// What a function of the language gives for certain.
+    fn result(&mut self, name: &'static Name, args: &FunctionArgs) -> Inference {
+        let [form] = &name.forms[..] else { return Inference::Unknown };
+        if form.returns == "System<T>" {
+            let object = expressions_of(args).first().and_then(|first| match first {
+                Expression::TableConstructor(table) => field_named(table, "object"),
+                _ => None,
+            });
+            let outer = std::mem::take(&mut self.problems);
+            let known = object.map(|object| self.expression(object));
+            self.problems = outer;
+            return Inference::System(match known {
+                Some(Inference::Object(kind) | Inference::Constructor(kind)) => Some(kind),
+                _ => None,
+            });
+        }
+        self.of_type(&form.returns)
+    }
+
+    /// A method of something is called.
+    fn method(&mut self, of: &Inference, name: &TokenReference, args: &FunctionArgs) -> Inference {
+        let text = text_of(name);
+        match of {
+            Inference::Object(kind) => {
+                let given = self.arguments(args);
+                let Some(method) = kind.method(&text) else {
+                    self.problem(name, kind.unknown_method(&text));
+                    return Inference::Unknown;
+                };
+                let full = format!("{}:{text}", kind.name);
+                if matches!(method.call, MethodCall::Write { .. })
+                    && matches!(self.role, FunctionRole::Rule | FunctionRole::Guard)
+                {
+                    let message = format!("{full} changes the object, so a rule cannot call it");
+                    let help =
+                        "use an interpretation rule: system:interpret(pattern, function(this, ...) ... end)";
+                    self.problem(name, Error::scope(message).help(help));
+                }
+                let form = CallForm { arguments: method.arguments.clone(), returns: method.returns.clone() };
+                self.hold_call(name, &full, &[form], args, &given, false);
+                if method.returns.is_empty() { of.clone() } else { self.of_type(&method.returns) }
+            }
+            Inference::System(kind) => {
+                let kind = kind.clone();
+                let given = self.rule(&text, &expressions_of(args), kind.as_ref());
+                let Some(method) = SYSTEM.find(&text) else {
+                    let known = SYSTEM.part_names();
+                    let message = format!("a system has no method called {text}");
+                    let error = Error::not_found("method", &text, known.iter().copied(), message);
+                    self.problem(name, error.help(format!("it has {}", known.join(", "))));
+                    return Inference::Unknown;
+                };
+                self.hold_call(name, &format!("system:{text}"), &method.forms, args, &given, false);
+                match method.forms.first() {
+                    Some(form) if form.returns == "System<T>" => Inference::System(kind),
+                    Some(form) => self.of_type(&form.returns),
+                    None => Inference::Unknown,
+                }
+            }
+            Inference::Given(known) => {
+                let given = self.arguments(args);
+                let Some(method) = known.find(&text) else { return Inference::Unknown };
+                let full = format!("{}:{text}", known.name);
+                self.hold_call(name, &full, &method.forms, args, &given, false);
+                method.forms.first().map_or(Inference::Unknown, |form| self.of_type(&form.returns))
+            }
+            _ => {
+                self.arguments(args);
+                Inference::Unknown
+            }
+        }
+    }
+
+    fn arguments(&mut self, args: &FunctionArgs) -> Vec<Inference> {
+        match args {
+            FunctionArgs::Parentheses { arguments, .. } => {
+                arguments.iter().map(|argument| self.expression(argument)).collect()
+            }
+            FunctionArgs::String(token) => {
+                vec![
+                    string_of(token).map_or(Inference::Unknown, |text| Inference::Value(Literal::Text(text))),
+                ]
+            }
+            FunctionArgs::TableConstructor(table) => {
+                self.table(table);
+                vec![Inference::Value(Literal::Table)]
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    pub(super) fn problem(&mut self, token: &TokenReference, error: Error) {
+        self.problem_at(token.start_position().map_or(1, |position| position.line()), error);
+    }
+
+    pub(super) fn problem_at(&mut self, line: usize, error: Error) {
+        let error = error.at(Some(SourcePlace { file: self.file.to_owned(), line }));
+        let error = match &self.rule {
+            Some(rule) if self.role != FunctionRole::Script => error.rule(rule),
+            _ => error,
+        };
+        self.problems.push(error);
+    }
+}
+
+/// The expressions that a call is given in brackets.
+pub(super) fn expressions_of(args: &FunctionArgs) -> Vec<&Expression> {
+    match args {
+        FunctionArgs::Parentheses { arguments, .. } => arguments.iter().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// The value of a field of a table that is written in place.
+pub(super) fn field_named<'a>(table: &'a TableConstructor, name: &str) -> Option<&'a Expression> {
+    table.fields().iter().find_map(|field| match field {
+        Field::NameKey { key, value, .. } if text_of(key) == name => Some(&**value),
+        _ => None,
+    })
+}
+
+/// The line on which a piece of the script begins.
+pub(super) fn line_of(piece: &impl Node) -> usize {
+    piece.start_position().map_or(1, |position| position.line())
+}

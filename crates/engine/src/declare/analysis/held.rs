@@ -1,0 +1,368 @@
+//! Holds what a call is given against what is declared: how many arguments, of which types, and the fields of tables.
+
+use full_moon::ast::{Expression, Field, FunctionArgs, TableConstructor};
+use full_moon::tokenizer::TokenReference;
+
+use super::calls::{CallCheck, Inference, expressions_of, line_of};
+use super::syntax::{is_open, text_of};
+use burgeon_base::error::Error;
+use burgeon_kit::{Argument, Field as KindField, Kind};
+use burgeon_language::{CallForm, Literal, LuauType, NameKind, names};
+
+impl CallCheck<'_> {
+    /// Holds a call against the forms that it may have. `is_luau` tells that a text of digits is as good as a number.
+    pub(super) fn hold_call(
+        &mut self,
+        word: &TokenReference,
+        name: &str,
+        forms: &[CallForm],
+        args: &FunctionArgs,
+        given: &[Inference],
+        is_luau: bool,
+    ) {
+        let written = expressions_of(args);
+        let open = written.last().is_some_and(|last| is_open(last));
+        let fits = |form: &&CallForm| {
+            let few = given.len() < form.least() && !open;
+            let many = form.most().is_some_and(|most| given.len() > most + usize::from(open));
+            !few && !many
+        };
+        let of_count: Vec<&CallForm> = forms.iter().filter(fits).collect();
+        let Some(form) = of_count.first() else {
+            let Some(form) = forms.first() else { return };
+            let message = format!("{name} takes {}, not {}", count(forms), given.len());
+            let usage = format!("write {name}{}", CallForm { returns: String::new(), ..form.clone() });
+            return self.problem(word, Error::argument(message).help(usage));
+        };
+        // With several forms, a value is wrong only where none of them takes it.
+        let wrong = |form: &CallForm, index: usize| {
+            let argument = form.argument(index)?;
+            (!self.may_be(&given[index], argument, is_luau)).then(|| argument.clone())
+        };
+        for index in 0..given.len() {
+            if of_count.iter().all(|form| wrong(form, index).is_some())
+                && let Some(argument) = wrong(form, index)
+            {
+                let message = refused(name, &argument.name, &argument.luau, &given[index]);
+                let line = written.get(index).map_or_else(|| line_of(word), |written| line_of(*written));
+                return self.problem_at(line, Error::argument(message));
+            }
+        }
+        if of_count.len() == 1 {
+            let mut owned: Vec<(Argument, &TableConstructor)> = Vec::new();
+            if let FunctionArgs::TableConstructor(table) = args {
+                owned.extend(form.argument(0).map(|argument| (argument.clone(), &**table)));
+            }
+            for (index, written) in written.iter().enumerate() {
+                if let (Expression::TableConstructor(table), Some(argument)) = (written, form.argument(index))
+                {
+                    owned.push((argument.clone(), table));
+                }
+            }
+            for (argument, table) in owned {
+                self.hold_table(name, table, &argument.luau, &argument.fields);
+            }
+        }
+    }
+
+    /// Holds what a constructor is given against its fields.
+    pub(super) fn hold_constructor(
+        &mut self,
+        kind: &Kind,
+        word: &TokenReference,
+        args: &FunctionArgs,
+        given: &[Inference],
+    ) {
+        let written = expressions_of(args);
+        let most = 1 + usize::from(
+            kind.first.is_some() || matches!(kind.construct, burgeon_kit::Construct::File(_)),
+        );
+        if given.len() > most {
+            let counts = if most == 1 { "one table of fields" } else { "2 arguments" };
+            let message = format!("{} takes {counts}, not {} arguments", kind.name, given.len());
+            return self.problem(word, Error::argument(message));
+        }
+        let first = kind.first.as_deref();
+        let table = match args {
+            FunctionArgs::TableConstructor(table) => Some(table),
+            _ => match written.last() {
+                Some(Expression::TableConstructor(table)) => Some(table),
+                _ => None,
+            },
+        };
+        let Some(table) = table else { return };
+        let names_a_field = table.fields().iter().any(|field| match field {
+            Field::NameKey { key, .. } => kind.fields.iter().any(|known| known.name == text_of(key)),
+            _ => false,
+        });
+        // A table that comes alone may be what the first field says.
+        if first.is_none() || given.len() == most || names_a_field {
+            self.hold_fields(&kind.name, table, &kind.fields);
+        }
+    }
+
+    /// Holds a table that is written in place against the fields that it may have, or those of its items.
+    fn hold_table(&mut self, owner: &str, table: &TableConstructor, luau: &str, fields: &[KindField]) {
+        if fields.is_empty() {
+            return;
+        }
+        let of = LuauType::read(luau);
+        match of.item() {
+            Some(_) => {
+                for field in table.fields() {
+                    if let Field::NoKey(Expression::TableConstructor(item)) = field {
+                        self.hold_fields(owner, item, fields);
+                    }
+                }
+            }
+            None => self.hold_fields(owner, table, fields),
+        }
+    }
+
+    fn hold_fields(&mut self, owner: &str, table: &TableConstructor, fields: &[KindField]) {
+        for field in table.fields() {
+            let Field::NameKey { key, value, .. } = field else { continue };
+            let name = text_of(key);
+            let Some(known) = fields.iter().find(|known| known.name == name) else {
+                let names: Vec<&str> = fields.iter().map(|known| &*known.name).collect();
+                let message = format!("{owner} has no field called {name}");
+                let error = Error::not_found("field", &name, names.iter().copied(), message);
+                self.problem(key, error.help(format!("it has {}", names.join(", "))));
+                continue;
+            };
+            let outer = std::mem::take(&mut self.problems);
+            let found = self.expression(value);
+            self.problems = outer;
+            // What is left out may be written as nil, as well.
+            let is_nil = matches!(&found, Inference::Value(Literal::Nil));
+            let argument = Argument {
+                luau: known.luau.clone(),
+                fields: known.fields.clone(),
+                ..Argument::new(name.clone())
+            };
+            if !is_nil && !self.may_be(&found, &argument, false) {
+                self.problem(key, Error::argument(refused(owner, &name, &known.luau, &found)));
+            } else if let Expression::TableConstructor(inner) = &**value {
+                self.hold_table(&format!("{owner}.{name}"), inner, &known.luau, &known.fields);
+            }
+        }
+    }
+
+    /// Whether a value may be given for an argument or a field.
+    fn may_be(&self, known: &Inference, argument: &Argument, is_luau: bool) -> bool {
+        let literal = match known {
+            Inference::Value(Literal::Text(text)) if is_luau && text.trim().parse::<f64>().is_ok() => {
+                return true;
+            }
+            Inference::Value(literal) => literal.clone(),
+            Inference::Object(kind) => Literal::Object(kind.luau()),
+            Inference::Given(name) if name.luau == "Vector" => Literal::Object("Vector".to_owned()),
+            Inference::Name(name) if !name.forms.is_empty() => Literal::Function,
+            Inference::Unknown
+            | Inference::Constructor(_)
+            | Inference::System(_)
+            | Inference::Given(_)
+            | Inference::Name(_) => {
+                return true;
+            }
+        };
+        let name = argument.luau.trim_end_matches('?');
+        // A name for a table of fields.
+        if !argument.fields.is_empty() && LuauType::read(name) == LuauType::Named(name.to_owned()) {
+            return literal == Literal::Table || literal == Literal::Nil && argument.luau.ends_with('?');
+        }
+        LuauType::read(&argument.luau).accepts(&literal, &|name| self.stands_for(name))
+    }
+
+    /// What a name in a type stands for.
+    fn stands_for(&self, name: &str) -> Option<LuauType> {
+        let itself = || LuauType::Named(name.to_owned());
+        let family: Vec<LuauType> = self
+            .registry
+            .kinds()
+            .filter(|kind| kind.family.as_deref() == Some(name))
+            .map(|kind| LuauType::Named(kind.luau()))
+            .collect();
+        if !family.is_empty() {
+            return Some(LuauType::Union(family));
+        }
+        if self.registry.kinds().any(|kind| kind.luau() == name) {
+            return Some(itself());
+        }
+        let given = names().iter().find(|known| {
+            known.sort == NameKind::Given && (known.luau == name || known.name == name.to_lowercase())
+        })?;
+        match (&*given.instead, &*given.luau) {
+            ("", luau) if luau == name => None,
+            ("", luau) => Some(LuauType::read(luau)),
+            // An object of that type is told by its name.
+            (instead, _) => Some(LuauType::read(instead)),
+        }
+    }
+}
+
+/// How many arguments a function takes in words.
+fn count(forms: &[CallForm]) -> String {
+    let least = forms.iter().map(CallForm::least).min().unwrap_or(0);
+    let most: Option<usize> = forms.iter().map(CallForm::most).try_fold(0, |most, of| Some(most.max(of?)));
+    let arguments = |count: usize| if count == 1 { "argument" } else { "arguments" };
+    match most {
+        Some(0) => "no arguments".to_owned(),
+        Some(most) if most == least => format!("{most} {}", arguments(most)),
+        Some(most) => format!("{least} to {most} arguments"),
+        None => format!("at least {least} {}", arguments(least)),
+    }
+}
+
+/// What is wrong with a value.
+fn refused(owner: &str, name: &str, luau: &str, found: &Inference) -> String {
+    let wanted = match luau.trim_end_matches('?') {
+        "number" => "a number",
+        "string" => "a string",
+        "boolean" => "true or false",
+        "Color" => "a colour",
+        "Vector" => "a vector",
+        luau if luau.starts_with('{') => "a table",
+        luau => luau,
+    };
+    let found = match found {
+        Inference::Value(Literal::Text(text)) => format!("{text:?}"),
+        Inference::Value(Literal::Nil) => "nothing".to_owned(),
+        Inference::Value(Literal::Boolean) => "a boolean".to_owned(),
+        Inference::Value(Literal::Number) => "a number".to_owned(),
+        Inference::Value(Literal::Table) => "a table".to_owned(),
+        Inference::Value(Literal::Function) | Inference::Name(_) => "a function".to_owned(),
+        Inference::Object(kind) => format!("an object of type {}", kind.name),
+        _ => "a vector".to_owned(),
+    };
+    format!("{owner}: {name} must be {wanted}, not {found}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::declare::analysis::calls::problems;
+
+    fn said(script: &str) -> Vec<String> {
+        let ast = full_moon::parse(script).unwrap_or_else(|errors| panic!("{script}: {errors:?}"));
+        let problems = problems("s.lua", &ast, &burgeon_objects::registry());
+        problems.iter().map(|problem| problem.message().to_owned()).collect()
+    }
+
+    /// Values that stand in a script.
+    const VALUES: [(&str, Literal); 5] = [
+        ("1", Literal::Number),
+        ("true", Literal::Boolean),
+        ("\"a b\"", Literal::Text(String::new())),
+        ("{}", Literal::Table),
+        ("function() end", Literal::Function),
+    ];
+
+    /// A value of this type, and one that is of another, if such stand in scripts.
+    fn values(argument: &Argument) -> (Option<&'static str>, Option<&'static str>) {
+        let registry = burgeon_objects::registry();
+        let ast = full_moon::parse("").expect("nothing");
+        let check = CallCheck::new("s.lua", &ast, &registry);
+        let fits = |literal: &Literal| check.may_be(&Inference::Value(literal.clone()), argument, false);
+        let find =
+            |wanted: bool| VALUES.iter().find(|(_, literal)| fits(literal) == wanted).map(|(text, _)| *text);
+        (find(true), find(false))
+    }
+
+    #[test]
+    fn every_method_takes_what_it_is_declared_to_take_and_nothing_else() {
+        let (mut right, mut wrong) = (0, 0);
+        for kind in burgeon_objects::registry().kinds() {
+            if !matches!(kind.construct, burgeon_kit::Construct::Fields(_)) {
+                continue;
+            }
+            let script = |call: &str| {
+                let name = &kind.name;
+                format!("lsystem({{ object = {name} }}):interpret(\"A\", function(this) this:{call} end)")
+            };
+            assert_eq!(said(&script("no_such_method()")).len(), 1, "{}", kind.name);
+            for method in &kind.methods {
+                let values: Vec<_> = method.arguments.iter().map(values).collect();
+                let Some(good) = values.iter().map(|(good, _)| *good).collect::<Option<Vec<_>>>() else {
+                    continue;
+                };
+                let call =
+                    |arguments: &[&str]| said(&script(&format!("{}({})", method.name, arguments.join(", "))));
+                assert_eq!(call(&good), [""; 0], "{}:{}", kind.name, method.name);
+                let more = [&good[..], &["1"]].concat();
+                assert_eq!(call(&more).len(), 1, "{}:{}", kind.name, method.name);
+                right += 1;
+                for (index, (_, bad)) in values.iter().enumerate() {
+                    let Some(bad) = bad else { continue };
+                    let mut arguments = good.clone();
+                    arguments[index] = bad;
+                    let said = call(&arguments);
+                    let begin =
+                        format!("{}:{}: {} must be ", kind.name, method.name, method.arguments[index].name);
+                    assert!(said.len() == 1 && said[0].starts_with(&begin), "{begin}: {said:?}");
+                    wrong += 1;
+                }
+            }
+        }
+        assert!(right > 80 && wrong > 80, "{right} {wrong}");
+    }
+
+    #[test]
+    fn every_field_takes_what_it_is_declared_to_take_and_nothing_else() {
+        let (mut right, mut wrong) = (0, 0);
+        for kind in burgeon_objects::registry().kinds() {
+            if !matches!(kind.construct, burgeon_kit::Construct::Fields(_)) {
+                continue;
+            }
+            let name = &kind.name;
+            for field in &kind.fields {
+                let argument = Argument {
+                    luau: field.luau.clone(),
+                    fields: field.fields.clone(),
+                    ..Argument::new(field.name.clone())
+                };
+                let (good, bad) = values(&argument);
+                if let Some(good) = good {
+                    assert_eq!(said(&format!("{name}({{ {} = {good} }})", field.name)), [""; 0]);
+                    right += 1;
+                }
+                if let Some(bad) = bad {
+                    let said = said(&format!("{name} {{ {} = {bad} }}", field.name));
+                    let begin = format!("{name}: {} must be ", field.name);
+                    assert!(said.len() == 1 && said[0].starts_with(&begin), "{begin}: {said:?}");
+                    wrong += 1;
+                }
+            }
+            if !kind.fields.is_empty() {
+                assert_eq!(
+                    said(&format!("{name}({{ no_such_field = 1, {} = nil }})", kind.fields[0].name)).len(),
+                    1
+                );
+            }
+        }
+        assert!(right > 80 && wrong > 60, "{right} {wrong}");
+    }
+
+    #[test]
+    fn what_is_not_certain_is_not_told() {
+        for script in [
+            "local s = lsystem() s:interpret(\"A\", function(this) this:anything(1, 2, 3) end)",
+            "local t = turtle t = extruder lsystem({ object = t }):interpret(\"A\", function(this) this:forward(1) end)",
+            "local turtle = require(\"own\") turtle({ anything = 3 }):whatever()",
+            "local s = lsystem({ object = turtle }) s:rule(\"A\", function(this) local this = {} this:x() end)",
+            "local function draw(this) this:anything() end lsystem({ object = turtle }):interpret(\"A\", draw)",
+            "print(math.max(unpack({ 1, 2 })), math.floor(\"3\"), lerp(...), select(\"#\", 1))",
+            "local s = lsystem({ object = extruder }) s:axiom(F(1), { F() }) s:axiom(source(\"a\"), function(f) return F() end)",
+            "lsystem({ object = turtle }):rule(\"A\", { weight = 2 }, \"return F()\"):rule(\"B\", [[ return nil ]])",
+            "local v = vec(1, 2) print(v:dot({ 1, 2, 3 }), v:lerp(v, 0.5):length(), lerp(v, v, 0.5))",
+            "footprint({ { 0, 0 } }, { height = 3 }) footprint({ geometry = {}, height = 3 }) panel({}) list({ 1 }, {})",
+            "local p = { 1, 2 } lsystem({ object = turtle }):interpret(\"A\", function(this) this:jump(p) end)",
+        ] {
+            let found = said(script);
+            assert!(
+                found.iter().all(|text| text.contains("turtle has no method or field called jump")),
+                "{script}: {found:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,557 @@
+//! The definition file for editors: all that scripts can use, as Luau's type checker takes it.
+//!
+//! Where Luau's types cannot say what is allowed, anything is: a script that runs has no error for its types. What a
+//! method or a table takes is told more widely than what it gives, since Luau holds lists and tables to be of one type
+//! exactly.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Write as _;
+
+use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry};
+
+use crate::form::{CallForm, is_name, may_be_left_out};
+use crate::luau_type::LuauType;
+use crate::names::{Name, NameKind, names};
+
+/// What editors are given.
+#[derive(Debug, Clone)]
+pub struct Definitions {
+    /// The definition file.
+    pub luau: String,
+    /// By the symbol that an editor asks for, such as `@burgeon/global/lerp`: what it shows beside.
+    pub docs: BTreeMap<String, String>,
+}
+
+/// What editors are given of the types in `registry` and of the language.
+pub fn definitions(registry: &Registry) -> Definitions {
+    let mut writer = Writer::default();
+    for kind in registry.kinds() {
+        writer.types.insert(kind.luau());
+        writer.types.extend(kind.family.as_ref().map(ToString::to_string));
+    }
+    writer
+        .types
+        .extend(names().iter().filter(|name| name.sort == NameKind::Given).map(|name| type_name(name)));
+    writer.types.insert("Module".to_owned());
+    let mut body = String::new();
+    for name in names().iter().filter(|name| name.sort == NameKind::Given) {
+        writer.given(&mut body, name);
+    }
+    let mut families: Vec<&str> = registry.kinds().filter_map(|kind| kind.family.as_deref()).collect();
+    families.sort_unstable();
+    families.dedup();
+    for family in families {
+        let _ = writeln!(body, "declare class {family} extends Object end\n");
+    }
+    for kind in registry.kinds() {
+        writer.kind(&mut body, kind);
+    }
+    // A derived system is a model, which comes after what names give.
+    let late: Vec<&Name> = names().iter().filter(|name| !name.extends.is_empty()).collect();
+    late.into_iter().for_each(|name| writer.class(&mut body, &name.luau, name, &name.extends));
+    for name in names() {
+        match name.sort {
+            NameKind::Given | NameKind::Function | NameKind::Luau => {}
+            NameKind::Module { kind, method } => {
+                let method = registry.get(kind).and_then(|kind| kind.method(method));
+                writer.module(&mut body, name, method);
+            }
+            NameKind::Global if writer.returns_system(name) => writer.lsystem(&mut body, name, registry),
+            NameKind::Global => writer.global(&mut body, name),
+        }
+    }
+    let mut luau = String::from(
+        "-- What Burgeon's scripts can use, for luau-lsp with Luau's new type solver. Written by: burgeon api --luau\n\n\
+         -- A module, as the functions that module gives make it.\nexport type Module = any\n\n\
+         declare class Object end\n\n\
+         -- An object of a type that a script declares: what it has is known to that script alone.\n\
+         declare class ScriptObject extends Object\n  [string]: any\nend\n\n",
+    );
+    for (alias, stands_for) in &writer.aliases {
+        let _ = writeln!(luau, "export type {alias} = {stands_for}\n");
+    }
+    for unknown in writer.unknown.difference(&writer.types) {
+        if !writer.aliases.contains_key(unknown) {
+            let _ = writeln!(luau, "export type {unknown} = any\n");
+        }
+    }
+    Definitions { luau: luau + body.trim_end() + "\n", docs: writer.docs }
+}
+
+/// What Luau calls what a name gives: `Vector` of vector.
+fn type_name(name: &Name) -> String {
+    Kind::new(name.name.clone(), "").luau()
+}
+
+#[derive(Default)]
+struct Writer {
+    /// The names of types that are declared.
+    types: BTreeSet<String>,
+    /// The names of types that are used.
+    unknown: BTreeSet<String>,
+    /// Tables of fields that have a name of their own, and what may be given in place of something.
+    aliases: BTreeMap<String, String>,
+    docs: BTreeMap<String, String>,
+    /// What the next table of named fields is called.
+    options: String,
+}
+
+impl Writer {
+    fn doc(&mut self, out: &mut String, symbol: &str, doc: &str, indent: &str) {
+        let doc = doc.split_whitespace().collect::<Vec<_>>().join(" ");
+        let _ = writeln!(out, "{indent}--- {doc}");
+        self.docs.insert(format!("@burgeon/{symbol}"), doc);
+    }
+
+    /// What others give: a class where it has methods, else a table or another name for a type.
+    fn given(&mut self, out: &mut String, name: &Name) {
+        let own = type_name(name);
+        if !name.instead.is_empty() {
+            // A list of what Luau does not know is a list of anything.
+            let instead = match &*name.instead {
+                "{ number }" => format!("{own} | {{ number }} | {{ any }}"),
+                _ => "any".to_owned(),
+            };
+            self.aliases.insert(format!("{own}Like"), instead);
+        }
+        if !name.extends.is_empty() {
+            return;
+        }
+        if name.luau == "System<T>" {
+            return self.system(out, name);
+        }
+        if !name.functions.is_empty() {
+            return self.class(out, &own, name, "Object");
+        }
+        self.doc(out, &format!("globaltype/{own}"), &name.doc, "");
+        if name.fields.is_empty() {
+            let _ = writeln!(out, "export type {own} = {}\n", name.luau);
+            return;
+        }
+        let _ = writeln!(out, "export type {own} = {{");
+        // What is taken out of a list stands in brackets, as attributes of a feature do.
+        let items = if own == "Layer" { "  [number]: Feature,\n" } else { "" };
+        out.push_str(items);
+        for field in &name.fields {
+            let luau = self.got(field.luau.trim_end_matches('?'));
+            if field.name.starts_with('[') {
+                let _ = writeln!(out, "  {}: {luau},", field.name);
+                continue;
+            }
+            self.doc(out, &format!("globaltype/{own}.{}", field.name), &field.doc, "  ");
+            let optional = if own == "Rule" { "?" } else { "" };
+            let _ = writeln!(out, "  read {}: {luau}{optional},", field.name);
+        }
+        out.push_str("}\n\n");
+    }
+
+    fn class(&mut self, out: &mut String, own: &str, name: &Name, extends: &str) {
+        self.doc(out, &format!("globaltype/{own}"), &name.doc, "");
+        let _ = writeln!(out, "declare class {own} extends {extends}");
+        for field in &name.fields {
+            self.doc(out, &format!("globaltype/{own}.{}", field.name), &field.doc, "  ");
+            let luau = self.got(&field.luau);
+            let _ = writeln!(out, "  {}: {luau}", field.name);
+        }
+        for function in &name.functions {
+            self.doc(out, &format!("globaltype/{own}.{}", function.name), &function.doc, "  ");
+            let form = merged(&function.forms);
+            let arguments = self.arguments(&form.arguments, true);
+            let returns = self.got(&form.returns);
+            let _ = writeln!(out, "  function {}({arguments}): {returns}", function.name);
+        }
+        if own == "Vector" {
+            for (operator, other, gives) in [
+                ("add", "VectorLike", "Vector"),
+                ("sub", "VectorLike", "Vector"),
+                ("mul", "VectorLike | number", "Vector"),
+                ("div", "number", "Vector"),
+            ] {
+                let _ = writeln!(out, "  function __{operator}(self, other: {other}): {gives}");
+            }
+            out.push_str("  function __unm(self): Vector\n  [number]: number\n");
+        }
+        out.push_str("end\n\n");
+    }
+
+    /// A system, which has its object's type as a parameter: no class of Luau has that.
+    fn system(&mut self, out: &mut String, name: &Name) {
+        self.doc(out, "globaltype/System", &name.doc, "");
+        out.push_str("export type System<T> = {\n");
+        for function in &name.functions {
+            self.doc(out, &format!("globaltype/System.{}", function.name), &function.doc, "  ");
+            let form = merged(&function.forms);
+            let mut arguments = vec!["self: System<T>".to_owned()];
+            arguments.extend(form.arguments.iter().map(|argument| match &*argument.name {
+                "..." => format!("...{}", argument.luau),
+                name => format!("{name}: {}", with_parameters(&argument.luau)),
+            }));
+            let returns = &form.returns;
+            let _ = writeln!(out, "  read {}: ({}) -> {returns},", function.name, arguments.join(", "));
+        }
+        out.push_str("}\n\n");
+    }
+
+    fn kind(&mut self, out: &mut String, kind: &Kind) {
+        let own = kind.luau();
+        self.doc(out, &format!("globaltype/{own}"), &kind.doc, "");
+        let _ = writeln!(out, "declare class {own} extends {}", kind.family.as_deref().unwrap_or("Object"));
+        for method in &kind.methods {
+            self.doc(out, &format!("globaltype/{own}.{}", method.name), &method.doc, "  ");
+            self.options = format!("{own}{}Options", capital(&method.name));
+            let arguments = self.arguments(&method.arguments, true);
+            // What gives nothing gives the object itself, so that calls can follow one another.
+            let returns = if method.returns.is_empty() {
+                own.clone()
+            } else {
+                self.got(method.returns.trim_end_matches('?'))
+            };
+            let _ = writeln!(out, "  function {}({arguments}): {returns}", method.name);
+        }
+        out.push_str("end\n\n");
+        if let Some(arguments) = self.constructor(kind) {
+            self.doc(out, &format!("global/{}", kind.name), &kind.doc, "");
+            let _ = writeln!(out, "declare function {}({arguments}): {own}\n", kind.name);
+        }
+    }
+
+    /// The arguments of a type's constructor; `None` where scripts cannot make one.
+    fn constructor(&mut self, kind: &Kind) -> Option<String> {
+        let options = format!("{}Options", kind.luau());
+        if !kind.fields.is_empty() && !matches!(kind.construct, Construct::Given) {
+            let table = self.table(&kind.fields);
+            self.aliases.insert(options.clone(), table);
+        }
+        Some(match (&kind.construct, &kind.first) {
+            (Construct::Given, _) => return None,
+            (Construct::File(_), _) if kind.fields.is_empty() => "file: string".to_owned(),
+            (Construct::File(_), _) => format!("file: string, options: {options}?"),
+            // It may be the table of options itself, or what the field says: Luau finds neither in a union.
+            (Construct::Fields(_), Some(first)) => format!("{first}: any, options: {options}?"),
+            (Construct::Fields(_), None) => format!("options: {options}?"),
+        })
+    }
+
+    /// A table of which all fields may be left out.
+    fn table(&mut self, fields: &[Field]) -> String {
+        let mut table = String::from("{\n");
+        for field in fields {
+            let luau = self.taken(field.luau.trim_end_matches('?'), &field.fields);
+            let doc = field.doc.split_whitespace().collect::<Vec<_>>().join(" ");
+            let _ = writeln!(table, "  --- {doc}\n  read {}: {},", key(&field.name), optional(&luau));
+        }
+        table + "}"
+    }
+
+    fn arguments(&mut self, arguments: &[Argument], of_object: bool) -> String {
+        let mut list: Vec<String> = if of_object { vec!["self".to_owned()] } else { Vec::new() };
+        for argument in arguments {
+            let luau = self.taken(&argument.luau, &argument.fields);
+            let left_out = may_be_left_out(&argument.luau) && !may_be_left_out(&luau);
+            // A word of Luau's own is no name to it.
+            let more = if is_keyword(&argument.name) { "_" } else { "" };
+            let optional = if left_out { "?" } else { "" };
+            list.push(format!("{}{more}: {luau}{optional}", argument.name));
+        }
+        list.join(", ")
+    }
+
+    fn module(&mut self, out: &mut String, name: &Name, method: Option<&Method>) {
+        let doc = method.map_or(String::new(), |method| format!("{} ", method.doc)) + &name.doc;
+        self.doc(out, &format!("global/{}", name.name), &doc, "");
+        let form = module_form(name, method);
+        let arguments = self.arguments(&form.arguments, false);
+        let _ = writeln!(out, "declare function {}({arguments}): Module\n", name.name);
+    }
+
+    fn returns_system(&self, name: &Name) -> bool {
+        name.forms.iter().any(|form| form.returns == "System<T>")
+    }
+
+    /// The function that makes a system: it knows the type of the object by the object or by its constructor.
+    fn lsystem(&mut self, out: &mut String, name: &Name, registry: &Registry) {
+        self.doc(out, &format!("global/{}", name.name), &name.doc, "");
+        let _ = writeln!(out, "declare {}:", name.name);
+        let _ = writeln!(out, "  (<T>(options: {{ read object: T & Object }}) -> System<T>)");
+        out.push_str(
+            "  & ((options: { read object: (fields: any?) -> ScriptObject }) -> System<ScriptObject>)\n",
+        );
+        // Those that neither draw nor divide anything are of no use to a system.
+        let of_use = |kind: &&std::sync::Arc<Kind>| kind.show.is_some() || kind.expand.is_some();
+        for kind in registry.kinds().filter(of_use) {
+            if let (Construct::Fields(_), Some(arguments)) = (&kind.construct, self.constructor(kind)) {
+                let own = kind.luau();
+                let _ = writeln!(
+                    out,
+                    "  & ((options: {{ read object: ({arguments}) -> {own} }}) -> System<{own}>)"
+                );
+            }
+        }
+        let others = name.options().filter(|field| field.name != "object");
+        let others: Vec<(String, String)> = others
+            .map(|field| (field.name.to_string(), field.luau.trim_end_matches('?').to_owned()))
+            .collect();
+        for (field, luau) in others {
+            // A text that is written in a table is any text to Luau.
+            let luau = if luau.starts_with('"') { "string".to_owned() } else { luau };
+            let _ = writeln!(out, "  & ((options: {{ read {field}: {luau} }}) -> System<any>)");
+        }
+        out.push_str("  & (() -> System<any>)\n\n");
+    }
+
+    fn global(&mut self, out: &mut String, name: &Name) {
+        self.doc(out, &format!("global/{}", name.name), &name.doc, "");
+        let default = name.options().find(|field| field.name == "default");
+        if let (Some(_), [form]) = (default, &name.forms[..]) {
+            // What it gives is of the type of its default.
+            let (first, returns) = (&form.arguments[0], "T");
+            let _ = writeln!(
+                out,
+                "declare function {}<T>({}: {}, options: {{ read default: T }}): {returns}\n",
+                name.name, first.name, first.luau
+            );
+        } else if !name.functions.is_empty() {
+            let _ = writeln!(out, "declare {}: {{", name.name);
+            for field in &name.fields {
+                let luau = self.got(&field.luau);
+                self.doc(out, &format!("global/{}.{}", name.name, field.name), &field.doc, "  ");
+                let _ = writeln!(out, "  read {}: {luau},", field.name);
+            }
+            for function in &name.functions {
+                self.doc(out, &format!("global/{}.{}", name.name, function.name), &function.doc, "  ");
+                let form = merged(&function.forms);
+                let arguments = self.arguments(&form.arguments, false);
+                let returns = self.got(&form.returns);
+                let field = key(&function.name);
+                let _ = writeln!(out, "  read {field}: ({arguments}) -> {returns},");
+            }
+            out.push_str("}\n\n");
+        } else if let [form] = &name.forms[..] {
+            self.options = format!("{}Options", capital(&name.name));
+            let arguments = self.arguments(&form.arguments, false);
+            // What makes objects of a type that a script declares.
+            let returns = match &*form.returns {
+                "(fields: { ... }?) -> any" => "(fields: any?) -> ScriptObject".to_owned(),
+                returns => self.got(returns),
+            };
+            let returns = if returns.contains("->") { format!("({returns})") } else { returns };
+            let _ = writeln!(out, "declare function {}({arguments}): {returns}\n", name.name);
+        } else if name.forms.is_empty() {
+            let luau = self.got(&name.luau);
+            let _ = writeln!(out, "declare {}: {luau}\n", name.name);
+        } else {
+            // Several forms with arguments of other types: Luau finds none of them where it knows too little.
+            let forms = name.forms.iter().map(|form| form.arguments.iter().map(|it| it.name.to_string()));
+            let names: Vec<String> = forms.max_by_key(ExactSizeIterator::len).into_iter().flatten().collect();
+            let arguments: Vec<String> = names.iter().map(|name| format!("{name}: any")).collect();
+            let _ = writeln!(out, "declare function {}({}): any\n", name.name, arguments.join(", "));
+        }
+    }
+
+    /// A type as a script gets it.
+    fn got(&mut self, luau: &str) -> String {
+        let found = LuauType::read(luau);
+        if found == LuauType::Any {
+            return if luau.contains('<') { luau.to_owned() } else { "any".to_owned() };
+        }
+        self.shown(&found, false)
+    }
+
+    /// A type as a script may give it, where it has these `fields` if it is a table of such.
+    fn taken(&mut self, luau: &str, fields: &[Field]) -> String {
+        let name = luau.trim_end_matches('?');
+        if !fields.is_empty() && is_name(name) {
+            if !self.aliases.contains_key(name) {
+                // It may contain itself.
+                self.aliases.insert(name.to_owned(), String::new());
+                let table = self.table(fields);
+                self.aliases.insert(name.to_owned(), table);
+            }
+            // Luau takes no table for it that a variable holds and that leaves a field out.
+            return "any".to_owned();
+        }
+        if !fields.is_empty() && matches!(name, "{ [string]: any }" | "{ ... }") {
+            let mark = if luau.ends_with('?') { "?" } else { "" };
+            let (options, table) = (self.options.clone(), self.table(fields));
+            self.aliases.insert(options.clone(), table);
+            return options + mark;
+        }
+        self.shown(&LuauType::read(luau), true)
+    }
+
+    fn shown(&mut self, of: &LuauType, taken: bool) -> String {
+        match of {
+            LuauType::Any => "any".to_owned(),
+            LuauType::Nil => "nil".to_owned(),
+            LuauType::Text(text) => format!("\"{text}\""),
+            LuauType::Function(text) => text.clone(),
+            LuauType::Named(name) if matches!(&**name, "number" | "string" | "boolean" | "never") => {
+                name.clone()
+            }
+            LuauType::Named(name) => {
+                let like = format!("{name}Like");
+                if taken && self.aliases.contains_key(&like) {
+                    return like;
+                }
+                self.unknown.insert(name.clone());
+                name.clone()
+            }
+            LuauType::Union(of) => {
+                let is_optional = of.contains(&LuauType::Nil);
+                let some = of.iter().filter(|of| **of != LuauType::Nil);
+                let some: Vec<String> = some.map(|of| self.shown(of, taken)).collect();
+                match (&some[..], is_optional) {
+                    ([one], true) if !one.contains("->") => format!("{one}?"),
+                    (_, true) => format!("({})?", some.join(" | ")),
+                    (_, false) => some.join(" | "),
+                }
+            }
+            // A list of tables that a script made is of no other type.
+            LuauType::List(item) if taken && !is_plain(item) => "any".to_owned(),
+            LuauType::List(item) => format!("{{ {} }}", self.shown(item, taken)),
+            LuauType::Map => "any".to_owned(),
+            LuauType::Table(fields) => {
+                let read = if taken { "read " } else { "" };
+                let fields: Vec<String> = fields
+                    .iter()
+                    .map(|(name, of)| format!("{read}{name}: {}", self.shown(of, taken)))
+                    .collect();
+                format!("{{ {} }}", fields.join(", "))
+            }
+        }
+    }
+}
+
+/// Whether Luau knows the type of a list of these whoever made it.
+fn is_plain(item: &LuauType) -> bool {
+    match item {
+        LuauType::Named(name) => matches!(&**name, "number" | "string" | "boolean"),
+        _ => false,
+    }
+}
+
+/// Whether Luau takes `name` for no name.
+fn is_keyword(name: &str) -> bool {
+    const KEYWORDS: [&str; 21] = [
+        "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",
+        "nil", "not", "or", "repeat", "return", "then", "true", "until", "while",
+    ];
+    KEYWORDS.contains(&name)
+}
+
+/// The name of a field in a table's type.
+fn key(name: &str) -> String {
+    if is_keyword(name) { format!("[\"{name}\"]") } else { name.to_owned() }
+}
+
+/// A type that may be left out.
+fn optional(luau: &str) -> String {
+    let is_one = is_name(luau) || luau.starts_with('{') && luau.find('}') == Some(luau.len() - 1);
+    match luau {
+        "any" => luau.to_owned(),
+        _ if is_one => format!("{luau}?"),
+        _ => format!("({luau})?"),
+    }
+}
+
+/// A name as a part of a type's name.
+fn capital(name: &str) -> String {
+    Kind::new(name.to_owned(), "").luau()
+}
+
+/// The form of a module's constructor, with what is known of the method that it calls.
+pub fn module_form(name: &Name, method: Option<&Method>) -> CallForm {
+    let mut form = name.forms.first().cloned().unwrap_or_default();
+    for (index, argument) in form.arguments.iter_mut().enumerate() {
+        if let Some(known) = method.and_then(|method| method.arguments.get(index)) {
+            let optional = if argument.luau.ends_with('?') && !known.luau.ends_with('?') { "?" } else { "" };
+            argument.luau = format!("{}{optional}", known.luau);
+            argument.unit.clone_from(&known.unit);
+            argument.fields.clone_from(&known.fields);
+        }
+    }
+    form
+}
+
+/// A function's type with parameters of its own in place of any number of any values: Luau passes on to a function in a
+/// call only the types of single parameters.
+fn with_parameters(luau: &str) -> String {
+    let parameters: String = ('a'..='l').map(|name| format!("{name}: any, ")).collect();
+    luau.replace("this: T, ...any", &format!("this: T, {parameters}...any"))
+}
+
+/// One form for several: what not all have may be left out.
+///
+/// Luau tells a function in a call what its parameters are only where there is one form, and where it is not one of
+/// several types; so a text may not stand there where only some forms have an argument.
+fn merged(forms: &[CallForm]) -> CallForm {
+    let Some((first, others)) = forms.split_first() else { return CallForm::default() };
+    let mut form = first.clone();
+    for other in others {
+        let variadic = |form: &CallForm| form.arguments.last().is_some_and(|last| last.name == "...");
+        if variadic(&form) || variadic(other) {
+            form.arguments = vec![crate::form::argument("...", "any")];
+            continue;
+        }
+        for (index, argument) in other.arguments.iter().enumerate() {
+            match form.arguments.get_mut(index) {
+                Some(known) if known.luau == argument.luau => {}
+                Some(known) => {
+                    // Among several types, a function must take what it is given for certain: nothing else than never.
+                    let known_luau = known.luau.replace("...any)", "...never)");
+                    let luau = format!("{known_luau} | {}", in_place(argument));
+                    *known = Argument { luau, ..argument.clone() };
+                }
+                None => {
+                    let luau = argument.luau.trim_end_matches(" | string");
+                    form.arguments.push(Argument { luau: format!("({luau})?"), ..argument.clone() });
+                }
+            }
+        }
+    }
+    form
+}
+
+/// The type of an argument, with the fields of its table where it stands.
+fn in_place(argument: &Argument) -> String {
+    if argument.fields.is_empty() {
+        return argument.luau.clone();
+    }
+    let fields = argument.fields.iter().map(|field| {
+        let luau = with_parameters(field.luau.trim_end_matches('?'));
+        format!("read {}: {}", key(&field.name), optional(luau.trim()))
+    });
+    format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_form_takes_what_any_of_several_takes() {
+        let forms = ["(a: string, b: (...any) -> any) -> T", "(a: string, b: number, c: boolean) -> T"];
+        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
+        let form = merged(&forms);
+        assert_eq!(form.to_string(), "(a: string, b: (...never) -> any | number, c: (boolean)?) -> T");
+        let forms = ["(...Module) -> T", "(source: Layer, chain: any) -> T"];
+        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
+        assert_eq!(merged(&forms).to_string(), "(...any) -> T");
+    }
+
+    #[test]
+    fn everything_is_declared_once_and_keeps_to_the_names_of_luau() {
+        let definitions = definitions(&burgeon_objects::registry());
+        let mut declared = BTreeSet::new();
+        for line in definitions.luau.lines() {
+            assert!(!line.contains(" end:"), "{line}");
+            let words: Vec<&str> = line.split([' ', '(', '<', ':']).collect();
+            if let [_, what @ ("class" | "function" | "type"), name, ..] = &words[..]
+                && !line.starts_with(' ')
+            {
+                assert!(declared.insert((*what == "function", *name)), "{name}");
+            }
+        }
+        assert!(declared.len() > 80, "{}", declared.len());
+    }
+}

@@ -1,0 +1,20 @@
+//! What scripts can use, told once: the names of the language, their arguments and types, and what follows from them.
+//!
+//! Comes in: a registry of types of objects, and the text of the standard library. Goes out: names with their forms of
+//! calling, types that a value may be held against, and the definition file for editors. It never runs a script, and
+//! knows no virtual machine.
+
+mod definitions;
+mod editor;
+mod form;
+mod luau_type;
+mod names;
+
+pub use definitions::{Definitions, definitions, module_form};
+pub use editor::{EditorFile, SETTINGS, editor_files, merged_settings};
+pub use form::{CallForm, argument};
+pub use luau_type::{Literal, LuauType};
+pub use names::{
+    DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, OBJECT, PARAM, RULE, SOURCE, SYSTEM,
+    VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
+};

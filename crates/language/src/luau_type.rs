@@ -1,0 +1,261 @@
+//! Types as Luau writes them, as far as a value that stands in a script can be held against them.
+
+/// A type that an argument or a field may have.
+#[derive(Debug, Clone, PartialEq)]
+pub enum LuauType {
+    /// Anything.
+    Any,
+    /// Nothing.
+    Nil,
+    /// `number`, `string`, `boolean`, or the name of a type that is told of elsewhere.
+    Named(String),
+    /// This text and no other.
+    Text(String),
+    /// One of these.
+    Union(Vec<Self>),
+    /// A list of these.
+    List(Box<Self>),
+    /// A table with other keys than names.
+    Map,
+    /// A table with these fields.
+    Table(Vec<(String, Self)>),
+    /// A function, as it is written.
+    Function(String),
+}
+
+/// A value that can be seen in a script without running it.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Literal {
+    /// `nil`.
+    Nil,
+    /// `true` or `false`.
+    Boolean,
+    /// A number.
+    Number,
+    /// This text.
+    Text(String),
+    /// A table that is written in place.
+    Table,
+    /// A function that is written in place.
+    Function,
+    /// An object whose type has this name in Luau.
+    Object(String),
+}
+
+impl LuauType {
+    /// Reads a type. What is not understood is [`LuauType::Any`].
+    pub fn read(text: &str) -> Self {
+        let mut reader = Reader { rest: text };
+        let found = reader.union();
+        if reader.rest.trim().is_empty() { found.unwrap_or(Self::Any) } else { Self::Any }
+    }
+
+    /// Whether `literal` may be a value of this type. What a name stands for is told by `known`: itself, if it is a type
+    /// of object; nothing, if nobody knows, and then it may be anything.
+    pub fn accepts(&self, literal: &Literal, known: &dyn Fn(&str) -> Option<Self>) -> bool {
+        match self {
+            Self::Any => true,
+            Self::Nil => *literal == Literal::Nil,
+            Self::Text(text) => matches!(literal, Literal::Text(given) if given == text),
+            Self::Union(of) => of.iter().any(|of| of.accepts(literal, known)),
+            Self::List(_) | Self::Map | Self::Table(_) => *literal == Literal::Table,
+            Self::Function(_) => matches!(literal, Literal::Function | Literal::Object(_)),
+            Self::Named(name) => match (&**name, literal) {
+                ("number", _) => *literal == Literal::Number,
+                ("boolean", _) => *literal == Literal::Boolean,
+                ("string", _) => matches!(literal, Literal::Text(_)),
+                (name, Literal::Object(given)) if name == given => true,
+                (name, _) => known(name).is_none_or(|stands_for| {
+                    stands_for != Self::Named(name.to_owned()) && stands_for.accepts(literal, known)
+                }),
+            },
+        }
+    }
+
+    /// The type of what it holds, if it is a list, or may be one.
+    pub fn item(&self) -> Option<&Self> {
+        match self {
+            Self::List(item) => Some(item),
+            Self::Union(of) => of.iter().find_map(Self::item),
+            _ => None,
+        }
+    }
+
+    /// The fields that it has, if it is a table, or may be one.
+    pub fn fields(&self) -> Option<&[(String, Self)]> {
+        match self {
+            Self::Table(fields) => Some(fields),
+            Self::Union(of) => of.iter().find_map(Self::fields),
+            _ => None,
+        }
+    }
+}
+
+struct Reader<'a> {
+    rest: &'a str,
+}
+
+impl Reader<'_> {
+    fn take(&mut self, what: &str) -> bool {
+        let rest = self.rest.trim_start();
+        let found = rest.strip_prefix(what);
+        self.rest = found.unwrap_or(rest);
+        found.is_some()
+    }
+
+    fn name(&mut self) -> Option<String> {
+        let rest = self.rest.trim_start();
+        let end = rest.find(|c: char| !c.is_ascii_alphanumeric() && c != '_').unwrap_or(rest.len());
+        let (name, rest) = rest.split_at(end);
+        self.rest = rest;
+        (!name.is_empty()).then(|| name.to_owned())
+    }
+
+    fn union(&mut self) -> Option<LuauType> {
+        let mut of = vec![self.optional()?];
+        while self.take("|") {
+            of.push(self.optional()?);
+        }
+        Some(if of.len() == 1 { of.remove(0) } else { LuauType::Union(of) })
+    }
+
+    fn optional(&mut self) -> Option<LuauType> {
+        let mut found = self.single()?;
+        while self.take("?") {
+            found = LuauType::Union(vec![found, LuauType::Nil]);
+        }
+        Some(found)
+    }
+
+    fn single(&mut self) -> Option<LuauType> {
+        if self.take("(") {
+            return self.bracket();
+        }
+        if self.take("{") {
+            return self.table();
+        }
+        if self.take("\"") {
+            let (text, rest) = self.rest.split_once('"')?;
+            self.rest = rest;
+            return Some(LuauType::Text(text.to_owned()));
+        }
+        let name = self.name()?;
+        if self.take("<") {
+            self.union()?;
+            return self.take(">").then_some(LuauType::Any);
+        }
+        Some(match &*name {
+            "any" | "unknown" => LuauType::Any,
+            "nil" => LuauType::Nil,
+            // The type of a system's object.
+            "T" => LuauType::Any,
+            _ => LuauType::Named(name),
+        })
+    }
+
+    /// A function's arguments and its result, or a type in brackets.
+    fn bracket(&mut self) -> Option<LuauType> {
+        let begin = self.rest;
+        let mut inner = Vec::new();
+        while !self.take(")") {
+            let before = self.rest;
+            let named = self.name().is_some() && self.take(":");
+            if !named {
+                self.rest = before;
+            }
+            self.take("...");
+            inner.push(self.union()?);
+            self.take(",");
+        }
+        if self.take("->") {
+            self.take("...");
+            self.union()?;
+            let text = &begin[..begin.len() - self.rest.len()];
+            return Some(LuauType::Function(format!("({}", text.trim_end())));
+        }
+        if inner.len() == 1 { inner.pop() } else { Some(LuauType::Any) }
+    }
+
+    fn table(&mut self) -> Option<LuauType> {
+        if self.take("[") {
+            self.union()?;
+            if !self.take("]") || !self.take(":") {
+                return None;
+            }
+            self.union()?;
+            return self.take("}").then_some(LuauType::Map);
+        }
+        if self.take("...") {
+            return self.take("}").then_some(LuauType::Map);
+        }
+        let mut fields = Vec::new();
+        while !self.take("}") {
+            let before = self.rest;
+            if let Some(name) = self.name()
+                && self.take(":")
+            {
+                fields.push((name, self.union()?));
+                self.take(",");
+                continue;
+            }
+            self.rest = before;
+            let item = self.union()?;
+            return self.take("}").then(|| LuauType::List(Box::new(item)));
+        }
+        Some(LuauType::Table(fields))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn values_are_held_against_types() {
+        let text = |text: &str| Literal::Text(text.to_owned());
+        let known = |name: &str| match name {
+            "Color" => Some(LuauType::read("string | { number }")),
+            "Model" => Some(LuauType::Named("Model".to_owned())),
+            _ => None,
+        };
+        let accepts = |luau: &str, literal: &Literal| LuauType::read(luau).accepts(literal, &known);
+        for (luau, literal) in [
+            ("number", Literal::Number),
+            ("number?", Literal::Nil),
+            ("number | { number }", Literal::Table),
+            ("{ level: number?, color: Color? }", Literal::Table),
+            ("{ [number]: { string } }", Literal::Table),
+            ("Color", text("red")),
+            ("Color?", Literal::Table),
+            ("\"last\"?", text("last")),
+            ("any", Literal::Function),
+            ("((this: T, ...any) -> boolean)?", Literal::Function),
+            ("Unheard", Literal::Number),
+            ("Model", Literal::Object("Model".to_owned())),
+            ("System<T>", Literal::Table),
+        ] {
+            assert!(accepts(luau, &literal), "{luau}: {literal:?}");
+        }
+        for (luau, literal) in [
+            ("number", text("3")),
+            ("number", Literal::Nil),
+            ("number | { number }", text("wide")),
+            ("Color", Literal::Number),
+            ("\"last\"?", text("first")),
+            ("Model?", Literal::Table),
+            ("Model?", Literal::Object("Template".to_owned())),
+            ("(a: number) -> number", Literal::Number),
+            ("boolean", Literal::Number),
+        ] {
+            assert!(!accepts(luau, &literal), "{luau}: {literal:?}");
+        }
+    }
+
+    #[test]
+    fn a_type_tells_its_parts() {
+        let list = LuauType::read("{ { number } }?");
+        assert_eq!(list.item(), Some(&LuauType::read("{ number }")));
+        let table = LuauType::read("number | { level: number?, color: Color? }?");
+        assert_eq!(table.fields().map(<[_]>::len), Some(2));
+    }
+}

@@ -1,0 +1,350 @@
+//! The names that Burgeon adds to Luau in Rust, and what they give.
+
+use std::sync::LazyLock;
+
+use burgeon_kit::{Argument, Field};
+
+use super::name::{Name, field};
+use crate::form::argument;
+
+/// All of them.
+pub(super) fn names() -> Vec<Name> {
+    let shared = [&*PARAM, &OBJECT, &EXTEND, &LSYSTEM, &SYSTEM, &RULE, &DERIVED, &SOURCE, &LAYER, &VECTOR];
+    let mut names: Vec<Name> = shared.into_iter().cloned().collect();
+    names.extend([
+        Name::global(
+            "module",
+            "Declares modules with this name and these parameters, and gives the function that makes them. A parameter \
+             whose name ends with ? may be left out.",
+        )
+        .form([argument("name", "string"), argument("...", "string")], "(...any) -> Module"),
+        Name::global(
+            "random",
+            "A random number of the module that is rewritten or drawn: from 0 to 1, or between a and b.",
+        )
+        .form([argument("a", "number?"), argument("b", "number?")], "number")
+        .pure(),
+        Name::global("require", "What another file of the script returns, or of a package: require(\"@castle/towers\"). Each is run once.")
+            .form([argument("name", "string")], "any"),
+        Name::global(
+            "api",
+            "What scripts can rely on: the version of these names, and whether a name is among them.",
+        )
+        .fields([Field::new("version", "string", "The version of the script API, such as \"1.0.0\".")])
+        .functions([Name::function(
+            "has",
+            "Whether there is such a name, such as \"terrain\" or \"extruder.bend\", or such a package, as \"@castle\".",
+        )
+        .form([argument("name", "string")], "boolean")
+        .pure()])
+        .pure(),
+        Name::global(
+            "lod",
+            "The level of detail of the run: 0 ground plans, 1 blocks, 2 roofs, 3 everything.",
+        )
+        .luau("number"),
+        Name::given(
+            "color",
+            "string | { number }",
+            "A colour: \"#rrggbb\", a name such as \"lightblue\", or { red, green, blue } from 0 to 1.",
+        ),
+        Name::given(
+            "feature",
+            "Feature",
+            "A feature of a data file: its attributes by name, and these, which win over attributes.",
+        )
+        .fields([
+            Field::new("id", "string", "What tells it from all others."),
+            Field::new(
+                "geometry",
+                "Geometry",
+                "Where it is; what a geometry has is told of under geometry.",
+            ),
+            Field::new("layer", "string", "The name of its layer."),
+            Field::new("[string]", "any", "Its attributes, by name."),
+        ]),
+        Name::given("geometry", "Geometry", "Where a feature of a data file is.")
+            .instead("{ any }")
+            .fields([
+                Field::new("kind", "string", "What it is: \"point\", \"line\" or \"polygon\"."),
+                metres(
+                    "rings",
+                    "{ { { number } } }?",
+                    "Of a polygon, the outer ring, which turns left, and its holes: points { x, y, z } (m).",
+                ),
+                metres("points", "{ { number } }?", "Of a line or a point, its points { x, y, z } (m)."),
+            ]),
+    ]);
+    names
+}
+
+fn metres(name: &'static str, luau: &str, doc: &'static str) -> Field {
+    Field { unit: Some("m".into()), ..Field::new(name, luau, doc) }
+}
+
+fn options(luau: &str, fields: impl Into<Vec<Field>>) -> Argument {
+    Argument { fields: fields.into(), ..argument("options", luau) }
+}
+
+/// What a script's parameters are declared with.
+pub static PARAM: LazyLock<Name> = LazyLock::new(|| {
+    Name::global(
+        "param",
+        "Declares a value that people may change without editing the script, and gives the one that it has in this run.",
+    )
+    .form(
+        [
+            argument("name", "string"),
+            options(
+                "{ ... }",
+                [
+                    field(
+                        "default",
+                        "number | boolean | string",
+                        "",
+                        "The value if nobody says another; it must be given.",
+                    ),
+                    field("min", "number?", "nil", "The least value."),
+                    field("max", "number?", "nil", "The greatest value."),
+                    field(
+                        "step",
+                        "number?",
+                        "nil",
+                        "How far values are from one another, counted from the least one.",
+                    ),
+                    field("choices", "{ string }?", "nil", "The texts to choose from."),
+                    field("unit", "string", "\"\"", "The unit, for people."),
+                    field("text", "string", "\"\"", "What it does, for people."),
+                ],
+            ),
+        ],
+        "any",
+    )
+});
+
+/// What a system is made with.
+pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
+    Name::global("lsystem", "Makes a system of rules; what it has is told of under system.").form(
+        [options(
+            "{ ... }?",
+            [
+                field(
+                    "object",
+                    "any",
+                    "nil",
+                    "What the chains draw with: an object, or the constructor of one.",
+                ),
+                field(
+                    "interpret",
+                    "\"last\"?",
+                    "nil",
+                    "With \"last\", only the last chain is interpreted, and not that of every step.",
+                ),
+                field(
+                    "seed",
+                    "number?",
+                    "nil",
+                    "What its random numbers come from, in place of the run's seed.",
+                ),
+            ],
+        )],
+        "System<T>",
+    )
+});
+
+/// What a type of object is declared with.
+pub static OBJECT: LazyLock<Name> = LazyLock::new(|| {
+    let functions = "{ [string]: (self: any, ...any) -> any }?";
+    let hook = "((self: any) -> ())?";
+    let fields = [
+        field("doc", "string?", "nil", "What it is; the first line is a summary."),
+        field(
+            "extends",
+            "((...any) -> any)?",
+            "nil",
+            "The constructor of the type whose fields, methods and drawing it has, too.",
+        ),
+        field(
+            "fields",
+            "{ [string]: any }?",
+            "nil",
+            "What its constructor takes, each as { default =, type =, min =, max =, choices =, unit =, doc = }.",
+        ),
+        field(
+            "state",
+            "{ [string]: any }?",
+            "nil",
+            "What its functions may assign, with the values that every pass begins with; objects draw into its drawing.",
+        ),
+        field("reads", functions, "nil", "Functions that rules may call, too."),
+        field(
+            "changes",
+            functions,
+            "nil",
+            "Functions that only interpretations may call; without a result they give the object.",
+        ),
+        field("begin", hook, "nil", "Runs before a chain is interpreted."),
+        field("push", hook, "nil", "Runs where a branch opens."),
+        field("pop", hook, "nil", "Runs where a branch closes."),
+        field("finish", hook, "nil", "Runs after a chain was interpreted."),
+    ];
+    let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
+    Name::global("object", "Declares a type of object, and gives the function that makes objects of it.")
+        .form([argument("name", "string"), declaration], "(fields: { ... }?) -> any")
+});
+
+/// What is added to a type of object.
+pub static EXTEND: LazyLock<Name> = LazyLock::new(|| {
+    let functions = "{ [string]: (self: any, ...any) -> any }?";
+    let fields = [
+        field("reads", functions, "nil", "Functions that rules may call, too."),
+        field("changes", functions, "nil", "Functions that only interpretations may call."),
+    ];
+    let declaration = Argument { fields: fields.into(), ..argument("declaration", "{ ... }") };
+    Name::global("extend", "Adds functions to a type of object, for the scripts of this run.")
+        .form([argument("constructor", "(...any) -> any"), declaration], "()")
+});
+
+/// What a system has.
+pub static SYSTEM: LazyLock<Name> = LazyLock::new(|| {
+    let pattern = || argument("pattern", "string");
+    let successor = || argument("successor", "((this: T, ...any) -> ...Module) | string");
+    Name::given("system", "System<T>", "A system of rules, as lsystem gives it; T is the type of its object.")
+        .functions([
+            Name::function(
+                "axiom",
+                "Sets what the chain begins as, or the function that makes the chain of each feature of a source.",
+            )
+            .form([argument("...", "Module")], "System<T>")
+            .form(
+                [argument("source", "Layer"), argument("chain", "(feature: Feature) -> ...Module")],
+                "System<T>",
+            ),
+            Name::function(
+                "rule",
+                "Adds a rule: what replaces a module that the pattern describes.",
+            )
+            .form([pattern(), successor()], "System<T>")
+            .form([pattern(), options("{ ... }", RULE.fields.clone()), successor()], "System<T>"),
+            Name::function("interpret", "Adds an interpretation: what is drawn for a module.")
+                .form([pattern(), argument("draw", "(this: T, ...any) -> ...any")], "System<T>"),
+            Name::function("ignore", "Names modules that matching of contexts passes over.")
+                .form([argument("...", "string")], "System<T>"),
+            Name::function("consider", "Names the only modules that matching of contexts sees.")
+                .form([argument("...", "string")], "System<T>"),
+            Name::function(
+                "derive",
+                "Applies the rules step by step, to the end where no number of steps is given.",
+            )
+            .form([argument("steps", "number?")], "Derived"),
+        ])
+});
+
+/// What a rule may be told.
+pub static RULE: LazyLock<Name> = LazyLock::new(|| {
+    Name::given("rule", "{ ... }", "The options of system:rule, between its pattern and its successor.")
+        .fields([
+            field(
+                "weight",
+                "number?",
+                "nil",
+                "How often it is drawn, to the weights of the other rules that apply; never, if it is 0.",
+            ),
+            field(
+                "when",
+                "((this: T, ...any) -> boolean)?",
+                "nil",
+                "The guard: the rule applies only where this function returns true.",
+            ),
+        ])
+});
+
+/// What a derived system has.
+pub static DERIVED: LazyLock<Name> = LazyLock::new(|| {
+    Name::given("derived", "Derived", "A derived system, as system:derive gives it, which is also a model.")
+        .extends("Model")
+        .fields([
+            Field::new("objects", "{ any }", "The objects that the chains have drawn with."),
+            Field::new("chains", "{ string }", "The chains as text."),
+            Field::new("steps", "number", "How many steps there were."),
+            Field::new("modules", "number", "How many modules the chains have."),
+        ])
+});
+
+/// What a source is chosen by.
+pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
+    Name::global("source", "The features of a data file, or of a list; what it has is told of under layer.")
+        .form(
+            [
+                argument("what", "string | { any }"),
+                options(
+                    "{ ... }?",
+                    [
+                        field("where", "string?", "nil", "An SQL condition, for GeoPackages."),
+                        field("limit", "number?", "nil", "At most as many features."),
+                        field("id", "string?", "nil", "The attribute that tells features apart."),
+                        field(
+                            "kind",
+                            "string?",
+                            "nil",
+                            "Only features with a \"point\", a \"line\" or a \"polygon\".",
+                        ),
+                        field(
+                            "crs",
+                            "number?",
+                            "nil",
+                            "The EPSG code of the coordinates, in place of the file's.",
+                        ),
+                        field(
+                            "layer",
+                            "string?",
+                            "nil",
+                            "The layer, if its name does not stand behind a colon.",
+                        ),
+                    ],
+                ),
+            ],
+            "Layer",
+        )
+});
+
+/// What a source has.
+pub static LAYER: LazyLock<Name> = LazyLock::new(|| {
+    Name::given("layer", "Layer", "Features, as source gives them: for index, feature in it do, and #it.")
+        .fields([
+            Field::new("features", "{ Feature }", "The features as a list."),
+            metres(
+                "bounds",
+                "{ min: { number }, max: { number } }?",
+                "The corners of the box around them (m).",
+            ),
+            Field::new("layer", "string?", "The name of the layer."),
+            Field::new("crs", "string?", "The coordinate system of the file."),
+            metres("origin", "{ number }?", "Where the run's origin is in its projection (m)."),
+        ])
+});
+
+/// What a vector has.
+pub static VECTOR: LazyLock<Name> = LazyLock::new(|| {
+    let other = || argument("other", "Vector");
+    Name::given(
+        "vector",
+        "Vector",
+        "Three numbers that never change, as vec gives them: +, - and * with vectors and lists, * and / with numbers.",
+    )
+    .instead("{ number }")
+    .fields([
+        metres("x", "number", "To the east (m)."),
+        metres("y", "number", "To the north (m)."),
+        metres("z", "number", "Upwards (m)."),
+    ])
+    .functions([
+        Name::function("dot", "The sum of the products of their numbers.").form([other()], "number"),
+        Name::function("cross", "The vector that is upright on both.").form([other()], "Vector"),
+        Name::function("length", "How long it is (m).").form([], "number"),
+        Name::function("unit", "The vector with length 1; a zero vector stays.").form([], "Vector"),
+        Name::function("distance", "How far they are apart (m).").form([other()], "number"),
+        Name::function("lerp", "From one to the other as t goes from 0 to 1.")
+            .form([other(), argument("t", "number")], "Vector"),
+    ])
+});
