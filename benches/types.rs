@@ -4,28 +4,21 @@
 #![allow(clippy::print_stdout, reason = "a bench prints its figures")]
 
 use std::path::Path;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use burgeon::geometry::sphere;
-use burgeon::kit::{Draw, Drawing, Kind, Object, Table, fields, methods};
+use burgeon::kit::{Drawing, methods, object};
 use burgeon::scene::Material;
 use burgeon::script::RunOptions;
 use cpu_time::ProcessTime;
 use glam::DVec3;
 
-/// What `pearls { ... }` takes.
-#[fields("pearls", crate = burgeon::kit)]
-pub struct PearlsOptions {
+/// Balls on top of one another.
+#[object("pearls", draws, begins_empty, crate = burgeon::kit)]
+pub struct Pearls {
     /// Radius of a pearl (m).
     #[default(0.5)]
     pub radius: f64,
-}
-
-/// Balls on top of one another.
-#[derive(Clone, Draw)]
-#[draw(crate = burgeon::kit)]
-pub struct Pearls {
-    options: PearlsOptions,
     height: f64,
     size: f64,
     drawing: Drawing,
@@ -35,7 +28,7 @@ pub struct Pearls {
 impl Pearls {
     /// Adds a pearl on top.
     pub fn add(&mut self) -> burgeon::Result<()> {
-        let radius = self.options.radius;
+        let radius = self.radius;
         let part = self.drawing.material(&Material::default());
         sphere(self.drawing.part(part), DVec3::Z * (self.height + radius), radius, 12)?;
         self.height += 2.0 * radius;
@@ -50,36 +43,6 @@ impl Pearls {
     /// How many.
     pub fn size(&self) -> f64 {
         self.size
-    }
-}
-
-impl Pearls {
-    fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let make = |table: &Table| {
-                let options = PearlsOptions::from_table(table)?;
-                Ok(Pearls { options, height: 0.0, size: 0.0, drawing: Drawing::default() })
-            };
-            let kind = Kind::new("pearls", "Balls on top of one another.");
-            let kind = kind.made_of(PearlsOptions::fields(), make).methods(Pearls::methods());
-            Arc::new(kind.begins_empty().draws::<Pearls>())
-        });
-        &KIND
-    }
-}
-
-impl Object for Pearls {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn begin(&mut self) {
-        (self.height, self.size) = (0.0, 0.0);
-        self.drawing.clear();
     }
 }
 

@@ -3,32 +3,25 @@
 //! that it is given.
 
 use std::path::PathBuf;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use burgeon::geometry::sphere;
-use burgeon::kit::{Color, Draw, Drawing, Kind, Object, Registry, Table, fields, methods};
+use burgeon::kit::{Color, Drawing, Registry, methods, object};
 use burgeon::picture::Picture;
 use burgeon::scene::Material;
 use burgeon::script::RunOptions;
 use burgeon::{Result, export};
 use glam::DVec3;
 
-/// What `beads { ... }` takes.
-#[fields("beads", crate = burgeon::kit)]
-pub struct BeadsOptions {
+/// Balls on top of one another.
+#[object("beads", draws, begins_empty, crate = burgeon::kit)]
+pub struct Beads {
     /// Radius of a bead (m).
     #[default(0.5)]
     pub radius: f64,
     /// Colour of the beads.
     #[default(Color([0.6, 0.1, 0.1, 1.0]))]
     pub color: Color,
-}
-
-/// Balls on top of one another.
-#[derive(Clone, Draw)]
-#[draw(crate = burgeon::kit)]
-pub struct Beads {
-    options: BeadsOptions,
     height: f64,
     drawing: Drawing,
 }
@@ -37,48 +30,16 @@ pub struct Beads {
 impl Beads {
     /// Adds a bead on top.
     pub fn add(&mut self) -> Result<()> {
-        let radius = self.options.radius;
-        let material = Material { base_color: self.options.color.0, ..Material::default() };
+        let material = Material { base_color: self.color.0, ..Material::default() };
         let part = self.drawing.material(&material);
-        sphere(self.drawing.part(part), DVec3::Z * (self.height + radius), radius, 16)?;
-        self.height += 2.0 * radius;
-        Ok(())
+        let middle = DVec3::Z * (self.height + self.radius);
+        self.height += 2.0 * self.radius;
+        sphere(self.drawing.part(part), middle, self.radius, 16)
     }
 
     /// Height of the beads (m).
     pub fn height(&self) -> f64 {
         self.height
-    }
-}
-
-impl Beads {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new("beads", "Balls on top of one another.");
-            let make = |table: &Table| {
-                let options = BeadsOptions::from_table(table)?;
-                Ok(Beads { options, height: 0.0, drawing: Drawing::default() })
-            };
-            let kind = kind.made_of(BeadsOptions::fields(), make).methods(Beads::methods());
-            Arc::new(kind.begins_empty().draws::<Beads>())
-        });
-        &KIND
-    }
-}
-
-impl Object for Beads {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn begin(&mut self) {
-        self.height = 0.0;
-        self.drawing.clear();
     }
 }
 

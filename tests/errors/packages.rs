@@ -457,7 +457,7 @@ fn scripts_ask_what_there_is() {
     extruder.bend	true
     extruder:bend	true
     turtle.step	true
-    math.floor	false
+    math.floor	true
     system.rule	true
     @castle	true
     extruder.bnd	false

@@ -1,14 +1,14 @@
 //! A type of object that the house does not know: rows of trees on a field of a data file.
 
 use std::any::Any;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, LazyLock};
 
 use burgeon::Result;
 use burgeon::geometry::sphere;
 use burgeon::kit::{
-    Draw, Drawing, Expand, Expectation, FeatureShape, Features, Kind, Object, Parameter, Prefetch, Rewriter,
-    Table, Value, Vector, fields, methods,
+    Drawing, Expand, Expectation, FeatureShape, Features, Object, Parameter, Prefetch, Rewriter, Table,
+    Value, Vector, methods, object,
 };
 use burgeon::scene::Material;
 use burgeon::sources::{Geometry, Layer};
@@ -81,9 +81,20 @@ impl Parameter for Whole {
     }
 }
 
-/// What `orchard(geometry, { ... })` takes.
-#[fields("orchard", crate = burgeon::kit)]
-pub struct OrchardOptions {
+/// Rows of trees on a field.
+#[object(
+    "orchard",
+    first = "geometry",
+    make = planted,
+    draws,
+    expands,
+    begins_empty,
+    begin = restart,
+    gathers = gather,
+    prefetches = |layer| Arc::new(Middles::new(layer)),
+    crate = burgeon::kit
+)]
+pub struct Orchard {
     /// The field on which it stands: a feature's geometry.
     pub geometry: Corners,
     /// The wells of the land, as a source: a tree stands farther than a metre from each.
@@ -91,17 +102,9 @@ pub struct OrchardOptions {
     /// Distance (m) from tree to tree.
     #[default(4.0)]
     pub spacing: f64,
-}
-
-/// Rows of trees on a field.
-#[derive(Clone, Draw)]
-#[draw(crate = burgeon::kit)]
-pub struct Orchard {
-    corners: Corners,
-    wells: Whole,
-    spacing: f64,
     middle: DVec3,
     /// Distance (m) to the nearest other one.
+    #[default(f64::INFINITY)]
     nearest: f64,
     /// Where trees stand, from the middle.
     trees: Vec<DVec3>,
@@ -137,23 +140,14 @@ impl Orchard {
 }
 
 impl Orchard {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new("orchard", "Rows of trees on a field.").first("geometry").begins_empty();
-            let kind =
-                kind.made_of(OrchardOptions::fields(), Orchard::from_table).methods(Orchard::methods());
-            let kind = kind.draws::<Orchard>().expands::<Orchard>();
-            Arc::new(kind.gathers(gather).prefetches(|layer| Arc::new(Middles::new(layer))))
-        });
-        &KIND
+    fn planted(table: &Table) -> Result<Self> {
+        let orchard = Self::from_table(table)?;
+        let middle = prefetched(table).unwrap_or_else(|| orchard.geometry.middle());
+        Ok(Self { middle, drawing: Drawing::at(middle), ..orchard })
     }
 
-    fn from_table(table: &Table) -> Result<Self> {
-        let OrchardOptions { geometry, wells, spacing } = OrchardOptions::from_table(table)?;
-        let middle = prefetched(table).unwrap_or_else(|| geometry.middle());
-        let (trees, drawing) = (Vec::new(), Drawing::at(middle));
-        Ok(Self { corners: geometry, wells, spacing, middle, nearest: f64::INFINITY, trees, drawing })
+    fn restart(&mut self) {
+        self.drawing.clear();
     }
 }
 
@@ -212,20 +206,6 @@ fn gather(all: &mut [Box<dyn Object>]) {
     }
 }
 
-impl Object for Orchard {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn begin(&mut self) {
-        self.drawing.clear();
-    }
-}
-
 impl Expand for Orchard {
     fn expand(&mut self, rules: &dyn Rewriter) -> Result<()> {
         rules.check()?;
@@ -235,8 +215,8 @@ impl Expand for Orchard {
                 wells.push((Corners::of(&feature.geometry).middle() - self.middle).truncate());
                 wells
             });
-        let low = self.corners.0.iter().copied().fold(DVec3::INFINITY, DVec3::min) - self.middle;
-        let high = self.corners.0.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max) - self.middle;
+        let low = self.geometry.0.iter().copied().fold(DVec3::INFINITY, DVec3::min) - self.middle;
+        let high = self.geometry.0.iter().copied().fold(DVec3::NEG_INFINITY, DVec3::max) - self.middle;
         let along = |from: f64, to: f64| {
             let spacing = self.spacing;
             (1..100).map(move |step| from + f64::from(step) * spacing).take_while(move |at| *at < to)

@@ -321,6 +321,39 @@ fn a_model_of_nothing_says_why() {
 }
 
 #[test]
+fn a_type_of_object_in_a_file_of_its_own_is_changed_while_the_page_looks_on() {
+    let post = |segments: usize, more: &str| {
+        format!(
+            "return object(\"post\", {{ extends = extruder, state = {{ n = 0 }}, changes = {{ raise = function(self)\n\
+             for _ = 1, {segments} do self:extrude(1):roll(5) end\n\
+             self.n += 1 {more}\nend }} }})\n"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("post.lua"), post(1, "")).unwrap();
+    let text = "local post = require(\"post\")\nlocal A = module(\"A\")\n\
+                local s = lsystem({ object = post({ sides = 4 }) })\ns:axiom(A())\n\
+                s:interpret(\"A\", function(this) this:raise() end)\ns:derive(0)\n";
+    fs::write(folder.path().join("s.lua"), text).unwrap();
+    let server = Server::start(folder, &[]);
+    let mut page = server.page();
+    let first = page.next("model");
+    server.write("post.lua", post(3, ""));
+    let second = page.next("model");
+    assert!(second["triangles"].as_u64() > first["triangles"].as_u64(), "{first} {second}");
+    server.write("post.lua", post(3, "self.m = 3"));
+    let error = page.next("error");
+    assert_eq!((&error["errors"][0]["file"], &error["errors"][0]["line"]), (&json!("post.lua"), &json!(3)));
+    assert!(error["text"].as_str().unwrap().contains("post has no state called m"), "{error}");
+    let mut late = server.page();
+    assert_eq!(late.next("model")["url"], second["url"]);
+    fs::remove_file(server.path("post.lua")).unwrap();
+    assert!(page.next("error")["text"].as_str().unwrap().contains("post.lua"));
+    server.write("post.lua", post(3, ""));
+    assert_eq!(page.next("model")["url"], second["url"]);
+}
+
+#[test]
 fn files_of_packages_are_followed_and_one_that_goes_leaves_the_last_model_with_the_reason() {
     let folder = tempfile::tempdir().unwrap();
     let write = |name: &str, text: &str| {

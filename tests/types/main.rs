@@ -56,8 +56,7 @@ fn printed(text: &str, threads: usize) -> Vec<String> {
     let into = Arc::clone(&lines);
     let print = burgeon::script::Print::new(move |line: &str| into.lock().unwrap().push(line.to_owned()));
     burgeon::run(&path, RunOptions { print: Some(print), ..options(threads) }).unwrap();
-    let printed = lines.lock().unwrap().clone();
-    printed
+    std::mem::take(&mut *lines.lock().unwrap())
 }
 
 fn glb(run: &Run) -> Vec<u8> {

@@ -78,8 +78,8 @@ pub trait Show {
     }
 }
 
-/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what. It can be
-/// derived.
+/// Draws with a [`Drawing`], and so shows it, has its triangles counted, and tells which module made what. `#[object]`
+/// writes it for a struct with one field of that type.
 pub trait Draw {
     /// What it has drawn.
     fn drawing(&self) -> &Drawing;

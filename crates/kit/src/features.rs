@@ -1,39 +1,34 @@
 //! The features of a data file and their geometries, on their way from a source to a constructor.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Kind, Object, Parameter, Prefetch, Table, TableKey, Value};
+use super::{Parameter, Prefetch, Table, TableKey, Value};
 use burgeon_data::{Geometry, Layer};
+use burgeon_macros::{methods, object};
 
-/// The features of a source. A constructor may take them; no script holds them in this form.
-#[derive(Clone)]
+/// The features of a data file.
+///
+/// A constructor may take them; no script holds them in this form.
+#[object("source", given)]
 pub struct Features(pub Arc<Layer>);
 
-static FEATURES: LazyLock<Arc<Kind>> =
-    LazyLock::new(|| Arc::new(Kind::new("source", "The features of a data file.")));
+#[methods("source")]
+impl Features {}
 
-impl Object for Features {
-    fn kind(&self) -> &Arc<Kind> {
-        &FEATURES
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-}
-
-/// The geometry of a feature. A constructor may take it; scripts see it as a table.
-#[derive(Clone)]
+/// The geometry of a feature.
+///
+/// A constructor may take it; scripts see it as a table.
+#[object("geometry", given)]
 pub struct FeatureShape {
     layer: Arc<Layer>,
     index: usize,
     prefetch: Option<Arc<dyn Prefetch>>,
 }
 
-static GEOMETRY: LazyLock<Arc<Kind>> =
-    LazyLock::new(|| Arc::new(Kind::new("geometry", "The geometry of a feature.")));
+#[methods("geometry")]
+impl FeatureShape {}
 
 impl FeatureShape {
     /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
@@ -67,15 +62,5 @@ impl FeatureShape {
         let kind = Value::Text(geometry.kind().name().into());
         let entries = vec![(TableKey::Name("kind".into()), kind), (TableKey::Name(name.into()), lists)];
         Value::Table(Arc::new(Table { class: None, entries }))
-    }
-}
-
-impl Object for FeatureShape {
-    fn kind(&self) -> &Arc<Kind> {
-        &GEOMETRY
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
     }
 }

@@ -62,4 +62,6 @@ pub use value::{Table, TableKey, Value};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;
-pub use burgeon_macros::{Draw, fields, methods};
+#[doc(hidden)]
+pub use burgeon_base::warning::Warning;
+pub use burgeon_macros::{fields, methods, object};

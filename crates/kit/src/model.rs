@@ -1,16 +1,18 @@
 //! What a derived system has drawn, or a file holds, as one thing that systems can place.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use glam::{DAffine3, DVec3};
 
-use super::{Kind, Object, ObjectParameter, Show};
+use super::{ObjectParameter, Show};
 use burgeon_base::error::Result;
-use burgeon_macros::methods;
+use burgeon_macros::{methods, object};
 use burgeon_scene::{Instance, Material, Part, Scene};
 
-/// The drawing of a derived system, or the content of a file. It never changes.
-#[derive(Clone)]
+/// What a derived system has drawn, or a glTF file holds, for placing elsewhere.
+///
+/// It never changes. The way in which files are read is no part of its kind here.
+#[object("model", given, shows)]
 pub struct Model {
     scene: Arc<Scene>,
     /// The box around it (m).
@@ -31,15 +33,6 @@ impl Model {
 }
 
 impl Model {
-    /// The type, as scripts see it, without the way in which files are read.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let doc = "What a derived system has drawn, or a glTF file holds, for placing elsewhere.";
-            Arc::new(Kind::new("model", doc).methods(Model::methods()).shows::<Model>())
-        });
-        &KIND
-    }
-
     /// A model of all that `scene` shows.
     pub fn new(scene: Scene) -> Self {
         let bounds = scene.bounds().unwrap_or_default();
@@ -109,16 +102,6 @@ impl ObjectParameter for Model {
 impl std::fmt::Debug for Model {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("Model").field(&self.bounds).finish()
-    }
-}
-
-impl Object for Model {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
     }
 }
 

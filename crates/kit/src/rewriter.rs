@@ -1,30 +1,23 @@
 //! How an object that expands by itself has the rules of a system applied.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::rules::{Chain, Grammar, Values};
-use super::{Kind, Object};
 use burgeon_base::error::{Result, SourcePlace};
+use burgeon_macros::{methods, object};
 
-/// A system of the script, handed to an object that applies its rules.
-#[derive(Debug, Clone)]
+/// A system whose rules an object applies.
+///
+/// The script handed it to the object.
+#[object("system", given)]
+#[derive(Debug)]
 pub struct System {
     /// Its place among the systems of the script.
     pub index: usize,
 }
 
-static SYSTEM: LazyLock<Arc<Kind>> =
-    LazyLock::new(|| Arc::new(Kind::new("system", "A system whose rules an object applies.")));
-
-impl Object for System {
-    fn kind(&self) -> &Arc<Kind> {
-        &SYSTEM
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-}
+#[methods("system")]
+impl System {}
 
 /// What is known of a system whose rules are applied for an object.
 pub struct RuleSet {

@@ -1,4 +1,4 @@
-//! What both attributes take, and what becomes of an item that they refuse.
+//! What the attributes take, and what becomes of an item that they refuse.
 
 use proc_macro2::TokenStream;
 use syn::parse::{Parse, ParseStream};
@@ -27,13 +27,10 @@ impl Parse for AttributeArguments {
 
 /// What `expand` makes of an item; where it refuses it, the item as it stands and the error, so that an editor still
 /// knows what the item has.
-pub(crate) fn expand(
+pub(crate) fn expand<A: Parse>(
     arguments: TokenStream,
     item: TokenStream,
-    expand: impl Fn(
-        &AttributeArguments,
-        TokenStream,
-    ) -> std::result::Result<TokenStream, (TokenStream, syn::Error)>,
+    expand: impl Fn(&A, TokenStream) -> std::result::Result<TokenStream, (TokenStream, syn::Error)>,
 ) -> TokenStream {
     let expanded = match syn::parse2(arguments) {
         Ok(declared) => expand(&declared, item),
@@ -43,4 +40,18 @@ pub(crate) fn expand(
         item.extend(error.into_compile_error());
         item
     })
+}
+
+/// All of `results`; every error among them if there is one.
+pub(crate) fn collect<T>(results: impl Iterator<Item = Result<T>>) -> Result<Vec<T>> {
+    let mut all = Vec::new();
+    let mut errors: Option<syn::Error> = None;
+    for result in results {
+        match (result, &mut errors) {
+            (Ok(one), _) => all.push(one),
+            (Err(error), Some(errors)) => errors.combine(error),
+            (Err(error), None) => errors = Some(error),
+        }
+    }
+    errors.map_or(Ok(all), Err)
 }

@@ -12,6 +12,12 @@ pub(crate) fn text(attributes: &[Attribute]) -> Option<String> {
     (!text.trim().is_empty()).then_some(text)
 }
 
+/// The first paragraph of a doc, on one line.
+pub(crate) fn first_paragraph(doc: &str) -> String {
+    let lines = doc.trim().lines().map(str::trim).take_while(|line| !line.is_empty());
+    lines.collect::<Vec<_>>().join(" ")
+}
+
 fn line(attribute: &Attribute) -> Option<String> {
     let Meta::NameValue(meta) = &attribute.meta else { return None };
     let Expr::Lit(ExprLit { lit: Lit::Str(text), .. }) = &meta.value else { return None };
@@ -64,6 +70,12 @@ mod tests {
         assert_eq!(unit_of(doc, "height"), Some("m"));
         assert_eq!(unit_of(doc, "time"), Some("s"));
         assert_eq!(unit_of(doc, "angle"), None);
+    }
+
+    #[test]
+    fn a_first_paragraph_ends_at_an_empty_line() {
+        assert_eq!(first_paragraph("\nA tower\n  of bricks.\n\nMore."), "A tower of bricks.");
+        assert_eq!(first_paragraph(""), "");
     }
 
     #[test]

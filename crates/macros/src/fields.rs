@@ -5,7 +5,7 @@ use quote::{quote, quote_spanned};
 use syn::spanned::Spanned;
 use syn::{Attribute, Error, Expr, Field, Fields, Ident, ItemStruct, Result, Type, Visibility};
 
-use crate::attribute::AttributeArguments;
+use crate::attribute::{AttributeArguments, collect};
 use crate::doc;
 use crate::methods::{at, option};
 
@@ -35,7 +35,7 @@ pub(crate) fn expand(
 }
 
 /// Takes away what only this macro knows.
-fn strip_defaults(table: &mut ItemStruct) {
+pub(crate) fn strip_defaults(table: &mut ItemStruct) {
     table.fields.iter_mut().for_each(|field| field.attrs.retain(|attribute| !is_default(attribute)));
 }
 
@@ -44,7 +44,7 @@ fn is_default(attribute: &Attribute) -> bool {
 }
 
 fn reading(declared: &AttributeArguments, table: &ItemStruct) -> Result<TokenStream> {
-    let AttributeArguments { name: kind, kit } = declared;
+    let kit = &declared.kit;
     let options = &table.ident;
     if !table.generics.params.is_empty() {
         return Err(Error::new(table.generics.span(), "a table of fields has no type parameters"));
@@ -55,20 +55,33 @@ fn reading(declared: &AttributeArguments, table: &ItemStruct) -> Result<TokenStr
     if doc::text(&table.attrs).is_none() {
         return Err(Error::new(options.span(), format!("{options} has no doc comment")));
     }
-    let mut fields = Vec::new();
-    let mut errors: Option<Error> = None;
-    for field in &named.named {
-        match Declaration::read(field) {
-            Ok(field) => fields.push(field),
-            Err(error) => match &mut errors {
-                Some(errors) => errors.combine(error),
-                None => errors = Some(error),
-            },
+    let fields = collect(named.named.iter().map(Declaration::read))?;
+    let reader = reader(declared, options, &fields, &[]);
+    Ok(quote! {
+        #reader
+
+        impl #kit::Fields for #options {
+            fn list() -> ::std::vec::Vec<#kit::Field> {
+                Self::fields()
+            }
+
+            fn read(table: &#kit::Table) -> #kit::Result<Self> {
+                Self::from_table(table)
+            }
         }
-    }
-    if let Some(errors) = errors {
-        return Err(errors);
-    }
+    })
+}
+
+/// `Default`, `fields` and `from_table` for the struct `options`: scripts may give its `fields`, and never its `others`,
+/// each of which has its default.
+pub(crate) fn reader(
+    declared: &AttributeArguments,
+    options: &Ident,
+    fields: &[Declaration<'_>],
+    others: &[(&Ident, TokenStream)],
+) -> TokenStream {
+    let AttributeArguments { name: kind, kit } = declared;
+    let others = others.iter().map(|(name, default)| quote! { #name: #default });
     let defaults = fields.iter().map(|Declaration { name, default, .. }| quote! { #name: #default });
     let described = fields.iter().map(|field| field.describe(declared));
     let texts: Vec<&String> = fields.iter().map(|field| &field.text).collect();
@@ -81,10 +94,10 @@ fn reading(declared: &AttributeArguments, table: &ItemStruct) -> Result<TokenStr
             }
         }
     });
-    Ok(quote! {
+    quote! {
         impl ::std::default::Default for #options {
             fn default() -> Self {
-                Self { #(#defaults,)* }
+                Self { #(#defaults,)* #(#others,)* }
             }
         }
 
@@ -102,21 +115,30 @@ fn reading(declared: &AttributeArguments, table: &ItemStruct) -> Result<TokenStr
                 ::std::result::Result::Ok(options)
             }
         }
+    }
+}
 
-        impl #kit::Fields for #options {
-            fn list() -> ::std::vec::Vec<#kit::Field> {
-                Self::fields()
-            }
-
-            fn read(table: &#kit::Table) -> #kit::Result<Self> {
-                Self::from_table(table)
-            }
+/// The expression of what a field is where nobody says what.
+pub(crate) fn default(field: &Field) -> Result<TokenStream> {
+    let of = &field.ty;
+    let mut given = field.attrs.iter().filter(|attribute| is_default(attribute));
+    match (given.next(), given.next()) {
+        (_, Some(second)) => {
+            let name = field.ident.as_ref().map_or("it".to_owned(), Ident::to_string);
+            Err(Error::new(second.span(), format!("{name} has a default already")))
         }
-    })
+        (Some(attribute), None) => {
+            let value: Expr = attribute.parse_args().map_err(|error| {
+                Error::new(error.span(), "write the value in round brackets: #[default(0.5)]")
+            })?;
+            Ok(quote! { #value })
+        }
+        (None, None) => Ok(quote_spanned! { at(of) => <#of as ::std::default::Default>::default() }),
+    }
 }
 
 /// A field as it was written.
-struct Declaration<'a> {
+pub(crate) struct Declaration<'a> {
     name: &'a Ident,
     /// Its name in scripts.
     text: String,
@@ -126,7 +148,7 @@ struct Declaration<'a> {
 }
 
 impl<'a> Declaration<'a> {
-    fn read(field: &'a Field) -> Result<Self> {
+    pub(crate) fn read(field: &'a Field) -> Result<Self> {
         let Some(name) = &field.ident else {
             return Err(Error::new(field.span(), "scripts give fields by name"));
         };
@@ -139,20 +161,7 @@ impl<'a> Declaration<'a> {
         let Some(doc) = doc::text(&field.attrs) else {
             return Err(Error::new(name.span(), format!("{name} has no doc comment")));
         };
-        let of = &field.ty;
-        let mut given = field.attrs.iter().filter(|attribute| is_default(attribute));
-        let default = match (given.next(), given.next()) {
-            (_, Some(second)) => {
-                return Err(Error::new(second.span(), format!("{name} has a default already")));
-            }
-            (Some(attribute), None) => {
-                let value: Expr = attribute.parse_args().map_err(|error| {
-                    Error::new(error.span(), "write the value in round brackets: #[default(0.5)]")
-                })?;
-                quote! { #value }
-            }
-            (None, None) => quote_spanned! { at(of) => <#of as ::std::default::Default>::default() },
-        };
+        let (of, default) = (&field.ty, default(field)?);
         let text = name.to_string().trim_start_matches("r#").to_owned();
         Ok(Self { name, text, doc, of, default })
     }

@@ -1,4 +1,4 @@
-//! Attributes that declare what scripts can do with a type of object, and where it draws.
+//! Attributes that declare a type of object, and what scripts can do with it.
 //!
 //! Comes in: an `impl` block or a struct, as anyone would write it. Goes out: the same, and what the contract of
 //! objects, the crate `burgeon_kit`, needs to know of it. They never read a file, and keep nothing.
@@ -8,6 +8,8 @@ mod doc;
 mod draw;
 mod fields;
 mod methods;
+mod object;
+mod object_arguments;
 
 use proc_macro::TokenStream;
 
@@ -22,9 +24,9 @@ use proc_macro::TokenStream;
 /// scripts. An argument's unit is the one in round brackets after its name in the doc: "by `height` (m)".
 ///
 /// ```
-/// # use std::sync::Arc;
-/// # use burgeon_kit::{Kind, Object, methods};
-/// #[derive(Clone)]
+/// # use burgeon_kit::{methods, object};
+/// /// A tower.
+/// #[object("tower")]
 /// pub struct Tower {
 ///     height: f64,
 /// }
@@ -37,19 +39,15 @@ use proc_macro::TokenStream;
 ///     }
 /// }
 ///
-/// # impl Object for Tower {
-/// #     fn kind(&self) -> &Arc<Kind> { unreachable!() }
-/// #     fn boxed(&self) -> Box<dyn Object> { Box::new(self.clone()) }
-/// # }
 /// assert_eq!(Tower::methods()[0].doc, "Raises it by `height` (m).");
 /// ```
 ///
 /// What else the type can do stands in a second block. These are refused: a method that scripts could not call,
 ///
 /// ```compile_fail
-/// # use std::sync::Arc;
-/// # use burgeon_kit::{Kind, Object, methods};
-/// # #[derive(Clone)]
+/// # use burgeon_kit::{methods, object};
+/// # /// A tower.
+/// # #[object("tower")]
 /// # pub struct Tower {
 /// #     height: f64,
 /// # }
@@ -60,18 +58,14 @@ use proc_macro::TokenStream;
 ///         self.height += height;
 ///     }
 /// }
-/// # impl Object for Tower {
-/// #     fn kind(&self) -> &Arc<Kind> { unreachable!() }
-/// #     fn boxed(&self) -> Box<dyn Object> { Box::new(self.clone()) }
-/// # }
 /// ```
 ///
 /// and one of which nobody would know what it does.
 ///
 /// ```compile_fail
-/// # use std::sync::Arc;
-/// # use burgeon_kit::{Kind, Object, methods};
-/// # #[derive(Clone)]
+/// # use burgeon_kit::{methods, object};
+/// # /// A tower.
+/// # #[object("tower")]
 /// # pub struct Tower {
 /// #     height: f64,
 /// # }
@@ -81,10 +75,6 @@ use proc_macro::TokenStream;
 ///         self.height += height;
 ///     }
 /// }
-/// # impl Object for Tower {
-/// #     fn kind(&self) -> &Arc<Kind> { unreachable!() }
-/// #     fn boxed(&self) -> Box<dyn Object> { Box::new(self.clone()) }
-/// # }
 /// ```
 #[proc_macro_attribute]
 pub fn methods(arguments: TokenStream, item: TokenStream) -> TokenStream {
@@ -133,33 +123,100 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
     attribute::expand(arguments.into(), item.into(), fields::expand).into()
 }
 
-/// Says where an object has its drawing: `Draw` for a struct with one field of type `Drawing`.
+/// Declares a type of object: a struct that scripts make, and ask with its `#[methods]`.
 ///
-/// The path of the contract, where that is not `::burgeon_kit`, stands beside it: `#[draw(crate = burgeon::kit)]`.
+/// It takes the name of the type in scripts. The struct gets `Clone`, `kind`, which scripts and a registry know it by, and
+/// `Object`. The first paragraph of its doc comment is its help in scripts.
+///
+/// Its public fields are what the constructor takes, as those of `#[fields]`: each has a doc comment, and a default. The
+/// others are its state, which begins with their defaults. It gets `Default`, `fields` and `from_table` for that.
 ///
 /// ```
-/// # use std::sync::Arc;
-/// # use burgeon_kit::{Draw, Drawing, Kind, Object};
-/// #[derive(Clone, Draw)]
+/// # use burgeon_kit::{Drawing, Object, methods, object};
+/// /// A tower.
+/// #[object("tower", draws, begins_empty)]
 /// pub struct Tower {
-///     height: f64,
+///     /// How high it is at first (m).
+///     #[default(12.0)]
+///     pub height: f64,
+///     floors: u32,
 ///     drawing: Drawing,
 /// }
 ///
-/// let tower = Tower { height: 12.0, drawing: Drawing::default() };
-/// assert_eq!(tower.drawing().triangles(), 0);
+/// #[methods("tower")]
+/// impl Tower {
+///     /// Adds a floor.
+///     pub fn add(&mut self) {
+///         self.floors += 1;
+///     }
+/// }
+///
+/// assert_eq!((&*Tower::kind().name, &*Tower::kind().doc), ("tower", "A tower."));
+/// let mut tower = Tower::default();
+/// tower.add();
+/// tower.begin();
+/// assert_eq!((tower.height, tower.floors), (12.0, 0));
 /// ```
 ///
-/// Without a drawing there is nothing to say.
+/// After the name, in any order:
+///
+/// - what it can do, as its `Kind` says it: `draws` (in its field of type `Drawing`), `shows`, `expands`, `has_detail` and
+///   `reports`, each but the first with a trait to implement;
+/// - `begins_empty`: each pass begins as if there had been none before. Its state gets its defaults again, a drawing keeps
+///   its memory;
+/// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
+/// - `make = function`: the function of the type that makes one of a script's `&Table`, where there is more to do than to
+///   read it;
+/// - `options = TowerOptions`: the constructor takes the fields of that struct, which has `#[fields]`, and `new` makes one
+///   of it, unless `make` names another function. Public fields are no matter of scripts then;
+/// - `loader = ...`: it is made of a file; `given`: something else gives it;
+/// - what the engine calls, and the method of the type that does it: `begin = restart`, and in the same way `push`, `pop`,
+///   `end`, `seed` and `take_warnings`;
+/// - `crate = burgeon::kit`: the path of the contract, where that is not `::burgeon_kit`.
+///
+/// These are refused: a type of which nobody would know what it is,
 ///
 /// ```compile_fail
-/// # use burgeon_kit::Draw;
-/// #[derive(Draw)]
-/// pub struct Tower {
-///     height: f64,
-/// }
+/// # use burgeon_kit::{methods, object};
+/// #[object("tower")]
+/// pub struct Tower {}
+/// # #[methods("tower")]
+/// # impl Tower {}
 /// ```
-#[proc_macro_derive(Draw, attributes(draw))]
-pub fn draw(item: TokenStream) -> TokenStream {
-    draw::expand(item.into()).unwrap_or_else(syn::Error::into_compile_error).into()
+///
+/// one that draws nowhere,
+///
+/// ```compile_fail
+/// # use burgeon_kit::{methods, object};
+/// /// A tower.
+/// #[object("tower", draws)]
+/// pub struct Tower {}
+/// # #[methods("tower")]
+/// # impl Tower {}
+/// ```
+///
+/// one that says it can do what it cannot,
+///
+/// ```compile_fail,E0277
+/// # use burgeon_kit::{methods, object};
+/// /// A tower.
+/// #[object("tower", expands)]
+/// pub struct Tower {}
+/// # #[methods("tower")]
+/// # impl Tower {}
+/// ```
+///
+/// and one that names a method it does not have.
+///
+/// ```compile_fail,E0599
+/// # use burgeon_kit::{methods, object};
+/// /// A tower.
+/// #[object("tower", begin = restart)]
+/// pub struct Tower {}
+/// # #[methods("tower")]
+/// # impl Tower {}
+/// ```
+#[proc_macro_attribute]
+pub fn object(arguments: TokenStream, item: TokenStream) -> TokenStream {
+    attribute::expand(arguments.into(), item.into(), object::expand).into()
 }

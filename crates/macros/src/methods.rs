@@ -8,7 +8,7 @@ use syn::{
     Signature, Type, Visibility,
 };
 
-use crate::attribute::AttributeArguments;
+use crate::attribute::{AttributeArguments, collect};
 use crate::doc;
 
 /// Where what is no method for scripts belongs.
@@ -34,20 +34,8 @@ fn list(declared: &AttributeArguments, block: &ItemImpl) -> Result<TokenStream> 
     }
     let object = &block.self_ty;
     let kit = &declared.kit;
-    let mut methods = Vec::new();
-    let mut errors: Option<Error> = None;
-    for item in &block.items {
-        match MethodSource::read(item) {
-            Ok(method) => methods.push(method.describe(declared, object)),
-            Err(error) => match &mut errors {
-                Some(errors) => errors.combine(error),
-                None => errors = Some(error),
-            },
-        }
-    }
-    if let Some(errors) = errors {
-        return Err(errors);
-    }
+    let methods = collect(block.items.iter().map(MethodSource::read))?;
+    let methods = methods.iter().map(|method| method.describe(declared, object));
     Ok(quote! {
         impl #object {
             /// The methods that scripts can call.

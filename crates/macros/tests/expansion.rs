@@ -1,8 +1,8 @@
 //! What the attributes make of a type of object, as the contract sees it.
 
-use std::sync::{Arc, LazyLock};
-
-use burgeon_kit::{Call, Kind, Object, Result, Table, TableKey, Value, fields, methods};
+use burgeon_kit::{
+    Call, Construct, Drawing, Object, Result, Table, TableKey, Value, fields, methods, object,
+};
 
 /// What `tower { ... }` takes.
 #[fields("tower")]
@@ -20,10 +20,43 @@ pub struct TowerOptions {
     pub r#type: Option<String>,
 }
 
-/// A tower.
-#[derive(Clone)]
+/// A tower
+/// of bricks.
+///
+/// Nobody needs to know its architect.
+#[object("tower", options = TowerOptions, end = finish)]
 pub struct Tower {
     options: TowerOptions,
+}
+
+impl Tower {
+    fn new(options: TowerOptions) -> Result<Self> {
+        Ok(Self { options })
+    }
+
+    fn finish(&mut self) -> Result<()> {
+        self.options.floors += 1;
+        Ok(())
+    }
+}
+
+/// A heap.
+#[object("heap", draws, begins_empty)]
+pub struct Heap {
+    /// How wide it is (m).
+    #[default(2.0)]
+    pub width: f64,
+    #[default(1)]
+    layers: u32,
+    drawing: Drawing,
+}
+
+#[methods("heap")]
+impl Heap {
+    /// Adds a layer.
+    pub fn add(&mut self) {
+        self.layers += 1;
+    }
 }
 
 #[methods("tower")]
@@ -51,43 +84,12 @@ impl Tower {
     }
 }
 
-impl Tower {
-    fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let make = |table: &Table| Ok(Tower { options: TowerOptions::from_table(table)? });
-            Arc::new(
-                Kind::new("tower", "A tower.")
-                    .made_of(TowerOptions::fields(), make)
-                    .methods(Tower::methods()),
-            )
-        });
-        &KIND
-    }
-}
-
-impl Object for Tower {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-}
-
 /// An object of another type.
-#[derive(Clone)]
+#[object("tower", given)]
 struct Other;
 
-impl Object for Other {
-    fn kind(&self) -> &Arc<Kind> {
-        Tower::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-}
+#[methods("tower")]
+impl Other {}
 
 fn table(entries: &[(&str, Value)]) -> Table {
     let entries = entries.iter().map(|(name, value)| (TableKey::Name((*name).into()), value.clone()));
@@ -223,4 +225,30 @@ fn a_method_of_numbers_is_called_with_numbers() {
     assert_eq!(tower.height().to_bits(), 14f64.to_bits());
     let error = raise(&mut tower, &[f64::NAN, 14.0]).expect_err("no number");
     assert_eq!(error.message(), "tower:raise: height must be a finite number, not NaN");
+}
+
+#[test]
+fn a_type_is_what_its_struct_says() {
+    let kind = Tower::kind();
+    assert_eq!((&*kind.name, &*kind.doc), ("tower", "A tower of bricks."));
+    assert_eq!((kind.fields.len(), kind.methods.len(), kind.begins_empty), (4, 4, false));
+    let mut tower = kind.make(&table(&[("floors", Value::Number(7.0))])).expect("floors is a field");
+    tower.end().expect("it can");
+    assert_eq!(call(&mut *tower, "height", &[]), Ok(Value::Number(12.0)));
+    let mut own = Tower { options: TowerOptions::default() };
+    own.end().expect("it can");
+    assert_eq!(own.options.floors, 4, "the method that the attribute names was called");
+    assert!(matches!(Other::kind().construct, Construct::Given) && Other::kind().fields.is_empty());
+    assert!(kind.draw.is_none() && Heap::kind().draw.is_some() && Heap::kind().begins_empty);
+}
+
+#[test]
+fn what_is_empty_again_keeps_what_scripts_gave() {
+    assert_eq!(Heap::kind().fields.len(), 1, "scripts give public fields alone");
+    let mut heap = Heap::from_table(&table(&[("width", Value::Number(5.0))])).expect("width is a field");
+    assert_eq!(heap.layers, 1);
+    heap.add();
+    heap.begin();
+    assert_eq!((heap.width.to_bits(), heap.layers), (5f64.to_bits(), 1));
+    assert!(Heap::from_table(&table(&[("layers", Value::Number(5.0))])).is_err(), "it is not public");
 }

@@ -1,14 +1,14 @@
 //! Measured heights of the ground, to be asked for by place.
 
 use std::fmt;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 
 use burgeon_base::error::{Error, Result};
 use burgeon_data::elevation::{HeightOptions, Raster, Relief};
 use burgeon_kit::{Expectation, LoadRequest, LoadedObject, Loader, fields, methods, object};
-use burgeon_kit::{Kind, Object, Parameter, Table, Value, Vector};
+use burgeon_kit::{Parameter, Table, Value, Vector};
 use burgeon_terrain::HeightSource;
 
 /// The one encoding of heights as colours that is known.
@@ -54,8 +54,10 @@ impl ElevationOptions {
     }
 }
 
-/// Measured heights of the ground, from a file. It never changes, and copies share it.
-#[derive(Clone)]
+/// Measured heights of the ground, from a file.
+///
+/// It never changes, and copies share it.
+#[object("elevation", options = ElevationOptions, loader = LOADER)]
 pub struct Elevation {
     relief: Arc<Relief>,
 }
@@ -84,21 +86,6 @@ impl Elevation {
 }
 
 impl Elevation {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let loader = Loader {
-                what: "file of heights",
-                example: "elevation(\"N43E007.hgt\")",
-                example_with_fields: "elevation(\"N43E007.hgt\", { crs = 4326 })",
-                load,
-            };
-            let kind = Kind::new("elevation", "Measured heights of the ground, from a file.");
-            Arc::new(kind.loaded(ElevationOptions::fields(), loader).methods(Elevation::methods()))
-        });
-        &KIND
-    }
-
     /// The heights of `relief`.
     pub fn new(relief: Arc<Relief>) -> Self {
         Self { relief }
@@ -130,6 +117,13 @@ impl Elevation {
         .of_data()
     }
 }
+
+const LOADER: Loader = Loader {
+    what: "file of heights",
+    example: "elevation(\"N43E007.hgt\")",
+    example_with_fields: "elevation(\"N43E007.hgt\", { crs = 4326 })",
+    load,
+};
 
 /// Reads the heights of a file, as the options of the script want them.
 fn load(file: &mut LoadRequest<'_>, options: &Table) -> Result<LoadedObject> {
@@ -187,15 +181,5 @@ impl Parameter for Elevation {
 impl fmt::Debug for Elevation {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "elevation of {}", self.relief.raster().name)
-    }
-}
-
-impl Object for Elevation {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Comes in: values from scripts. Goes out: geometry for the scene. Objects never know of Lua or of chains.
 //!
-//! A new type is a new file and one line in [`registry`]: a struct, `#[fields]` for what its constructor takes,
-//! `#[methods]` for what scripts may call, and an implementation of [`Object`](burgeon_kit::Object).
+//! A new type is a new file and one line in [`registry`]: a struct with `#[object]`, and `#[methods]` for what scripts may
+//! call.
 
 mod elevation;
 mod extruder;

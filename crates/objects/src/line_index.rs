@@ -1,7 +1,7 @@
 //! An index of lines, for those who ask which way the nearest one lies: `streets` in scripts.
 
 use std::fmt;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use rstar::primitives::Line as Piece;
@@ -11,7 +11,7 @@ use burgeon_base::error::Result;
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::Line;
 use burgeon_kit::{Expectation, fields, methods, object};
-use burgeon_kit::{Kind, Lines, Object, Parameter, Value, Vector};
+use burgeon_kit::{Lines, Parameter, Value, Vector};
 
 /// The farthest (m) that a street lies from what faces it.
 const FARTHEST: f64 = 300.0;
@@ -27,8 +27,16 @@ pub struct LineIndexOptions {
     pub lines: Lines,
 }
 
-/// Lines on the ground, such as those of streets, to be found by place.
-#[derive(Clone)]
+/// Streets, for footprints to know which of their edges is on one.
+///
+/// They are lines on the ground, to be found by place.
+#[object(
+    "streets",
+    options = LineIndexOptions,
+    first = "lines",
+    example = include_str!("../scripts/streets.lua"),
+    take_warnings = drain_warnings
+)]
 pub struct LineIndex {
     pieces: Arc<RTree<Piece<[f64; 2]>>>,
     warnings: Vec<Warning>,
@@ -51,23 +59,6 @@ impl LineIndex {
 }
 
 impl LineIndex {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind =
-                Kind::new("streets", "Streets, for footprints to know which of their edges is on one.")
-                    .example(include_str!("../scripts/streets.lua"));
-            Arc::new(
-                kind.made_of(LineIndexOptions::fields(), |table| {
-                    LineIndex::new(LineIndexOptions::from_table(table)?)
-                })
-                .first("lines")
-                .methods(LineIndex::methods()),
-            )
-        });
-        &KIND
-    }
-
     /// The index of the lines that a script names.
     pub fn new(options: LineIndexOptions) -> Result<Self> {
         let Lines { lines, refused } = options.lines;
@@ -121,16 +112,8 @@ impl Parameter for LineIndex {
     }
 }
 
-impl Object for LineIndex {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn take_warnings(&mut self) -> Vec<Warning> {
+impl LineIndex {
+    fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

@@ -1,6 +1,6 @@
 //! The turtle: walks, turns and draws branches, polygons and instances.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use glam::{DAffine3, DQuat, DVec3};
 
@@ -8,7 +8,7 @@ use super::MaterialOptions;
 use super::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
-use burgeon_kit::{Color, Draw, Drawing, Kind, Model, Object, Vector, fields, methods};
+use burgeon_kit::{Color, Drawing, Model, Vector, fields, methods, object};
 use burgeon_scene::Material;
 
 /// What `turtle { ... }` takes.
@@ -51,8 +51,18 @@ pub struct TurtleOptions {
     pub elasticity: f64,
 }
 
-/// A turtle as in *The Algorithmic Beauty of Plants*, which draws round branches in three dimensions.
-#[derive(Clone, Draw)]
+/// A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.
+#[object(
+    "turtle",
+    options = TurtleOptions,
+    example = include_str!("../scripts/turtle.lua"),
+    draws,
+    begins_empty,
+    begin = restart,
+    push = open_branch,
+    pop = close_branch,
+    end = finish
+)]
 pub struct Turtle {
     options: TurtleOptions,
     state: TurtleState,
@@ -298,24 +308,6 @@ fn no_polygon(method: &str) -> Error {
 }
 
 impl Turtle {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new(
-                "turtle",
-                "A turtle as in The Algorithmic Beauty of Plants, which draws round branches in three dimensions.",
-            )
-.example(include_str!("../scripts/turtle.lua"));
-            Arc::new(
-                kind.made_of(TurtleOptions::fields(), |table| Turtle::new(TurtleOptions::from_table(table)?))
-                    .methods(Turtle::methods())
-                    .begins_empty()
-                    .draws::<Turtle>(),
-            )
-        });
-        &KIND
-    }
-
     /// A turtle at its beginning.
     pub fn new(options: TurtleOptions) -> Result<Self> {
         if !(3..=64).contains(&options.sides) {
@@ -424,29 +416,21 @@ impl TurtleState {
     }
 }
 
-impl Object for Turtle {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn begin(&mut self) {
+impl Turtle {
+    fn restart(&mut self) {
         self.stack.clear();
         self.drawing.clear();
         self.state = TurtleState::begin(&self.options, &mut self.drawing);
         self.polygons.clear();
     }
 
-    fn push(&mut self) {
+    fn open_branch(&mut self) {
         // A copy of the strand is dropped here and does not go on.
         self.stack.push(self.state.clone());
         self.state.strand = None;
     }
 
-    fn pop(&mut self) -> Result<()> {
+    fn close_branch(&mut self) -> Result<()> {
         self.lift();
         // Taken by its fields: moving it out of the stack would copy it twice.
         if let Some(state) = self.stack.last() {
@@ -456,7 +440,7 @@ impl Object for Turtle {
         Ok(())
     }
 
-    fn end(&mut self) -> Result<()> {
+    fn finish(&mut self) -> Result<()> {
         self.lift();
         if let Some(open) = self.polygons.first() {
             return Err(Error::script(format!(

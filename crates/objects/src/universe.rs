@@ -1,14 +1,14 @@
 //! The universe: galaxies, their stars and the planets of these, made of a seed and a place, with nothing stored.
 
 use std::f64::consts::TAU;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use glam::DVec3;
 
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::random::Stream;
 use burgeon_kit::rules::ModuleKey;
-use burgeon_kit::{Expectation, Kind, Object, Parameter, Seed, Table, TableKey, Value, fields, methods};
+use burgeon_kit::{Expectation, Parameter, Seed, Table, TableKey, Value, fields, methods, object};
 
 /// What `universe { ... }` takes.
 #[fields("universe")]
@@ -19,7 +19,13 @@ pub struct UniverseOptions {
 }
 
 /// Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.
-#[derive(Debug, Clone)]
+#[object(
+    "universe",
+    options = UniverseOptions,
+    make = from_table,
+    example = include_str!("../scripts/universe.lua")
+)]
+#[derive(Debug)]
 pub struct Universe {
     key: ModuleKey,
 }
@@ -75,37 +81,13 @@ impl Universe {
 }
 
 impl Universe {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new(
-                "universe",
-                "Galaxies, their stars and the planets of these: nothing is stored, and who comes back finds all of it the same.",
-            )
-.example(include_str!("../scripts/universe.lua"));
-            Arc::new(
-                kind.made_of(UniverseOptions::fields(), |table| {
-                    Ok(Universe::new(&UniverseOptions::from_table(table)?))
-                })
-                .methods(Universe::methods()),
-            )
-        });
-        &KIND
+    fn from_table(table: &Table) -> Result<Self> {
+        Ok(Self::new(&UniverseOptions::from_table(table)?))
     }
 
     /// The universe of a seed.
     pub fn new(options: &UniverseOptions) -> Self {
         Self { key: ModuleKey::seed(options.seed.0) }
-    }
-}
-
-impl Object for Universe {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
     }
 }
 

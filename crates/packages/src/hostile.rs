@@ -143,15 +143,16 @@ fn a_zip_of_too_many_files_or_bytes_is_refused() {
     let mut files: Vec<(&str, &str)> = names.iter().map(|name| (name.as_str(), "")).collect();
     files.push(("mod.toml", MOD));
     assert_eq!(refused(&zipped(&files)), "FOLDER/castle.zip has more than 10000 files and folders");
-    let files: Vec<String> = (0..MOST / 20)
-        .map(|index| format!("{}{index}.lua", "a/".repeat(20).replace('a', &format!("a{index}"))))
-        .collect();
-    let mut files: Vec<(&str, &str)> = files.iter().map(|name| (name.as_str(), "")).collect();
-    files.push(("mod.toml", MOD));
-    assert_eq!(refused(&zipped(&files)), "FOLDER/castle.zip has more than 10000 files and folders");
+    // Folders count, however few files are in them.
+    let folder = tempfile::tempdir().unwrap();
+    let mut copy = install::PackageCopy::new(folder.path().join("new"), LARGEST, 20).unwrap();
+    copy.add(Path::new("a.zip"), &format!("{}x", "a/".repeat(15)), &mut std::io::empty()).unwrap();
+    let said =
+        copy.add(Path::new("a.zip"), &format!("{}x", "b/".repeat(15)), &mut std::io::empty()).unwrap_err();
+    assert_eq!(said.message(), "a.zip has more than 20 files and folders");
     // What is in a header is not what counts.
     let folder = tempfile::tempdir().unwrap();
-    let mut copy = install::PackageCopy::new(folder.path().join("new"), 2_000_000).unwrap();
+    let mut copy = install::PackageCopy::new(folder.path().join("new"), 2_000_000, MOST).unwrap();
     let said = copy.add(Path::new("bomb.zip"), "a.png", &mut std::io::repeat(0).take(u64::MAX)).unwrap_err();
     assert_eq!(said.message(), "bomb.zip has more than 2 MB");
 }
@@ -160,18 +161,17 @@ fn a_zip_of_too_many_files_or_bytes_is_refused() {
 fn every_damaged_zip_is_refused_or_sound() {
     let bytes = zipped(&[("mod.toml", MOD), ("a/b.lua", "return 1"), ("c.lua", "return 2")]);
     for at in 0..bytes.len() {
-        for flip in [0x01, 0xff] {
-            let mut damaged = bytes.clone();
-            damaged[at] ^= flip;
-            let folder = tempfile::tempdir().unwrap();
-            let zip = folder.path().join("castle.zip");
-            std::fs::write(&zip, &damaged).unwrap();
-            if install(&zip, &folder.path().join("mods"), false).is_err() {
-                assert_eq!(all(folder.path()), ["castle.zip"], "byte {at}");
-            }
+        let mut damaged = bytes.clone();
+        damaged[at] ^= if at % 2 == 0 { 0x01 } else { 0xff };
+        let folder = tempfile::tempdir().unwrap();
+        let zip = folder.path().join("castle.zip");
+        std::fs::write(&zip, &damaged).unwrap();
+        if install(&zip, &folder.path().join("mods"), false).is_err() {
+            assert_eq!(all(folder.path()), ["castle.zip"], "byte {at}");
         }
-        let cut = &bytes[..at];
-        refused(cut);
+        if at % 5 == 0 {
+            refused(&bytes[..at]);
+        }
     }
 }
 

@@ -52,7 +52,7 @@ pub fn install(from: &Path, into: &Path, replace: bool) -> Result<Installation> 
     // Beside what it becomes, so that it takes one renaming, and with a point, so that nobody takes it for a package.
     let built = tempfile::Builder::new().prefix(".burgeon-").tempdir_in(into);
     let installed = built.map_err(|error| unwritable(into, &error)).and_then(|built| {
-        let mut copy = PackageCopy::new(built.path().join("new"), LARGEST)?;
+        let mut copy = PackageCopy::new(built.path().join("new"), LARGEST, MOST)?;
         if meta.is_dir() {
             copy_folder(from, &mut copy)?;
         } else {
@@ -75,13 +75,15 @@ pub(crate) struct PackageCopy {
     files: usize,
     bytes: u64,
     /// The most bytes that it may have.
-    most: u64,
+    most_bytes: u64,
+    /// The most files and folders.
+    most_files: usize,
 }
 
 impl PackageCopy {
-    pub(crate) fn new(folder: PathBuf, most: u64) -> Result<Self> {
+    pub(crate) fn new(folder: PathBuf, most_bytes: u64, most_files: usize) -> Result<Self> {
         fs::create_dir(&folder).map_err(|error| unwritable(&folder, &error))?;
-        Ok(Self { folder, names: BTreeMap::new(), files: 0, bytes: 0, most })
+        Ok(Self { folder, names: BTreeMap::new(), files: 0, bytes: 0, most_bytes, most_files })
     }
 
     /// Adds what `content` has as the file `name`, whose parts are apart by `/`. It is about the package `from`.
@@ -96,7 +98,7 @@ impl PackageCopy {
             fs::create_dir_all(folder).map_err(|error| unwritable(folder, &error))?;
         }
         let mut file = File::create_new(&path).map_err(|error| unwritable(&path, &error))?;
-        let left = self.most - self.bytes;
+        let left = self.most_bytes - self.bytes;
         // What a header says of the size need not be true.
         let copied =
             io::copy(&mut content.take(left + 1), &mut file).and_then(|copied| file.flush().map(|()| copied));
@@ -108,7 +110,7 @@ impl PackageCopy {
         if copied > left {
             return Err(Error::limit(
                 Limit::Size,
-                format!("{} has more than {} MB", from.display(), self.most / 1_000_000),
+                format!("{} has more than {} MB", from.display(), self.most_bytes / 1_000_000),
             )
             .help("a package may not be larger"));
         }
@@ -133,8 +135,9 @@ impl PackageCopy {
             let known = self.names.insert(path.to_lowercase(), (path.clone(), is_folder));
             let Some((written, was_folder)) = known else {
                 self.files += usize::from(!is_folder);
-                if self.names.len() > MOST {
-                    let message = format!("{} has more than {MOST} files and folders", from.display());
+                let most = self.most_files;
+                if self.names.len() > most {
+                    let message = format!("{} has more than {most} files and folders", from.display());
                     return Err(Error::limit(Limit::Size, message).help("a package may not have more"));
                 }
                 continue;

@@ -1,6 +1,6 @@
 //! The object: what scripts see of an extruder.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::state::{ExtruderState, SolidRun};
 use crate::MaterialOptions;
@@ -8,8 +8,7 @@ use crate::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{Color, Kind, Model, Object, Vector, fields, methods};
-use burgeon_kit::{Draw, Drawing};
+use burgeon_kit::{Color, Drawing, Model, Vector, fields, methods, object};
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
@@ -53,12 +52,22 @@ pub struct ExtruderOptions {
 /// Corners of a cross-section that turn by more than this (degrees) are edges also on smooth surfaces.
 const CREASE: f64 = 40.0;
 
-/// An extruder as in the ML-System paper: a cross-section swept along segments, each with its own length,
-/// curvature, twist and scale.
+/// Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.
 ///
-/// Segments that continue one another exactly make one solid; a jump in place, direction, scale or section
+/// Each segment has its own length, curvature, twist and scale. Segments that continue one another exactly make one solid; a jump in place, direction, scale or section
 /// closes it and begins another.
-#[derive(Clone, Draw)]
+#[object(
+    "extruder",
+    options = ExtruderOptions,
+    example = include_str!("../../scripts/extruder.lua"),
+    draws,
+    begins_empty,
+    begin = restart,
+    push = open_branch,
+    pop = close_branch,
+    end = finish,
+    take_warnings = drain_warnings
+)]
 pub struct Extruder {
     options: ExtruderOptions,
     first_section: Arc<Section>,
@@ -263,26 +272,6 @@ fn check_resolution(along: u32, around: u32) -> Result<()> {
 }
 
 impl Extruder {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new(
-                "extruder",
-                "Sweeps a cross-section along segments, straight or curved, as in the ML-System paper.",
-            )
-            .example(include_str!("../../scripts/extruder.lua"));
-            Arc::new(
-                kind.made_of(ExtruderOptions::fields(), |table| {
-                    Extruder::new(ExtruderOptions::from_table(table)?)
-                })
-                .methods(Extruder::methods())
-                .begins_empty()
-                .draws::<Extruder>(),
-            )
-        });
-        &KIND
-    }
-
     /// An extruder at its beginning.
     pub fn new(options: ExtruderOptions) -> Result<Self> {
         check_resolution(options.along, options.around)?;
@@ -417,28 +406,20 @@ impl Extruder {
     }
 }
 
-impl Object for Extruder {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn begin(&mut self) {
+impl Extruder {
+    fn restart(&mut self) {
         self.state = ExtruderState::begin(&self.options, &self.first_section);
         self.stack.clear();
         self.drawing.clear();
         self.open_edges = 0;
     }
 
-    fn push(&mut self) {
+    fn open_branch(&mut self) {
         let run = self.state.run.take();
         self.stack.push(ExtruderState { run, ..self.state.clone() });
     }
 
-    fn pop(&mut self) -> Result<()> {
+    fn close_branch(&mut self) -> Result<()> {
         self.close()?;
         if let Some(state) = self.stack.pop() {
             self.state = state;
@@ -446,11 +427,11 @@ impl Object for Extruder {
         Ok(())
     }
 
-    fn end(&mut self) -> Result<()> {
+    fn finish(&mut self) -> Result<()> {
         self.close()
     }
 
-    fn take_warnings(&mut self) -> Vec<Warning> {
+    fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

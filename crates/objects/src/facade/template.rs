@@ -1,12 +1,12 @@
 //! Templates: which wall goes on which frontage.
 
 use std::any::Any;
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::wall::Wall;
 use crate::MaterialOptions;
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expectation, Kind, Object, Parameter, Value, fields, methods};
+use burgeon_kit::{Expectation, Parameter, Table, Value, fields, methods, object};
 use burgeon_scene::Material;
 
 /// What `template { ... }` takes.
@@ -30,8 +30,16 @@ pub struct FacadeOptions {
     pub templates: Vec<Template>,
 }
 
-/// A wall and the frontages that it is for. It never changes.
-#[derive(Clone)]
+/// A wall for a whole frontage, with keywords that say for which.
+///
+/// It never changes.
+#[object(
+    "template",
+    options = TemplateOptions,
+    make = from_table,
+    first = "wall",
+    example = include_str!("../../scripts/template.lua")
+)]
 pub struct Template(Arc<TemplateData>);
 
 struct TemplateData {
@@ -50,24 +58,8 @@ impl Template {
 }
 
 impl Template {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind =
-                Kind::new("template", "A wall for a whole frontage, with keywords that say for which.")
-                    .example(include_str!("../../scripts/template.lua"));
-            Arc::new(
-                kind.made_of(TemplateOptions::fields(), |table| {
-                    Template::new(&TemplateOptions::from_table(table)?)
-                })
-                .first("wall")
-                .methods(Template::methods()),
-            )
-        });
-        &KIND
-    }
-
-    fn new(options: &TemplateOptions) -> Result<Self> {
+    fn from_table(table: &Table) -> Result<Self> {
+        let options = TemplateOptions::from_table(table)?;
         let Some(wall) = options.wall.clone() else {
             return Err(
                 Error::argument("template: there is no wall").help("write template { wall = panel { } }")
@@ -94,8 +86,15 @@ impl Template {
     }
 }
 
-/// A set of templates to choose from. It never changes.
-#[derive(Clone)]
+/// Templates for the frontages of a building.
+///
+/// It never changes.
+#[object(
+    "facade",
+    options = FacadeOptions,
+    first = "templates",
+    example = include_str!("../../scripts/facade.lua")
+)]
 pub struct Facade(Templates);
 
 #[methods("facade")]
@@ -107,20 +106,6 @@ impl Facade {
 }
 
 impl Facade {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new("facade", "Templates for the frontages of a building.")
-                .example(include_str!("../../scripts/facade.lua"));
-            Arc::new(
-                kind.made_of(FacadeOptions::fields(), |table| Facade::new(FacadeOptions::from_table(table)?))
-                    .first("templates")
-                    .methods(Facade::methods()),
-            )
-        });
-        &KIND
-    }
-
     fn new(options: FacadeOptions) -> Result<Self> {
         if options.templates.is_empty() {
             return Err(Error::argument("facade: there are no templates")
@@ -210,26 +195,6 @@ impl Parameter for Templates {
 
     fn into_value(self) -> Value {
         Value::Object(Arc::new(Facade(self)))
-    }
-}
-
-impl Object for Template {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-}
-
-impl Object for Facade {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
     }
 }
 

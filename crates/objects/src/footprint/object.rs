@@ -1,6 +1,6 @@
 //! The object: what scripts see of a footprint.
 
-use std::sync::{Arc, LazyLock, OnceLock};
+use std::sync::{Arc, OnceLock};
 
 use super::edges::Edges;
 use super::neighbors::Neighborhood;
@@ -13,8 +13,8 @@ use crate::{LineIndex, MaterialOptions, Terrain};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{
-    Color, Draw, Drawing, Expectation, FeatureShape, Kind, LevelOfDetail, Note, Object, Parameter, Report,
-    Table, TableOf, Value, Vector, fields, methods,
+    Color, Drawing, Expectation, FeatureShape, LevelOfDetail, Note, Parameter, Report, Table, TableOf, Value,
+    Vector, fields, methods, object,
 };
 use burgeon_scene::Material;
 use glam::{DVec2, DVec3};
@@ -63,10 +63,25 @@ pub struct FootprintOptions {
 /// The highest walls and roofs (m).
 const HIGHEST: f64 = 2000.0;
 
-/// A plan on the ground, from which groundwork, walls and a roof rise as one closed solid.
+/// A building: groundwork, walls and a roof over a polygon on the ground.
 ///
-/// Walls stand on the groundwork or on earlier walls, the roof stands on the walls and ends the building.
-#[derive(Clone, Draw)]
+/// They rise as one closed solid. Walls stand on the groundwork or on earlier walls, the roof stands on the walls and ends the building.
+#[object(
+    "footprint",
+    options = FootprintOptions,
+    make = from_table,
+    first = "geometry",
+    example = include_str!("../../scripts/footprint.lua"),
+    draws,
+    has_detail,
+    reports,
+    begins_empty,
+    begin = restart,
+    end = finish,
+    seed = take_seed,
+    gathers = neighbors::gather,
+    prefetches = |layer| Arc::new(PlanPrefetch::new(layer))
+)]
 pub struct Footprint {
     pub(super) options: Arc<FootprintOptions>,
     pub(super) plan: Arc<Plan>,
@@ -197,25 +212,11 @@ impl Footprint {
 }
 
 impl Footprint {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new(
-                "footprint",
-                "A building: groundwork, walls and a roof over a polygon on the ground.",
-            )
-            .example(include_str!("../../scripts/footprint.lua"));
-            let kind = kind.made_of(FootprintOptions::fields(), |table| {
-                let options = FootprintOptions::from_table(table)?;
-                // Under other heights it is another plan.
-                let ready = if options.ground.is_none() { prefetched(table) } else { None };
-                Footprint::with(options, ready)
-            });
-            let kind = kind.first("geometry").methods(Footprint::methods()).begins_empty();
-            let kind = kind.draws::<Footprint>().has_detail::<Footprint>().reports::<Footprint>();
-            Arc::new(kind.gathers(neighbors::gather).prefetches(|layer| Arc::new(PlanPrefetch::new(layer))))
-        });
-        &KIND
+    fn from_table(table: &Table) -> Result<Self> {
+        let options = FootprintOptions::from_table(table)?;
+        // Under other heights it is another plan.
+        let ready = if options.ground.is_none() { prefetched(table) } else { None };
+        Self::with(options, ready)
     }
 
     /// A footprint that has drawn nothing yet; without rings it can only stand for its type.
@@ -313,16 +314,8 @@ pub(super) fn along(from: DVec2, to: DVec2) -> DVec3 {
     (to - from).normalize_or_zero().extend(0.0)
 }
 
-impl Object for Footprint {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn begin(&mut self) {
+impl Footprint {
+    fn restart(&mut self) {
         self.shell = Shell::new(&self.plan);
         self.sides.clear();
         self.drawing.clear();
@@ -332,11 +325,11 @@ impl Object for Footprint {
         self.notes = repairs.iter().map(|what| Note::new(*what, trouble)).collect();
     }
 
-    fn end(&mut self) -> Result<()> {
+    fn finish(&mut self) -> Result<()> {
         self.finish_walls()
     }
 
-    fn seed(&mut self, seed: u64) {
+    fn take_seed(&mut self, seed: u64) {
         self.seed = seed;
     }
 }

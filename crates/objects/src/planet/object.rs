@@ -1,13 +1,13 @@
 //! The object: what scripts see of a planet.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::looks;
 use crate::terrain::{GroundCover, RuleLayers, Water, lost_focus, rules};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::Warning;
 use burgeon_kit::rules::ModuleKey;
-use burgeon_kit::{Color, Expand, Kind, Object, Rewriter, Seed, Show, Vector, fields, methods};
+use burgeon_kit::{Color, Expand, Rewriter, Seed, Show, Vector, fields, methods, object};
 use burgeon_scene::{Instance, Material, Mesh, Scene};
 use burgeon_terrain::globe::{DEEPEST, DETAIL, Globe, GlobeMesh};
 use burgeon_terrain::{Cells, World};
@@ -66,7 +66,17 @@ pub struct PlanetOptions {
 /// A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.
 ///
 /// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
-#[derive(Clone)]
+#[object(
+    "planet",
+    options = PlanetOptions,
+    example = include_str!("../../scripts/planet.lua"),
+    shows,
+    expands,
+    begins_empty,
+    begin = restart,
+    seed = take_seed,
+    take_warnings = drain_warnings
+)]
 pub struct Planet {
     options: Arc<PlanetOptions>,
     globe: Globe,
@@ -129,25 +139,6 @@ impl Planet {
 const DEEP: f64 = 0.1;
 
 impl Planet {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new(
-                "planet",
-                "A globe made by dividing the six faces of a cube into quadrants again and again, expanded where it is looked at.",
-            )
-.example(include_str!("../../scripts/planet.lua"));
-            Arc::new(
-                kind.made_of(PlanetOptions::fields(), |table| Planet::new(PlanetOptions::from_table(table)?))
-                    .methods(Planet::methods())
-                    .begins_empty()
-                    .shows::<Planet>()
-                    .expands::<Planet>(),
-            )
-        });
-        &KIND
-    }
-
     /// What was `found`; where nothing is expanded, an error, or `even` while the script is only checked.
     fn known<T>(&self, found: Option<T>, even: T) -> Result<T> {
         match found {
@@ -226,16 +217,8 @@ impl std::fmt::Debug for Planet {
     }
 }
 
-impl Object for Planet {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn seed(&mut self, seed: u64) {
+impl Planet {
+    fn take_seed(&mut self, seed: u64) {
         if self.options.seed.is_some() {
             return;
         }
@@ -244,11 +227,11 @@ impl Object for Planet {
         self.globe = Globe::new(world, self.options.radius, self.globe.sea());
     }
 
-    fn begin(&mut self) {
+    fn restart(&mut self) {
         self.wanted = None;
     }
 
-    fn take_warnings(&mut self) -> Vec<Warning> {
+    fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

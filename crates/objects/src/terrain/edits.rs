@@ -1,13 +1,14 @@
 //! A file of changes of the ground, on its way from the script's folder to a terrain.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::{Expectation, Kind, Object, Parameter, Table, Value};
-use burgeon_kit::{LoadRequest, LoadedObject, Loader, object};
+use burgeon_kit::{Expectation, Parameter, Table, Value};
+use burgeon_kit::{LoadRequest, LoadedObject, Loader, methods, object};
 
-/// The text of a file that keeps changes of the ground.
-#[derive(Debug, Clone)]
+/// Changes of the ground that a file keeps.
+#[object("edits", loader = LOADER)]
+#[derive(Debug)]
 pub struct EditFile {
     /// What the script calls it.
     pub name: String,
@@ -15,23 +16,15 @@ pub struct EditFile {
     pub text: Arc<str>,
 }
 
-impl EditFile {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let loader = Loader {
-                what: "file of edits",
-                example: "edits(\"ground.json\")",
-                example_with_fields: "edits(\"ground.json\")",
-                load,
-            };
-            Arc::new(
-                Kind::new("edits", "Changes of the ground that a file keeps.").loaded(Vec::new(), loader),
-            )
-        });
-        &KIND
-    }
-}
+#[methods("edits")]
+impl EditFile {}
+
+const LOADER: Loader = Loader {
+    what: "file of edits",
+    example: "edits(\"ground.json\")",
+    example_with_fields: "edits(\"ground.json\")",
+    load,
+};
 
 fn load(file: &mut LoadRequest<'_>, _: &Table) -> Result<LoadedObject> {
     let name = file.name;
@@ -53,15 +46,5 @@ impl Parameter for EditFile {
 
     fn into_value(self) -> Value {
         Value::Object(Arc::new(self))
-    }
-}
-
-impl Object for EditFile {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
     }
 }

@@ -1,6 +1,6 @@
 //! The object: what scripts see of a terrain.
 
-use std::sync::{Arc, LazyLock};
+use std::sync::Arc;
 
 use super::river::River;
 use super::{EditFile, GroundCover, Plants, RuleLayers, Water, build};
@@ -8,7 +8,7 @@ use crate::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::ModuleKey;
-use burgeon_kit::{Color, Kind, Object, ObjectParameter, Vector, fields, methods};
+use burgeon_kit::{Color, ObjectParameter, Vector, fields, methods, object};
 use burgeon_kit::{Expand, Rewriter, Show};
 use burgeon_scene::Scene;
 use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
@@ -67,7 +67,17 @@ pub struct TerrainOptions {
 /// Ground made by dividing a square into quadrants again and again, expanded where it is looked at.
 ///
 /// What a pass asks of it holds from the end of that pass on: until then it answers as it was.
-#[derive(Clone)]
+#[object(
+    "terrain",
+    options = TerrainOptions,
+    example = include_str!("../../scripts/terrain.lua"),
+    shows,
+    expands,
+    begins_empty,
+    begin = restart,
+    seed = take_seed,
+    take_warnings = drain_warnings
+)]
 pub struct Terrain {
     pub(super) options: Arc<TerrainOptions>,
     pub(super) ground: Ground,
@@ -194,27 +204,6 @@ impl Terrain {
 }
 
 impl Terrain {
-    /// The type, as scripts see it.
-    pub fn kind() -> &'static Arc<Kind> {
-        static KIND: LazyLock<Arc<Kind>> = LazyLock::new(|| {
-            let kind = Kind::new(
-                "terrain",
-                "Ground made by dividing a square into quadrants again and again, expanded where it is looked at.",
-            )
-.example(include_str!("../../scripts/terrain.lua"));
-            Arc::new(
-                kind.made_of(TerrainOptions::fields(), |table| {
-                    Terrain::new(TerrainOptions::from_table(table)?)
-                })
-                .methods(Terrain::methods())
-                .begins_empty()
-                .shows::<Terrain>()
-                .expands::<Terrain>(),
-            )
-        });
-        &KIND
-    }
-
     /// A terrain of which nothing is expanded.
     pub fn new(options: TerrainOptions) -> Result<Self> {
         let world = build::world(&options)?;
@@ -368,16 +357,8 @@ fn flat(points: &[Vector]) -> Vec<[f64; 2]> {
     points.iter().map(|at| at.0.truncate().to_array()).collect()
 }
 
-impl Object for Terrain {
-    fn kind(&self) -> &Arc<Kind> {
-        Self::kind()
-    }
-
-    fn boxed(&self) -> Box<dyn Object> {
-        Box::new(self.clone())
-    }
-
-    fn seed(&mut self, seed: u64) {
+impl Terrain {
+    fn take_seed(&mut self, seed: u64) {
         self.key = ModuleKey(seed);
         let world = self.ground.world();
         let world = World { key: world.key.map(|_| ModuleKey(seed)), ..world.clone() };
@@ -385,7 +366,7 @@ impl Object for Terrain {
         self.ground = self.plain.clone();
     }
 
-    fn begin(&mut self) {
+    fn restart(&mut self) {
         self.ground = self.plain.clone();
         self.begun = true;
         self.wanted = None;
@@ -394,7 +375,7 @@ impl Object for Terrain {
         self.edits = Arc::clone(&self.kept);
     }
 
-    fn take_warnings(&mut self) -> Vec<Warning> {
+    fn drain_warnings(&mut self) -> Vec<Warning> {
         std::mem::take(&mut self.warnings)
     }
 }

@@ -1,0 +1,160 @@
+//! What `#[object]` takes.
+
+use proc_macro2::Ident;
+use syn::ext::IdentExt;
+use syn::parse::{Parse, ParseStream};
+use syn::{Error, Expr, Path, Result, Token, Type, parse_quote};
+
+use crate::attribute::AttributeArguments;
+
+/// The verbs of a kind that take the type.
+const CAPABILITIES: [&str; 5] = ["draws", "expands", "has_detail", "reports", "shows"];
+/// The verbs of a kind that take a value.
+const VALUES: [&str; 4] = ["example", "first", "gathers", "prefetches"];
+/// Everything, for messages.
+const ALL: &str = "begins_empty, crate, draws, example, expands, first, gathers, given, has_detail, loader, make, options, \
+                   prefetches, reports, shows";
+
+/// What stands in the attribute.
+pub(crate) struct ObjectArguments {
+    /// The name for scripts, and the path of the contract.
+    pub own: AttributeArguments,
+    /// How scripts come by one.
+    pub making: Making,
+    /// The function of the type that makes one of a table.
+    pub make: Option<Ident>,
+    /// Where it says that it begins empty.
+    pub begins_empty: Option<Ident>,
+    /// What it can do, as a kind says it.
+    pub capabilities: Vec<Ident>,
+    /// What else a kind says of it.
+    pub values: Vec<(Ident, Expr)>,
+    /// The methods of the type that the engine calls.
+    pub hooks: Vec<(Hook, Ident)>,
+}
+
+/// How scripts come by an object.
+pub(crate) enum Making {
+    /// They give its public fields.
+    Fields,
+    /// They give the fields of another struct.
+    Options(Type),
+    /// They name a file, which a loader reads, with the fields of another struct if there is one.
+    File(Expr, Option<Type>),
+    /// Something else gives it.
+    Given,
+}
+
+/// What the engine calls.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Hook {
+    Begin,
+    Push,
+    Pop,
+    End,
+    Seed,
+    TakeWarnings,
+}
+
+impl Hook {
+    const ALL: [(&str, Self); 6] = [
+        ("begin", Self::Begin),
+        ("push", Self::Push),
+        ("pop", Self::Pop),
+        ("end", Self::End),
+        ("seed", Self::Seed),
+        ("take_warnings", Self::TakeWarnings),
+    ];
+
+    fn named(name: &Ident) -> Option<Self> {
+        Self::ALL.into_iter().find(|(known, _)| name == known).map(|(_, hook)| hook)
+    }
+}
+
+impl ObjectArguments {
+    /// Whether it draws, so that its drawing has to be found.
+    pub(crate) fn draws(&self) -> bool {
+        self.capabilities.iter().any(|verb| verb == "draws")
+    }
+}
+
+impl Parse for ObjectArguments {
+    fn parse(input: ParseStream<'_>) -> Result<Self> {
+        let own = AttributeArguments { name: input.parse()?, kit: parse_quote!(::burgeon_kit) };
+        let mut declared = Self {
+            own,
+            making: Making::Fields,
+            make: None,
+            begins_empty: None,
+            capabilities: Vec::new(),
+            values: Vec::new(),
+            hooks: Vec::new(),
+        };
+        let (mut known, mut options, mut loader, mut given) = (Vec::<Ident>::new(), None, None, false);
+        while !input.is_empty() {
+            input.parse::<Token![,]>()?;
+            if input.is_empty() {
+                break;
+            }
+            let name = input.call(Ident::parse_any)?;
+            if known.contains(&name) {
+                return Err(Error::new(name.span(), format!("{name} stands here already")));
+            }
+            known.push(name.clone());
+            let text = name.to_string();
+            match text.as_str() {
+                "begins_empty" => declared.begins_empty = Some(name),
+                "given" => given = true,
+                "crate" => declared.own.kit = value(input, Path::parse_mod_style)?,
+                "options" => options = Some(value(input, Type::parse)?),
+                "make" => declared.make = Some(value(input, Ident::parse)?),
+                "loader" => loader = Some(value(input, Expr::parse)?),
+                verb if CAPABILITIES.contains(&verb) => declared.capabilities.push(name),
+                verb if VALUES.contains(&verb) => {
+                    let value = value(input, Expr::parse)?;
+                    declared.values.push((name, value));
+                }
+                _ => {
+                    let Some(hook) = Hook::named(&name) else { return Err(unknown(&name)) };
+                    let method = value(input, Ident::parse)?;
+                    // A method of the same name that is not there would be the trait's, which calls it.
+                    if Hook::named(&method).is_some() {
+                        let text = "is what the engine calls: give the method of the type another name";
+                        return Err(Error::new(method.span(), format!("{method} {text}")));
+                    }
+                    declared.hooks.push((hook, method));
+                }
+            }
+        }
+        if let (Some(make), true) = (&declared.make, given || loader.is_some()) {
+            return Err(Error::new(
+                make.span(),
+                if given {
+                    "what something else gives is not made by scripts"
+                } else {
+                    "what a file is read for is made by its loader"
+                },
+            ));
+        }
+        declared.making = match (given, loader, options) {
+            (true, ..) => Making::Given,
+            (false, Some(loader), options) => Making::File(loader, options),
+            (false, None, Some(options)) => Making::Options(options),
+            (false, None, None) => Making::Fields,
+        };
+        Ok(declared)
+    }
+}
+
+fn value<T>(input: ParseStream<'_>, read: fn(ParseStream<'_>) -> Result<T>) -> Result<T> {
+    input.parse::<Token![=]>()?;
+    input.call(read)
+}
+
+fn unknown(name: &Ident) -> Error {
+    let hooks = Hook::ALL.map(|(name, _)| name).join(", ");
+    Error::new(
+        name.span(),
+        format!("object takes no {name}: it takes {ALL}, and of what the engine calls {hooks}"),
+    )
+}
