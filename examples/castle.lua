@@ -29,7 +29,7 @@ table.insert(wall, ring[1])
 table.insert(wall, gate - along * half)
 castle.curtain(wall, height)
 
-local models = { gatehouse = castle.gatehouse(2 * half, 7.5, height + 3.4) }
+local models: { [any]: any } = { gatehouse = castle.gatehouse(2 * half, 7.5, height + 3.4) }
 for number = 1, corners do
   models[number] = castle.tower({
     storeys = if number <= 2 then 3 else math.floor(random(3, 5)),
@@ -103,7 +103,7 @@ hill:derive()
 
 -- Trees on the slopes: crowns of two sizes on short trunks.
 local Tree = module("Tree", "place", "size")
-local trees = {}
+local trees: { any } = {}
 for _ = 1, 46 do
   local angle, far = random(0, 360), random(1.5, 1.86)
   -- The slopes before the gate stay open.
