@@ -29,9 +29,7 @@ pub fn definitions(registry: &Registry) -> Definitions {
         writer.types.insert(kind.luau());
         writer.types.extend(kind.family.as_ref().map(ToString::to_string));
     }
-    writer
-        .types
-        .extend(names().iter().filter(|name| name.sort == NameKind::Given).map(|name| type_name(name)));
+    writer.types.extend(names().iter().filter(|name| name.sort == NameKind::Given).map(type_name));
     writer.types.insert("Module".to_owned());
     let mut body = String::new();
     for name in names().iter().filter(|name| name.sort == NameKind::Given) {

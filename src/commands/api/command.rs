@@ -1,7 +1,9 @@
 //! The command `api`.
 
+use std::path::{Path, PathBuf};
+
 use super::entry::{Entry, Member};
-use super::text;
+use super::{book, text};
 use crate::commands::report;
 use burgeon::kit::Registry;
 use burgeon::language::{definitions, names};
@@ -19,6 +21,10 @@ pub(crate) struct ApiCommand {
     #[arg(long, conflicts_with_all = ["name", "json"])]
     luau: bool,
 
+    /// Writes the pages of the reference into the sources of this mdBook, such as docs/book
+    #[arg(long, value_name = "FOLDER", conflicts_with_all = ["name", "json", "luau"])]
+    book: Option<PathBuf>,
+
     /// Prints one JSON document, for machines, in place of text for people
     #[arg(long)]
     json: bool,
@@ -34,6 +40,9 @@ impl ApiCommand {
             return report::print(&definitions(&burgeon::objects::registry()).luau);
         }
         let entries = entries(&burgeon::objects::registry());
+        if let Some(folder) = &self.book {
+            return write_book(folder, &entries);
+        }
         let found = self.name.as_deref().map(|name| find(&entries, name)).transpose()?;
         report::print(&if self.json {
             let documents: Vec<_> = match &found {
@@ -50,6 +59,26 @@ impl ApiCommand {
             }
         })
     }
+}
+
+/// Writes the pages of the reference that are not as they should be.
+fn write_book(folder: &Path, entries: &[Entry]) -> Result<()> {
+    for (file, text) in book::pages(entries) {
+        let path = folder.join("src").join(file);
+        if std::fs::read_to_string(&path).is_ok_and(|known| known == text) {
+            continue;
+        }
+        let refuse = |error: std::io::Error| {
+            Error::file(&path, format!("cannot write {}: {error}", path.display()))
+                .help("choose another folder")
+        };
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder).map_err(refuse)?;
+        }
+        std::fs::write(&path, text).map_err(refuse)?;
+        report::eprint(&format!("wrote {}\n", path.display()));
+    }
+    Ok(())
 }
 
 /// All that scripts can use, by name.

@@ -2,6 +2,7 @@
 //!
 //! Comes in: a name, or none. Goes out: text or JSON. Nothing of what is told is written here.
 
+mod book;
 mod command;
 mod entry;
 mod text;

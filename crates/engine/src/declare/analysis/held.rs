@@ -35,15 +35,15 @@ impl CallCheck<'_> {
             return self.problem(word, Error::argument(message).help(usage));
         };
         // With several forms, a value is wrong only where none of them takes it.
-        let wrong = |form: &CallForm, index: usize| {
+        let wrong = |form: &CallForm, index: usize, value: &Inference| {
             let argument = form.argument(index)?;
-            (!self.may_be(&given[index], argument, is_luau)).then(|| argument.clone())
+            (!self.may_be(value, argument, is_luau)).then(|| argument.clone())
         };
-        for index in 0..given.len() {
-            if of_count.iter().all(|form| wrong(form, index).is_some())
-                && let Some(argument) = wrong(form, index)
+        for (index, value) in given.iter().enumerate() {
+            if of_count.iter().all(|form| wrong(form, index, value).is_some())
+                && let Some(argument) = wrong(form, index, value)
             {
-                let message = refused(name, &argument.name, &argument.luau, &given[index]);
+                let message = refused(name, &argument.name, &argument.luau, value);
                 let line = written.get(index).map_or_else(|| line_of(word), |written| line_of(*written));
                 return self.problem_at(line, Error::argument(message));
             }

@@ -1,0 +1,123 @@
+//! The pages of the reference, as mdBook takes them.
+
+use std::fmt::Write as _;
+
+use super::entry::{Entry, EntryGroup, Member, MemberKind};
+
+/// A page: its file, from the book's sources, and its text.
+pub(super) type Page = (String, String);
+
+/// The pages that follow from what scripts can use, and the list of all pages.
+pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
+    let mut summary = String::from(
+        "# Summary\n\n[Burgeon](introduction.md)\n[Editors](editors.md)\n\n# Types of objects\n\n",
+    );
+    let mut pages = Vec::new();
+    for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {
+        // Writing into a string cannot fail.
+        let _ = writeln!(summary, "- [{0}](reference/{0}.md)", entry.name);
+        pages.push((format!("reference/{}.md", entry.name), page(entry)));
+    }
+    summary.push_str("\n# The language\n\n");
+    for (group, file, title) in [
+        (EntryGroup::Global, "functions", "Functions and values"),
+        (EntryGroup::Module, "modules", "Modules that come with a meaning"),
+        (EntryGroup::Given, "given", "What these give and take"),
+        (EntryGroup::Luau, "luau", "Luau itself"),
+    ] {
+        let _ = writeln!(summary, "- [{title}](reference/{file}.md)");
+        let mut text = format!("{MADE}# {title}\n");
+        for entry in entries.iter().filter(|entry| entry.group == group) {
+            let _ = writeln!(text, "\n## {}\n", entry.name);
+            body(&mut text, entry, 3);
+        }
+        pages.push((format!("reference/{file}.md"), text));
+    }
+    pages.push(("SUMMARY.md".to_owned(), summary));
+    pages
+}
+
+/// What stands before each page.
+const MADE: &str = "<!-- Written by burgeon api --book: change the declaration in Rust instead. -->\n\n";
+
+fn page(entry: &Entry) -> String {
+    let mut text = format!("{MADE}# {}\n\n", entry.name);
+    body(&mut text, entry, 2);
+    text
+}
+
+fn body(text: &mut String, entry: &Entry, level: usize) {
+    if !entry.usage.is_empty() {
+        let _ = writeln!(text, "```text\n{}\n```\n", entry.usage);
+    }
+    let _ = writeln!(text, "{}", plain(&entry.doc));
+    if !entry.example.is_empty() {
+        // What needs a file runs only beside one.
+        let language = if entry.usage.contains("(file") { "text" } else { "lua" };
+        let _ = writeln!(text, "\n```{language}\n{}\n```", entry.example.trim_end());
+    }
+    let heading = "#".repeat(level);
+    for (what, title) in [
+        (MemberKind::Field, "Fields"),
+        (MemberKind::Declares, "Methods"),
+        (MemberKind::Function, "Functions"),
+        (MemberKind::Reads, "Methods that read"),
+        (MemberKind::Changes, "Methods that change it"),
+    ] {
+        let members: Vec<&Member> = entry.members(what).collect();
+        if members.is_empty() {
+            continue;
+        }
+        let _ = writeln!(text, "\n{heading} {title}\n");
+        if what == MemberKind::Field {
+            fields(text, &members);
+        } else {
+            members.into_iter().for_each(|member| method(text, member));
+        }
+    }
+}
+
+/// A table of fields, each followed by those of the table that it is.
+fn fields(text: &mut String, members: &[&Member]) {
+    text.push_str("| field | type | default | unit | |\n| --- | --- | --- | --- | --- |\n");
+    let mut rows = Vec::new();
+    members.iter().for_each(|member| collect(&mut rows, "", member));
+    for (name, member) in rows {
+        let code = |part: &str| if part.is_empty() { String::new() } else { format!("`{}`", cell(part)) };
+        let unit = member.unit.as_deref().unwrap_or_default();
+        let doc = cell(&plain(&member.doc));
+        let (luau, default) = (code(&member.luau), code(&member.default));
+        let _ = writeln!(text, "| `{name}` | {luau} | {default} | {unit} | {doc} |");
+    }
+}
+
+fn collect<'a>(rows: &mut Vec<(String, &'a Member)>, owner: &str, member: &'a Member) {
+    let name = format!("{owner}{}", member.name);
+    rows.push((name.clone(), member));
+    member.fields.iter().for_each(|field| collect(rows, &format!("{name}."), field));
+}
+
+fn method(text: &mut String, member: &Member) {
+    for line in member.usage().lines() {
+        let _ = writeln!(text, "- `{line}`  ");
+    }
+    let _ = writeln!(text, "  {}", plain(&member.doc));
+    if !member.fields.is_empty() {
+        text.push('\n');
+        let members: Vec<&Member> = member.fields.iter().collect();
+        fields(text, &members);
+        text.push('\n');
+    }
+}
+
+/// A doc in one line.
+fn plain(doc: &str) -> String {
+    let text = doc.split_whitespace().collect::<Vec<_>>().join(" ");
+    // What stands in angle brackets is no HTML, and nothing is a link.
+    text.replace('<', "&lt;").replace('[', "\\[")
+}
+
+/// A text for a cell of a table.
+fn cell(text: &str) -> String {
+    text.replace('\n', " ").replace('|', "\\|")
+}
