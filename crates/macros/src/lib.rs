@@ -165,6 +165,7 @@ pub fn fields(arguments: TokenStream, item: TokenStream) -> TokenStream {
 /// - `begins_empty`: each pass begins as if there had been none before. Its state gets its defaults again, a drawing keeps
 ///   its memory;
 /// - `first = "field"`, `example = "..."`, `gathers = function`, `prefetches = function`, as its `Kind` takes them;
+/// - `deprecates("height", "1.3", "size")`: a name that will go, since when, and what is used instead; as often as needed;
 /// - `make = function`: the function of the type that makes one of a script's `&Table`, where there is more to do than to
 ///   read it;
 /// - `options = TowerOptions`: the constructor takes the fields of that struct, which has `#[fields]`, and `new` makes one

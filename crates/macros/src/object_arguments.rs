@@ -1,9 +1,10 @@
 //! What `#[object]` takes.
 
-use proc_macro2::Ident;
+use proc_macro2::{Ident, TokenStream};
+use quote::ToTokens;
 use syn::ext::IdentExt;
 use syn::parse::{Parse, ParseStream};
-use syn::{Error, Expr, Path, Result, Token, Type, parse_quote};
+use syn::{Error, Expr, Path, Result, Token, Type, parenthesized, parse_quote};
 
 use crate::attribute::AttributeArguments;
 
@@ -12,7 +13,7 @@ const CAPABILITIES: [&str; 5] = ["draws", "expands", "has_detail", "reports", "s
 /// The verbs of a kind that take a value.
 const VALUES: [&str; 4] = ["example", "first", "gathers", "prefetches"];
 /// Everything, for messages.
-const ALL: &str = "begins_empty, crate, draws, example, expands, first, gathers, given, has_detail, loader, make, options, \
+const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has_detail, loader, make, options, \
                    prefetches, reports, shows";
 
 /// What stands in the attribute.
@@ -28,7 +29,7 @@ pub(crate) struct ObjectArguments {
     /// What it can do, as a kind says it.
     pub capabilities: Vec<Ident>,
     /// What else a kind says of it.
-    pub values: Vec<(Ident, Expr)>,
+    pub values: Vec<(Ident, TokenStream)>,
     /// The methods of the type that the engine calls.
     pub hooks: Vec<(Hook, Ident)>,
 }
@@ -97,6 +98,12 @@ impl Parse for ObjectArguments {
                 break;
             }
             let name = input.call(Ident::parse_any)?;
+            if name == "deprecates" {
+                let given;
+                parenthesized!(given in input);
+                declared.values.push((name, given.parse()?));
+                continue;
+            }
             if known.contains(&name) {
                 return Err(Error::new(name.span(), format!("{name} stands here already")));
             }
@@ -112,7 +119,7 @@ impl Parse for ObjectArguments {
                 verb if CAPABILITIES.contains(&verb) => declared.capabilities.push(name),
                 verb if VALUES.contains(&verb) => {
                     let value = value(input, Expr::parse)?;
-                    declared.values.push((name, value));
+                    declared.values.push((name, value.into_token_stream()));
                 }
                 _ => {
                     let Some(hook) = Hook::named(&name) else { return Err(unknown(&name)) };

@@ -41,7 +41,7 @@ impl Tower {
 }
 
 /// A heap.
-#[object("heap", draws, begins_empty)]
+#[object("heap", draws, begins_empty, deprecates("width", "1.3", "size"), deprecates("add", "1.3", "grow"))]
 pub struct Heap {
     /// How wide it is (m).
     #[default(2.0)]
@@ -238,6 +238,8 @@ fn a_type_is_what_its_struct_says() {
     let mut own = Tower { options: TowerOptions::default() };
     own.end().expect("it can");
     assert_eq!(own.options.floors, 4, "the method that the attribute names was called");
+    let instead = ["width", "add"].map(|name| Heap::kind().deprecation(name).map(|it| it.instead.clone()));
+    assert_eq!(instead, [Some("size".into()), Some("grow".into())]);
     assert!(matches!(Other::kind().construct, Construct::Given) && Other::kind().fields.is_empty());
     assert!(kind.draw.is_none() && Heap::kind().draw.is_some() && Heap::kind().begins_empty);
 }

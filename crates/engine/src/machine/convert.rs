@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use mlua::{Lua, LuaString, Value as LuaValue};
 
-use super::handles::{DerivedHandle, ObjectHandle};
 use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
+use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::{FeatureShape, System, Table, TableKey, Value};
 

@@ -4,7 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::sync::Arc;
 
 use crate::declare::Session;
-use crate::machine::handles::Objects;
+use crate::machine::types::Objects;
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_base::warning::Warning;
 use burgeon_kit::declare::{downcast_mut, downcast_ref};

@@ -7,8 +7,8 @@ use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
 use super::current::WorkState;
 use crate::machine::convert::{to_lua, to_value};
-use crate::machine::handles::ObjectHandle;
 use crate::machine::library::Library;
+use crate::machine::types::ObjectHandle;
 use burgeon_base::error::{Error, Limit};
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::rules::{ColumnValue, DEEPEST, module_text};

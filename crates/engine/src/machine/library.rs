@@ -8,10 +8,11 @@ use mlua::{Function, Lua, MultiValue, Table, Value as LuaValue, Variadic};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::convert::{class_key, to_lua};
-use super::kinds::{install_kind, named_fields, no_table};
 use super::require::require;
-use super::script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
+use super::types::{
+    ScriptFunction, ScriptTypeEntry, declare_type, extend_type, install_kind, named_fields, no_table,
+};
 use super::{Machine, compile, native};
 use crate::declare::analysis::Globals;
 use crate::declare::{API_VERSION, Param, Print, has_name};

@@ -9,7 +9,7 @@ use crate::machine::system::{GEOMETRY, UNREAD};
 
 const TEMPLATE: &str = include_str!("prelude.luau");
 /// The part of it that is about types of objects of scripts.
-const SCRIPT_TYPES: &str = include_str!("script_types.luau");
+const SCRIPT_TYPES: &str = include_str!("types/script_types.luau");
 
 /// The template written out and compiled, once for all machines.
 static COMPILED: LazyLock<Vec<u8>> = LazyLock::new(|| {

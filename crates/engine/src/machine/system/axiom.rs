@@ -6,7 +6,7 @@ use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
-use crate::machine::handles::ObjectHandle;
+use crate::machine::types::ObjectHandle;
 use crate::results::Remark;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::rules::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};

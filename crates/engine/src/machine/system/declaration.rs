@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use crate::machine::Machine;
 use crate::machine::freeze::{ReachableFunction, TableFreeze, freeze};
-use crate::machine::handles::methods_key;
 use crate::machine::library::Library;
+use crate::machine::types::methods_key;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::Object;
 use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Rule, Symbol};

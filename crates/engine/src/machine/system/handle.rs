@@ -8,8 +8,8 @@ use mlua::{Lua, MultiValue, Table, UserData, UserDataMethods, UserDataRef, Value
 
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
-use crate::machine::handles::{DerivedHandle, ObjectHandle};
 use crate::machine::library::Library;
+use crate::machine::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};

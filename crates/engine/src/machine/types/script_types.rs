@@ -4,10 +4,10 @@ use std::sync::{Arc, PoisonError};
 
 use mlua::{Function, Table, Value as LuaValue};
 
-use super::Machine;
-use super::convert::{to_lua, to_value};
 use super::handles::{ObjectHandle, methods_key};
 use super::kinds::{constructor, install_methods};
+use crate::machine::Machine;
+use crate::machine::convert::{to_lua, to_value};
 use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::{
     Argument, Call, Kind, Method, ScriptField, ScriptType, Table as ValueTable, TableKey, Value,
@@ -237,7 +237,11 @@ impl ScriptFunction {
 }
 
 /// `object(name, declared)`: declares a type, and gives its constructor.
-pub(super) fn declare_type(machine: &Machine, name: &LuaValue, declared: &LuaValue) -> Result<Function> {
+pub(in crate::machine) fn declare_type(
+    machine: &Machine,
+    name: &LuaValue,
+    declared: &LuaValue,
+) -> Result<Function> {
     machine.library.at_top_level("object")?;
     let usage = "write object(\"lantern\", { changes = { lamp = function(self) ... end } })";
     let LuaValue::String(name) = name else {
@@ -255,7 +259,11 @@ pub(super) fn declare_type(machine: &Machine, name: &LuaValue, declared: &LuaVal
 }
 
 /// `extend(constructor, declared)`: adds functions to a type.
-pub(super) fn extend_type(machine: &Machine, constructor: &LuaValue, declared: &LuaValue) -> Result<()> {
+pub(in crate::machine) fn extend_type(
+    machine: &Machine,
+    constructor: &LuaValue,
+    declared: &LuaValue,
+) -> Result<()> {
     machine.library.at_top_level("extend")?;
     let usage = "write extend(footprint, { reads = { ... }, changes = { ... } })";
     let kind = match constructor {

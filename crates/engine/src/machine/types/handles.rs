@@ -5,7 +5,7 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
-use super::convert::to_lua;
+use crate::machine::convert::to_lua;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::declare::as_ref;

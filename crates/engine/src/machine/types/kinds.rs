@@ -4,15 +4,19 @@ use std::sync::{Arc, LazyLock};
 
 use mlua::{Function, MultiValue, Table, Value as LuaValue};
 
-use super::convert::to_field;
 use super::handles::{ObjectHandle, methods_key};
-use super::system::is_unread_geometry;
-use super::{Machine, compile};
+use crate::machine::convert::to_field;
+use crate::machine::system::is_unread_geometry;
+use crate::machine::{Machine, compile};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Call, Construct, Deprecation, Kind, Table as ValueTable, TableKey, Value};
 
 /// Makes the constructor of a type of object and its table of methods.
-pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>) -> mlua::Result<()> {
+pub(in crate::machine) fn install_kind(
+    machine: &Machine,
+    globals: &Table,
+    kind: &Arc<Kind>,
+) -> mlua::Result<()> {
     let methods = install_methods(machine, kind)?;
     let unknown = machine.lua().create_table()?;
     let of = Arc::clone(kind);
@@ -30,7 +34,7 @@ pub(super) fn install_kind(machine: &Machine, globals: &Table, kind: &Arc<Kind>)
 }
 
 /// Makes the table of the methods of a type that run in Rust.
-pub(super) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
+pub(in crate::machine) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Table> {
     let lua = machine.lua();
     let methods = lua.create_table()?;
     for (index, method) in kind.methods.iter().enumerate() {
@@ -57,7 +61,7 @@ pub(super) fn install_methods(machine: &Machine, kind: &Arc<Kind>) -> mlua::Resu
 }
 
 /// The function that makes objects of a type, if scripts can make them.
-pub(super) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Option<Function>> {
+pub(in crate::machine) fn constructor(machine: &Machine, kind: &Arc<Kind>) -> mlua::Result<Option<Function>> {
     let lua = machine.lua();
     let library = std::rc::Rc::clone(&machine.library);
     let constructor = match &kind.construct {
@@ -165,7 +169,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
 }
 
 /// The one table of named fields that a constructor takes; nothing is an empty one.
-pub(super) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
+pub(in crate::machine) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTable>> {
     match to_field(&options)? {
         Value::Nil => Ok(Arc::default()),
         Value::Table(table) => Ok(table),
@@ -173,7 +177,7 @@ pub(super) fn named_fields(what: &str, options: LuaValue) -> Result<Arc<ValueTab
     }
 }
 
-pub(super) fn no_table(what: &str, given: &LuaValue) -> Error {
+pub(in crate::machine) fn no_table(what: &str, given: &LuaValue) -> Error {
     Error::argument(format!("{what} takes a table of named fields, not a {}", given.type_name()))
         .help(format!("write {what} {{ name = value }}"))
 }
