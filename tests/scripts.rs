@@ -28,7 +28,12 @@ fn runnable() -> Vec<PathBuf> {
 
 /// The scripts in `scripts/`, in the order of their names.
 fn scripts() -> Vec<PathBuf> {
-    let entries = fs::read_dir(root().join("scripts")).unwrap();
+    lua_files("scripts")
+}
+
+/// The Lua files of a folder, in the order of their names.
+fn lua_files(folder: &str) -> Vec<PathBuf> {
+    let entries = fs::read_dir(root().join(folder)).unwrap();
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.unwrap().path()).collect();
     paths.retain(|path| path.extension().is_some_and(|extension| extension == "lua"));
     paths.sort();
@@ -63,6 +68,11 @@ fn the_gallery_shows_every_script_and_no_other() {
     let mut shown = named("](docs/pictures/", ".png)");
     assert!(
         ["variations", "live", "village", "castle", "roofs", "quay"].iter().all(|name| shown.remove(*name))
+    );
+    let types: Vec<PathBuf> = lua_files("examples/types");
+    assert!(
+        types.iter().all(|path| shown.remove(&*path.file_stem().unwrap().to_string_lossy())),
+        "{shown:?}"
     );
     assert_eq!(shown, shipped);
     for name in &shipped {
