@@ -264,27 +264,30 @@ fn what_a_function_of_a_type_does_wrong_is_told_in_its_line() {
 #[test]
 fn what_never_ends_is_stopped_wherever_it_stands() {
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    while true do end\n  end },\n}))\n", &["--time-limit", "1"]), @r"
-    error: s.lua:10: the run took longer than 1 s
+    error: s.lua:10: rule A (interpretation): the run took longer than 1 s
       | while true do end
+      module: A, step 0
       help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
     ");
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  changes = { go = function(self, n)\n    pcall(function() while true do end end)\n    while true do end\n  end },\n}))\n", &["--time-limit", "1"]), @r"
-    error: s.lua:10: the run took longer than 1 s
+    error: s.lua:10: rule A (interpretation): the run took longer than 1 s
       | pcall(function() while true do end end)
+      module: A, step 0
       help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
     ");
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  extends = extruder,\n  changes = { go = function(self, n)\n    while true do self:roll(1) end\n  end },\n}))\n", &["--time-limit", "1"]), @r"
-    error: s.lua:11: the run took longer than 1 s
+    error: s.lua:11: rule A (interpretation): the run took longer than 1 s
       | while true do self:roll(1) end
+      module: A, step 0
       help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
     ");
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  begin = function(self)\n    while true do end\n  end,\n  changes = { go = function(self, n) end },\n}))\n", &["--time-limit", "1"]), @r"
-    error: s.lua:10: the run took longer than 1 s
+    error: s.lua:10: rule lamp: begin: the run took longer than 1 s
       | while true do end
       help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
     ");
     assert_snapshot!(stopped("local A = module(\"A\")\nlocal function draw(object)\n  local s = lsystem({ object = object })\n  s:axiom(A())\n  s:interpret(\"A\", function(this) this:go(2) end)\n  s:derive(1)\nend\ndraw(object(\"lamp\", {\n  finish = function(self)\n    while true do end\n  end,\n  changes = { go = function(self, n) end },\n}))\n", &["--time-limit", "1"]), @r"
-    error: s.lua:10: the run took longer than 1 s
+    error: s.lua:10: rule lamp: finish: the run took longer than 1 s
       | while true do end
       help: look for a loop that never ends, or raise the limit: --time-limit SECONDS
     ");

@@ -98,7 +98,7 @@ impl LuaFunctions<'_> {
     /// Where a function failed, and why.
     fn failure(&self, error: mlua::Error) -> Failure {
         let prelude = self.machine.prelude();
-        let at: usize = prelude.at.call(()).unwrap_or(0);
+        let at = self.machine.failed_at().map_or(0, |(at, ..)| at);
         // A machine that cannot even end the batch is thrown away with the run.
         let _ = prelude.finish.call::<()>(());
         Failure { at, error: self.machine.translate(error) }

@@ -27,7 +27,7 @@ pub(super) const OUT_OF_MEMORY_IN_LUA: &str = "not enough memory";
 /// A virtual machine that runs a script and the rules it declares.
 pub struct Machine {
     // Declared before the state, so that nobody reaches for the state while it closes.
-    _guard: watchdog::Registration,
+    guard: watchdog::Registration,
     lua: Lua,
     /// The run that it belongs to.
     pub session: Arc<Session>,
@@ -59,7 +59,7 @@ impl Machine {
             let session = Arc::clone(session);
             let protected = protected::function(&lua)?;
             Ok(Rc::new(Self {
-                _guard: guard,
+                guard,
                 lua,
                 session,
                 current,
@@ -132,6 +132,11 @@ impl Machine {
             return Ok(());
         }
         self.library.systems.borrow()[index].enter(self).map_err(|error| self.translate(error))
+    }
+
+    /// The application that a batch was at when it failed, the modules that it had made, and the calls it had recorded.
+    pub(crate) fn failed_at(&self) -> Option<(usize, f64, usize)> {
+        self.guard.despite_stop(|| self.prelude.at.call(()).ok())
     }
 
     pub(crate) fn lua(&self) -> &Lua {

@@ -49,6 +49,21 @@ pub(crate) struct Registration {
     state: StatePointer,
 }
 
+impl Registration {
+    /// Does something short in the machine even though its run was stopped.
+    pub(crate) fn despite_stop<T>(&self, act: impl FnOnce() -> T) -> T {
+        let inner = self.shared.inner.lock().unwrap_or_else(PoisonError::into_inner);
+        if inner.stopped {
+            set_interrupt(self.state, None);
+        }
+        let done = act();
+        if inner.stopped {
+            interrupt(self.state);
+        }
+        done
+    }
+}
+
 impl Watchdog {
     /// Watches over `session` from now on.
     pub fn new(session: &Arc<Session>) -> Self {
@@ -126,6 +141,13 @@ impl Drop for Registration {
 }
 
 fn interrupt(state: StatePointer) {
+    set_interrupt(state, Some(raise));
+}
+
+fn set_interrupt(
+    state: StatePointer,
+    callback: Option<unsafe extern "C-unwind" fn(*mut ffi::lua_State, c_int)>,
+) {
     if state.0.is_null() {
         return;
     }
@@ -133,7 +155,7 @@ fn interrupt(state: StatePointer) {
     // SAFETY: the machine is registered, so its state is alive. Luau reads the pointer at safe points and
     // documents that it may be set from another thread.
     unsafe {
-        (*ffi::lua_callbacks(state.0)).interrupt = Some(raise);
+        (*ffi::lua_callbacks(state.0)).interrupt = callback;
     }
 }
 

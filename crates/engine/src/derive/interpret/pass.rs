@@ -215,8 +215,7 @@ impl InterpretationPass {
         let called: usize = match machine.call::<(usize, usize)>(&prelude.interpret, ids.len()) {
             Ok((called, _)) => called,
             Err(error) => {
-                let (at, _, called): (usize, f64, usize) =
-                    prelude.at.call(()).unwrap_or((usize::MAX, 0.0, 0));
+                let (at, _, called) = machine.failed_at().unwrap_or((usize::MAX, 0.0, 0));
                 // A machine that cannot even end the batch is thrown away with the run.
                 let _ = prelude.finish.call::<()>(());
                 let error = self.blame(
