@@ -1,4 +1,4 @@
-//! The shipped scripts and those in README.md: each runs, gives a sound model, and gives it again.
+//! The shipped scripts and those in README.md and the book: each runs, gives a sound model, and gives it again.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -54,9 +54,9 @@ fn glb(run: &Run, folder: &Path) -> Vec<u8> {
     fs::read(path).unwrap()
 }
 
-/// Names in README.md that stand between `before` and `after`.
-fn named(before: &str, after: &str) -> BTreeSet<String> {
-    README.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.to_owned())).collect()
+/// Names in `text` that stand between `before` and `after`.
+fn named(text: &str, before: &str, after: &str) -> BTreeSet<String> {
+    text.split(before).skip(1).filter_map(|rest| Some(rest.split_once(after)?.0.to_owned())).collect()
 }
 
 #[test]
@@ -64,8 +64,9 @@ fn the_gallery_shows_every_script_and_no_other() {
     let shipped: BTreeSet<String> =
         scripts().iter().map(|path| path.file_stem().unwrap().to_string_lossy().into_owned()).collect();
     assert_eq!(shipped.len(), 19);
-    assert_eq!(named("](scripts/", ".lua)"), shipped);
-    let mut shown = named("](docs/pictures/", ".png)");
+    assert_eq!(named(README, "](scripts/", ".lua)"), shipped);
+    let mut shown =
+        named(&guide().replace("](../../pictures/", "](docs/pictures/"), "](docs/pictures/", ".png)");
     assert!(
         ["variations", "live", "village", "castle", "roofs", "quay"].iter().all(|name| shown.remove(*name))
     );
@@ -166,11 +167,21 @@ fn every_script_gives_the_same_bytes_for_one_thread_and_for_two() {
     }
 }
 
+/// README.md and the pages of the book that people wrote.
+fn guide() -> String {
+    let pages = fs::read_dir(root().join("docs/book/src")).unwrap().map(|entry| entry.unwrap().path());
+    let mut pages: Vec<PathBuf> = pages.filter(|path| path.is_file()).collect();
+    pages.sort();
+    assert!(pages.len() > 8, "{pages:?}");
+    pages.iter().fold(README.to_owned(), |text, page| text + &fs::read_to_string(page).unwrap())
+}
+
 #[test]
-fn every_lua_block_of_the_readme_runs() {
+fn every_lua_block_of_the_guide_runs() {
     let folder = tempfile::tempdir().unwrap();
+    let guide = guide();
     let mut count = 0;
-    for (index, rest) in README.split("\n```lua\n").skip(1).enumerate() {
+    for (index, rest) in guide.split("\n```lua\n").skip(1).enumerate() {
         let (block, _) = rest.split_once("\n```").unwrap();
         let script = folder.path().join(format!("block{}.lua", index + 1));
         fs::write(&script, block).unwrap();
@@ -180,8 +191,8 @@ fn every_lua_block_of_the_readme_runs() {
         assert!(modules + run.scene.triangles() > 0, "{block}");
         count += 1;
     }
-    assert_eq!(count, 11);
-    assert_eq!(count, README.matches("```lua").count(), "a fragment would go untested");
+    assert_eq!(count, 14);
+    assert_eq!(count, guide.matches("```lua").count(), "a fragment would go untested");
 }
 
 #[test]
@@ -198,12 +209,13 @@ fn what_the_readme_says_of_a_context_is_what_comes_out() {
 }
 
 #[test]
-fn the_readme_names_every_object_its_fields_and_its_methods() {
-    let words: BTreeSet<&str> = README.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
+fn the_guide_names_every_object_its_fields_and_its_methods() {
+    let guide = guide();
+    let words: BTreeSet<&str> = guide.split(|c: char| !c.is_ascii_alphanumeric() && c != '_').collect();
     for kind in burgeon::objects::registry().kinds() {
         let fields = kind.fields.iter().map(|field| &*field.name);
         for name in fields.chain(kind.methods.iter().map(|method| &*method.name)).chain([&*kind.name]) {
-            assert!(words.contains(name), "{}: {name} is not in README.md", kind.name);
+            assert!(words.contains(name), "{}: {name} is not in the guide", kind.name);
         }
     }
 }
