@@ -20,7 +20,7 @@
 //! geometry   uses ──► base, scene
 //! spatial    uses ──► base, geometry
 //! data       uses ──► base, spatial
-//! kit        uses ──► base, data, geometry, macros, scene
+//! kit        uses ──► base, data, geometry, macros, scene, spatial
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain

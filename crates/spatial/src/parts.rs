@@ -46,6 +46,26 @@ impl Geometry {
         if let Self::Line(points) = self { Some(points) } else { None }
     }
 
+    /// How many points it has; the first point of a ring counts again at its end.
+    pub fn num_points(&self) -> usize {
+        let mut rings = 0;
+        collect_polygons(self, &mut |polygon| {
+            rings += polygon.iter().filter(|ring| !ring.is_empty()).count()
+        });
+        self.points().count() + rings
+    }
+
+    /// How many geometries it has; an empty one has none.
+    pub fn num_geometries(&self) -> usize {
+        match self {
+            Self::MultiPoint(points) => points.len(),
+            Self::MultiLine(lines) => lines.len(),
+            Self::MultiPolygon(polygons) => polygons.len(),
+            Self::Collection(members) => members.len(),
+            single => usize::from(!single.is_empty()),
+        }
+    }
+
     /// The straight pieces of its lines and rings, each a line of two points.
     ///
     /// ```
