@@ -13,6 +13,8 @@
 mod buffer;
 mod edges;
 mod geometry;
+#[cfg(test)]
+mod geos;
 mod kind;
 mod lines;
 mod measure;
