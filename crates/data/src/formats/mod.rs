@@ -12,4 +12,4 @@ pub(crate) mod projection;
 mod wkb;
 pub(crate) mod zipped;
 
-pub use geopackage::GeoPackage;
+pub use geopackage::{GeoPackage, TableShape};
