@@ -232,5 +232,5 @@ fn every_example_runs() {
         assert_eq!(said.status, 0, "{}: {}", path.display(), said.stderr);
         count += 1;
     }
-    assert_eq!(count, 14);
+    assert_eq!(count, 15);
 }

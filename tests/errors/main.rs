@@ -18,6 +18,7 @@ mod foreign;
 mod limits;
 mod mods;
 mod neighbors;
+mod networks;
 mod outputs;
 mod packages;
 mod params;
