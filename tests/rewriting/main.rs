@@ -13,6 +13,7 @@ mod naive;
 mod parameters;
 mod passes;
 mod properties;
+mod queries;
 mod results;
 mod scripts;
 mod stochastic;

@@ -15,6 +15,7 @@ use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
+use crate::questions::{AskedRows, KeptRows, Question, Rows};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
@@ -97,6 +98,8 @@ pub struct Session {
     pub(super) used: Mutex<BTreeSet<String>>,
     /// The data files that were read.
     pub(crate) data: Data,
+    /// What was asked of them.
+    pub(crate) rows: KeptRows,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
     /// The names of methods that scripts have added to types of objects.
@@ -147,6 +150,7 @@ impl Session {
             packages,
             used: Mutex::default(),
             data: Data::default(),
+            rows: KeptRows::default(),
             drawn: RandomPositions::default(),
             extensions: Mutex::default(),
             stdlib,
@@ -298,6 +302,16 @@ impl Session {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.peeking.fetch_or(super::analysis::peeks(&analysis.text), Ordering::AcqRel);
+    }
+
+    /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer
+    /// `stays`.
+    pub(crate) fn ask(&self, question: &Question, stays: bool) -> Result<Arc<Rows>> {
+        let own = self.options.rows.as_deref();
+        let source = own.ok_or_else(|| Error::unavailable("there is no data to ask"))?;
+        let rows = self.rows.ask(question, &AskedRows { source, most: self.options.limits.modules, stays });
+        self.stop.check()?;
+        rows
     }
 
     /// Keeps the values that `params` names for the rest of the run.

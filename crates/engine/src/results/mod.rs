@@ -11,5 +11,6 @@ mod uses;
 pub use derived_system::{DerivedSystem, RuleReport, Times};
 pub use remark::{FeatureReport, Remark};
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
+pub(crate) use trace::{PendingAnswer, RESOLVED};
 pub(crate) use trace::{Step, around};
 pub use uses::Use;

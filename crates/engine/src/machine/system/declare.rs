@@ -123,7 +123,9 @@ impl SystemDeclaration {
         };
         check_parameters(&rule, &pattern, "the interpretation").map_err(|error| error.rule(&name))?;
         let item = pattern.predecessor;
-        if let Some(known) = self.interpretations.iter().find(|known| known.symbol == item.symbol) {
+        if let Some(known) =
+            self.interpretations.iter().find(|known| known.pattern.predecessor.symbol == item.symbol)
+        {
             let line = known.place.as_ref().map_or(String::new(), |place| format!(" in line {}", place.line));
             return Err(Error::script(format!("{name} is interpreted already{line}"))
                 .rule(&name)
@@ -137,8 +139,8 @@ impl SystemDeclaration {
         if loses {
             machine.warn(returns_modules().at(line).rule(format!("{name} (interpretation)")));
         }
-        let (symbol, bound, place) = (item.symbol, item.bound, Machine::place(lua));
-        self.interpretations.push(DeclaredInterpretation { symbol, bound, rule, name, place, loses });
+        let place = Machine::place(lua);
+        self.interpretations.push(DeclaredInterpretation { pattern, rule, place, loses });
         Ok(())
     }
 }
