@@ -325,3 +325,49 @@ fn a_chain_that_grows_without_end_by_queries_is_stopped() {
     assert!(error.to_string().contains("the chain grows past 10,000 modules"), "{error}");
     assert!(error.to_string().contains("query("), "{error}");
 }
+
+#[test]
+fn a_picked_module_tells_the_question_its_values_and_the_number_of_rows() {
+    let script = r#"
+        local s = lsystem({ object = extruder({ sides = 6, smooth = false }) })
+        s:axiom(A(3))
+        s:rule("A(n)", function(this, n)
+          return query("fid, n where n < $n", Item)
+        end)
+        s:rule("Item(n)", function(this, n) return B(n) end)
+        s:interpret("B(n)", function(this, n) this:extrude(n) end)
+        s:derive()
+        "#;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("main.lua");
+    std::fs::write(&path, format!("{HEAD}{script}")).expect("a file");
+    let run = burgeon::run(&path, options()).expect("it runs");
+    let asked = burgeon::trace::Pick { instance: 0, part: 0, triangle: 0 };
+    let picked = burgeon::trace::pick(&path, &options(), &run.scene, asked).expect("it is known");
+    let path = picked.drawn.expect("a module drew it").path;
+    let told: Vec<_> = path
+        .iter()
+        .map(|ancestor| {
+            let text = |rule: &Option<burgeon::results::RuleName>| {
+                rule.as_ref()
+                    .map(|rule| (rule.text.clone(), rule.place.as_ref().map_or(0, |place| place.line)))
+            };
+            (ancestor.step, ancestor.module.text.clone(), text(&ancestor.rule), text(&ancestor.answer))
+        })
+        .collect();
+    let by = |rule: &str, line: usize| Some((rule.to_owned(), line));
+    let item = path[1].module.text.clone();
+    assert_eq!(
+        told,
+        [
+            (0, "A(3)".to_owned(), None, None),
+            (
+                1,
+                item.clone(),
+                by("A(n)", 8),
+                by("query(\"fid, n where n < $n\", Item) with $n = 3: 2 rows", 9)
+            ),
+            (2, item.replace("Item", "B"), by("Item(n)", 11), None),
+        ]
+    );
+}

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, ScriptReader, has_metatables};
+use super::analysis::{Analysis, Globals, QueryCall, ScriptReader, has_metatables};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
@@ -282,6 +282,12 @@ impl Session {
     /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
     pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
         self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    /// What the functions of rules ask of data that begin in a line of a file, as far as that can be seen.
+    pub(crate) fn queries(&self, file: &str, line: usize) -> Vec<QueryCall> {
+        let queries = self.source_called(file).and_then(|source| source.analysis.queries.get(&line).cloned());
+        queries.unwrap_or_default()
     }
 
     /// How people find a file that was read.

@@ -92,6 +92,6 @@ mod tests {
     fn names_are_listed_in_words() {
         assert_eq!(listed(&["a", "b", "c"]), "a, b and c");
         assert_eq!(listed(&["a", "b"]), "a and b");
-        assert_eq!(listed::<&str>(&[]), "none");
+        assert_eq!(listed(&[] as &[&str]), "none");
     }
 }

@@ -6,7 +6,7 @@
 use std::sync::Arc;
 
 use burgeon_base::error::{SourcePlace, shortened};
-use burgeon_kit::rules::{Chain, END, Symbol, Symbols, Values, module_brief};
+use burgeon_kit::rules::{Chain, END, QUERY, Symbol, Symbols, Values, module_brief};
 use burgeon_kit::{Makers, RewriteOutcome};
 
 /// Characters of a parameter that people are shown.
@@ -64,7 +64,7 @@ pub struct Ancestor {
     pub step: usize,
     /// The module.
     pub module: Module,
-    /// The rule that made it; `None` for the axiom's, and for what took the place of a module that stood for others.
+    /// The rule that made it, or that asked for it; `None` for the axiom's, and for a part of another module.
     pub rule: Option<RuleName>,
     /// What it came of where it took the place of a module that stood for others, such as a query with its values and
     /// the number of its rows, and the line that made that module.
@@ -185,8 +185,11 @@ impl Trace {
             if rule != RewriteOutcome::NONE {
                 let after = self.steps.get(place + 1).map_or(&self.chain, |next| &next.chain);
                 let before = after.symbols[begin..here].iter().filter(|symbol| **symbol > END);
-                if let Some(module) = self.module_of(after, here) {
-                    let rule = self.rules.get(usize::from(rule)).cloned();
+                let rule = self.rules.get(usize::from(rule)).cloned();
+                if stands_for_rows(after, here) {
+                    // What took its place is told of, and that this rule asked for it.
+                    path.last_mut().into_iter().for_each(|rows: &mut Ancestor| rows.rule.clone_from(&rule));
+                } else if let Some(module) = self.module_of(after, here) {
                     let answer = step.answers.iter().find(|answer| answer.symbol == parent);
                     let answer = answer
                         .map(|answer| RuleName { text: answer.text.clone(), place: answer.place.clone() });
@@ -196,7 +199,7 @@ impl Trace {
             here = parent;
         }
         let first = self.steps.first().map_or(&self.chain, |step| &step.chain);
-        if let Some(module) = self.module_of(first, here) {
+        if let Some(module) = self.module_of(first, here).filter(|_| !stands_for_rows(first, here)) {
             let before = first.symbols[..here].iter().filter(|symbol| **symbol > END).count();
             path.push(Ancestor { step: 0, module, rule: None, answer: None, ordinal: before });
         }
@@ -273,6 +276,11 @@ enum LineSubject {
     Axiom,
     Rule(u16),
     Interpretation(u16),
+}
+
+/// Whether the module at place `index` of a chain is a query.
+fn stands_for_rows(chain: &Chain, index: usize) -> bool {
+    chain.symbols.get(index) == Some(&QUERY)
 }
 
 /// The symbol that became the one at `index` after a step, and where the symbols that came of it begin.
