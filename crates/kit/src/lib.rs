@@ -33,6 +33,7 @@ mod script_field;
 mod script_object;
 mod script_type;
 mod seed;
+mod shape;
 mod value;
 
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
@@ -58,6 +59,7 @@ pub use script_field::ScriptField;
 pub use script_object::ScriptObject;
 pub use script_type::ScriptType;
 pub use seed::Seed;
+pub use shape::{geometry_of, geometry_value};
 pub use value::{Table, TableKey, Value, is_keyword};
 
 #[doc(hidden)]

@@ -15,7 +15,7 @@ use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
-use crate::questions::{AskedRows, KeptRows, Question, Rows};
+use crate::questions::{AskedRows, KeptRows, Question, RowSource, Rows};
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
@@ -313,8 +313,16 @@ impl Session {
     /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer
     /// `stays`.
     pub(crate) fn ask(&self, question: &Question, stays: bool) -> Result<Arc<Rows>> {
-        let own = self.options.rows.as_deref();
-        let source = own.ok_or_else(|| Error::unavailable("there is no data to ask"))?;
+        let source: &dyn RowSource = match &self.options.rows {
+            Some(own) => &**own,
+            #[cfg(feature = "data")]
+            None => self,
+            #[cfg(not(feature = "data"))]
+            None => {
+                return Err(Error::unavailable("this program was built without databases")
+                    .help("build it with the feature data"));
+            }
+        };
         let rows = self.rows.ask(question, &AskedRows { source, most: self.options.limits.modules, stays });
         self.stop.check()?;
         rows

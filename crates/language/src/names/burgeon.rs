@@ -304,6 +304,12 @@ pub static SOURCE: LazyLock<Name> = LazyLock::new(|| {
                             "nil",
                             "The layer, if its name does not stand behind a colon.",
                         ),
+                        field(
+                            "table",
+                            "string?",
+                            "nil",
+                            "What query calls it, in place of its layer's name.",
+                        ),
                     ],
                 ),
             ],

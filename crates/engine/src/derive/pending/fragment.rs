@@ -1,13 +1,14 @@
 //! The modules of the parts of a geometry.
 
 use std::rc::Rc;
+use std::sync::Arc;
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use crate::questions::{fit, listed};
 use burgeon_base::error::{Error, Result};
-use burgeon_kit::Value;
 use burgeon_kit::rules::{Chain, ColumnValue, Mark, Symbol, Symbols, Values, module_brief};
+use burgeon_kit::{Value, geometry_of, geometry_value};
 
 /// Takes modules apart, and remembers how.
 #[derive(Default)]
@@ -110,6 +111,8 @@ impl Fragmentation {
     }
 }
 
-fn geometry_parts(_: &Value) -> Option<Option<Vec<Value>>> {
-    None
+/// The parts of a geometry, `None` within for one that has none; `None` for anything else.
+fn geometry_parts(value: &Value) -> Option<Option<Vec<Value>>> {
+    let parts = geometry_of(value)?.fragments();
+    Some(parts.map(|parts| parts.into_iter().map(|part| geometry_value(&Arc::new(part))).collect()))
 }
