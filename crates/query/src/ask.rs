@@ -70,6 +70,9 @@ pub(crate) fn rows(
     budget: &Arc<Budget>,
 ) -> Result<Arc<Answer>, Failure> {
     let (mut statement, as_rewritten) = prepare(link, prepared, false)?;
+    if statement.column_count() == 0 {
+        return Err(Failure::Told(errors::only_reading()));
+    }
     for index in 1..=statement.parameter_count() {
         let name = statement.parameter_name(index).map(str::to_owned);
         let cell = errors::parameter(&prepared.original, name.as_deref(), parameters)?;

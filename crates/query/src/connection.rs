@@ -23,6 +23,9 @@ const LONGEST: i32 = 200_000_000;
 /// The longest statement (bytes).
 pub(crate) const LONGEST_STATEMENT: usize = 200_000;
 
+/// Where SQLite finds files.
+const FILES: &str = if cfg!(windows) { "win32" } else { "unix" };
+
 /// How many files are read as they are; others are copied.
 pub(crate) const MOST_FILES: usize = 8;
 
@@ -142,7 +145,8 @@ impl Link {
         connection.pragma_update(None, "cache_size", -PAGES)?;
         connection.pragma_update(None, "case_sensitive_like", true)?;
         for AttachedFile { schema, address } in files {
-            connection.execute(&format!("ATTACH ?1 AS {schema}"), [address])?;
+            // Without a name it would be looked for in memory, too.
+            connection.execute(&format!("ATTACH ?1 AS {schema}"), [format!("{address}&vfs={FILES}")])?;
         }
         for TableView { name, schema, table } in views {
             let (name, table) = (quoted(name), quoted(table));

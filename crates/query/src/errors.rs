@@ -92,7 +92,7 @@ fn words(error: &rusqlite::Error) -> String {
 pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) -> Error {
     let text = words(error);
     let code = error.sqlite_error_code();
-    if code == Some(ErrorCode::AuthorizationForStatementDenied) {
+    if code == Some(ErrorCode::AuthorizationForStatementDenied) || text.starts_with(NOT_ALLOWED) {
         return refused(&text, sql);
     }
     let named = |prefix: &str| text.strip_prefix(prefix).map(|rest| rest.trim().trim_matches('"').to_owned());
@@ -158,12 +158,19 @@ pub(crate) fn told(error: &rusqlite::Error, sql: &str, catalogue: &Catalogue) ->
     }
 }
 
+/// What SQLite says before the name of a function that may not be called.
+const NOT_ALLOWED: &str = "not authorized to use function: ";
+
 fn refused(text: &str, sql: &str) -> Error {
-    // Such as: not authorized to use function: random
-    if let Some(name) = text.strip_prefix("not authorized to use function: ") {
+    if let Some(name) = text.strip_prefix(NOT_ALLOWED) {
         return Error::scope(format!("{}the function {} may not be called", place(sql, None, name), shown(name)))
             .help("questions give the same each time, and reach nothing but tables; the book's page on queries lists what there is");
     }
+    only_reading()
+}
+
+/// The error of a statement that does not ask for rows.
+pub(crate) fn only_reading() -> Error {
     Error::scope("SQL: a question may only read: SELECT, WITH and VALUES are allowed")
         .help("layers are written with exports, not with SQL")
 }

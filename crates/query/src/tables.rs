@@ -236,7 +236,7 @@ pub(crate) fn write_layer(
         values.extend(
             own.into_iter().zip(&attributes).filter(|(_, column)| column.is_some()).map(|(value, _)| value),
         );
-        let mut placed = spatial(&feature.geometry);
+        let mut placed = feature.geometry.clone();
         placed.points_mut().for_each(|point| *point += DVec3::new(x, y, 0.0));
         values.push(Value::Blob(blob::write(&placed)));
         Ok(Some(values))
@@ -299,14 +299,5 @@ fn weight(value: &Value) -> usize {
         Value::Integer(_) | Value::Real(_) => 9,
         Value::Text(text) => 4 + text.len(),
         Value::Blob(bytes) => 4 + bytes.len(),
-    }
-}
-
-/// A feature's geometry as a value.
-fn spatial(geometry: &burgeon_data::Geometry) -> Geometry {
-    match geometry {
-        burgeon_data::Geometry::Point(place) => Geometry::Point(Some(*place)),
-        burgeon_data::Geometry::Line(points) => Geometry::Line(points.clone()),
-        burgeon_data::Geometry::Polygon(rings) => Geometry::Polygon(rings.clone()),
     }
 }

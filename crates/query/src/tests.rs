@@ -184,5 +184,8 @@ fn a_layer_of_another_format_is_a_table() {
     assert!(found.rows.contains(&vec![Cell::Text("hut/1".into())]), "{found}");
     let error =
         database.add_layer("huts", &burgeon_data::Layer { shown: "other".into(), ..layer }, &budget());
-    insta::assert_snapshot!(error.unwrap_err(), @"");
+    insta::assert_snapshot!(error.unwrap_err(), @r#"
+    there are two tables called huts
+      help: name one of them otherwise: source(file, { table = "houses" })
+    "#);
 }

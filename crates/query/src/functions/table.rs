@@ -369,9 +369,9 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
     function(
         "ST_Union",
         (2, 2),
-        "(geometry, geometry) or (geometry) of a group",
+        PAIR,
         "geometry",
-        "What either has; of a group, what any has.",
+        "What either has; with one argument, what any of a group has.",
         made_of_two!(union),
     ),
     function(
@@ -394,9 +394,9 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
     function(
         "ST_Collect",
         (2, 2),
-        "(geometry, geometry) or (geometry) of a group",
+        PAIR,
         "geometry",
-        "Both beside each other; of a group, all.",
+        "Both beside each other; with one argument, all of a group.",
         |call| {
             Ok(Output::Geometry(collected(vec![
                 call.geometry(0)?.geometry.clone(),

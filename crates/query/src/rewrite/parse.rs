@@ -59,7 +59,11 @@ impl Grammar for Shared {
         left: &Expr,
         precedence: u8,
     ) -> Option<Result<Expr, ParserError>> {
-        let operator = parser.parse_keyword(Keyword::GLOB).then_some(BinaryOperator::Glob)?;
+        let operator = if parser.consume_token(&Token::Overlap) {
+            BinaryOperator::PGOverlap
+        } else {
+            parser.parse_keyword(Keyword::GLOB).then_some(BinaryOperator::Glob)?
+        };
         let right = parser.parse_subexpr(precedence);
         Some(right.map(|right| Expr::BinaryOp {
             left: Box::new(left.clone()),

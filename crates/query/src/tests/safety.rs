@@ -4,7 +4,10 @@ use super::*;
 use std::time::{Duration, Instant};
 
 fn error(database: &Database, sql: &str) -> String {
-    database.query(sql, &[], &budget()).unwrap_err().to_string()
+    match database.query(sql, &[], &budget()) {
+        Ok(answer) => panic!("{sql}: {answer}"),
+        Err(error) => error.to_string(),
+    }
 }
 
 #[test]
@@ -145,8 +148,88 @@ fn errors_tell_the_place_and_what_there_is() {
     ] {
         told += &format!("{sql}\n-> {}\n\n", error(&database, sql));
     }
-    insta::assert_snapshot!(told, @"");
+    insta::assert_snapshot!(told, @r#"
+    SELECT fid
+    FROM house
+    -> SQL, line 2, column 6: no table called house
+      help: did you mean houses?
+
+    SELECT heigth FROM houses
+    -> SQL, line 1, column 8: no column called heigth
+      help: did you mean height?
+
+    SELECT h.nme FROM houses h JOIN lamps l ON ST_Intersects(h.geom, l.geom)
+    -> SQL, line 1, column 8: no column called h.nme
+      help: did you mean name?
+
+    SELECT ST_Aera(geom) FROM houses
+    -> SQL, line 1, column 8: no function called ST_Aera
+      help: did you mean ST_Area?
+
+    SELECT ST_Buffer(geom) FROM houses
+    -> SQL, line 1, column 8: wrong number of arguments to function ST_Buffer()
+      help: it takes ST_Buffer(geometry, distance [, options])
+
+    SELECT fid FROM houses WHERE
+    -> SQL: incomplete input
+      help: write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...
+
+    SELECT fid FROM houses WHERE height > > 3
+    -> SQL, line 1, column 39: near ">": syntax error
+      help: write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...
+
+    SELECT fid FROM houses WHERE name = 'x
+    -> SQL, line 1, column 37: unrecognized token: "'x"
+      help: write SQL as SQLite takes it: SELECT ... FROM ... WHERE ...
+
+    SELECT fid FROM houses WHERE fid = $house
+    -> SQL, line 1, column 36: $house has no value
+      help: hand one over: query(sql, { house = ... })
+
+    SELECT fid FROM houses WHERE fid = ?
+    -> SQL: the parameter ? has no name that a value could be found by
+      help: write $name
+
+    SELECT fid FROM houses a, houses b
+    -> SQL, line 1, column 8: ambiguous column name: fid
+      help: check the statement; the book's page on queries tells what functions take
+
+    SELECT ST_GeomFromText('POINT(1') AS g
+    -> SQL: ST_GeomFromText: no well-known text: at letter 8 there should be a number, not its end
+      help: check the statement; the book's page on queries tells what functions take
+
+    SELECT ST_X(geom) FROM houses
+    -> SQL: ST_X: argument 1 must be a point, not a polygon
+      help: check the statement; the book's page on queries tells what functions take
+
+    SELECT ST_Area(name) FROM houses WHERE name IS NOT NULL
+    -> SQL: ST_Area: no well-known text: at letter 1 there should be the name of a kind of geometry, not "house"
+      help: check the statement; the book's page on queries tells what functions take
+
+    SELECT ST_Intersects(geom, 3) FROM houses
+    -> SQL: ST_Intersects: argument 2 must be a geometry, not a number: ST_Intersects(geometry, geometry)
+      help: check the statement; the book's page on queries tells what functions take
+
+    SELECT random()
+    -> SQL, line 1, column 8: the function random may not be called
+      help: questions give the same each time, and reach nothing but tables; the book's page on queries lists what there is
+
+    DELETE FROM houses
+    -> SQL: a question may only read: SELECT, WITH and VALUES are allowed
+      help: layers are written with exports, not with SQL
+
+    SELECT 1; SELECT 2
+    -> SQL, line 1, column 11: there is more than one statement
+      help: ask one question at a time; values are handed over as parameters: $name
+
+      
+    -> the statement is empty
+      help: write query("SELECT ... FROM ...")
+    "#);
     let given = [("hose", Cell::Number(1.0)), ("other", Cell::Null)];
     let error = database.query("SELECT fid FROM houses WHERE fid = $house", &given, &budget()).unwrap_err();
-    insta::assert_snapshot!(error, @"");
+    insta::assert_snapshot!(error, @r"
+    SQL, line 1, column 36: $house has no value
+      help: did you mean hose?
+    ");
 }
