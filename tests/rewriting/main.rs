@@ -4,6 +4,7 @@ mod candidates;
 mod choice;
 mod contexts;
 mod determinism;
+mod fragments;
 mod generate;
 mod interpretation;
 mod lineage;
