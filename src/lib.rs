@@ -21,12 +21,12 @@
 //! spatial    uses ──► base, geometry
 //! data       uses ──► base, spatial
 //! query      uses ──► base, data, geometry, spatial
-//! kit        uses ──► base, data, geometry, macros, scene
+//! kit        uses ──► base, data, geometry, macros, scene, spatial
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain
 //! packages   uses ──► base
-//! engine     uses ──► base, data, kit, language, packages, scene
+//! engine     uses ──► base, data, kit, language, packages, query, scene
 //! export     uses ──► base, data, scene
 //! watch      uses ──► base
 //! presets    uses ──► base, engine, export, watch

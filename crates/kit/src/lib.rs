@@ -2,7 +2,7 @@
 //!
 //! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and a
 //! [`Grammar`](rules::Grammar) with the chains that it matches. It never knows a virtual machine, nor a type of
-//! object but the [`Model`], which is what a system has drawn.
+//! object but the [`Model`], which is what a system has drawn, and the [`GeometryObject`], which is a value.
 
 extern crate self as burgeon_kit;
 
@@ -16,6 +16,7 @@ mod distance;
 mod drawing;
 mod features;
 mod fields;
+mod geometry;
 mod kind;
 mod loading;
 mod makers;
@@ -33,15 +34,15 @@ mod script_field;
 mod script_object;
 mod script_type;
 mod seed;
-mod shape;
 mod value;
 
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use column_value::ColumnValue;
 pub use drawing::Drawing;
-pub use features::{FeatureShape, Features};
+pub use features::Features;
 pub use fields::{Fields, TableOf};
+pub use geometry::{Constructor, GeometryObject, Path, Shape, constructors};
 pub use kind::{
     Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
 };
@@ -59,7 +60,6 @@ pub use script_field::ScriptField;
 pub use script_object::ScriptObject;
 pub use script_type::ScriptType;
 pub use seed::Seed;
-pub use shape::{geometry_of, geometry_value};
 pub use value::{Table, TableKey, Value, is_keyword};
 
 #[doc(hidden)]

@@ -1,8 +1,7 @@
 //! Takes a geometry apart, one level at a time.
 
-use glam::DVec3;
-
 use super::Geometry;
+use super::parts::closed;
 
 impl Geometry {
     /// What it is made of: the geometries of a collection, the parts of a multi form, the rings of a polygon as lines that
@@ -24,11 +23,6 @@ impl Geometry {
             }
         })
     }
-}
-
-/// A ring as a line that ends where it begins.
-fn closed(ring: &[DVec3]) -> Vec<DVec3> {
-    ring.iter().chain(ring.first()).copied().collect()
 }
 
 #[cfg(test)]

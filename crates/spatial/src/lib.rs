@@ -15,13 +15,18 @@ mod edges;
 mod fragments;
 mod geometry;
 mod kind;
+mod lines;
 mod measure;
 mod nearest;
 mod overlay;
+mod parts;
 mod plane;
 #[cfg(test)]
 mod properties;
 mod relation;
+mod skeleton;
+mod validity;
+mod within;
 pub mod wkb;
 pub mod wkt;
 

@@ -9,7 +9,7 @@ use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_data::{Layer, ReferenceFrame};
-use burgeon_kit::{Value, geometry_of, geometry_value};
+use burgeon_kit::{GeometryObject, Value};
 use burgeon_query::{Cell, Database};
 
 /// A source as a table.
@@ -93,15 +93,18 @@ fn cell(name: &str, value: &Value) -> Result<Cell> {
         Value::Boolean(value) => Cell::Boolean(*value),
         Value::Number(value) => Cell::Number(*value),
         Value::Text(text) => Cell::Text(Arc::clone(text)),
-        Value::Object(_) | Value::Table(_) => match geometry_of(value) {
-            Some(geometry) => Cell::Geometry(Arc::clone(geometry)),
-            None => {
-                let text = format!("${name} of the query cannot be {}", value.describe());
-                let error = Error::argument(text);
-                return Err(error.help("values are numbers, strings, booleans and geometries"));
-            }
+        Value::Object(object) => match GeometryObject::of(&**object) {
+            Some(geometry) => Cell::Geometry(Arc::new(geometry.clone())),
+            None => return Err(no_value(name, value)),
         },
+        Value::Table(_) => return Err(no_value(name, value)),
     })
+}
+
+/// The error for a value that no statement takes.
+fn no_value(name: &str, value: &Value) -> Error {
+    Error::argument(format!("${name} of the query cannot be {}", value.describe()))
+        .help("values are numbers, strings, booleans and geometries")
 }
 
 /// What the database gives as a value of a script.
@@ -111,6 +114,6 @@ fn value(cell: &Cell) -> Value {
         Cell::Boolean(value) => Value::Boolean(*value),
         Cell::Number(value) => Value::Number(*value),
         Cell::Text(text) => Value::Text(Arc::clone(text)),
-        Cell::Geometry(geometry) => geometry_value(geometry),
+        Cell::Geometry(geometry) => Value::Object(Arc::new(GeometryObject::shared(Arc::clone(geometry)))),
     }
 }

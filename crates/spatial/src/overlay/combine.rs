@@ -5,15 +5,16 @@
 //! its areas, and points what does not lie on its lines.
 
 use geo::bool_ops::OpType;
-use geo::{Coord, MultiPolygon, unary_union};
+use geo::{Coord, MultiPolygon};
 use glam::{DVec2, DVec3};
 
 use super::areas;
-use super::arrangement::{Arrangement, Piece, Way, WayOrigin};
+use super::arrangement::{Arrangement, Piece, Way};
 use super::inside::Inside;
+use super::operand::Operand;
 use crate::Geometry;
 use crate::edges::with_heights;
-use crate::plane::{Plane, collect_lines, collect_points};
+use crate::plane::Plane;
 
 /// A set operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -107,48 +108,6 @@ impl Geometry {
 /// ```
 pub fn union_all<'a>(geometries: impl IntoIterator<Item = &'a Geometry>) -> Geometry {
     Geometry::Collection(geometries.into_iter().filter(|it| it.is_sound()).cloned().collect()).dissolved()
-}
-
-/// One of the two, as far as an operation needs it.
-struct Operand {
-    areas: MultiPolygon,
-    lines: Vec<Vec<DVec2>>,
-    points: Vec<DVec2>,
-}
-
-impl Operand {
-    fn new(plane: Plane, geometry: &Geometry) -> Self {
-        let mut areas = plane.polygons(geometry);
-        if areas.0.len() > 1 {
-            // Walls between two of them are none.
-            let whole = unary_union(&areas);
-            let given = std::mem::replace(&mut areas, whole);
-            areas::snap(&mut areas, [&given]);
-        }
-        let (mut lines, mut points) = (Vec::new(), Vec::new());
-        if geometry.is_sound() {
-            collect_lines(geometry, &mut |line| {
-                lines.push(line.iter().map(|point| plane.flat(*point)).collect());
-            });
-            collect_points(geometry, &mut |point| points.push(plane.flat(point)));
-        }
-        Self { areas, lines, points }
-    }
-
-    fn ways(&self, second: bool) -> Vec<Way> {
-        let origin = |ring| WayOrigin { second, ring };
-        let lines = self.lines.iter().map(|line| Way { origin: origin(false), places: line.clone() });
-        let rings = self.areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
-        let rings = rings.map(|ring| {
-            let places = ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
-            Way { origin: origin(true), places }
-        });
-        lines.chain(rings).collect()
-    }
-
-    fn is_of_areas(&self) -> bool {
-        self.lines.is_empty() && self.points.is_empty()
-    }
 }
 
 fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usize) -> Geometry {

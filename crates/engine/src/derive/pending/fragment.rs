@@ -8,7 +8,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use crate::questions::{fit, listed};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::rules::{Chain, ColumnValue, Mark, Symbol, Symbols, Values, module_brief};
-use burgeon_kit::{Value, geometry_of, geometry_value};
+use burgeon_kit::{GeometryObject, Value};
 
 /// Takes modules apart, and remembers how.
 #[derive(Default)]
@@ -113,6 +113,8 @@ impl Fragmentation {
 
 /// The parts of a geometry, `None` within for one that has none; `None` for anything else.
 fn geometry_parts(value: &Value) -> Option<Option<Vec<Value>>> {
-    let parts = geometry_of(value)?.fragments();
-    Some(parts.map(|parts| parts.into_iter().map(|part| geometry_value(&Arc::new(part))).collect()))
+    let Value::Object(object) = value else { return None };
+    let parts = GeometryObject::of(&**object)?.fragments();
+    let value = |part| Value::Object(Arc::new(GeometryObject::new(part)));
+    Some(parts.map(|parts| parts.into_iter().map(value).collect()))
 }
