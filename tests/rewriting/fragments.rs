@@ -46,8 +46,8 @@ fn without_geometries(chain: &str) -> String {
         ["(POINT (", "(LINESTRING (", "(POLYGON ("].iter().filter_map(|kind| rest.find(kind)).min()
     {
         text.push_str(&rest[..=at]);
-        let end = rest[at..].find("),").expect("a name follows");
-        rest = &rest[at + end + 2..];
+        let end = rest[at..].find(",\"").expect("a name follows");
+        rest = &rest[at + end + 1..];
     }
     text + rest
 }
