@@ -45,7 +45,7 @@
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
 //! - [`query`]: SQL over layers, in a database within the program: a [`Database`](query::Database) gives an
-//!   [`Answer`](query::Answer).
+//!   [`QueryAnswer`](query::QueryAnswer).
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
 //!   [`Object`](kit::Object) can do; a [`Grammar`](kit::rules::Grammar) of [`Pattern`](kit::rules::Pattern)s matches
 //!   along a [`Chain`](kit::rules::Chain), without Lua.

@@ -6,9 +6,9 @@ use rusqlite::types::{ToSqlOutput, Value, ValueRef};
 use rusqlite::{CachedStatement, ToSql};
 
 use crate::blob;
-use crate::cell::{Answer, Cell};
-use crate::connection::Link;
-use crate::database::Prepared;
+use crate::cell::{Cell, QueryAnswer};
+use crate::connection::DatabaseLink;
+use crate::database::PreparedStatement;
 use crate::errors;
 use crate::place;
 use burgeon_base::budget::Budget;
@@ -16,20 +16,20 @@ use burgeon_base::error::{Error, Result as BurgeonResult};
 use burgeon_data::ReferenceFrame;
 
 /// Why there are no rows.
-pub(crate) enum Failure {
+pub(crate) enum QueryFailure {
     /// For a reason of ours.
     Told(Error),
     /// For one of SQLite's.
     Sqlite(rusqlite::Error),
 }
 
-impl From<rusqlite::Error> for Failure {
+impl From<rusqlite::Error> for QueryFailure {
     fn from(error: rusqlite::Error) -> Self {
         Self::Sqlite(error)
     }
 }
 
-impl From<Error> for Failure {
+impl From<Error> for QueryFailure {
     fn from(error: Error) -> Self {
         Self::Told(error)
     }
@@ -37,10 +37,10 @@ impl From<Error> for Failure {
 
 /// The statement, as it was rewritten if SQLite takes it so.
 fn prepare<'a>(
-    link: &'a Link,
-    prepared: &Prepared,
+    link: &'a DatabaseLink,
+    prepared: &PreparedStatement,
     explained: bool,
-) -> Result<(CachedStatement<'a>, bool), Failure> {
+) -> Result<(CachedStatement<'a>, bool), QueryFailure> {
     let prefix = if explained { "EXPLAIN QUERY PLAN " } else { "" };
     let Some(rewritten) = &prepared.rewritten else {
         link.set_automatic_index(true)?;
@@ -52,7 +52,7 @@ fn prepare<'a>(
         // What was written tells better where it is wrong.
         Err(error) => match link.connection.prepare_cached(&format!("{prefix}{}", prepared.original)) {
             Ok(statement) => Ok((statement, false)),
-            Err(own) => Err(Failure::Sqlite(if errors::is_syntax(&own) && !errors::is_syntax(&error) {
+            Err(own) => Err(QueryFailure::Sqlite(if errors::is_syntax(&own) && !errors::is_syntax(&error) {
                 error
             } else {
                 own
@@ -63,15 +63,15 @@ fn prepare<'a>(
 
 /// The rows of a statement.
 pub(crate) fn rows(
-    link: &Link,
-    prepared: &Prepared,
+    link: &DatabaseLink,
+    prepared: &PreparedStatement,
     parameters: &[(&str, Cell)],
     frame: Option<&ReferenceFrame>,
     budget: &Arc<Budget>,
-) -> Result<Arc<Answer>, Failure> {
+) -> Result<Arc<QueryAnswer>, QueryFailure> {
     let (mut statement, as_rewritten) = prepare(link, prepared, false)?;
     if statement.column_count() == 0 {
-        return Err(Failure::Told(errors::only_reading()));
+        return Err(QueryFailure::Told(errors::only_reading()));
     }
     for index in 1..=statement.parameter_count() {
         let name = statement.parameter_name(index).map(str::to_owned);
@@ -88,14 +88,14 @@ pub(crate) fn rows(
     if told.len() == booleans.len() {
         booleans.iter_mut().zip(told).for_each(|(boolean, told)| *boolean |= told);
     }
-    let mut answer = Answer::new(names, budget);
+    let mut answer = QueryAnswer::new(names, budget);
     let mut rows = statement.raw_query();
     while let Some(row) = rows.next()? {
         let cell = |(index, boolean): (usize, &bool)| {
             cell(row.get_ref(index)?, *boolean, frame, budget)
-                .map_err(|error| Failure::Told(error.noting(&format!("column {}", answer.names[index]))))
+                .map_err(|error| QueryFailure::Told(error.noting(&format!("column {}", answer.names[index]))))
         };
-        let row = booleans.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, Failure>>()?;
+        let row = booleans.iter().enumerate().map(cell).collect::<Result<Vec<Cell>, QueryFailure>>()?;
         answer.push(row)?;
     }
     if !known.is_some_and(|rewritten| rewritten.ordered) {
@@ -105,7 +105,7 @@ pub(crate) fn rows(
 }
 
 /// What SQLite does for a statement.
-pub(crate) fn plan(link: &Link, prepared: &Prepared) -> Result<String, Failure> {
+pub(crate) fn plan(link: &DatabaseLink, prepared: &PreparedStatement) -> Result<String, QueryFailure> {
     let (mut statement, _) = prepare(link, prepared, true)?;
     let mut rows = statement.raw_query();
     let mut lines: Vec<String> = Vec::new();

@@ -89,7 +89,7 @@ const IDS: [&str; 3] = ["fid", "id", "ogc_fid"];
 
 /// The rows that a question gives.
 #[derive(Debug, Default)]
-pub struct Answer {
+pub struct QueryAnswer {
     /// The names of columns, in order.
     pub names: Vec<String>,
     /// The rows, in order; each has a cell for every name.
@@ -98,7 +98,7 @@ pub struct Answer {
     taken: Option<(Arc<Budget>, usize)>,
 }
 
-impl Answer {
+impl QueryAnswer {
     /// An answer without rows, which are counted against a budget.
     pub(crate) fn new(names: Vec<String>, budget: &Arc<Budget>) -> Self {
         Self { names, rows: Vec::new(), taken: Some((Arc::clone(budget), 0)) }
@@ -147,7 +147,7 @@ impl Answer {
 /// The most rows of an answer.
 const MOST_ROWS: usize = 10_000_000;
 
-impl Drop for Answer {
+impl Drop for QueryAnswer {
     fn drop(&mut self) {
         if let Some((budget, taken)) = &self.taken {
             budget.give(*taken);
@@ -155,7 +155,7 @@ impl Drop for Answer {
     }
 }
 
-impl fmt::Display for Answer {
+impl fmt::Display for QueryAnswer {
     /// A line of names, and one for each row.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.names.join(" | "))?;

@@ -12,7 +12,7 @@ use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
 use rusqlite::limits::Limit;
 use rusqlite::{Connection, OpenFlags};
 
-use crate::functions::{self, Parsed};
+use crate::functions::{self, GeometryArgument};
 use crate::index::SpatialIndex;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::Result;
@@ -58,7 +58,7 @@ impl RefUnwindSafe for ConnectionState {}
 
 #[derive(Default)]
 struct RecentGeometries {
-    kept: [Option<(Vec<u8>, Arc<Parsed>)>; 2],
+    kept: [Option<(Vec<u8>, Arc<GeometryArgument>)>; 2],
     next: usize,
 }
 
@@ -74,12 +74,12 @@ impl ConnectionState {
     }
 
     /// The geometry in a blob. Fails with the reason.
-    pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<Parsed>, String> {
+    pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
         let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((_, parsed)) = recent.kept.iter().flatten().find(|(known, _)| known == bytes) {
             return Ok(Arc::clone(parsed));
         }
-        let parsed = Arc::new(Parsed::read(bytes, &self.budget())?);
+        let parsed = Arc::new(GeometryArgument::read(bytes, &self.budget())?);
         let place = recent.next;
         recent.kept[place] = Some((bytes.to_vec(), Arc::clone(&parsed)));
         recent.next = (place + 1) % recent.kept.len();
@@ -88,7 +88,7 @@ impl ConnectionState {
 }
 
 /// A connection and what its functions know.
-pub(crate) struct Link {
+pub(crate) struct DatabaseLink {
     /// The connection.
     pub connection: Connection,
     /// What its functions know.
@@ -131,7 +131,7 @@ pub(crate) fn open_memory(address: &str, write: bool) -> rusqlite::Result<Connec
     )
 }
 
-impl Link {
+impl DatabaseLink {
     /// A connection that reads `files`, and whose tables there have names of their own where `views` say so.
     pub(crate) fn open(
         address: &str,

@@ -8,8 +8,8 @@ use rusqlite::Connection;
 use rustc_hash::FxHashMap;
 
 use crate::ask;
-use crate::cell::{Answer, Cell};
-use crate::connection::{AttachedFile, Indexes, Link, MOST_FILES, TableView, open_memory};
+use crate::cell::{Cell, QueryAnswer};
+use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory};
 use crate::errors;
 use crate::rewrite::{self, Catalogue, Dialect, Rewritten, TableInfo};
 use crate::tables::{self, FileLayer};
@@ -24,7 +24,7 @@ const STATEMENTS: usize = 500;
 /// The number of the next database's memory, which all of the process share.
 static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 
-/// Tables of features, and questions that are put to them in SQL.
+/// TableSet of features, and questions that are put to them in SQL.
 ///
 /// Threads may ask at the same time. In statements, coordinates are those of the run's projection; what comes in and goes
 /// out is in metres around the run's origin.
@@ -44,19 +44,19 @@ static MEMORIES: AtomicUsize = AtomicUsize::new(0);
 pub struct Database {
     address: String,
     frame: Option<ReferenceFrame>,
-    tables: RwLock<Tables>,
+    tables: RwLock<TableSet>,
     indexes: Arc<Indexes>,
     /// Held while an index is made, so that nobody makes it twice.
     building: Mutex<()>,
-    idle: Mutex<Vec<Link>>,
-    statements: Mutex<FxHashMap<String, Arc<Prepared>>>,
+    idle: Mutex<Vec<DatabaseLink>>,
+    statements: Mutex<FxHashMap<String, Arc<PreparedStatement>>>,
     /// Keeps the memory, and writes into it.
     writer: Mutex<Connection>,
 }
 
 /// What there is.
 #[derive(Default)]
-struct Tables {
+struct TableSet {
     catalogue: Catalogue,
     files: Vec<AttachedFile>,
     views: Vec<TableView>,
@@ -67,7 +67,7 @@ struct Tables {
 }
 
 /// A statement as it is asked.
-pub(crate) struct Prepared {
+pub(crate) struct PreparedStatement {
     /// As it was written.
     pub original: String,
     /// As it was rewritten, if it could be read.
@@ -169,7 +169,12 @@ impl Database {
     ///
     /// Where it says nothing of their order, they are ordered by `fid`, `id` or `ogc_fid` if there is such a column, and
     /// by all columns. Fails at what it may not do: anything but reading.
-    pub fn query(&self, sql: &str, parameters: &[(&str, Cell)], budget: &Arc<Budget>) -> Result<Arc<Answer>> {
+    pub fn query(
+        &self,
+        sql: &str,
+        parameters: &[(&str, Cell)],
+        budget: &Arc<Budget>,
+    ) -> Result<Arc<QueryAnswer>> {
         self.asked(sql, budget, |link, prepared| {
             ask::rows(link, prepared, parameters, self.frame.as_ref(), budget)
         })
@@ -182,9 +187,9 @@ impl Database {
         sql: &str,
         parameters: &[(&str, Cell)],
         budget: &Arc<Budget>,
-    ) -> Result<Arc<Answer>> {
+    ) -> Result<Arc<QueryAnswer>> {
         self.asked(sql, budget, |link, _| {
-            let prepared = Prepared { original: sql.to_owned(), rewritten: None };
+            let prepared = PreparedStatement { original: sql.to_owned(), rewritten: None };
             ask::rows(link, &prepared, parameters, self.frame.as_ref(), budget)
         })
     }
@@ -198,7 +203,7 @@ impl Database {
         &self,
         sql: &str,
         budget: &Arc<Budget>,
-        work: impl FnOnce(&Link, &Prepared) -> std::result::Result<T, ask::Failure>,
+        work: impl FnOnce(&DatabaseLink, &PreparedStatement) -> std::result::Result<T, ask::QueryFailure>,
     ) -> Result<T> {
         budget.check()?;
         errors::check_length(sql)?;
@@ -216,16 +221,16 @@ impl Database {
         result
     }
 
-    fn error(&self, sql: &str, failure: ask::Failure) -> Error {
+    fn error(&self, sql: &str, failure: ask::QueryFailure) -> Error {
         let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
         match failure {
-            ask::Failure::Told(error) => error,
-            ask::Failure::Sqlite(error) => errors::told(&error, sql, &tables.catalogue),
+            ask::QueryFailure::Told(error) => error,
+            ask::QueryFailure::Sqlite(error) => errors::told(&error, sql, &tables.catalogue),
         }
     }
 
     /// A connection that sees all tables.
-    fn link(&self) -> rusqlite::Result<Link> {
+    fn link(&self) -> rusqlite::Result<DatabaseLink> {
         let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
         let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
         while let Some(link) = idle.pop() {
@@ -234,11 +239,16 @@ impl Database {
             }
         }
         drop(idle);
-        Link::open(&self.address, &tables.files, &tables.views, &self.indexes, tables.generation)
+        DatabaseLink::open(&self.address, &tables.files, &tables.views, &self.indexes, tables.generation)
     }
 
     /// The statement as it is asked, with all indexes that it needs.
-    fn prepared(&self, sql: &str, link: &Link, budget: &Arc<Budget>) -> Result<Arc<Prepared>> {
+    fn prepared(
+        &self,
+        sql: &str,
+        link: &DatabaseLink,
+        budget: &Arc<Budget>,
+    ) -> Result<Arc<PreparedStatement>> {
         let generation = link.generation;
         let key = format!("{generation} {sql}");
         let known = self.statements.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
@@ -250,7 +260,7 @@ impl Database {
         for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
             self.index(name, *nearest, link, &catalogue, budget)?;
         }
-        let prepared = Arc::new(Prepared { original: sql.to_owned(), rewritten });
+        let prepared = Arc::new(PreparedStatement { original: sql.to_owned(), rewritten });
         let mut statements = self.statements.lock().unwrap_or_else(PoisonError::into_inner);
         if statements.len() >= STATEMENTS {
             statements.clear();
@@ -264,7 +274,7 @@ impl Database {
         &self,
         name: &str,
         nearest: bool,
-        link: &Link,
+        link: &DatabaseLink,
         catalogue: &Catalogue,
         budget: &Arc<Budget>,
     ) -> Result<()> {
@@ -288,7 +298,7 @@ impl Database {
     }
 }
 
-impl Tables {
+impl TableSet {
     /// Whether the table is there already. Fails if another one is called so.
     fn is_there(&self, name: &str, origin: &str) -> Result<bool> {
         let reserved = ["sqlite_", "burgeon_", "gpkg_", "rtree_"];

@@ -17,12 +17,12 @@ type RowBox = GeomWithData<Rectangle<[f64; 2]>, u32>;
 
 /// A line of a row's geometry; a point is one without length.
 #[derive(Debug, Clone, Copy)]
-struct Segment {
+struct RowSegment {
     line: Line<f64>,
     row: u32,
 }
 
-impl RTreeObject for Segment {
+impl RTreeObject for RowSegment {
     type Envelope = AABB<[f64; 2]>;
 
     fn envelope(&self) -> Self::Envelope {
@@ -30,7 +30,7 @@ impl RTreeObject for Segment {
     }
 }
 
-impl PointDistance for Segment {
+impl PointDistance for RowSegment {
     fn distance_2(&self, point: &[f64; 2]) -> f64 {
         square_distance(&self.line, (*point).into())
     }
@@ -52,7 +52,7 @@ pub(crate) struct SpatialIndex {
 
 #[derive(Debug)]
 struct RowLines {
-    tree: RTree<Segment>,
+    tree: RTree<RowSegment>,
     /// The geometry of each row that is an area.
     areas: Vec<Option<geo::Geometry<f64>>>,
 }
@@ -63,7 +63,7 @@ pub(crate) struct IndexBuilder {
     boxes: Vec<RowBox>,
     keys: Vec<i64>,
     without: Vec<i64>,
-    lines: Option<(Vec<Segment>, Vec<Option<geo::Geometry<f64>>>)>,
+    lines: Option<(Vec<RowSegment>, Vec<Option<geo::Geometry<f64>>>)>,
     greatest: f64,
 }
 
@@ -100,7 +100,7 @@ impl IndexBuilder {
         self.boxes.push(GeomWithData::new(corners, row));
         if let (Some((segments, areas)), Some(geometry)) = (&mut self.lines, geometry) {
             let before = segments.len();
-            segments.extend(lines(&geometry).into_iter().map(|line| Segment { line, row }));
+            segments.extend(lines(&geometry).into_iter().map(|line| RowSegment { line, row }));
             let area = is_area(&geometry);
             budget.take((segments.len() - before) * if area { 120 } else { 80 } + 40)?;
             areas.push(area.then_some(geometry));
@@ -185,7 +185,7 @@ impl SpatialIndex {
         };
         let own = lines(from);
         let area = is_area(from).then_some(from);
-        let distance = |segment: &Segment| distance(&own, area, &segment.line);
+        let distance = |segment: &RowSegment| distance(&own, area, &segment.line);
         // No row is farther than the lines that are nearest to the middle.
         let middle: [f64; 2] = bounds.center().into();
         let mut found: Vec<(u32, f64)> = Vec::new();

@@ -1,7 +1,7 @@
 //! SQL over layers of features: questions that are put to a database within the program, or to a PostGIS server.
 //!
 //! Comes in: layers, GeoPackages as they are, the address of a server; then statements with named parameters. Goes out:
-//! an [`Answer`] for each, rows of [`Cell`]s in one order. It never writes into a source, and no statement reaches anything
+//! an [`QueryAnswer`] for each, rows of [`Cell`]s in one order. It never writes into a source, and no statement reaches anything
 //! but the tables that it was given.
 //!
 //! Functions are those of PostGIS, as far as [`FUNCTIONS`] goes. Spatial joins use an index however they are written:
@@ -23,6 +23,6 @@ mod tables;
 #[cfg(test)]
 mod tests;
 
-pub use cell::{Answer, Cell};
+pub use cell::{Cell, QueryAnswer};
 pub use database::Database;
 pub use functions::{FUNCTIONS, SpatialFunction};

@@ -7,7 +7,7 @@ use rusqlite::Connection;
 use rusqlite::functions::{Aggregate, Context, FunctionFlags};
 use rusqlite::types::{Value, ValueRef};
 
-use super::call::{Output, value};
+use super::call::{FunctionResult, value};
 use crate::connection::ConnectionState;
 use burgeon_spatial::Geometry;
 
@@ -29,18 +29,18 @@ struct GeometryGathering {
 }
 
 /// The geometries so far, and the memory that they take.
-type Gathered = AssertUnwindSafe<(Vec<Geometry>, usize)>;
+type GeometryGroup = AssertUnwindSafe<(Vec<Geometry>, usize)>;
 
 fn failed(message: String) -> rusqlite::Error {
     rusqlite::Error::UserFunctionError(message.into())
 }
 
-impl Aggregate<Gathered, Value> for GeometryGathering {
-    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<Gathered> {
+impl Aggregate<GeometryGroup, Value> for GeometryGathering {
+    fn init(&self, _: &mut Context<'_>) -> rusqlite::Result<GeometryGroup> {
         Ok(AssertUnwindSafe((Vec::new(), 0)))
     }
 
-    fn step(&self, context: &mut Context<'_>, gathered: &mut Gathered) -> rusqlite::Result<()> {
+    fn step(&self, context: &mut Context<'_>, gathered: &mut GeometryGroup) -> rusqlite::Result<()> {
         match context.get_raw(0) {
             ValueRef::Null => Ok(()),
             ValueRef::Blob(bytes) => {
@@ -64,7 +64,7 @@ impl Aggregate<Gathered, Value> for GeometryGathering {
         }
     }
 
-    fn finalize(&self, _: &mut Context<'_>, gathered: Option<Gathered>) -> rusqlite::Result<Value> {
+    fn finalize(&self, _: &mut Context<'_>, gathered: Option<GeometryGroup>) -> rusqlite::Result<Value> {
         let Some(AssertUnwindSafe((geometries, _))) = gathered else { return Ok(Value::Null) };
         if geometries.is_empty() {
             return Ok(Value::Null);
@@ -73,7 +73,7 @@ impl Aggregate<Gathered, Value> for GeometryGathering {
             Gathering::Collect => super::table::collected(geometries),
             Gathering::Union => super::table::united(&geometries).map_err(failed)?,
         };
-        value(Output::Geometry(made))
+        value(FunctionResult::Geometry(made))
     }
 }
 

@@ -8,14 +8,14 @@ use rusqlite::functions::{Context, FunctionFlags};
 use rusqlite::types::{ToSqlOutput, Value, ValueRef};
 use rusqlite::vtab::array::Array;
 
-use super::{Parsed, SpatialFunction};
+use super::{GeometryArgument, SpatialFunction};
 use crate::blob;
 use crate::connection::ConnectionState;
 use crate::index::SpatialIndex;
 use burgeon_spatial::Geometry;
 
 /// What a function gives.
-pub(crate) enum Output {
+pub(crate) enum FunctionResult {
     /// NULL.
     Nothing,
     /// True or false.
@@ -32,14 +32,14 @@ pub(crate) enum Output {
     Bytes(Vec<u8>),
 }
 
-impl From<Option<f64>> for Output {
+impl From<Option<f64>> for FunctionResult {
     fn from(number: Option<f64>) -> Self {
         number.map_or(Self::Nothing, Self::Number)
     }
 }
 
 /// The arguments of a call.
-pub(crate) struct Call<'a> {
+pub(crate) struct FunctionCall<'a> {
     function: &'static SpatialFunction,
     context: &'a Context<'a>,
     state: &'a ConnectionState,
@@ -61,24 +61,24 @@ pub(super) fn run(
     }
     state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
     let name = function.name;
-    let output = (function.run)(&Call { function, context, state });
+    let output = (function.run)(&FunctionCall { function, context, state });
     value(output.map_err(|why| failed(format!("{name}: {why}")))?)
 }
 
 /// What SQLite gets.
-pub(super) fn value(output: Output) -> rusqlite::Result<Value> {
+pub(super) fn value(output: FunctionResult) -> rusqlite::Result<Value> {
     Ok(match output {
-        Output::Nothing => Value::Null,
-        Output::Boolean(value) => Value::Integer(i64::from(value)),
-        Output::Number(value) => Value::Real(value),
-        Output::Count(count) => Value::Integer(i64::try_from(count).unwrap_or(i64::MAX)),
-        Output::Text(text) => Value::Text(text),
-        Output::Geometry(geometry) => Value::Blob(blob::write(&geometry)),
-        Output::Bytes(bytes) => Value::Blob(bytes),
+        FunctionResult::Nothing => Value::Null,
+        FunctionResult::Boolean(value) => Value::Integer(i64::from(value)),
+        FunctionResult::Number(value) => Value::Real(value),
+        FunctionResult::Count(count) => Value::Integer(i64::try_from(count).unwrap_or(i64::MAX)),
+        FunctionResult::Text(text) => Value::Text(text),
+        FunctionResult::Geometry(geometry) => Value::Blob(blob::write(&geometry)),
+        FunctionResult::Bytes(bytes) => Value::Blob(bytes),
     })
 }
 
-impl Call<'_> {
+impl FunctionCall<'_> {
     /// How many arguments there are.
     pub(super) fn len(&self) -> usize {
         self.context.len()
@@ -100,7 +100,7 @@ impl Call<'_> {
     }
 
     /// A geometry.
-    pub(super) fn geometry(&self, index: usize) -> Result<Arc<Parsed>, String> {
+    pub(super) fn geometry(&self, index: usize) -> Result<Arc<GeometryArgument>, String> {
         match self.context.get_raw(index) {
             ValueRef::Blob(bytes) => {
                 let read = self.state.geometry(bytes);
@@ -110,7 +110,7 @@ impl Call<'_> {
             ValueRef::Text(text) => {
                 let text = std::str::from_utf8(text).map_err(|_| self.wrong(index, "a geometry"))?;
                 let read = Geometry::from_wkt_within(text, &self.state.budget());
-                read.map(|geometry| Arc::new(Parsed::from(geometry)))
+                read.map(|geometry| Arc::new(GeometryArgument::from(geometry)))
                     .map_err(|error| error.message().to_owned())
             }
             _ => Err(self.wrong(index, "a geometry")),
@@ -169,7 +169,7 @@ fn number(value: ValueRef<'_>) -> Option<f64> {
     }
 }
 
-fn bounds(parsed: &Parsed) -> Option<[f64; 4]> {
+fn bounds(parsed: &GeometryArgument) -> Option<[f64; 4]> {
     let [low, high] = parsed.geometry.bounds()?;
     Some([low.x, low.y, high.x, high.y])
 }
@@ -249,7 +249,10 @@ fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc
 }
 
 /// The geometry of the second argument.
-fn geometry(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Option<Arc<Parsed>>> {
+fn geometry(
+    context: &Context<'_>,
+    state: &ConnectionState,
+) -> rusqlite::Result<Option<Arc<GeometryArgument>>> {
     match context.get_raw(1) {
         ValueRef::Blob(bytes) => {
             state.geometry(bytes).map(Some).map_err(|why| failed(format!("a geometry {why}")))
@@ -257,7 +260,7 @@ fn geometry(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<
         ValueRef::Text(text) => {
             let text = std::str::from_utf8(text).unwrap_or_default();
             let read = Geometry::from_wkt_within(text, &state.budget());
-            read.map(|it| Some(Arc::new(Parsed::from(it))))
+            read.map(|it| Some(Arc::new(GeometryArgument::from(it))))
                 .map_err(|error| failed(error.message().to_owned()))
         }
         _ => Ok(None),

@@ -4,13 +4,13 @@
 //! the book. Nothing comes of nothing: where an argument is NULL, so is the result.
 
 mod aggregates;
+mod argument;
 mod call;
-mod parsed;
 mod registry;
 mod simple;
 mod table;
 
-pub(crate) use call::{Call, Output};
-pub(crate) use parsed::Parsed;
+pub(crate) use argument::GeometryArgument;
+pub(crate) use call::{FunctionCall, FunctionResult};
 pub(crate) use registry::{find, is_allowed, is_predicate, names, register};
 pub use table::{FUNCTIONS, SpatialFunction};

@@ -7,7 +7,7 @@ use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry, union_all,
 use geo::{Intersects, LineLocatePoint};
 use glam::DVec3;
 
-use super::{Call, Output};
+use super::{FunctionCall, FunctionResult};
 
 /// A function that statements may call.
 #[derive(Debug)]
@@ -24,16 +24,16 @@ pub struct SpatialFunction {
     pub(crate) least: u8,
     /// The greatest.
     pub(crate) most: u8,
-    pub(crate) run: fn(&Call<'_>) -> Result<Output, String>,
+    pub(crate) run: fn(&FunctionCall<'_>) -> Result<FunctionResult, String>,
 }
 
-impl std::fmt::Debug for Call<'_> {
+impl std::fmt::Debug for FunctionCall<'_> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str("Call")
+        f.write_str("FunctionCall")
     }
 }
 
-type Run = fn(&Call<'_>) -> Result<Output, String>;
+type FunctionBody = fn(&FunctionCall<'_>) -> Result<FunctionResult, String>;
 
 const fn function(
     name: &'static str,
@@ -41,7 +41,7 @@ const fn function(
     takes: &'static str,
     gives: &'static str,
     doc: &'static str,
-    run: Run,
+    run: FunctionBody,
 ) -> SpatialFunction {
     SpatialFunction { name, takes, gives, doc, least, most, run }
 }
@@ -54,9 +54,9 @@ macro_rules! meeting {
     ($method:ident) => {
         |call| {
             if !boxes_meet(call)? {
-                return Ok(Output::Boolean(false));
+                return Ok(FunctionResult::Boolean(false));
             }
-            Ok(Output::Boolean(call.geometry(0)?.geometry.$method(&call.geometry(1)?.geometry)))
+            Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.$method(&call.geometry(1)?.geometry)))
         }
     };
 }
@@ -64,14 +64,14 @@ macro_rules! meeting {
 /// A geometry made of one.
 macro_rules! made {
     ($method:ident) => {
-        |call| Ok(Output::Geometry(call.geometry(0)?.geometry.$method()))
+        |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.$method()))
     };
 }
 
 /// A geometry made of two.
 macro_rules! made_of_two {
     ($method:ident) => {
-        |call| Ok(Output::Geometry(call.geometry(0)?.geometry.$method(&call.geometry(1)?.geometry)))
+        |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.$method(&call.geometry(1)?.geometry)))
     };
 }
 
@@ -87,13 +87,15 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
     // What is asked of two.
     function("ST_Intersects", (2, 2), PAIR, "boolean", "Whether they share a point.", |call| {
         if !boxes_meet(call)? {
-            return Ok(Output::Boolean(false));
+            return Ok(FunctionResult::Boolean(false));
         }
         let (a, b) = (call.geometry(0)?, call.geometry(1)?);
-        Ok(Output::Boolean(!a.geometry.is_empty() && !b.geometry.is_empty() && a.flat().intersects(b.flat())))
+        Ok(FunctionResult::Boolean(
+            !a.geometry.is_empty() && !b.geometry.is_empty() && a.flat().intersects(b.flat()),
+        ))
     }),
     function("ST_Disjoint", (2, 2), PAIR, "boolean", "Whether they share no point.", |call| {
-        Ok(Output::Boolean(
+        Ok(FunctionResult::Boolean(
             !boxes_meet(call)? || call.geometry(0)?.geometry.disjoint(&call.geometry(1)?.geometry),
         ))
     }),
@@ -108,10 +110,10 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
             if let (Some(a), Some(b)) = (call.bounds(0)?, call.bounds(1)?)
                 && apart(a, b) > most + 1e-9 * (1.0 + most.abs())
             {
-                return Ok(Output::Boolean(false));
+                return Ok(FunctionResult::Boolean(false));
             }
             let distance = call.geometry(0)?.geometry.distance(&call.geometry(1)?.geometry);
-            Ok(Output::Boolean(distance.is_some_and(|distance| distance <= most)))
+            Ok(FunctionResult::Boolean(distance.is_some_and(|distance| distance <= most)))
         },
     ),
     function(
@@ -171,7 +173,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         meeting!(overlaps),
     ),
     function("ST_Equals", (2, 2), PAIR, "boolean", "Whether they are the same set of points.", |call| {
-        Ok(Output::Boolean(call.geometry(0)?.geometry.equals(&call.geometry(1)?.geometry)))
+        Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.equals(&call.geometry(1)?.geometry)))
     }),
     function(
         "ST_Relate",
@@ -182,13 +184,16 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         |call| {
             let relation = call.geometry(0)?.geometry.relate(&call.geometry(1)?.geometry);
             if call.len() == 2 {
-                return Ok(Output::Text(relation.text().to_owned()));
+                return Ok(FunctionResult::Text(relation.text().to_owned()));
             }
-            relation.matches(call.text(2)?).map(Output::Boolean).map_err(|error| error.message().to_owned())
+            relation
+                .matches(call.text(2)?)
+                .map(FunctionResult::Boolean)
+                .map_err(|error| error.message().to_owned())
         },
     ),
     function("geometry_overlaps", (2, 2), PAIR, "boolean", "Whether their boxes meet: `a && b`.", |call| {
-        Ok(Output::Boolean(boxes_meet(call)?))
+        Ok(FunctionResult::Boolean(boxes_meet(call)?))
     }),
     function(
         "ST_Distance",
@@ -205,12 +210,14 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "number",
         "The direction from the first to the second, clockwise from north (radians).",
         |call| {
-            let (Some(a), Some(b)) = (place(call, 0)?, place(call, 1)?) else { return Ok(Output::Nothing) };
+            let (Some(a), Some(b)) = (place(call, 0)?, place(call, 1)?) else {
+                return Ok(FunctionResult::Nothing);
+            };
             let way = b - a;
             Ok(if way.x == 0.0 && way.y == 0.0 {
-                Output::Nothing
+                FunctionResult::Nothing
             } else {
-                Output::Number(way.x.atan2(way.y).rem_euclid(TAU))
+                FunctionResult::Number(way.x.atan2(way.y).rem_euclid(TAU))
             })
         },
     ),
@@ -222,9 +229,9 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "The point of the first that is nearest to the second.",
         |call| {
             let (a, b) = (call.geometry(0)?, call.geometry(1)?);
-            Ok(a.geometry
-                .nearest_points(&b.geometry)
-                .map_or(Output::Nothing, |[point, _]| Output::Geometry(Geometry::point(point))))
+            Ok(a.geometry.nearest_points(&b.geometry).map_or(FunctionResult::Nothing, |[point, _]| {
+                FunctionResult::Geometry(Geometry::point(point))
+            }))
         },
     ),
     function(
@@ -236,15 +243,17 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         |call| {
             let (a, b) = (call.geometry(0)?, call.geometry(1)?);
             let points = a.geometry.nearest_points(&b.geometry);
-            Ok(points.map_or(Output::Nothing, |points| Output::Geometry(Geometry::Line(points.to_vec()))))
+            Ok(points.map_or(FunctionResult::Nothing, |points| {
+                FunctionResult::Geometry(Geometry::Line(points.to_vec()))
+            }))
         },
     ),
     // What is measured.
     function("ST_Area", (1, 1), ONE, "number", "The area of polygons; 0 of all else.", |call| {
-        Ok(Output::Number(call.geometry(0)?.geometry.area()))
+        Ok(FunctionResult::Number(call.geometry(0)?.geometry.area()))
     }),
     function("ST_Length", (1, 1), ONE, "number", "The length of lines; 0 of all else.", |call| {
-        Ok(Output::Number(call.geometry(0)?.geometry.length()))
+        Ok(FunctionResult::Number(call.geometry(0)?.geometry.length()))
     }),
     function(
         "ST_Perimeter",
@@ -252,7 +261,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         ONE,
         "number",
         "The length of the borders of polygons; 0 of all else.",
-        |call| Ok(Output::Number(call.geometry(0)?.geometry.perimeter())),
+        |call| Ok(FunctionResult::Number(call.geometry(0)?.geometry.perimeter())),
     ),
     function("ST_X", (1, 1), "(point)", "number", "How far east a point is.", |call| {
         Ok(place(call, 0)?.map(|at| at.x).into())
@@ -283,7 +292,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         ONE,
         "number",
         "How many points it has; those of a ring count its end, too.",
-        |call| Ok(Output::Count(count_points(&call.geometry(0)?.geometry))),
+        |call| Ok(FunctionResult::Count(count_points(&call.geometry(0)?.geometry))),
     ),
     function(
         "ST_NumPoints",
@@ -293,8 +302,8 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "How many points a line has; NULL of all else.",
         |call| {
             Ok(match &call.geometry(0)?.geometry {
-                Geometry::Line(points) => Output::Count(points.len()),
-                _ => Output::Nothing,
+                Geometry::Line(points) => FunctionResult::Count(points.len()),
+                _ => FunctionResult::Nothing,
             })
         },
     ),
@@ -306,7 +315,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "How many geometries a collection has; 1 of a single one.",
         |call| {
             let geometry = &call.geometry(0)?.geometry;
-            Ok(Output::Count(match geometry {
+            Ok(FunctionResult::Count(match geometry {
                 Geometry::MultiPoint(_)
                 | Geometry::MultiLine(_)
                 | Geometry::MultiPolygon(_)
@@ -323,19 +332,19 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "How many holes a polygon has; NULL of all else.",
         |call| {
             Ok(match &call.geometry(0)?.geometry {
-                Geometry::Polygon(rings) => Output::Count(rings.len().saturating_sub(1)),
-                _ => Output::Nothing,
+                Geometry::Polygon(rings) => FunctionResult::Count(rings.len().saturating_sub(1)),
+                _ => FunctionResult::Nothing,
             })
         },
     ),
     function("ST_Dimension", (1, 1), ONE, "number", "0 of points, 1 of lines, 2 of polygons.", |call| {
-        Ok(Output::Count(call.geometry(0)?.geometry.dimension()))
+        Ok(FunctionResult::Count(call.geometry(0)?.geometry.dimension()))
     }),
     function("ST_GeometryType", (1, 1), ONE, "text", "Its kind, such as `ST_Polygon`.", |call| {
-        Ok(Output::Text(kind(&call.geometry(0)?.geometry).to_owned()))
+        Ok(FunctionResult::Text(kind(&call.geometry(0)?.geometry).to_owned()))
     }),
     function("ST_IsEmpty", (1, 1), ONE, "boolean", "Whether it has no points.", |call| {
-        Ok(Output::Boolean(call.geometry(0)?.geometry.is_empty()))
+        Ok(FunctionResult::Boolean(call.geometry(0)?.geometry.is_empty()))
     }),
     function(
         "ST_IsClosed",
@@ -345,7 +354,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "Whether a line ends where it begins; true of points and polygons.",
         |call| {
             let closed = |line: &[DVec3]| line.first() == line.last();
-            Ok(Output::Boolean(match &call.geometry(0)?.geometry {
+            Ok(FunctionResult::Boolean(match &call.geometry(0)?.geometry {
                 Geometry::Line(line) => !line.is_empty() && closed(line),
                 Geometry::MultiLine(lines) => !lines.is_empty() && lines.iter().all(|line| closed(line)),
                 other => !other.is_empty(),
@@ -362,7 +371,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         |call| {
             let options = if call.len() == 3 { buffer_options(call)? } else { BufferOptions::default() };
             let made = call.geometry(0)?.geometry.buffer(call.number(1)?, &options);
-            made.map(Output::Geometry).map_err(|error| error.message().to_owned())
+            made.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
         },
     ),
     function("ST_Intersection", (2, 2), PAIR, "geometry", "What both have.", made_of_two!(intersection)),
@@ -398,7 +407,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "geometry",
         "Both beside each other; with one argument, all of a group.",
         |call| {
-            Ok(Output::Geometry(collected(vec![
+            Ok(FunctionResult::Geometry(collected(vec![
                 call.geometry(0)?.geometry.clone(),
                 call.geometry(1)?.geometry.clone(),
             ])))
@@ -431,7 +440,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         made!(convex_hull),
     ),
     function("ST_Boundary", (1, 1), ONE, "geometry", "The rings of polygons, the ends of lines.", |call| {
-        Ok(Output::Geometry(boundary(&call.geometry(0)?.geometry)))
+        Ok(FunctionResult::Geometry(boundary(&call.geometry(0)?.geometry)))
     }),
     function(
         "ST_ExteriorRing",
@@ -441,10 +450,10 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "The outer ring of a polygon, as a line; NULL of all else.",
         |call| {
             Ok(match &call.geometry(0)?.geometry {
-                Geometry::Polygon(rings) => {
-                    rings.first().map_or(Output::Nothing, |ring| Output::Geometry(closed(ring)))
-                }
-                _ => Output::Nothing,
+                Geometry::Polygon(rings) => rings
+                    .first()
+                    .map_or(FunctionResult::Nothing, |ring| FunctionResult::Geometry(closed(ring))),
+                _ => FunctionResult::Nothing,
             })
         },
     ),
@@ -460,8 +469,8 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
                 Geometry::Polygon(rings) => number
                     .filter(|number| *number > 0)
                     .and_then(|number| rings.get(number))
-                    .map_or(Output::Nothing, |ring| Output::Geometry(closed(ring))),
-                _ => Output::Nothing,
+                    .map_or(FunctionResult::Nothing, |ring| FunctionResult::Geometry(closed(ring))),
+                _ => FunctionResult::Nothing,
             })
         },
     ),
@@ -475,7 +484,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
             let number = nth(call, 1)?.and_then(|number| number.checked_sub(1));
             let found =
                 number.and_then(|number| members(&call.geometry(0).ok()?.geometry).into_iter().nth(number));
-            Ok(found.map_or(Output::Nothing, Output::Geometry))
+            Ok(found.map_or(FunctionResult::Nothing, FunctionResult::Geometry))
         },
     ),
     function(
@@ -486,7 +495,9 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "A point of a line; they are counted from 1, and from -1 backwards.",
         |call| {
             let number = call.number(1)?;
-            let Geometry::Line(points) = &call.geometry(0)?.geometry else { return Ok(Output::Nothing) };
+            let Geometry::Line(points) = &call.geometry(0)?.geometry else {
+                return Ok(FunctionResult::Nothing);
+            };
             #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it saturates")]
             let index = if number < 0.0 {
                 points.len().checked_sub(-number as usize)
@@ -495,7 +506,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
             };
             Ok(index
                 .and_then(|index| points.get(index))
-                .map_or(Output::Nothing, |at| Output::Geometry(Geometry::point(*at))))
+                .map_or(FunctionResult::Nothing, |at| FunctionResult::Geometry(Geometry::point(*at))))
         },
     ),
     function(
@@ -527,7 +538,8 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
             }
             let parsed = call.geometry(0)?;
             let Geometry::Line(points) = &parsed.geometry else { return Err("it takes a line".into()) };
-            Ok(along(points, part).map_or(Output::Nothing, |at| Output::Geometry(Geometry::point(at))))
+            Ok(along(points, part)
+                .map_or(FunctionResult::Nothing, |at| FunctionResult::Geometry(Geometry::point(at))))
         },
     ),
     function(
@@ -568,7 +580,12 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "(geometry, distance)",
         "geometry",
         "The same with fewer points; none that is left out was farther than this from what stays.",
-        |call| Ok(Output::Geometry(super::simple::simplified(&call.geometry(0)?.geometry, call.number(1)?))),
+        |call| {
+            Ok(FunctionResult::Geometry(super::simple::simplified(
+                &call.geometry(0)?.geometry,
+                call.number(1)?,
+            )))
+        },
     ),
     function(
         "ST_Reverse",
@@ -579,7 +596,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         |call| {
             let mut geometry = call.geometry(0)?.geometry.clone();
             reverse(&mut geometry);
-            Ok(Output::Geometry(geometry))
+            Ok(FunctionResult::Geometry(geometry))
         },
     ),
     function(
@@ -598,10 +615,10 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
     function("ST_Force2D", (1, 1), ONE, "geometry", "The same without heights.", |call| {
         let mut geometry = call.geometry(0)?.geometry.clone();
         geometry.points_mut().for_each(|point| point.z = 0.0);
-        Ok(Output::Geometry(geometry))
+        Ok(FunctionResult::Geometry(geometry))
     }),
     function("ST_Multi", (1, 1), ONE, "geometry", "The same as a multi form.", |call| {
-        Ok(Output::Geometry(match call.geometry(0)?.geometry.clone() {
+        Ok(FunctionResult::Geometry(match call.geometry(0)?.geometry.clone() {
             Geometry::Point(point) => Geometry::MultiPoint(point.into_iter().collect()),
             Geometry::Line(line) => {
                 Geometry::MultiLine(Some(line).into_iter().filter(|line| !line.is_empty()).collect())
@@ -626,7 +643,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         |call| {
             let (a, b) = (call.geometry(0)?, call.geometry(1)?);
             let points: Vec<DVec3> = a.geometry.points().chain(b.geometry.points()).copied().collect();
-            Ok(Geometry::line(points).map_or(Output::Nothing, Output::Geometry))
+            Ok(Geometry::line(points).map_or(FunctionResult::Nothing, FunctionResult::Geometry))
         },
     ),
     function("ST_MakePolygon", (1, 1), "(line)", "geometry", "The area that a closed line bounds.", |call| {
@@ -636,7 +653,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
             return Err("the line must end where it begins".into());
         }
         Geometry::polygon(vec![points.clone()])
-            .map(Output::Geometry)
+            .map(FunctionResult::Geometry)
             .ok_or_else(|| "the line needs at least three points".into())
     }),
     function(
@@ -661,7 +678,7 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "The geometry of well-known text.",
         |call| {
             let read = Geometry::from_wkt_within(call.text(0)?, &call.budget());
-            read.map(Output::Geometry).map_err(|error| error.message().to_owned())
+            read.map(FunctionResult::Geometry).map_err(|error| error.message().to_owned())
         },
     ),
     function(
@@ -682,23 +699,23 @@ pub static FUNCTIONS: &[SpatialFunction] = &[
         "(geometry, srid)",
         "geometry",
         "The same: all tables share one coordinate system here.",
-        |call| Ok(Output::Geometry(call.geometry(0)?.geometry.clone())),
+        |call| Ok(FunctionResult::Geometry(call.geometry(0)?.geometry.clone())),
     ),
     function("ST_AsText", (1, 1), ONE, "text", "Its well-known text.", |call| {
-        Ok(Output::Text(call.geometry(0)?.geometry.to_wkt()))
+        Ok(FunctionResult::Text(call.geometry(0)?.geometry.to_wkt()))
     }),
     function("ST_AsBinary", (1, 1), ONE, "bytes", "Its well-known binary.", |call| {
-        Ok(Output::Bytes(call.geometry(0)?.geometry.to_wkb()))
+        Ok(FunctionResult::Bytes(call.geometry(0)?.geometry.to_wkb()))
     }),
 ];
 
-fn point(call: &Call<'_>) -> Result<Output, String> {
+fn point(call: &FunctionCall<'_>) -> Result<FunctionResult, String> {
     sound(Geometry::point(DVec3::new(call.number(0)?, call.number(1)?, call.number_or(2, 0.0)?)))
 }
 
-fn sound(geometry: Geometry) -> Result<Output, String> {
+fn sound(geometry: Geometry) -> Result<FunctionResult, String> {
     geometry.check().map_err(|error| error.message().to_owned())?;
-    Ok(Output::Geometry(geometry))
+    Ok(FunctionResult::Geometry(geometry))
 }
 
 /// How far two boxes are from each other.
@@ -707,13 +724,13 @@ fn apart(a: [f64; 4], b: [f64; 4]) -> f64 {
     axis(0).hypot(axis(1))
 }
 
-fn boxes_meet(call: &Call<'_>) -> Result<bool, String> {
+fn boxes_meet(call: &FunctionCall<'_>) -> Result<bool, String> {
     let (a, b) = (call.bounds(0)?, call.bounds(1)?);
     Ok(a.zip(b).is_some_and(|(a, b)| a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3]))
 }
 
 /// The place of a point; nothing of an empty one. Fails for all else.
-fn place(call: &Call<'_>, index: usize) -> Result<Option<DVec3>, String> {
+fn place(call: &FunctionCall<'_>, index: usize) -> Result<Option<DVec3>, String> {
     match &call.geometry(index)?.geometry {
         Geometry::Point(place) => Ok(*place),
         other => Err(format!("argument {} must be a point, not a {}", index + 1, other.kind().name())),
@@ -721,7 +738,7 @@ fn place(call: &Call<'_>, index: usize) -> Result<Option<DVec3>, String> {
 }
 
 /// The least and the greatest height, if there are heights.
-fn heights(call: &Call<'_>) -> Result<Option<[f64; 2]>, String> {
+fn heights(call: &FunctionCall<'_>) -> Result<Option<[f64; 2]>, String> {
     let parsed = call.geometry(0)?;
     let all = || parsed.geometry.points().map(|point| point.z);
     Ok(parsed
@@ -826,14 +843,14 @@ fn ends(lines: &[Vec<DVec3>]) -> Geometry {
     Geometry::MultiPoint(ends)
 }
 
-fn end(geometry: &Geometry, first: bool) -> Output {
-    let Geometry::Line(points) = geometry else { return Output::Nothing };
+fn end(geometry: &Geometry, first: bool) -> FunctionResult {
+    let Geometry::Line(points) = geometry else { return FunctionResult::Nothing };
     let found = if first { points.first() } else { points.last() };
-    found.map_or(Output::Nothing, |at| Output::Geometry(Geometry::point(*at)))
+    found.map_or(FunctionResult::Nothing, |at| FunctionResult::Geometry(Geometry::point(*at)))
 }
 
 /// A number that counts from 1, or 0; nothing of a negative one.
-fn nth(call: &Call<'_>, index: usize) -> Result<Option<usize>, String> {
+fn nth(call: &FunctionCall<'_>, index: usize) -> Result<Option<usize>, String> {
     let number = call.number(index)?;
     #[allow(
         clippy::cast_possible_truncation,
@@ -857,11 +874,13 @@ fn along(points: &[DVec3], part: f64) -> Option<DVec3> {
     points.last().copied()
 }
 
-fn substring(points: &[DVec3], from: f64, to: f64) -> Output {
+fn substring(points: &[DVec3], from: f64, to: f64) -> FunctionResult {
     let total: f64 = points.windows(2).map(|pair| pair[0].truncate().distance(pair[1].truncate())).sum();
-    let (Some(first), Some(last)) = (along(points, from), along(points, to)) else { return Output::Nothing };
+    let (Some(first), Some(last)) = (along(points, from), along(points, to)) else {
+        return FunctionResult::Nothing;
+    };
     if from == to {
-        return Output::Geometry(Geometry::point(first));
+        return FunctionResult::Geometry(Geometry::point(first));
     }
     let mut at = 0.0;
     let mut kept = vec![first];
@@ -873,7 +892,8 @@ fn substring(points: &[DVec3], from: f64, to: f64) -> Output {
     }
     kept.push(last);
     kept.dedup();
-    Geometry::line(kept).map_or_else(|| Output::Geometry(Geometry::point(first)), Output::Geometry)
+    Geometry::line(kept)
+        .map_or_else(|| FunctionResult::Geometry(Geometry::point(first)), FunctionResult::Geometry)
 }
 
 fn reverse(geometry: &mut Geometry) {
@@ -890,7 +910,7 @@ fn reverse(geometry: &mut Geometry) {
 }
 
 /// The options of a buffer, as PostGIS has them.
-fn buffer_options(call: &Call<'_>) -> Result<BufferOptions, String> {
+fn buffer_options(call: &FunctionCall<'_>) -> Result<BufferOptions, String> {
     let mut options = BufferOptions::default();
     let segments = |number: f64| {
         #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "the range is checked")]

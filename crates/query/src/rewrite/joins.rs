@@ -9,7 +9,7 @@ use sqlparser::ast::{BinaryOperator, Expr, Select, Value};
 use super::Catalogue;
 use super::operators::call;
 use super::scope::{
-    Relation, condition, condition_mut, conjuncts, geometry_column, mentioned, quoted, relations, text,
+    FromItem, condition, condition_mut, conjuncts, geometry_column, mentioned, quoted, relations, text,
 };
 use super::{TableInfo, parse};
 
@@ -21,7 +21,7 @@ const LEFT: [f64; 3] = [0.02, 0.3, 0.01];
 
 /// Where a condition stands.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Site {
+enum ConditionPlace {
     /// Behind WHERE.
     Where,
     /// Behind ON of a join: the number of the comma and of the join.
@@ -29,7 +29,7 @@ enum Site {
 }
 
 /// One side of a spatial condition whose table can be looked up.
-struct Side<'a> {
+struct ConditionSide<'a> {
     relation: usize,
     table: &'a TableInfo,
     column: &'a str,
@@ -41,8 +41,8 @@ struct Side<'a> {
 
 /// A spatial condition.
 struct SpatialCondition<'a> {
-    site: Site,
-    sides: Vec<Side<'a>>,
+    site: ConditionPlace,
+    sides: Vec<ConditionSide<'a>>,
     /// How far the boxes may be from each other.
     distance: String,
 }
@@ -62,8 +62,8 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
     }
     let mut looked_up = vec![false; relations.len()];
     let mut added = Vec::new();
-    let mut add = |site, side: &Side<'_>, distance: &str| {
-        let Side { relation, table, column, other, .. } = side;
+    let mut add = |site, side: &ConditionSide<'_>, distance: &str| {
+        let ConditionSide { relation, table, column, other, .. } = side;
         let Some((alias, key)) = relations[*relation].alias.as_ref().zip(table.key.as_ref()) else { return };
         let name = format!("{}.{column}", table.name);
         let index = text(&name);
@@ -101,30 +101,30 @@ pub(super) fn index(select: &mut Select, tables: &Catalogue) -> Vec<String> {
     attached.map(|(_, name, _)| name).collect()
 }
 
-fn rows(relation: &Relation<'_>) -> f64 {
+fn rows(relation: &FromItem<'_>) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "an estimate")]
     relation.table.map_or(UNKNOWN_ROWS, |table| table.rows as f64)
 }
 
 /// All conditions of a query.
-fn sites(select: &Select) -> Vec<(Site, &Expr)> {
+fn sites(select: &Select) -> Vec<(ConditionPlace, &Expr)> {
     let mut sites = Vec::new();
     for (comma, item) in select.from.iter().enumerate() {
         for (join, joined) in item.joins.iter().enumerate() {
             if let Some(on) = condition(&joined.join_operator) {
-                sites.push((Site::On(comma, join), on));
+                sites.push((ConditionPlace::On(comma, join), on));
             }
         }
     }
-    sites.extend(select.selection.iter().map(|condition| (Site::Where, condition)));
+    sites.extend(select.selection.iter().map(|condition| (ConditionPlace::Where, condition)));
     sites
 }
 
 /// Puts a condition before those of a site.
-fn attach(select: &mut Select, site: Site, condition: &str) -> bool {
+fn attach(select: &mut Select, site: ConditionPlace, condition: &str) -> bool {
     let place = match site {
-        Site::Where => select.selection.as_mut(),
-        Site::On(comma, join) => {
+        ConditionPlace::Where => select.selection.as_mut(),
+        ConditionPlace::On(comma, join) => {
             let joined = select.from.get_mut(comma).and_then(|item| item.joins.get_mut(join));
             joined.and_then(|joined| condition_mut(&mut joined.join_operator))
         }
@@ -140,7 +140,7 @@ fn attach(select: &mut Select, site: Site, condition: &str) -> bool {
 }
 
 /// Counts fewer rows for a condition on one table alone.
-fn weigh(part: &Expr, relations: &[Relation<'_>], rows: &mut [f64]) {
+fn weigh(part: &Expr, relations: &[FromItem<'_>], rows: &mut [f64]) {
     let [only] = mentioned(part, relations)[..] else { return };
     let equals =
         matches!(part, Expr::BinaryOp { op: BinaryOperator::Eq, .. } | Expr::InList { negated: false, .. });
@@ -148,26 +148,35 @@ fn weigh(part: &Expr, relations: &[Relation<'_>], rows: &mut [f64]) {
 }
 
 /// What an index can do for a condition.
-fn spatial<'a>(part: &Expr, site: Site, relations: &[Relation<'a>]) -> Option<SpatialCondition<'a>> {
+fn spatial<'a>(
+    part: &Expr,
+    site: ConditionPlace,
+    relations: &[FromItem<'a>],
+) -> Option<SpatialCondition<'a>> {
     let (a, b, distance) = near(part)?;
     // The distance is asked before the row is there.
     if distance.is_some_and(|distance| !mentioned(distance, relations).is_empty()) {
         return None;
     }
     let sides = [(a, b), (b, a)].into_iter().filter_map(|(own, other)| side(own, other, site, relations));
-    let sides: Vec<Side<'a>> = sides.collect();
+    let sides: Vec<ConditionSide<'a>> = sides.collect();
     let distance = distance.map_or_else(|| "0".to_owned(), ToString::to_string);
     (!sides.is_empty()).then_some(SpatialCondition { site, sides, distance })
 }
 
-fn side<'a>(own: &Expr, other: &Expr, site: Site, relations: &[Relation<'a>]) -> Option<Side<'a>> {
+fn side<'a>(
+    own: &Expr,
+    other: &Expr,
+    site: ConditionPlace,
+    relations: &[FromItem<'a>],
+) -> Option<ConditionSide<'a>> {
     let (relation, table, column) = geometry_column(own, relations)?;
     table.key.as_ref()?;
     let place = relations[relation].place;
     // The condition of an outer join says which of its own rows belong to one that is there already.
     let allowed = match site {
-        Site::Where => !relations[relation].optional,
-        Site::On(comma, join) => {
+        ConditionPlace::Where => !relations[relation].optional,
+        ConditionPlace::On(comma, join) => {
             let joined = relations.iter().find(|relation| relation.place == (comma, join + 1));
             place == (comma, join + 1)
                 || joined.is_some_and(|joined| !joined.optional && !relations[relation].optional)
@@ -175,7 +184,7 @@ fn side<'a>(own: &Expr, other: &Expr, site: Site, relations: &[Relation<'a>]) ->
     };
     let needs = mentioned(other, relations);
     let fits = allowed && !needs.contains(&relation) && is_plain(other);
-    fits.then(|| Side { relation, table, column, other: other.to_string(), needs })
+    fits.then(|| ConditionSide { relation, table, column, other: other.to_string(), needs })
 }
 
 /// Whether an expression may be computed once more: one that holds no query of its own.

@@ -14,9 +14,9 @@ const DEEPEST: usize = 60;
 
 /// What is read of both databases.
 #[derive(Debug)]
-struct Shared;
+struct SharedGrammar;
 
-impl Grammar for Shared {
+impl Grammar for SharedGrammar {
     fn is_delimited_identifier_start(&self, letter: char) -> bool {
         matches!(letter, '"' | '`' | '[')
     }
@@ -74,7 +74,7 @@ impl Grammar for Shared {
 }
 
 /// A statement that asks for rows.
-pub(crate) struct Parsed {
+pub(crate) struct SyntaxTree {
     /// It.
     pub query: Box<Query>,
 }
@@ -87,21 +87,22 @@ pub(crate) struct SyntaxError {
 }
 
 fn tokens(sql: &str) -> Result<Vec<TokenWithSpan>, SyntaxError> {
-    let tokens = Tokenizer::new(&Shared, sql).tokenize_with_location();
+    let tokens = Tokenizer::new(&SharedGrammar, sql).tokenize_with_location();
     tokens.map_err(|error| SyntaxError { message: error.to_string() })
 }
 
 /// Reads a statement, which must ask for rows.
-pub(crate) fn parse(sql: &str) -> Result<Parsed, SyntaxError> {
+pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
     let tokens = tokens(sql)?;
     if tokens.len() > MOST_TOKENS {
         return Err(SyntaxError { message: format!("it has more than {MOST_TOKENS} words") });
     }
-    let mut parser = Parser::new(&Shared).with_recursion_limit(DEEPEST).with_tokens_with_locations(tokens);
+    let mut parser =
+        Parser::new(&SharedGrammar).with_recursion_limit(DEEPEST).with_tokens_with_locations(tokens);
     let mut statements =
         parser.parse_statements().map_err(|error| SyntaxError { message: error.to_string() })?;
     match (statements.pop(), statements.is_empty()) {
-        (Some(Statement::Query(query)), true) => Ok(Parsed { query }),
+        (Some(Statement::Query(query)), true) => Ok(SyntaxTree { query }),
         (None, _) => Err(SyntaxError { message: "it says nothing".into() }),
         (Some(_), true) => Err(SyntaxError { message: "it does not ask for rows".into() }),
         (Some(_), false) => Err(SyntaxError { message: "it holds more than one statement".into() }),
@@ -110,7 +111,7 @@ pub(crate) fn parse(sql: &str) -> Result<Parsed, SyntaxError> {
 
 /// Reads an expression that was made here.
 pub(super) fn expression(text: &str) -> Option<Expr> {
-    let parser = Parser::new(&Shared).with_recursion_limit(2 * DEEPEST).try_with_sql(text);
+    let parser = Parser::new(&SharedGrammar).with_recursion_limit(2 * DEEPEST).try_with_sql(text);
     parser.ok()?.parse_expr().ok()
 }
 

@@ -9,7 +9,7 @@ use sqlparser::ast::{
 use super::{Catalogue, TableInfo};
 
 /// Something behind FROM.
-pub(super) struct Relation<'a> {
+pub(super) struct FromItem<'a> {
     /// What it is called there; nothing if that is not known.
     pub alias: Option<Ident>,
     /// What is known of it; nothing of a query in its place.
@@ -22,8 +22,8 @@ pub(super) struct Relation<'a> {
 
 /// The tables that a query means by their names: those that it declares itself hide others.
 pub(super) fn visible(query: &Query, catalogue: &Catalogue) -> Catalogue {
-    struct Declared(Vec<String>);
-    impl Visitor for Declared {
+    struct DeclaredNames(Vec<String>);
+    impl Visitor for DeclaredNames {
         type Break = ();
         fn pre_visit_query(&mut self, query: &Query) -> ControlFlow<()> {
             let declared = query.with.iter().flat_map(|with| &with.cte_tables);
@@ -31,7 +31,7 @@ pub(super) fn visible(query: &Query, catalogue: &Catalogue) -> Catalogue {
             ControlFlow::Continue(())
         }
     }
-    let mut declared = Declared(Vec::new());
+    let mut declared = DeclaredNames(Vec::new());
     let _ = query.visit(&mut declared);
     let seen = catalogue.iter().filter(|(name, _)| !declared.0.contains(name));
     seen.map(|(name, table)| (name.clone(), table.clone())).collect()
@@ -44,7 +44,7 @@ pub(super) fn table<'a>(name: &ObjectName, tables: &'a Catalogue) -> Option<&'a 
 }
 
 /// All that stands behind FROM.
-pub(super) fn relations<'a>(select: &Select, tables: &'a Catalogue) -> Vec<Relation<'a>> {
+pub(super) fn relations<'a>(select: &Select, tables: &'a Catalogue) -> Vec<FromItem<'a>> {
     let mut relations = Vec::new();
     for (comma, item) in select.from.iter().enumerate() {
         let first = relations.len();
@@ -65,7 +65,7 @@ pub(super) fn relations<'a>(select: &Select, tables: &'a Catalogue) -> Vec<Relat
     relations
 }
 
-fn relation<'a>(factor: &TableFactor, tables: &'a Catalogue, place: (usize, usize)) -> Relation<'a> {
+fn relation<'a>(factor: &TableFactor, tables: &'a Catalogue, place: (usize, usize)) -> FromItem<'a> {
     let (alias, table) = match factor {
         TableFactor::Table { name, alias, args: None, .. } => {
             let own = || name.0.last().and_then(|part| part.as_ident()).cloned();
@@ -76,7 +76,7 @@ fn relation<'a>(factor: &TableFactor, tables: &'a Catalogue, place: (usize, usiz
         }
         _ => (None, None),
     };
-    Relation { alias, table, place, optional: false }
+    FromItem { alias, table, place, optional: false }
 }
 
 /// The condition of a join.
@@ -104,9 +104,9 @@ pub(super) fn condition_mut(operator: &mut JoinOperator) -> Option<&mut Expr> {
 }
 
 /// Which of the relations an expression speaks of, or may speak of.
-pub(super) fn mentioned(expression: &Expr, relations: &[Relation<'_>]) -> Vec<usize> {
+pub(super) fn mentioned(expression: &Expr, relations: &[FromItem<'_>]) -> Vec<usize> {
     struct Names<'a, 'b> {
-        relations: &'a [Relation<'b>],
+        relations: &'a [FromItem<'b>],
         found: Vec<bool>,
     }
     impl Visitor for Names<'_, '_> {
@@ -138,20 +138,20 @@ fn is_row_id(name: &str) -> bool {
 }
 
 /// Whether `owner` is what a relation is called, or may be.
-fn names(relation: &Relation<'_>, owner: &Ident) -> bool {
+fn names(relation: &FromItem<'_>, owner: &Ident) -> bool {
     relation.alias.as_ref().is_none_or(|alias| alias.value.eq_ignore_ascii_case(&owner.value))
 }
 
 /// The relation and the column of geometries that an expression is, and nothing else.
 pub(super) fn geometry_column<'a>(
     expression: &Expr,
-    relations: &[Relation<'a>],
+    relations: &[FromItem<'a>],
 ) -> Option<(usize, &'a TableInfo, &'a str)> {
     match expression {
         Expr::Nested(inner) => geometry_column(inner, relations),
         Expr::CompoundIdentifier(parts) => {
             let [owner, column] = parts.as_slice() else { return None };
-            let called = |relation: &&(usize, &Relation<'a>)| {
+            let called = |relation: &&(usize, &FromItem<'a>)| {
                 relation.1.alias.as_ref().is_some_and(|alias| alias.value.eq_ignore_ascii_case(&owner.value))
             };
             let mut found = relations.iter().enumerate().collect::<Vec<_>>().into_iter();

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
-use super::parse::{Parsed, parse};
+use super::parse::{SyntaxTree, parse};
 use super::{joins, nearest, operators, order, scope};
 use sqlparser::ast::{Query, Select, SelectItem, SetExpr, VisitMut, VisitorMut};
 
@@ -85,7 +85,7 @@ pub(crate) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> 
 }
 
 /// Rewrites what was parsed.
-pub(crate) fn rewritten(parsed: &mut Parsed, catalogue: &Catalogue, dialect: Dialect) -> Rewritten {
+pub(crate) fn rewritten(parsed: &mut SyntaxTree, catalogue: &Catalogue, dialect: Dialect) -> Rewritten {
     let booleans = booleans(&parsed.query);
     if dialect == Dialect::Sqlite {
         operators::translate(&mut parsed.query);

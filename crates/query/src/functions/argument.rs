@@ -9,13 +9,13 @@ use crate::{blob, plane};
 
 /// A geometry that was read, and what was made of it.
 #[derive(Debug)]
-pub(crate) struct Parsed {
+pub(crate) struct GeometryArgument {
     /// The geometry.
     pub geometry: Geometry,
     flat: OnceLock<geo::Geometry<f64>>,
 }
 
-impl Parsed {
+impl GeometryArgument {
     /// The geometry in a blob. Fails with the reason.
     pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Self, String> {
         blob::read(bytes, budget).map(Self::from)
@@ -27,7 +27,7 @@ impl Parsed {
     }
 }
 
-impl From<Geometry> for Parsed {
+impl From<Geometry> for GeometryArgument {
     fn from(geometry: Geometry) -> Self {
         Self { geometry, flat: OnceLock::new() }
     }
