@@ -56,7 +56,6 @@ town:rule("Sides(ring, height, points, faces) > Top(place)", {
 }, function(_, ring, height, _, faces, place)
   return Pyramid(ring, place:x(), place:y(), height, rise, faces)
 end)
-town:ignore("Top")
 
 town:interpret("Block(ring, height)", function(this, ring, height)
   this:color("#d9cfbd"):polygon(ring):jump({ 0, 0, 0 }):extrude(height)

@@ -19,7 +19,9 @@ town:rule("Building(geom, id, floors, style)", function(_, geom, id, floors, sty
   return Volume(geom, floors, style), Outline(geom:exterior_ring(), id, floors, style), fragment(Wall)
 end)
 town:rule("Wall(line, id, floors, style)", function(_, line, id, floors, style)
-  return Candidate(line, id, floors, style), Zone(line:buffer(3), id)
+  -- Neighbours in the same row touch a wall at its ends, and leave it free.
+  local zone = line:line_substring(0.15, 0.85):buffer(3, { cap = "flat" })
+  return Candidate(line, id, floors, style), Zone(zone, id)
 end)
 town:rule("Candidate(line, id, floors, style) > Zone(geom, other)", {
   when = function(_, _, _, _, _, geom)

@@ -6,7 +6,7 @@ use rustc_hash::FxHashMap;
 
 use super::fragment::Fragmentation;
 use super::query::{QuestionSet, RowModules};
-use super::sites::{Site, sites};
+use super::sites::{PendingSite, sites};
 use crate::derive::plan::DerivationPlan;
 use crate::derive::threads::ThreadPool;
 use crate::machine::Machine;
@@ -144,7 +144,7 @@ impl Resolver<'_> {
     fn ask(
         &self,
         threads: &ThreadPool,
-        sites: &[Site],
+        sites: &[PendingSite],
     ) -> Result<(Vec<Result<Arc<Rows>>>, Vec<Option<usize>>)> {
         let mut set = QuestionSet::default();
         let mut asked = Vec::with_capacity(sites.len());
@@ -158,7 +158,7 @@ impl Resolver<'_> {
     /// The chain with all that the `sites` stand for.
     fn put_in(
         &self,
-        sites: &[Site],
+        sites: &[PendingSite],
         answers: &[Result<Arc<Rows>>],
         asked: &[Option<usize>],
     ) -> Result<Resolution> {
@@ -258,7 +258,7 @@ impl Resolver<'_> {
     /// The modules that come at `site`, and how many rows a query gave.
     fn group(
         &self,
-        site: &Site,
+        site: &PendingSite,
         asked: Option<(usize, &Result<Arc<Rows>>)>,
         known: &mut FxHashMap<(usize, Symbol), RowModules>,
         fragmentation: &mut Fragmentation,
@@ -300,7 +300,7 @@ impl Resolver<'_> {
     }
 
     /// What came of `site`, in words.
-    fn answer(&self, site: &Site, report: &SiteReport) -> PendingAnswer {
+    fn answer(&self, site: &PendingSite, report: &SiteReport) -> PendingAnswer {
         let count = |count: usize, of: &str| format!("{count} {of}{}", if count == 1 { "" } else { "s" });
         let mut text = self.shown(site.at);
         if let Some(rows) = report.rows {

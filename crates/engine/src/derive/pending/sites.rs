@@ -5,7 +5,7 @@ use burgeon_kit::rules::{CLOSE, Chain, END, FRAGMENT, Mark, OPEN, QUERY};
 
 /// A place in a chain where other modules come.
 #[derive(Debug)]
-pub(super) struct Site {
+pub(super) struct PendingSite {
     /// The query, or the module whose parts come.
     pub at: Mark,
     /// The fragmentations that are applied, one after the other.
@@ -16,8 +16,8 @@ pub(super) struct Site {
 ///
 /// A fragmentation belongs to the module or the query to its left on its own branch; closed branches in between, and
 /// other fragmentations, are passed over. Fails with the place of one that has none, and what is wrong.
-pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<Site>, (Mark, Error)> {
-    let mut sites: Vec<Site> = Vec::new();
+pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<PendingSite>, (Mark, Error)> {
+    let mut sites: Vec<PendingSite> = Vec::new();
     // The last module or query on each branch that is open, and its number among the sites if it is one.
     let mut branches: Vec<Option<(Mark, Option<usize>)>> = Vec::new();
     let mut last: Option<(Mark, Option<usize>)> = None;
@@ -34,18 +34,18 @@ pub(super) fn sites(chain: &Chain, arities: &[u8]) -> Result<Vec<Site>, (Mark, E
             FRAGMENT => {
                 let Some((left, number)) = &mut last else {
                     let error = Error::argument("there is no module to its left on its branch")
-                        .help("fragment(Wall) stands right behind the module whose parts it makes: return Outline(ring), fragment(Wall)");
+                        .help("fragment(Part) stands right behind the module whose parts it makes: return Outline(ring), fragment(Part)");
                     return Err((here, error));
                 };
                 let site = *number.get_or_insert_with(|| {
-                    sites.push(Site { at: *left, fragments: Vec::new() });
+                    sites.push(PendingSite { at: *left, fragments: Vec::new() });
                     sites.len() - 1
                 });
                 sites[site].fragments.push(here);
             }
             QUERY => {
                 last = Some((here, Some(sites.len())));
-                sites.push(Site { at: here, fragments: Vec::new() });
+                sites.push(PendingSite { at: here, fragments: Vec::new() });
             }
             _ => last = Some((here, None)),
         }
