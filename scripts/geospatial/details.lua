@@ -2,7 +2,8 @@
 -- What facades are made of: walls and roofs by style, and windows, doors and balconies along a wall.
 local details = {}
 
-details.storey = param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
+details.storey =
+  param("storey", { default = 3, min = 2.4, max = 5, unit = "m", text = "How high a floor is" })
 
 type Style = { wall: string, roof: string, trim: string, shutter: string, bay: number, balcony: boolean }
 local STYLES: { Style } = {
@@ -22,7 +23,11 @@ end
 function details.volume(this: any, geom: any, floors: number, style: number)
   local look, height = style_of(style), floors * details.storey
   this:color(look.wall):polygon(geom):jump({ 0, 0, 0 }):extrude(height)
-  this:color(look.trim):polygon(geom:buffer(0.3, { join = "mitre" })):jump({ 0, 0, height - 0.25 }):extrude(0.35)
+  this
+    :color(look.trim)
+    :polygon(geom:buffer(0.3, { join = "mitre" }))
+    :jump({ 0, 0, height - 0.25 })
+    :extrude(0.35)
   local low = geom
   for step = 1, 3 do
     local high = geom:inset(step * 0.9)

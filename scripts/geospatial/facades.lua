@@ -6,9 +6,9 @@ local details = require("details")
 local Building = module("Building", "geom", "id", "floors", "style")
 local Outline = module("Outline", "line", "id", "floors", "style")
 local Wall = module("Wall", "line", "id", "floors", "style")
-local Candidate, Zone =
-  module("Candidate", "line", "id", "floors", "style"), module("Zone", "geom", "id")
-local Facade, Volume = module("Facade", "line", "floors", "style"), module("Volume", "geom", "floors", "style")
+local Candidate, Zone = module("Candidate", "line", "id", "floors", "style"), module("Zone", "geom", "id")
+local Facade, Volume =
+  module("Facade", "line", "floors", "style"), module("Volume", "geom", "floors", "style")
 
 source("quarter/buildings.geojson")
 
@@ -25,7 +25,10 @@ town:rule("Wall(line, id, floors, style)", function(_, line, id, floors, style)
 end)
 town:rule("Candidate(line, id, floors, style) > Zone(geom, other)", {
   when = function(_, _, _, _, _, geom)
-    return #query("select id from buildings where id <> $id and ST_Intersects(geom, $geom)", { geom = geom }) == 0
+    return #query(
+        "select id from buildings where id <> $id and ST_Intersects(geom, $geom)",
+        { geom = geom }
+      ) == 0
   end,
 }, function(_, line, _, floors, style)
   return Facade(line, floors, style)

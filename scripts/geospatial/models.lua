@@ -5,6 +5,12 @@ local models = {}
 local Part = module("Part", "color", "ring", "from", "to")
 local Ball = module("Ball", "x", "y", "z", "radius", "color")
 
+-- The model itself. What stands on a wall is not shown on its own; so neither is this, even if nothing needs it.
+local function kept(model: any): any
+  panel({ model = model, stretch = true })
+  return model
+end
+
 -- A model of upright pieces, each with its colour, the ring that it stands on, and where it begins and ends (m).
 local function built(parts: { any }): any
   local system = lsystem({ object = extruder({ smooth = false, roughness = 0.7 }) })
@@ -16,7 +22,7 @@ local function built(parts: { any }): any
   system:interpret("Part(color, ring, from, to)", function(this, color, ring, from, to)
     this:color(color):polygon(ring):jump({ 0, 0, from }):extrude(to - from)
   end)
-  return system:derive(0)
+  return kept(system:derive(0))
 end
 
 local function box(x: number, y: number, width: number, depth: number): { { number } }
@@ -77,13 +83,16 @@ local function tree(color: string, seed: number, slender: number): any
     local out = 0.2 * slender * math.sin(math.pi * (0.2 + 0.75 * level))
     local radius = (0.2 - 0.06 * level + 0.02 * math.sin(ball * 5 + seed * 3)) * math.sqrt(slender)
     local shade = mix(color, "#b9c27a", math.max(0, level * 0.35))
-    table.insert(crown, { Ball(out * math.cos(angle), out * math.sin(angle), 0.4 + 0.42 * level, radius, shade) })
+    table.insert(
+      crown,
+      { Ball(out * math.cos(angle), out * math.sin(angle), 0.4 + 0.42 * level, radius, shade) }
+    )
   end
   system:axiom(table.unpack(crown))
   system:interpret("Ball(x, y, z, radius, color)", function(this, x, y, z, radius, color)
     this:jump({ x, y, z }):color(color):sphere(radius)
   end)
-  return system:derive(0)
+  return kept(system:derive(0))
 end
 
 -- By species; the sixth stands alone in its flower bed.

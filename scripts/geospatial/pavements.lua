@@ -47,7 +47,10 @@ local function bars(this, geom, level: number)
   end
   local from, to = across:start_point():place(), across:end_point():place()
   local reach = along:end_point():place() - along:start_point():place()
-  if (along:start_point():place() - from):length() < 0.01 or (along:start_point():place() - to):length() < 0.01 then
+  if
+    (along:start_point():place() - from):length() < 0.01
+    or (along:start_point():place() - to):length() < 0.01
+  then
     -- It leads away from the side that is gone through.
   else
     reach = reach * -1
