@@ -14,6 +14,8 @@ mod buffer;
 mod edges;
 mod fragments;
 mod geometry;
+#[cfg(test)]
+mod geos;
 mod kind;
 mod lines;
 mod measure;

@@ -3,7 +3,7 @@
 use burgeon_base::error::{Error, Result};
 use glam::{DVec2, DVec3};
 
-use super::edges::{EdgeTree, edges, with_heights};
+use super::edges::{Edge, EdgeTree, edges, with_heights};
 use super::measure::length;
 use super::parts::closed;
 use super::plane::collect_polygons;
@@ -193,8 +193,19 @@ fn side(line: &Geometry, around: &Geometry, distance: f64) -> Vec<Geometry> {
     let is_beside = |[a, b]: [DVec3; 2]| {
         let middle = ((a + b) / 2.0).truncate();
         let Some((edge, near)) = tree.nearest_edge(middle) else { return false };
-        let way = (edge.ends[1] - edge.ends[0]).truncate();
-        let aside = way.perp_dot(middle - near.truncate());
+        let way = |edge: &Edge| (edge.ends[1] - edge.ends[0]).truncate();
+        // What is nearest to a corner lies on the outer side of its turn.
+        let before = own.get((edge.number + own.len() - 1) % own.len());
+        let behind = own.get((edge.number + 1) % own.len());
+        let corner = if near == edge.ends[1] {
+            behind.filter(|next| next.ends[0] == near).map(|next| way(&edge).perp_dot(way(next)))
+        } else if near == edge.ends[0] {
+            before.filter(|last| last.ends[1] == near).map(|last| way(last).perp_dot(way(&edge)))
+        } else {
+            None
+        };
+        let beside = way(&edge).perp_dot(middle - near.truncate());
+        let aside = corner.filter(|turn| *turn != 0.0).map_or(beside, |turn| -turn);
         // The cuts at its ends lead through them.
         near.truncate().distance(middle) > 0.9 * distance.abs() && (aside > 0.0) == (distance > 0.0)
     };
@@ -253,7 +264,7 @@ fn simplified(line: &[DVec3], tolerance: f64) -> Vec<DVec3> {
     (kept[0], kept[last]) = (true, true);
     let mut open = vec![(0, last)];
     while let Some((from, to)) = open.pop() {
-        let edge = super::edges::Edge { ends: [line[from], line[to]], number: 0 };
+        let edge = Edge { ends: [line[from], line[to]], number: 0 };
         let far = |index: usize| {
             let place = line[index].truncate();
             edge.nearest(place).truncate().distance(place)

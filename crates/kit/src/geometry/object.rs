@@ -15,12 +15,12 @@ use crate::{Answer, Expectation, Field, Object, Parameter, Prefetch, Value, Vect
 /// It never changes.
 #[object("geometry", given, has = fields(), example = include_str!("../../scripts/geometry.lua"))]
 pub struct GeometryObject {
-    from: Origin,
+    from: GeometryStorage,
 }
 
 /// Where a geometry is kept.
 #[derive(Clone)]
-enum Origin {
+enum GeometryStorage {
     Value(Arc<Geometry>),
     Feature { layer: Arc<Layer>, index: usize, prefetch: Option<Arc<dyn Prefetch>> },
 }
@@ -49,12 +49,12 @@ fn fields() -> Vec<Field> {
 impl GeometryObject {
     /// One of its own.
     pub fn new(geometry: Geometry) -> Self {
-        Self { from: Origin::Value(Arc::new(geometry)) }
+        Self { from: GeometryStorage::Value(Arc::new(geometry)) }
     }
 
     /// One that others hold, too.
     pub fn shared(geometry: Arc<Geometry>) -> Self {
-        Self { from: Origin::Value(geometry) }
+        Self { from: GeometryStorage::Value(geometry) }
     }
 
     /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
@@ -65,23 +65,23 @@ impl GeometryObject {
     ) -> Option<Self> {
         let there = index < layer.features.len();
         there.then(|| Self {
-            from: Origin::Feature { layer: Arc::clone(layer), index, prefetch: prefetch.cloned() },
+            from: GeometryStorage::Feature { layer: Arc::clone(layer), index, prefetch: prefetch.cloned() },
         })
     }
 
     /// Where what it needs may have been made already, and its feature's number there.
     pub fn prefetch(&self) -> Option<(&dyn Prefetch, usize)> {
         match &self.from {
-            Origin::Feature { prefetch, index, .. } => Some((prefetch.as_deref()?, *index)),
-            Origin::Value(_) => None,
+            GeometryStorage::Feature { prefetch, index, .. } => Some((prefetch.as_deref()?, *index)),
+            GeometryStorage::Value(_) => None,
         }
     }
 
     /// The geometry itself.
     pub fn geometry(&self) -> &Geometry {
         match &self.from {
-            Origin::Value(geometry) => geometry,
-            Origin::Feature { layer, index, .. } => &layer.features[*index].geometry,
+            GeometryStorage::Value(geometry) => geometry,
+            GeometryStorage::Feature { layer, index, .. } => &layer.features[*index].geometry,
         }
     }
 

@@ -110,22 +110,42 @@ pub fn union_all<'a>(geometries: impl IntoIterator<Item = &'a Geometry>) -> Geom
     Geometry::Collection(geometries.into_iter().filter(|it| it.is_sound()).cloned().collect()).dissolved()
 }
 
+/// With more edges than these the corners of areas stay on the grid of i_overlay, unless they were corners before.
+const MANY: usize = 20_000;
+
 fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usize) -> Geometry {
     let plane = Plane::of(&[one, two]);
     let operands = [Operand::new(plane, one), Operand::new(plane, two)];
     let [a, b] = &operands;
-    let areas = match (a.areas.0.is_empty(), b.areas.0.is_empty()) {
-        (true, true) => MultiPolygon::new(Vec::new()),
-        // Nothing changes, but that what is odd is mended.
-        _ => areas::combine(&a.areas, &b.areas, operation.of_areas()),
+    let ways: Vec<Way> =
+        operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
+    // Of areas alone only what they have in common may be less than an area.
+    let is_of_areas = a.is_of_areas() && b.is_of_areas() && operation != Operation::Intersection;
+    let arrangement =
+        if is_of_areas && (two.is_empty() || ways.iter().map(|way| way.places.len()).sum::<usize>() > MANY) {
+            None
+        } else {
+            let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
+            Some(Arrangement::new(&ways, &points, plane))
+        };
+    let coord = |at: &DVec2| Coord { x: at.x, y: at.y };
+    let areas = match (&arrangement, a.areas.0.is_empty() && b.areas.0.is_empty()) {
+        (_, true) => MultiPolygon::new(Vec::new()),
+        (Some(arrangement), false) => {
+            let nodes = arrangement.nodes.iter().map(coord);
+            areas::combine(&a.areas, &b.areas, operation.of_areas(), nodes)
+        }
+        (None, false) => {
+            let nodes = areas::corners(&a.areas).chain(areas::corners(&b.areas));
+            areas::combine(&a.areas, &b.areas, operation.of_areas(), nodes)
+        }
     };
     let mut parts = match plane.areas(&areas) {
         Geometry::Polygon(rings) if rings.is_empty() => Vec::new(),
         areas => vec![areas],
     };
-    // Of areas alone only what they have in common may be less than an area.
-    if !(a.is_of_areas() && b.is_of_areas()) || operation == Operation::Intersection {
-        let (lines, points) = lines_and_points(&operands, operation);
+    if let (Some(arrangement), false) = (&arrangement, is_of_areas) {
+        let (lines, points) = lines_and_points(&operands, &ways, arrangement, operation);
         let back = |places: Vec<DVec2>| places.into_iter().map(|at| plane.back(at)).collect::<Vec<DVec3>>();
         parts.extend(lines.into_iter().map(|line| Geometry::Line(back(line))));
         parts.push(Geometry::MultiPoint(back(points)));
@@ -135,11 +155,12 @@ fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usiz
 }
 
 /// The lines and points of the result that its areas have not.
-fn lines_and_points(operands: &[Operand; 2], operation: Operation) -> (Vec<Vec<DVec2>>, Vec<DVec2>) {
-    let ways: Vec<Way> =
-        operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
-    let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
-    let arrangement = Arrangement::new(&ways, &points);
+fn lines_and_points(
+    operands: &[Operand; 2],
+    ways: &[Way],
+    arrangement: &Arrangement,
+    operation: Operation,
+) -> (Vec<Vec<DVec2>>, Vec<DVec2>) {
     let inside = [0, 1].map(|index| Inside::new(&operands[index].areas));
     let coord = |at: DVec2| Coord { x: at.x, y: at.y };
     // By piece: whether it is a line of the result, and what lies in each geometry at it and beside it.
@@ -180,7 +201,7 @@ fn lines_and_points(operands: &[Operand; 2], operation: Operation) -> (Vec<Vec<D
         .zip(&arrangement.nodes)
         .filter(|(node, _)| node.is_met && !node.is_covered && operation.keeps(node.is_in));
     let points = points.map(|(_, place)| *place).collect();
-    (runs(&arrangement, &ways, &pieces), points)
+    (runs(arrangement, ways, &pieces), points)
 }
 
 /// What is known of a node.

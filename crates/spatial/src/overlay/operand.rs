@@ -4,7 +4,7 @@ use geo::bool_ops::FillRule;
 use geo::{BooleanOps, MultiPolygon, Validation};
 use glam::DVec2;
 
-use super::areas::{FILL, snap};
+use super::areas::{FILL, corners, snap};
 use super::arrangement::{Way, WayOrigin};
 use crate::Geometry;
 use crate::plane::{Plane, collect_lines, collect_points};
@@ -59,6 +59,6 @@ pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
 /// What rings go around, by a rule.
 pub(crate) fn filled(areas: &MultiPolygon, rule: FillRule) -> MultiPolygon {
     let mut made = areas.union_with_fill_rule(&MultiPolygon::new(Vec::new()), rule);
-    snap(&mut made, [areas]);
+    snap(&mut made, corners(areas));
     made
 }

@@ -40,7 +40,7 @@ pub(crate) fn relate(one: &Geometry, two: &Geometry) -> [u8; 9] {
     let operands = [Operand::new(plane, one), Operand::new(plane, two)];
     let ways: Vec<_> = operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
     let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
-    let arrangement = Arrangement::new(&ways, &points);
+    let arrangement = Arrangement::new(&ways, &points, plane);
     let inside = [0, 1].map(|index| Inside::new(&operands[index].areas));
     let coord = |at: DVec2| Coord { x: at.x, y: at.y };
     let mut cells = [b'F'; 9];
