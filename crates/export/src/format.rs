@@ -17,11 +17,13 @@ pub enum Format {
     Png,
     /// A drawing to scale: a plan, or an elevation of what stands upright and thin.
     Svg,
+    /// X3D 3.3 in XML, with the textures beside it.
+    X3d,
 }
 
 impl Format {
     /// Every format, in the order in which messages list them.
-    pub const ALL: [Self; 5] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg];
+    pub const ALL: [Self; 6] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg, Self::X3d];
 
     /// The extension, in lower case and without a dot.
     pub const fn extension(self) -> &'static str {
@@ -31,6 +33,7 @@ impl Format {
             Self::Obj => "obj",
             Self::Png => "png",
             Self::Svg => "svg",
+            Self::X3d => "x3d",
         }
     }
 
@@ -43,7 +46,7 @@ impl Format {
     ///
     /// Fails on an unknown or missing extension and says which there are.
     pub fn of(path: &Path) -> Result<Self> {
-        let known = "the formats are .glb, .gltf, .obj, .png and .svg";
+        let known = "the formats are .glb, .gltf, .obj, .png, .svg and .x3d";
         let Some(extension) = path.extension() else {
             let message = format!("cannot write {}: its name does not end in a format", path.display());
             return Err(Error::usage(message).help(known));
@@ -80,7 +83,7 @@ mod tests {
         ");
         insta::assert_snapshot!(Format::of(Path::new("tower.step")).unwrap_err(), @r"
         cannot write tower.step: .step is not a format
-          help: the formats are .glb, .gltf, .obj, .png and .svg
+          help: the formats are .glb, .gltf, .obj, .png, .svg and .x3d
         ");
     }
 
@@ -88,7 +91,7 @@ mod tests {
     fn a_missing_extension_is_refused() {
         insta::assert_snapshot!(Format::of(Path::new("a.b/tower")).unwrap_err(), @r"
         cannot write a.b/tower: its name does not end in a format
-          help: the formats are .glb, .gltf, .obj, .png and .svg
+          help: the formats are .glb, .gltf, .obj, .png, .svg and .x3d
         ");
     }
 }

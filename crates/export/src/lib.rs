@@ -17,6 +17,7 @@
 
 mod check;
 mod color;
+mod decompose;
 mod files;
 mod format;
 pub mod gltf;
@@ -27,6 +28,7 @@ pub mod svg;
 mod target;
 mod temporary;
 mod texture;
+mod x3d;
 
 #[cfg(test)]
 mod samples;
@@ -44,7 +46,7 @@ use std::path::Path;
 
 /// Writes `scene` to `path` in the format of its extension; `picture` matters to `.png` alone.
 ///
-/// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. On failure everything is as
+/// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. On failure everything is as
 /// it was before. Fails as [`Files::scene`] does.
 pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
     let mut files = Files::default();
@@ -55,7 +57,7 @@ pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
 impl Files {
     /// Writes what will be `scene` at `path`, in the format of its extension; `picture` matters to `.png` alone.
     ///
-    /// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
+    /// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
     /// does, if the extension is no format, if the scene is not sound and if a texture cannot be read.
     pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
         let format = Format::of(path)?;
@@ -64,6 +66,7 @@ impl Files {
             Format::Glb => gltf::write_glb(scene, path, self),
             Format::Gltf => gltf::write_gltf(scene, path, self),
             Format::Obj => obj::write(scene, path, self),
+            Format::X3d => x3d::write(scene, path, self),
             Format::Png => {
                 let png = png(scene, picture, &self.stop())?;
                 self.write(path, |out| out.write_all(&png))
@@ -95,6 +98,18 @@ pub fn check_files<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<()> 
 /// The name of `path` without its extension.
 fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// A file name as a relative reference of RFC 3986.
+fn uri(name: &str) -> String {
+    let mut uri = String::with_capacity(name.len());
+    for byte in name.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(byte)),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
 }
 
 /// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.

@@ -8,8 +8,8 @@ use super::mesh::Arrays;
 use super::{InstancePlace, body, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::files::Files;
-use crate::stem;
 use crate::texture::Images;
+use crate::{stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
@@ -159,18 +159,6 @@ impl<'a> Document<'a> {
         }
         Ok(pieces)
     }
-}
-
-/// A file name as a relative reference of RFC 3986.
-pub(super) fn uri(name: &str) -> String {
-    let mut uri = String::with_capacity(name.len());
-    for byte in name.bytes() {
-        match byte {
-            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(byte)),
-            _ => uri.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    uri
 }
 
 /// A name for people, or nothing.

@@ -8,7 +8,7 @@
 
 mod body;
 mod corners;
-mod decompose;
+
 mod description;
 mod document;
 mod material;

@@ -1,8 +1,8 @@
 //! Where meshes stand: a node for each instance, or one node for many.
 
 use super::super::check::{PartExtent, SceneCheck};
+use super::super::decompose::{Steps, Trs, decompose, y_up};
 use super::body::{Body, BodyArray, short};
-use super::decompose::{Steps, Trs, decompose, y_up};
 use super::description::{Accessor, Description, FeatureExtras, Node};
 use super::material::use_extension;
 use super::mesh::{Arrays, accessor};
