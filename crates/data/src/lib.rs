@@ -14,6 +14,7 @@ mod geojson;
 mod heights;
 mod layer;
 mod listing;
+pub mod output;
 mod table;
 
 use std::fmt;
