@@ -54,6 +54,11 @@ pub(crate) mod output {
     use crate::output::RecordTable;
     use burgeon_base::stop::Stop;
 
+    /// Refuses GeoPackages.
+    pub fn check() -> Result<()> {
+        left_out()
+    }
+
     /// A GeoPackage, of which there is none without the feature `data`.
     pub fn geopackage(
         _tables: &[RecordTable],

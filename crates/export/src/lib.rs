@@ -16,8 +16,10 @@
 )]
 
 mod check;
+mod city;
 mod color;
 mod decompose;
+mod facts;
 mod files;
 mod format;
 pub mod gltf;
@@ -33,12 +35,15 @@ mod x3d;
 #[cfg(test)]
 mod samples;
 
+pub use city::CityClass;
+pub use facts::{Export, Facts, SystemFacts};
 pub use files::{Files, Out, Stoppable};
 pub use format::Format;
 pub use temporary::abandon;
 
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
+use burgeon_data::output;
 use burgeon_scene::Scene;
 use picture::Picture;
 use std::io::{self, Write};
@@ -57,16 +62,26 @@ pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
 impl Files {
     /// Writes what will be `scene` at `path`, in the format of its extension; `picture` matters to `.png` alone.
     ///
-    /// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
-    /// does, if the extension is no format, if the scene is not sound and if a texture cannot be read.
+    /// Nothing is known of it but what is seen. Fails as [`export`](Files::export) does.
     pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
+        self.export(&Export { scene, picture, facts: Facts::default() }, path)
+    }
+
+    /// Writes what will be at `path`, in the format of its extension.
+    ///
+    /// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. Fails as
+    /// [`write`](Files::write) does, if the extension is no format, if the scene is not sound, if a texture cannot be read
+    /// and if something has no place where the format counts from.
+    pub fn export(&mut self, export: &Export<'_>, path: &Path) -> Result<()> {
         let format = Format::of(path)?;
         format.check()?;
+        let Export { scene, picture, facts } = export;
         match format {
-            Format::Glb => gltf::write_glb(scene, path, self),
-            Format::Gltf => gltf::write_gltf(scene, path, self),
+            Format::Glb => gltf::write_glb(scene, facts, path, self),
+            Format::Gltf => gltf::write_gltf(scene, facts, path, self),
             Format::Obj => obj::write(scene, path, self),
             Format::X3d => x3d::write(scene, path, self),
+            Format::CityJson => city::write(export, path, self),
             Format::Png => {
                 let png = png(scene, picture, &self.stop())?;
                 self.write(path, |out| out.write_all(&png))
@@ -74,6 +89,15 @@ impl Files {
             Format::Svg => {
                 let drawing = svg::svg(scene, &self.stop())?;
                 self.write(path, |out| out.write_all(drawing.as_bytes()))
+            }
+            Format::GeoJson => {
+                let mut text = Vec::new();
+                output::write_geojson(facts.layers, facts.frame, &mut text)?;
+                self.write(path, |out| out.write_all(&text))
+            }
+            Format::GeoPackage => {
+                let package = output::geopackage(facts.layers, facts.frame, &self.stop())?;
+                self.write(path, |out| out.write_all(&package))
             }
         }
     }

@@ -16,4 +16,4 @@ pub use place::Outward;
 pub(crate) use table::apart;
 pub use table::{Record, RecordTable};
 
-pub use super::formats::output::geopackage;
+pub use super::formats::output::{check, geopackage};

@@ -13,6 +13,7 @@ mod description;
 mod document;
 mod material;
 mod mesh;
+mod metadata;
 mod place;
 #[cfg(test)]
 mod tests;
