@@ -2,7 +2,7 @@
 //!
 //! A program that is built without the feature `data` has `absent` in its place, which says so.
 
-mod arc;
+mod blob;
 mod geopackage;
 pub(crate) mod geotiff;
 mod meaning;
@@ -10,7 +10,6 @@ pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
-mod wkb;
 pub(crate) mod zipped;
 
 pub use geopackage::GeoPackage;
