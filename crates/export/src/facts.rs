@@ -1,10 +1,9 @@
 //! What is written: what is seen, and what is known of it.
 
-use super::CityClass;
 use super::picture::Picture;
 use burgeon_data::ReferenceFrame;
 use burgeon_data::output::RecordTable;
-use burgeon_scene::Scene;
+use burgeon_scene::{CityClass, Scene};
 
 /// What a run gives to its files.
 #[derive(Clone, Copy)]

@@ -59,6 +59,11 @@ impl Format {
         }
     }
 
+    /// Whether it holds layers of what rules made and nothing of the scene.
+    pub fn has_layers(self) -> bool {
+        matches!(self, Self::GeoJson | Self::GeoPackage)
+    }
+
     /// Refuses the format that this program was built without.
     pub fn check(self) -> Result<()> {
         match self {

@@ -35,7 +35,6 @@ mod x3d;
 #[cfg(test)]
 mod samples;
 
-pub use city::CityClass;
 pub use facts::{Export, Facts, SystemFacts};
 pub use files::{Files, Out, Stoppable};
 pub use format::Format;

@@ -30,6 +30,13 @@ pub struct FeatureShape {
 #[methods("geometry")]
 impl FeatureShape {}
 
+/// The geometry that a value is, if it is one.
+pub fn geometry_of(value: &Value) -> Option<&Geometry> {
+    let Value::Object(object) = value else { return None };
+    let any: &dyn std::any::Any = &**object;
+    any.downcast_ref::<FeatureShape>().map(FeatureShape::geometry)
+}
+
 impl FeatureShape {
     /// That of the feature with this number, from 0; `None` if there is none. What it needs may be fetched before by `prefetch`.
     pub fn new(layer: &Arc<Layer>, index: usize, prefetch: Option<&Arc<dyn Prefetch>>) -> Option<Self> {

@@ -39,7 +39,7 @@ pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Sh
 pub use color::Color;
 pub use column_value::ColumnValue;
 pub use drawing::Drawing;
-pub use features::{FeatureShape, Features};
+pub use features::{FeatureShape, Features, geometry_of};
 pub use fields::{Fields, TableOf};
 pub use kind::{
     Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,

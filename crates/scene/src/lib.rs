@@ -3,6 +3,7 @@
 //! Comes in: meshes and instances from objects, in chain order. Goes out: the same, unchanged.
 //! It never builds geometry and never looks at rules.
 
+mod city;
 pub mod image;
 mod material;
 mod mesh;
@@ -11,6 +12,7 @@ mod shared;
 mod surface;
 mod triangles;
 
+pub use city::CityClass;
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
 pub use normal::Normal;

@@ -5,11 +5,12 @@ use rusqlite::types::Value as Cell;
 use rusqlite::{Connection, params, params_from_iter};
 
 use super::projection::definition;
+use crate::Attribute;
 use crate::frame::ReferenceFrame;
 use crate::output::{ColumnKind, Outward, Record, RecordTable, apart, column_kinds};
-use crate::{Attribute, Geometry};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
+use burgeon_spatial::Geometry;
 
 /// What every GeoPackage has. There is no time of the change: the same layers give the same bytes.
 const SCHEMA: &str = "
@@ -103,7 +104,8 @@ impl PackageWriter<'_> {
     fn write_layer(&mut self, table: &RecordTable, stop: &Stop) -> Result<()> {
         let name = self.table_name(&table.name);
         let (columns, kinds) = (column_names(table), column_kinds(table));
-        let high = table.records.iter().filter_map(|record| record.geometry.as_ref()).any(is_high);
+        let high =
+            table.records.iter().filter_map(|record| record.geometry.as_ref()).any(Geometry::has_heights);
         let kind = kind_name(table);
         let mut create =
             format!("CREATE TABLE {} (fid INTEGER PRIMARY KEY NOT NULL, {GEOMETRY} {kind}", quoted(&name));
@@ -156,7 +158,9 @@ impl PackageWriter<'_> {
             let mut cells = vec![Cell::Integer(number), Cell::Null, Cell::Text(record.id.clone())];
             if let Some(geometry) = &record.geometry {
                 let mut writer = BlobWriter { outward: &self.outward, high, bounds: NOWHERE };
-                let blob = writer.blob(geometry, self.system()).ok_or_else(|| nowhere(record, table))?;
+                let mut turned = geometry.clone();
+                turned.turn();
+                let blob = writer.blob(&turned, self.system()).ok_or_else(|| nowhere(record, table))?;
                 let bounds @ [low_x, low_y, high_x, high_y] = writer.bounds;
                 if low_x <= high_x {
                     index.execute(params![number, low_x, high_x, low_y, high_y]).map_err(failed)?;
@@ -221,13 +225,13 @@ fn kind_name(table: &RecordTable) -> &'static str {
             Geometry::Point(_) => "POINT",
             Geometry::Line(_) => "LINESTRING",
             Geometry::Polygon(_) => "POLYGON",
+            Geometry::MultiPoint(_) => "MULTIPOINT",
+            Geometry::MultiLine(_) => "MULTILINESTRING",
+            Geometry::MultiPolygon(_) => "MULTIPOLYGON",
+            Geometry::Collection(_) => "GEOMETRYCOLLECTION",
         });
     let Some(first) = kinds.next() else { return "GEOMETRY" };
     if kinds.all(|kind| kind == first) { first } else { "GEOMETRY" }
-}
-
-fn is_high(geometry: &Geometry) -> bool {
-    geometry.points().any(|point| point.z != 0.0)
 }
 
 fn joined(a: Bounds, b: Bounds) -> Bounds {
@@ -308,20 +312,51 @@ impl BlobWriter<'_> {
 
     fn geometry(&mut self, geometry: &Geometry, out: &mut Vec<u8>) -> Option<()> {
         match geometry {
-            Geometry::Point(point) => {
-                self.head(1, out);
-                self.point(*point, out)
+            Geometry::Point(point) => self.one(*point, out),
+            Geometry::Line(points) => self.line(points, out),
+            Geometry::Polygon(rings) => self.polygon(rings, out),
+            Geometry::MultiPoint(points) => {
+                self.head(4, out);
+                count(points.len(), out);
+                points.iter().try_for_each(|point| self.one(Some(*point), out))
             }
-            Geometry::Line(points) => {
-                self.head(2, out);
-                self.points(points, false, out)
+            Geometry::MultiLine(lines) => {
+                self.head(5, out);
+                count(lines.len(), out);
+                lines.iter().try_for_each(|line| self.line(line, out))
             }
-            Geometry::Polygon(rings) => {
-                self.head(3, out);
-                count(rings.len(), out);
-                rings.iter().try_for_each(|ring| self.points(ring, true, out))
+            Geometry::MultiPolygon(polygons) => {
+                self.head(6, out);
+                count(polygons.len(), out);
+                polygons.iter().try_for_each(|rings| self.polygon(rings, out))
+            }
+            Geometry::Collection(parts) => {
+                self.head(7, out);
+                count(parts.len(), out);
+                parts.iter().try_for_each(|part| self.geometry(part, out))
             }
         }
+    }
+
+    fn one(&mut self, point: Option<DVec3>, out: &mut Vec<u8>) -> Option<()> {
+        self.head(1, out);
+        let Some(point) = point else {
+            // An empty point has no numbers.
+            (0..if self.high { 3 } else { 2 }).for_each(|_| out.extend(f64::NAN.to_le_bytes()));
+            return Some(());
+        };
+        self.point(point, out)
+    }
+
+    fn line(&mut self, points: &[DVec3], out: &mut Vec<u8>) -> Option<()> {
+        self.head(2, out);
+        self.points(points, false, out)
+    }
+
+    fn polygon(&mut self, rings: &[Vec<DVec3>], out: &mut Vec<u8>) -> Option<()> {
+        self.head(3, out);
+        count(rings.len(), out);
+        rings.iter().try_for_each(|ring| self.points(ring, true, out))
     }
 
     fn head(&self, kind: u32, out: &mut Vec<u8>) {

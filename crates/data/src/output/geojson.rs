@@ -6,9 +6,10 @@ use glam::DVec3;
 use serde_json::{Map, Value as Json, json};
 
 use super::{Outward, Record, RecordTable};
+use crate::Attribute;
 use crate::frame::ReferenceFrame;
-use crate::{Attribute, Geometry};
 use burgeon_base::error::{Error, Result};
+use burgeon_spatial::Geometry;
 
 /// Writes `tables` as one collection of features; the name of its table is in the property `layer` of each if there are
 /// several tables.
@@ -72,7 +73,11 @@ fn feature(
         properties.insert(name.clone(), value);
     }
     let geometry = match (&record.geometry, outward) {
-        (Some(geometry), Some(outward)) => DegreeWriter { outward, record, table }.geometry(geometry)?,
+        (Some(geometry), Some(outward)) => {
+            let mut turned = geometry.clone();
+            turned.turn();
+            DegreeWriter { outward, record, table }.geometry(&turned)?
+        }
         _ => Json::Null,
     };
     Ok(json!({ "type": "Feature", "id": record.id, "geometry": geometry, "properties": properties }))
@@ -87,18 +92,29 @@ struct DegreeWriter<'a> {
 
 impl DegreeWriter<'_> {
     fn geometry(&self, geometry: &Geometry) -> Result<Json> {
-        let (kind, coordinates) = match geometry {
-            Geometry::Point(point) => ("Point", self.points(std::slice::from_ref(point), false)?[0].take()),
-            Geometry::Line(points) => ("LineString", self.points(points, false)?),
-            Geometry::Polygon(rings) => ("Polygon", self.rings(rings)?),
+        let lines = |lines: &[Vec<DVec3>]| lines.iter().map(|line| self.points(line, false)).collect();
+        let (kind, coordinates): (_, Result<Json>) = match geometry {
+            Geometry::Point(point) => {
+                let place = self.points(point.as_slice(), false)?;
+                ("Point", Ok(place.get(0).cloned().unwrap_or_else(|| json!([]))))
+            }
+            Geometry::Line(points) => ("LineString", self.points(points, false)),
+            Geometry::Polygon(rings) => ("Polygon", self.rings(rings)),
+            Geometry::MultiPoint(points) => ("MultiPoint", self.points(points, false)),
+            Geometry::MultiLine(all) => ("MultiLineString", lines(all)),
+            Geometry::MultiPolygon(polygons) => {
+                ("MultiPolygon", polygons.iter().map(|rings| self.rings(rings)).collect())
+            }
+            Geometry::Collection(parts) => {
+                let parts: Json = parts.iter().map(|part| self.geometry(part)).collect::<Result<_>>()?;
+                return Ok(json!({ "type": "GeometryCollection", "geometries": parts }));
+            }
         };
-        Ok(json!({ "type": kind, "coordinates": coordinates }))
+        Ok(json!({ "type": kind, "coordinates": coordinates? }))
     }
 
-    fn rings(&self, rings: &burgeon_geometry::Rings) -> Result<Json> {
-        let mut turned = rings.clone();
-        turned.turn();
-        turned.iter().map(|ring| self.points(ring, true)).collect()
+    fn rings(&self, rings: &[Vec<DVec3>]) -> Result<Json> {
+        rings.iter().map(|ring| self.points(ring, true)).collect()
     }
 
     fn points(&self, points: &[DVec3], closed: bool) -> Result<Json> {

@@ -1,6 +1,7 @@
 //! A table of records.
 
-use crate::{Attribute, Geometry};
+use crate::Attribute;
+use burgeon_spatial::Geometry;
 
 /// Records with the same attributes.
 #[derive(Debug, Clone, Default, PartialEq)]

@@ -2,9 +2,10 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{Attribute, Crs, FeatureTable, Geometry, Layer, ReferenceFrame, Source, SourceOptions};
+use crate::{Attribute, Crs, FeatureTable, Layer, ReferenceFrame, Source, SourceOptions};
 use burgeon_base::stop::Stop;
 use burgeon_geometry::Rings;
+use burgeon_spatial::Geometry;
 
 /// The frame of a place of a coordinate system.
 fn frame(code: u32, [x, y]: [f64; 2]) -> ReferenceFrame {
@@ -180,7 +181,7 @@ fn attribute() -> impl Strategy<Value = Attribute> {
 fn geometry() -> impl Strategy<Value = Geometry> {
     let point = || prop::array::uniform3(-900.0f64..900.0).prop_map(DVec3::from_array);
     prop_oneof![
-        point().prop_map(Geometry::Point),
+        point().prop_map(Geometry::point),
         prop::collection::vec(point(), 2..6).prop_map(Geometry::Line),
         (point(), 1.0f64..50.0).prop_map(|(at, size)| {
             Geometry::Polygon(Rings(vec![vec![
@@ -238,4 +239,58 @@ proptest! {
             }
         }
     }
+}
+
+#[test]
+fn every_kind_of_geometry_is_written_and_mixed_kinds_are_told() {
+    let texts = [
+        "POINT (1 2)",
+        "POINT EMPTY",
+        "LINESTRING (0 0, 3 4)",
+        "POLYGON ((0 0, 4 0, 4 4, 0 4, 0 0), (1 1, 1 2, 2 2, 2 1, 1 1))",
+        "MULTIPOINT ((1 1), (2 2))",
+        "MULTILINESTRING ((0 0, 1 1), (2 2, 3 3, 4 2))",
+        "MULTIPOLYGON (((0 0, 1 0, 1 1, 0 0)), ((5 5, 6 5, 6 6, 5 5)))",
+        "GEOMETRYCOLLECTION (POINT (1 1), LINESTRING (0 0, 1 1))",
+        "POINT Z (1 2 3)",
+    ];
+    let record = |(number, text): (usize, &&str)| Record {
+        id: number.to_string(),
+        geometry: Some(Geometry::from_wkt(text).unwrap()),
+        values: Vec::new(),
+    };
+    let table = RecordTable {
+        name: "all".into(),
+        columns: Vec::new(),
+        records: texts.iter().enumerate().map(record).collect(),
+    };
+    let frame = frame(3067, [385_423.0, 6_671_463.0]);
+    let bytes = geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap();
+    assert!(bytes.windows(8).any(|found| found == b"GEOMETRY"));
+    let (read, _) = read(&bytes, "gpkg", None);
+    // Features are of one part each.
+    assert_eq!((read.features.len(), read.empty), (1 + 1 + 1 + 2 + 2 + 2 + 2 + 1, 1));
+    let written = json(&[table], Some(&frame));
+    let kinds: Vec<&str> = written["features"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|it| it["geometry"]["type"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        kinds,
+        [
+            "Point",
+            "Point",
+            "LineString",
+            "Polygon",
+            "MultiPoint",
+            "MultiLineString",
+            "MultiPolygon",
+            "GeometryCollection",
+            "Point"
+        ]
+    );
+    assert_eq!(written["features"][1]["geometry"]["coordinates"], serde_json::json!([]));
+    assert_eq!(written["features"][8]["geometry"]["coordinates"][2], 3.0);
 }

@@ -12,6 +12,4 @@ mod templates;
 #[cfg(test)]
 mod tests;
 
-pub use object::CityClass;
-
 pub(super) use document::write;

@@ -2,70 +2,13 @@
 
 use burgeon_base::error::{Error, Result};
 use burgeon_data::output::{Outward, Record};
-use burgeon_scene::{Instance, Origin, Scene, SurfaceMeaning};
+use burgeon_scene::{CityClass, Instance, Origin, Scene, SurfaceMeaning};
 use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::super::check::{SceneCheck, shown};
 use super::faces::{Edges, Face, Triangle, faces, volume};
 use crate::Facts;
-
-/// What CityJSON calls things of the first rank.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct CityClass(&'static str);
-
-/// The classes that a script may name.
-const CLASSES: [&str; 15] = [
-    "Bridge",
-    "Building",
-    "CityFurniture",
-    "GenericCityObject",
-    "LandUse",
-    "OtherConstruction",
-    "PlantCover",
-    "Railway",
-    "Road",
-    "SolitaryVegetationObject",
-    "TINRelief",
-    "TransportSquare",
-    "Tunnel",
-    "WaterBody",
-    "Waterway",
-];
-
-impl CityClass {
-    const BUILDING: Self = Self("Building");
-    const GENERIC: Self = Self("GenericCityObject");
-
-    /// The class called `name`. Fails, and tells which there are, if it is none.
-    pub fn of(name: &str) -> Result<Self> {
-        CLASSES.iter().find(|known| **known == name).map(|known| Self(known)).ok_or_else(|| {
-            let message = format!("{name:?} is no class of city objects");
-            Error::not_found("class", name, CLASSES, message)
-                .help(format!("there are {}", CLASSES.join(", ")))
-        })
-    }
-
-    /// Its name.
-    pub fn name(self) -> &'static str {
-        self.0
-    }
-
-    /// Whether its surfaces may be told apart as those of buildings.
-    pub(super) fn has_surfaces(self) -> bool {
-        ["Building", "Bridge", "Tunnel", "OtherConstruction"].contains(&self.0)
-    }
-
-    /// Whether it is one surface, and nothing in it an instance.
-    pub(super) fn is_relief(self) -> bool {
-        self.0 == "TINRelief"
-    }
-
-    /// What is fixed to it, if that is of a class of its own.
-    pub(super) fn installation(self) -> Option<String> {
-        ["Building", "Bridge", "Tunnel"].contains(&self.0).then(|| format!("{}Installation", self.0))
-    }
-}
 
 /// All that a chain has put into the scene.
 pub(super) struct CityObject<'a> {
@@ -242,8 +185,17 @@ impl ShapeBuilder {
         let near: Vec<DVec3> = self.points.iter().map(near).collect();
         let edges = Edges::of(&self.triangles);
         let closed = edges.are_closed() && volume(&near, &self.triangles) > 0.0;
-        let faces = faces(&near, &self.triangles, &edges, NEAR);
-        ObjectShape { points: self.points, faces, closed }
+        let mut faces = faces(&near, &self.triangles, &edges, NEAR);
+        // Those that nothing uses are left out.
+        let mut numbers: Vec<Option<u32>> = vec![None; self.points.len()];
+        let mut points = Vec::new();
+        for point in faces.iter_mut().flat_map(|face| face.rings.iter_mut().flatten()) {
+            *point = *numbers[*point as usize].get_or_insert_with(|| {
+                points.push(self.points[*point as usize]);
+                points.len() as u32 - 1
+            });
+        }
+        ObjectShape { points, faces, closed }
     }
 }
 
