@@ -50,9 +50,21 @@ impl CityClass {
         ["Building", "Bridge", "Tunnel", "OtherConstruction"].contains(&self.0)
     }
 
-    /// Whether it is one surface, and nothing in it an instance.
+    /// Whether it is one surface.
     pub fn is_relief(self) -> bool {
         self.0 == "TINRelief"
+    }
+
+    /// Whether it may be a solid.
+    pub fn takes_solids(self) -> bool {
+        let flat = ["LandUse", "Railway", "Road", "TINRelief", "TransportSquare", "Waterway"];
+        !flat.contains(&self.0)
+    }
+
+    /// Whether it, or what is fixed to it, may be an instance of a template.
+    pub fn takes_instances(self) -> bool {
+        let alone = ["CityFurniture", "GenericCityObject", "OtherConstruction", "SolitaryVegetationObject"];
+        alone.contains(&self.0) || self.installation().is_some()
     }
 
     /// What is fixed to it, if that is of a class of its own.

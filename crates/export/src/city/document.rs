@@ -98,7 +98,7 @@ impl CityWriter<'_> {
         let numbers: Vec<u32> = shape.points.iter().map(|at| self.vertex(*at)).collect();
         let mut geometry = Vec::new();
         if !shape.faces.is_empty() {
-            let closed = shape.closed && detail > 0 && !object.class.is_relief();
+            let closed = shape.closed && detail > 0 && object.class.takes_solids();
             let kind = match (closed, object.class.is_relief()) {
                 (true, _) => "Solid",
                 (_, true) => "CompositeSurface",

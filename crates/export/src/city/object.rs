@@ -99,7 +99,7 @@ pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &Facts<'a>) -> Vec<Ci
         }
         if instance.placement.is_some() { &mut object.placed } else { &mut object.drawn }.push(instance);
     }
-    for object in objects.iter_mut().filter(|object| object.class.is_relief()) {
+    for object in objects.iter_mut().filter(|object| !object.class.takes_instances()) {
         let placed = std::mem::take(&mut object.placed);
         object.drawn.extend(placed);
     }

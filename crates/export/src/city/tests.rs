@@ -166,6 +166,7 @@ fn levels_of_detail_and_classes_are_as_they_were_asked_for() {
     let city = written(&scene, Facts { systems: &systems, ..Facts::default() });
     let road = &city["CityObjects"]["a \"b\"\n"];
     assert_eq!(road["type"], "Road");
+    assert_eq!(road["geometry"][0]["type"], "MultiSurface");
     assert_eq!(road["geometry"][0].get("semantics"), None);
 }
 

@@ -14,6 +14,8 @@ mod document;
 mod material;
 mod mesh;
 mod metadata;
+#[cfg(test)]
+mod metadata_tests;
 mod place;
 #[cfg(test)]
 mod tests;
