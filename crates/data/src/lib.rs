@@ -25,7 +25,9 @@ use std::sync::Arc;
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use formats::GeoPackage;
-pub use frame::{Crs, ReferenceFrame};
+#[cfg(feature = "data")]
+pub use formats::TableShape;
+pub use frame::{Crs, Passage, ReferenceFrame};
 pub use layer::Layer;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};

@@ -12,4 +12,4 @@ pub(crate) mod png;
 pub(crate) mod projection;
 pub(crate) mod zipped;
 
-pub use geopackage::GeoPackage;
+pub use geopackage::{GeoPackage, TableShape};
