@@ -241,6 +241,28 @@ proptest! {
     }
 }
 
+/// The files go to the folder `BURGEON_SAMPLES` if it is set, where other programs can look at them.
+#[test]
+fn samples_are_written_for_other_programs() {
+    let temporary = tempfile::tempdir().unwrap();
+    let folder = std::env::var_os("BURGEON_SAMPLES").map_or(temporary.path().to_path_buf(), Into::into);
+    let frames = [
+        ("metres", frame(3067, [385_423.0, 6_671_463.0])),
+        ("lambert", frame(2154, [652_000.0, 6_862_000.0])),
+        ("degrees", frame(4326, [7.42, 43.73])),
+    ];
+    for (name, frame) in &frames {
+        let package = geopackage(&[lots()], Some(frame), &Stop::default()).unwrap();
+        std::fs::write(folder.join(format!("{name}.gpkg")), package).unwrap();
+        let mut text = Vec::new();
+        write_geojson(&[lots()], Some(frame), &mut text).unwrap();
+        std::fs::write(folder.join(format!("{name}.geojson")), text).unwrap();
+        let origin = format!("{:?} {:?}", frame.origin, frame.epsg());
+        std::fs::write(folder.join(format!("{name}.txt")), origin).unwrap();
+    }
+    assert!(folder.join("degrees.gpkg").metadata().unwrap().len() > 10_000);
+}
+
 #[test]
 fn every_kind_of_geometry_is_written_and_mixed_kinds_are_told() {
     let texts = [
