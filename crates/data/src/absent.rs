@@ -55,12 +55,12 @@ pub(crate) mod output {
     use burgeon_base::stop::Stop;
 
     /// Refuses GeoPackages.
-    pub fn check() -> Result<()> {
+    pub fn check_geopackage() -> Result<()> {
         left_out()
     }
 
     /// A GeoPackage, of which there is none without the feature `data`.
-    pub fn geopackage(
+    pub fn write_geopackage(
         _tables: &[RecordTable],
         _frame: Option<&ReferenceFrame>,
         _stop: &Stop,

@@ -13,12 +13,12 @@ pub struct Export<'a> {
     /// How a picture of it is taken.
     pub picture: &'a Picture,
     /// What is known of it.
-    pub facts: Facts<'a>,
+    pub facts: SceneFacts<'a>,
 }
 
 /// What is known of a scene besides what is seen, for formats that tell it.
 #[derive(Clone, Copy)]
-pub struct Facts<'a> {
+pub struct SceneFacts<'a> {
     /// Where on the earth it is.
     pub frame: Option<&'a ReferenceFrame>,
     /// The level of detail that it was made in, from 0 to 3.
@@ -42,7 +42,7 @@ pub struct SystemFacts {
     pub class: Option<CityClass>,
 }
 
-impl Default for Facts<'_> {
+impl Default for SceneFacts<'_> {
     /// Nothing is known of a scene in full detail.
     fn default() -> Self {
         Self { frame: None, detail: 3, systems: &[], layers: &[], metadata: false }

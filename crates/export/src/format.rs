@@ -68,7 +68,7 @@ impl Format {
     pub fn check(self) -> Result<()> {
         match self {
             Self::Png => image::check(),
-            Self::GeoPackage => burgeon_data::output::check(),
+            Self::GeoPackage => burgeon_data::check_geopackage(),
             _ => Ok(()),
         }
     }

@@ -35,7 +35,7 @@ mod x3d;
 #[cfg(test)]
 mod samples;
 
-pub use facts::{Export, Facts, SystemFacts};
+pub use facts::{Export, SceneFacts, SystemFacts};
 pub use files::{Files, Out, Stoppable};
 pub use format::Format;
 pub use temporary::abandon;
@@ -63,7 +63,7 @@ impl Files {
     ///
     /// Nothing is known of it but what is seen. Fails as [`export`](Files::export) does.
     pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
-        self.export(&Export { scene, picture, facts: Facts::default() }, path)
+        self.export(&Export { scene, picture, facts: SceneFacts::default() }, path)
     }
 
     /// Writes what will be at `path`, in the format of its extension.
@@ -95,7 +95,7 @@ impl Files {
                 self.write(path, |out| out.write_all(&text))
             }
             Format::GeoPackage => {
-                let package = output::geopackage(facts.layers, facts.frame, &self.stop())?;
+                let package = burgeon_data::write_geopackage(facts.layers, facts.frame, &self.stop())?;
                 self.write(path, |out| out.write_all(&package))
             }
         }

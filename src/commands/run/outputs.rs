@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use burgeon::export::{self, Export, Facts, Files, Format, SystemFacts, heights::HeightMap};
+use burgeon::export::{self, Export, Files, Format, SceneFacts, SystemFacts, heights::HeightMap};
 use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
@@ -103,7 +103,7 @@ impl RunCommand {
         let picture = self.picture.picture(self.size);
         let (systems, layers) =
             (systems(run), if self.writes(Format::has_layers) { layers(&run.systems) } else { Vec::new() });
-        let facts = Facts {
+        let facts = SceneFacts {
             frame: run.frame.as_ref(),
             detail: session.options.lod,
             systems: &systems,

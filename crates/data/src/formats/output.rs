@@ -45,7 +45,7 @@ const CHANGED: &str = "1970-01-01T00:00:00.000Z";
 const GEOMETRY: &str = "geom";
 
 /// Refuses GeoPackages where the program is built without them.
-pub fn check() -> Result<()> {
+pub fn check_geopackage() -> Result<()> {
     Ok(())
 }
 
@@ -53,7 +53,11 @@ pub fn check() -> Result<()> {
 /// run's own.
 ///
 /// Fails if a place cannot be brought there, and if a `stop` was asked for.
-pub fn geopackage(tables: &[RecordTable], frame: Option<&ReferenceFrame>, stop: &Stop) -> Result<Vec<u8>> {
+pub fn write_geopackage(
+    tables: &[RecordTable],
+    frame: Option<&ReferenceFrame>,
+    stop: &Stop,
+) -> Result<Vec<u8>> {
     let outward = Outward::native(frame)?;
     let mut package =
         PackageWriter { database: Connection::open_in_memory().map_err(failed)?, outward, names: Vec::new() };
@@ -79,9 +83,9 @@ struct PackageWriter<'a> {
 }
 
 /// The least box around places: the least x and y, then the greatest.
-type Bounds = [f64; 4];
+type LayerBox = [f64; 4];
 
-const NOWHERE: Bounds = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
+const NOWHERE: LayerBox = [f64::INFINITY, f64::INFINITY, f64::NEG_INFINITY, f64::NEG_INFINITY];
 
 impl PackageWriter<'_> {
     /// The number of the coordinate system: -1 stands for metres from anywhere.
@@ -143,7 +147,7 @@ impl PackageWriter<'_> {
         kinds: &[ColumnKind],
         high: bool,
         stop: &Stop,
-    ) -> Result<Bounds> {
+    ) -> Result<LayerBox> {
         let tree = quoted(&format!("rtree_{name}_{GEOMETRY}"));
         let create = format!("CREATE VIRTUAL TABLE {tree} USING rtree(id, minx, maxx, miny, maxy)");
         self.database.execute_batch(&create).map_err(failed)?;
@@ -234,7 +238,7 @@ fn kind_name(table: &RecordTable) -> &'static str {
     if kinds.all(|kind| kind == first) { first } else { "GEOMETRY" }
 }
 
-fn joined(a: Bounds, b: Bounds) -> Bounds {
+fn joined(a: LayerBox, b: LayerBox) -> LayerBox {
     [a[0].min(b[0]), a[1].min(b[1]), a[2].max(b[2]), a[3].max(b[3])]
 }
 
@@ -288,7 +292,7 @@ struct BlobWriter<'a> {
     /// Whether the layer has heights.
     high: bool,
     /// The box around what was written.
-    bounds: Bounds,
+    bounds: LayerBox,
 }
 
 impl BlobWriter<'_> {

@@ -15,5 +15,3 @@ pub use geojson::write_geojson;
 pub use place::Outward;
 pub(crate) use table::apart;
 pub use table::{Record, RecordTable};
-
-pub use super::formats::output::{check, geopackage};

@@ -2,7 +2,7 @@ use glam::DVec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{Attribute, Crs, FeatureTable, Layer, ReferenceFrame, Source, SourceOptions};
+use crate::{Attribute, Crs, FeatureTable, Layer, ReferenceFrame, Source, SourceOptions, write_geopackage};
 use burgeon_base::stop::Stop;
 use burgeon_geometry::Rings;
 use burgeon_spatial::Geometry;
@@ -81,7 +81,7 @@ fn a_geopackage_reads_back_with_its_projection_its_attributes_and_what_is_missin
         geometry: Some(line),
         values: vec![(0, Attribute::Number(0.5)), (1, Attribute::Text("x".into()))],
     });
-    let bytes = geopackage(&[lots(), streets], Some(&frame), &Stop::default()).unwrap();
+    let bytes = write_geopackage(&[lots(), streets], Some(&frame), &Stop::default()).unwrap();
     let (table, layers) = read(&bytes, "gpkg", Some("Lot"));
     assert_eq!(layers, ["Lot", "lot_2"]);
     assert_eq!(table.crs.as_ref().unwrap().code, Some(3067));
@@ -99,7 +99,7 @@ fn a_geopackage_reads_back_with_its_projection_its_attributes_and_what_is_missin
 fn what_has_no_projection_that_others_know_is_written_in_degrees_and_what_is_nowhere_in_metres() {
     let own = frame(4326, [7.42, 43.73]);
     assert_eq!(own.epsg(), None);
-    let (table, _) = read(&geopackage(&[lots()], Some(&own), &Stop::default()).unwrap(), "gpkg", None);
+    let (table, _) = read(&write_geopackage(&[lots()], Some(&own), &Stop::default()).unwrap(), "gpkg", None);
     assert_eq!(table.crs.as_ref().unwrap().code, Some(4326));
     let back = Layer::new(table, &mut Some(own.clone())).unwrap();
     let given = lots();
@@ -107,7 +107,7 @@ fn what_has_no_projection_that_others_know_is_written_in_degrees_and_what_is_now
         let points = record.geometry.as_ref().unwrap().points();
         assert!(feature.geometry.points().zip(points).all(|(a, b)| a.distance(*b) < 1e-6));
     }
-    let bytes = geopackage(&[lots()], None, &Stop::default()).unwrap();
+    let bytes = write_geopackage(&[lots()], None, &Stop::default()).unwrap();
     let find = |text: &[u8]| bytes.windows(text.len()).any(|found| found == text);
     assert!(find(b"Undefined cartesian SRS") && find(b"gpkg_rtree_index") && find(b"rtree_Lot_geom_update4"));
 }
@@ -209,8 +209,8 @@ proptest! {
         });
         let table = RecordTable { name: "Things".into(), records: records.collect(), columns };
         let frame = frame(3067, [385_423.0, 6_671_463.0]);
-        let bytes = geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap();
-        prop_assert_eq!(&bytes, &geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap());
+        let bytes = write_geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap();
+        prop_assert_eq!(&bytes, &write_geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap());
         let mut text = Vec::new();
         write_geojson(std::slice::from_ref(&table), Some(&frame), &mut text).unwrap();
         for (bytes, extension, near) in [(&bytes, "gpkg", 1e-9), (&text, "geojson", 2e-4)] {
@@ -252,7 +252,7 @@ fn samples_are_written_for_other_programs() {
         ("degrees", frame(4326, [7.42, 43.73])),
     ];
     for (name, frame) in &frames {
-        let package = geopackage(&[lots()], Some(frame), &Stop::default()).unwrap();
+        let package = write_geopackage(&[lots()], Some(frame), &Stop::default()).unwrap();
         std::fs::write(folder.join(format!("{name}.gpkg")), package).unwrap();
         let mut text = Vec::new();
         write_geojson(&[lots()], Some(frame), &mut text).unwrap();
@@ -287,7 +287,7 @@ fn every_kind_of_geometry_is_written_and_mixed_kinds_are_told() {
         records: texts.iter().enumerate().map(record).collect(),
     };
     let frame = frame(3067, [385_423.0, 6_671_463.0]);
-    let bytes = geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap();
+    let bytes = write_geopackage(std::slice::from_ref(&table), Some(&frame), &Stop::default()).unwrap();
     assert!(bytes.windows(8).any(|found| found == b"GEOMETRY"));
     let (read, _) = read(&bytes, "gpkg", None);
     // Features are of one part each.

@@ -17,7 +17,7 @@ use super::super::files::{Files, Out};
 use super::super::stem;
 use super::faces::Face;
 use super::object::{CityObject, ObjectShape, Quantiser, STEPS, objects, placed};
-use super::templates::Templates;
+use super::templates::ShapeTemplates;
 use crate::Export;
 
 /// Objects whose shapes are found at a time.
@@ -36,7 +36,7 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
         quantiser: &quantiser,
         vertices: Vec::new(),
         numbers: FxHashMap::default(),
-        templates: Templates::default(),
+        templates: ShapeTemplates::default(),
     };
     let mut failed = Ok(());
     files.write(path, |out| {
@@ -62,9 +62,9 @@ pub(crate) fn write(export: &Export<'_>, path: &Path, files: &mut Files) -> Resu
 }
 
 /// An object that is described, by its id, with those that belong to it.
-type Described = Vec<(String, Json)>;
+type CityEntries = Vec<(String, Json)>;
 
-fn write_object(described: Described, first: &mut bool, out: &mut Out) -> io::Result<()> {
+fn write_object(described: CityEntries, first: &mut bool, out: &mut Out) -> io::Result<()> {
     for (id, object) in described {
         write!(out, "{}", if *first { "\n" } else { ",\n" })?;
         *first = false;
@@ -81,7 +81,7 @@ struct CityWriter<'a> {
     quantiser: &'a Quantiser<'a>,
     vertices: Vec<[i64; 3]>,
     numbers: FxHashMap<[i64; 3], u32>,
-    templates: Templates,
+    templates: ShapeTemplates,
 }
 
 impl CityWriter<'_> {
@@ -93,7 +93,7 @@ impl CityWriter<'_> {
     }
 
     /// What there is to say of an object, and of what is fixed to it.
-    fn object(&mut self, object: &CityObject<'_>, shape: &ObjectShape) -> Result<Described> {
+    fn object(&mut self, object: &CityObject<'_>, shape: &ObjectShape) -> Result<CityEntries> {
         let detail = self.export.facts.detail;
         let numbers: Vec<u32> = shape.points.iter().map(|at| self.vertex(*at)).collect();
         let mut geometry = Vec::new();

@@ -20,9 +20,9 @@ const SAME_WAY: f64 = 0.999;
 const MANY: u32 = u32::MAX;
 
 /// The triangles on each side of an edge, by the edge's ends in the order of the triangle.
-pub(super) struct Edges(FxHashMap<(u32, u32), u32>);
+pub(super) struct TriangleEdges(FxHashMap<(u32, u32), u32>);
 
-impl Edges {
+impl TriangleEdges {
     pub(super) fn of(triangles: &[Triangle]) -> Self {
         let mut edges = FxHashMap::default();
         for (number, (corners, _)) in (0..).zip(triangles) {
@@ -58,7 +58,7 @@ pub(super) fn volume(points: &[DVec3], triangles: &[Triangle]) -> f64 {
 
 /// The polygons that `triangles` make up; points within `near` (m) of a plane lie in it. What has no area is left out
 /// unless it is a part of a polygon.
-pub(super) fn faces(points: &[DVec3], triangles: &[Triangle], edges: &Edges, near: f64) -> Vec<Face> {
+pub(super) fn faces(points: &[DVec3], triangles: &[Triangle], edges: &TriangleEdges, near: f64) -> Vec<Face> {
     let mut finder = FaceFinder { points, triangles, edges, near, group_of: vec![None; triangles.len()] };
     let mut faces = Vec::new();
     for number in 0..triangles.len() {
@@ -77,14 +77,14 @@ pub(super) fn faces(points: &[DVec3], triangles: &[Triangle], edges: &Edges, nea
 struct FaceFinder<'a> {
     points: &'a [DVec3],
     triangles: &'a [Triangle],
-    edges: &'a Edges,
+    edges: &'a TriangleEdges,
     near: f64,
     /// For each triangle, the first one of its polygon.
     group_of: Vec<Option<usize>>,
 }
 
 #[derive(Clone, Copy)]
-struct Plane {
+struct FacePlane {
     normal: DVec3,
     distance: f64,
 }
@@ -104,9 +104,9 @@ impl FaceFinder<'_> {
 
     /// The triangles that lie in the plane of the one with this `number` and touch it or one another; none if that has no
     /// plane.
-    fn gather(&mut self, number: usize) -> Option<(Plane, Vec<usize>)> {
+    fn gather(&mut self, number: usize) -> Option<(FacePlane, Vec<usize>)> {
         let normal = self.normal(number)?;
-        let plane = Plane { normal, distance: normal.dot(self.corners(number)[0]) };
+        let plane = FacePlane { normal, distance: normal.dot(self.corners(number)[0]) };
         self.group_of[number] = Some(number);
         let mut group = vec![number];
         let mut next = 0;
@@ -126,7 +126,7 @@ impl FaceFinder<'_> {
         Some((plane, group))
     }
 
-    fn lies_in(&self, number: usize, plane: Plane) -> bool {
+    fn lies_in(&self, number: usize, plane: FacePlane) -> bool {
         let near = |point: DVec3| (plane.normal.dot(point) - plane.distance).abs() <= self.near;
         self.corners(number).into_iter().all(near)
             && self.normal(number).is_none_or(|normal| normal.dot(plane.normal) > SAME_WAY)
@@ -195,7 +195,7 @@ mod tests {
 
     fn found(points: &[DVec3], triangles: &[[u32; 3]]) -> Vec<Face> {
         let triangles: Vec<Triangle> = triangles.iter().map(|corners| (*corners, None)).collect();
-        faces(points, &triangles, &Edges::of(&triangles), 1e-3)
+        faces(points, &triangles, &TriangleEdges::of(&triangles), 1e-3)
     }
 
     #[test]

@@ -7,8 +7,8 @@ use glam::{DAffine3, DMat3, DVec3};
 use rustc_hash::FxHashMap;
 
 use super::super::check::{SceneCheck, shown};
-use super::faces::{Edges, Face, Triangle, faces, volume};
-use crate::Facts;
+use super::faces::{Face, Triangle, TriangleEdges, faces, volume};
+use crate::SceneFacts;
 
 /// All that a chain has put into the scene.
 pub(super) struct CityObject<'a> {
@@ -67,7 +67,7 @@ fn nowhere(at: DVec3) -> Error {
 }
 
 /// The city objects of a scene, in the order of their first instances.
-pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &Facts<'a>) -> Vec<CityObject<'a>> {
+pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> Vec<CityObject<'a>> {
     let scene = checked.scene;
     let mut known: FxHashMap<Option<(usize, usize)>, usize> = FxHashMap::default();
     let mut objects: Vec<CityObject<'a>> = Vec::new();
@@ -183,7 +183,7 @@ impl ShapeBuilder {
         let first = self.points.first().copied().unwrap_or_default();
         let near = |at: &[i64; 3]| DVec3::from([0, 1, 2].map(|axis| (at[axis] - first[axis]) as f64 / STEPS));
         let near: Vec<DVec3> = self.points.iter().map(near).collect();
-        let edges = Edges::of(&self.triangles);
+        let edges = TriangleEdges::of(&self.triangles);
         let closed = edges.are_closed() && volume(&near, &self.triangles) > 0.0;
         let mut faces = faces(&near, &self.triangles, &edges, NEAR);
         // Those that nothing uses are left out.

@@ -1,4 +1,4 @@
-//! Templates: the shapes of models that are placed, each once.
+//! ShapeTemplates: the shapes of models that are placed, each once.
 
 use burgeon_scene::{Instance, Scene, SurfaceMeaning};
 use rustc_hash::FxHashMap;
@@ -6,20 +6,20 @@ use serde_json::{Value as Json, json};
 
 use super::super::check::shown;
 use super::document::{boundaries, semantics};
-use super::faces::{Edges, Triangle, faces};
+use super::faces::{Triangle, TriangleEdges, faces};
 
 /// How far (m) from a plane a point of a model may be that lies in it.
 const NEAR: f64 = 1e-5;
 
 /// The templates that are used, in the order of their first use.
 #[derive(Default)]
-pub(super) struct Templates {
+pub(super) struct ShapeTemplates {
     numbers: FxHashMap<(usize, Option<SurfaceMeaning>), usize>,
     templates: Vec<Json>,
     points: Vec<[f32; 3]>,
 }
 
-impl Templates {
+impl ShapeTemplates {
     /// The number of the template that an instance shows.
     pub(super) fn number(
         &mut self,
@@ -54,7 +54,7 @@ impl Templates {
         }
         let points: Vec<glam::DVec3> =
             self.points[first as usize..].iter().map(|at| glam::Vec3::from(*at).as_dvec3()).collect();
-        let faces = faces(&points, &triangles, &Edges::of(&triangles), NEAR);
+        let faces = faces(&points, &triangles, &TriangleEdges::of(&triangles), NEAR);
         let mut template = json!({
             "type": "MultiSurface",
             "lod": detail.to_string(),

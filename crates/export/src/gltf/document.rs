@@ -10,7 +10,7 @@ use super::{InstancePlace, body, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::files::Files;
 use crate::texture::Images;
-use crate::{Facts, stem, uri};
+use crate::{SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
@@ -67,7 +67,8 @@ pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8
 fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &Facts::default(), &images, &Textures::Embedded, arrays, stop)?;
+    let document =
+        Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, arrays, stop)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
     let length: usize = head.iter().map(Vec::len).sum();
@@ -78,7 +79,7 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 }
 
 /// Writes one `.glb` file to `path`.
-pub(crate) fn write_glb(scene: &Scene, facts: &Facts<'_>, path: &Path, files: &mut Files) -> Result<()> {
+pub(crate) fn write_glb(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
@@ -88,7 +89,12 @@ pub(crate) fn write_glb(scene: &Scene, facts: &Facts<'_>, path: &Path, files: &m
 }
 
 /// Writes a `.gltf` file to `path`, and its `.bin` file and copies of the textures beside it.
-pub(crate) fn write_gltf(scene: &Scene, facts: &Facts<'_>, path: &Path, files: &mut Files) -> Result<()> {
+pub(crate) fn write_gltf(
+    scene: &Scene,
+    facts: &SceneFacts<'_>,
+    path: &Path,
+    files: &mut Files,
+) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
@@ -109,7 +115,7 @@ pub(crate) fn write_gltf(scene: &Scene, facts: &Facts<'_>, path: &Path, files: &
 impl<'a> Document<'a> {
     fn new(
         checked: &SceneCheck<'a>,
-        facts: &Facts<'a>,
+        facts: &SceneFacts<'a>,
         images: &'a Images,
         textures: &Textures,
         arrays: Arrays,

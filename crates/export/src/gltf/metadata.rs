@@ -15,7 +15,7 @@ use serde_json::{Map, Value as Json, json};
 
 use super::body::{Body, BodyArray};
 use super::material::use_extension;
-use crate::Facts;
+use crate::SceneFacts;
 
 const MESH_FEATURES: &str = "EXT_mesh_features";
 pub(super) const INSTANCE_FEATURES: &str = "EXT_instance_features";
@@ -49,7 +49,7 @@ pub(super) struct Metadata<'a> {
 
 impl<'a> Metadata<'a> {
     /// What is to be told of `scene`; none if that is not asked for or there are no features.
-    pub(super) fn of(scene: &Scene, facts: &Facts<'a>) -> Option<Self> {
+    pub(super) fn of(scene: &Scene, facts: &SceneFacts<'a>) -> Option<Self> {
         let systems =
             facts.systems.iter().filter(|system| facts.metadata && !system.records.records.is_empty());
         let tables: Vec<_> = systems.map(|system| (system.system, &system.records)).collect();

@@ -11,7 +11,7 @@ use serde_json::{Value as Json, json};
 
 use super::super::samples;
 use crate::picture::Picture;
-use crate::{Export, Facts, Files, SystemFacts};
+use crate::{Export, Files, SceneFacts, SystemFacts};
 
 /// The description and the body of a file.
 struct Binary {
@@ -24,7 +24,7 @@ fn written(scene: &Scene, systems: &[SystemFacts], metadata: bool) -> Binary {
     let temporary = tempfile::tempdir().unwrap();
     let path = folder.map_or(temporary.path().to_path_buf(), Into::into).join("features.glb");
     let mut files = Files::new(&std::sync::Arc::new(Stop::default()));
-    let facts = Facts { systems, metadata, ..Facts::default() };
+    let facts = SceneFacts { systems, metadata, ..SceneFacts::default() };
     files.export(&Export { scene, picture: &Picture::default(), facts }, &path).unwrap();
     files.publish().unwrap();
     let bytes = std::fs::read(path).unwrap();

@@ -48,15 +48,15 @@ enum Sharing {
 
 /// A piece of the document.
 #[derive(Clone, Copy)]
-enum Item<'a> {
+enum DocumentItem<'a> {
     Prototype(ShownMesh),
     Placed(&'a Instance, ShownMesh),
 }
 
 /// What stands where in a document.
-struct Plan<'a> {
+struct DocumentPlan<'a> {
     checked: &'a SceneCheck<'a>,
-    items: Vec<Item<'a>>,
+    items: Vec<DocumentItem<'a>>,
     sharing: FxHashMap<ShownMesh, Sharing>,
     /// For each material, the number of the item that has it under its name.
     defined: Vec<Option<usize>>,
@@ -72,7 +72,7 @@ pub(crate) fn write(scene: &Scene, path: &Path, files: &mut Files) -> Result<()>
     }
     let image = |file: &Option<usize>| file.map(|file| uri(&names[file]));
     let looks = Looks { materials: &scene.materials, images: images.of_material.iter().map(image).collect() };
-    let plan = Plan::new(&checked);
+    let plan = DocumentPlan::new(&checked);
     let head = head(&stem(path), checked.origin);
     files.write(path, |out| {
         out.write_all(head.as_bytes())?;
@@ -115,7 +115,7 @@ fn tail(origin: DVec3) -> &'static str {
     if origin == DVec3::ZERO { "</Scene>\n</X3D>\n" } else { "</Transform>\n</Scene>\n</X3D>\n" }
 }
 
-impl<'a> Plan<'a> {
+impl<'a> DocumentPlan<'a> {
     fn new(checked: &'a SceneCheck<'a>) -> Self {
         let scene = checked.scene;
         let shown: Vec<(&Instance, ShownMesh)> = scene
@@ -137,7 +137,7 @@ impl<'a> Plan<'a> {
             let sharing = sharing.entry(*mesh).or_insert(Sharing::Alone);
             if is_shared && instance.placement.is_some() {
                 *sharing = Sharing::Prototype;
-                prototypes.push(Item::Prototype(*mesh));
+                prototypes.push(DocumentItem::Prototype(*mesh));
             } else if is_shared {
                 *sharing = Sharing::From(usize::MAX);
             }
@@ -146,7 +146,7 @@ impl<'a> Plan<'a> {
             Self { checked, items: prototypes, sharing, defined: vec![None; scene.materials.len()] };
         for (instance, mesh) in shown {
             let number = plan.items.len();
-            plan.items.push(Item::Placed(instance, mesh));
+            plan.items.push(DocumentItem::Placed(instance, mesh));
             let has_shapes = match plan.sharing.get_mut(&mesh) {
                 Some(Sharing::From(first)) if *first == usize::MAX => {
                     *first = number;
@@ -168,8 +168,10 @@ impl<'a> Plan<'a> {
     fn text(&self, number: usize, looks: &Looks<'_>) -> String {
         let mut text = String::new();
         match self.items[number] {
-            Item::Prototype(mesh) => self.write_prototype(mesh, looks, &mut text),
-            Item::Placed(instance, mesh) => self.write_placed(number, instance, mesh, looks, &mut text),
+            DocumentItem::Prototype(mesh) => self.write_prototype(mesh, looks, &mut text),
+            DocumentItem::Placed(instance, mesh) => {
+                self.write_placed(number, instance, mesh, looks, &mut text)
+            }
         }
         text
     }

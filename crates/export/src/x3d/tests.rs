@@ -45,7 +45,7 @@ const FIELDS: [&str; 4] = ["translation", "rotation", "scale", "scaleOrientation
 
 /// What a file shows.
 #[derive(Default)]
-struct Shown {
+struct X3dContent {
     /// The corners of triangles where they are in the world, y up, with the normals there.
     triangles: Vec<[(DVec3, DVec3); 3]>,
     shapes: usize,
@@ -60,7 +60,7 @@ struct Reader<'a> {
     text: &'a str,
     named: HashMap<&'a str, Node<'a, 'a>>,
     prototypes: HashMap<&'a str, (Node<'a, 'a>, HashSet<&'a str>)>,
-    shown: Shown,
+    shown: X3dContent,
 }
 
 fn numbers(text: &str) -> Vec<f64> {
@@ -204,19 +204,23 @@ impl<'a> Reader<'a> {
     }
 }
 
-fn read(path: &Path) -> (Shown, String) {
+fn read(path: &Path) -> (X3dContent, String) {
     let text = std::fs::read_to_string(path).unwrap();
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     let document = Document::parse_with_options(&text, options).unwrap();
-    let mut reader =
-        Reader { text: &text, named: HashMap::new(), prototypes: HashMap::new(), shown: Shown::default() };
+    let mut reader = Reader {
+        text: &text,
+        named: HashMap::new(),
+        prototypes: HashMap::new(),
+        shown: X3dContent::default(),
+    };
     reader.check(document.root_element());
     reader.show(document.root_element(), DAffine3::IDENTITY, &HashMap::new());
     let shown = reader.shown;
     (shown, text)
 }
 
-fn written(scene: &Scene) -> (Shown, String) {
+fn written(scene: &Scene) -> (X3dContent, String) {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.x3d");
     crate::write(scene, &path, &Picture::default()).unwrap();
