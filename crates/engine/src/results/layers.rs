@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use burgeon_data::Attribute;
+use burgeon_data::Geometry;
 use burgeon_data::output::{Record, RecordTable};
 use burgeon_kit::rules::{END, FIRST_SYMBOL, Symbol};
-use burgeon_kit::{Value, geometry_of};
+use burgeon_kit::{GeometryObject, Value};
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::DerivedSystem;
@@ -79,6 +80,12 @@ impl LayerTables {
             values: attributes,
         });
     }
+}
+
+/// The geometry that a value is, if it is one.
+fn geometry_of(value: &Value) -> Option<&Geometry> {
+    let Value::Object(object) = value else { return None };
+    GeometryObject::of(&**object)
 }
 
 /// `id`, or with a number behind it if it is taken.
