@@ -117,6 +117,8 @@ pub struct Session {
     /// Counts the shapes of the rules' returns.
     pub(crate) shapes: Arc<AtomicUsize>,
     randoms: AtomicBool,
+    /// Whether modules have been made that stand for others.
+    pending: AtomicBool,
     peeking: AtomicBool,
     metatables: AtomicBool,
     kept: Mutex<Vec<f64>>,
@@ -163,6 +165,7 @@ impl Session {
             deprecated,
             shapes: Arc::default(),
             randoms: AtomicBool::new(false),
+            pending: AtomicBool::new(false),
             peeking: AtomicBool::new(false),
             metatables: AtomicBool::new(false),
             kept: Mutex::default(),
@@ -308,6 +311,16 @@ impl Session {
         self.randoms.fetch_or(analysis.random, Ordering::AcqRel);
         self.metatables.fetch_or(has_metatables(&analysis.text), Ordering::AcqRel);
         self.peeking.fetch_or(super::analysis::peeks(&analysis.text), Ordering::AcqRel);
+    }
+
+    /// Notes that a module has been made that stands for others.
+    pub(crate) fn note_pending(&self) {
+        self.pending.store(true, Ordering::Release);
+    }
+
+    /// Whether there may be modules that stand for others.
+    pub(crate) fn has_pending(&self) -> bool {
+        self.pending.load(Ordering::Acquire)
     }
 
     /// The rows that answer `question`, the same for as long as they are kept, which is to the end if the answer

@@ -34,6 +34,14 @@ pub(super) fn add_questions(lua: &Lua, host: &Table, current: &Rc<WorkState>) ->
             Ok(names)
         })?,
     )?;
+    let state = Rc::clone(current);
+    host.set(
+        "note_pending",
+        lua.create_function(move |_, ()| {
+            state.session.note_pending();
+            Ok(())
+        })?,
+    )?;
     let (state, tables) = (Rc::clone(current), RefCell::<RowTables>::default());
     host.set(
         "rows",

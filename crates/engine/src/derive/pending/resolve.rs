@@ -38,7 +38,9 @@ pub(in crate::derive) fn resolve(
     chain: &Chain,
     step: usize,
 ) -> Result<Option<Resolution>> {
-    if !chain.symbols.iter().any(|symbol| *symbol == QUERY || *symbol == FRAGMENT) {
+    // Most scripts never make one, and pay for no look at their chains.
+    let is_pending = |symbol: &Symbol| *symbol == QUERY || *symbol == FRAGMENT;
+    if !machine.session.has_pending() || !chain.symbols.iter().any(is_pending) {
         return Ok(None);
     }
     let resolver = Resolver { machine, plan, chain, step };
