@@ -8,9 +8,10 @@ use super::entry::{Entry, EntryGroup, Member, MemberKind};
 pub(super) type Page = (String, String);
 
 /// The chapters that are written by hand: their titles and files.
-const CHAPTERS: [(&str, &str); 13] = [
+const CHAPTERS: [(&str, &str); 14] = [
     ("Burgeon", "introduction"),
     ("Data and heights", "data"),
+    ("Questions to data in rules", "queries"),
     ("Ground and planets", "ground"),
     ("What scripts can use", "objects"),
     ("Street networks", "networks"),
