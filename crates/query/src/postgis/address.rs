@@ -164,7 +164,10 @@ mod tests {
         let asked = |text: &str| ServerAddress::parse(text).unwrap().allowed(&allowed).cloned();
         assert_eq!(asked("postgres://host/db").unwrap().password(), Some("secret"));
         assert_eq!(asked("postgres://me@host:5432/db").unwrap(), allowed[0]);
-        insta::assert_snapshot!(asked("postgres://root:x@host/db").unwrap_err(), @"");
+        insta::assert_snapshot!(asked("postgres://root:x@host/db").unwrap_err(), @r"
+        the script asks postgres://root@host/db, which is not allowed
+          help: scripts reach only what you name: --database postgres://root@host/db
+        ");
         assert!(asked("postgres://host/other").is_err() && asked("postgres://host:1/db").is_err());
     }
 }

@@ -38,6 +38,21 @@ const OTHERS: [&str; 18] = [
     "string_to_array",
 ];
 
+/// Words that PostgreSQL takes for functions.
+const NEVER_THE_SAME: [&str; 11] = [
+    "current_catalog",
+    "current_date",
+    "current_role",
+    "current_schema",
+    "current_time",
+    "current_timestamp",
+    "current_user",
+    "localtime",
+    "localtimestamp",
+    "session_user",
+    "user",
+];
+
 /// Fails if a statement is none that asks for rows, or names a table or a function that it may not.
 pub(crate) fn check(sql: &str, catalogue: &Catalogue) -> Result<()> {
     let checked = with_stack(|| {
@@ -82,6 +97,11 @@ impl Guard<'_> {
         found.map_or_else(|| "SQL: ".to_owned(), |offset| format!("SQL, {}: ", at(self.sql, offset)))
     }
 
+    fn never_the_same(&self, word: &str) -> ControlFlow<Error> {
+        let what = format!("{}{} may not be asked for", self.place(word), shown(word));
+        ControlFlow::Break(Error::scope(what).help("questions give the same each time, whoever asks"))
+    }
+
     fn function(&self, name: &ObjectName) -> ControlFlow<Error> {
         let written = name.to_string();
         let plain = written.trim_matches('"').to_ascii_lowercase();
@@ -105,12 +125,16 @@ impl Visitor for Guard<'_> {
     type Break = Error;
 
     fn pre_visit_expr(&mut self, expression: &Expr) -> ControlFlow<Error> {
+        if let Expr::Identifier(name) = expression
+            && name.quote_style.is_none()
+            && NEVER_THE_SAME.iter().any(|word| name.value.eq_ignore_ascii_case(word))
+        {
+            return self.never_the_same(&name.value);
+        }
         let Expr::Function(function) = expression else { return ControlFlow::Continue(()) };
         // Such as CURRENT_TIMESTAMP, which is never the same.
         if matches!(function.args, FunctionArguments::None) {
-            let written = function.name.to_string();
-            let what = format!("{}{} may not be asked for", self.place(&written), shown(&written));
-            return ControlFlow::Break(Error::scope(what).help("questions give the same each time"));
+            return self.never_the_same(&function.name.to_string());
         }
         self.function(&function.name)
     }

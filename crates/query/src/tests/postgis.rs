@@ -105,9 +105,9 @@ const STATEMENTS: [&str; 34] = [
     "SELECT fid, name IS NULL AS none, part, NOT part AS whole FROM houses WHERE name LIKE 'house 1%' OR name IS NULL",
     "SELECT fid FROM houses WHERE name = $t",
     "SELECT fid FROM houses WHERE fid <> $id AND levels = $n",
-    "SELECT fid, coalesce(name, 'nobody') AS name, round(height) AS height, upper(name) AS loud FROM houses",
+    "SELECT fid, coalesce(name, 'nobody') AS name, round(height + 0.1) AS height, upper(name) AS loud FROM houses",
     "SELECT fid, CASE WHEN levels > $n THEN 'high' ELSE 'low' END AS kind FROM houses LIMIT 9",
-    "SELECT fid FROM houses WHERE levels IN (1, 3) AND height BETWEEN 3 AND 10 OFFSET 4",
+    "SELECT fid FROM houses WHERE levels IN (1, 3) AND height BETWEEN 3 AND 10 LIMIT 7 OFFSET 4",
 ];
 
 #[test]
