@@ -57,12 +57,24 @@ const NEVER_THE_SAME: [&str; 11] = [
 pub(crate) fn check(sql: &str, catalogue: &Catalogue) -> Result<()> {
     let checked = with_stack(|| {
         let tree = parse(sql).map_err(|error| {
-            Error::syntax(format!("SQL: {}", shown(&error.message)))
+            Error::syntax(unread(&error.message))
                 .help("write SQL that both SQLite and PostgreSQL take: SELECT ... FROM ... WHERE ...")
         })?;
         checked(&tree.query, sql, catalogue)
     });
     checked.unwrap_or_else(|| Err(Error::system("cannot start a thread")))
+}
+
+/// What the parser says, with the place first.
+fn unread(message: &str) -> String {
+    let message = message.trim_start_matches("sql parser error: ").replacen("Expected", "expected", 1);
+    let Some((what, at)) = message.rsplit_once(" at Line: ") else {
+        return format!("SQL: {}", shown(&message));
+    };
+    match at.split_once(", Column: ") {
+        Some((line, column)) => format!("SQL, line {line}, column {column}: {}", shown(what)),
+        None => format!("SQL: {}", shown(&message)),
+    }
 }
 
 fn checked(query: &Query, sql: &str, catalogue: &Catalogue) -> Result<()> {
