@@ -43,12 +43,12 @@ impl<'a> Move<'a> {
     }
 
     /// A value of the server as the run has it.
-    pub(crate) fn into_run(&self, cell: crate::Cell) -> crate::Cell {
+    pub(crate) fn bring_in(&self, cell: crate::Cell) -> crate::Cell {
         self.moved(cell, |passage, at| passage.enter(at))
     }
 
     /// A value of the run as the server has it.
-    pub(crate) fn out_of_run(&self, cell: crate::Cell) -> crate::Cell {
+    pub(crate) fn bring_out(&self, cell: crate::Cell) -> crate::Cell {
         self.moved(cell, |passage, at| passage.leave(at))
     }
 

@@ -237,7 +237,7 @@ impl ServerConnection {
         let value = |name: &str| given(name).ok();
         let inferred = numbered(sql, ParameterTypes::Inferred, srid, value);
         let cells = |names: &[String]| -> Result<Vec<BoundCell>> {
-            names.iter().map(|name| Ok(BoundCell(place.out_of_run(given(name)?)))).collect()
+            names.iter().map(|name| Ok(BoundCell(place.bring_out(given(name)?)))).collect()
         };
         let bound = cells(&inferred.names)?;
         let prepared = self.prepare(&inferred);
@@ -291,7 +291,7 @@ impl ServerConnection {
                             Error::data(format!("SQL: the column {column} {why}"))
                                 .help("ask for numbers, texts, true or false, or geometries")
                         })?;
-                        Ok(place.into_run(cell.0))
+                        Ok(place.bring_in(cell.0))
                     };
                     answer.push((0..width).map(cell).collect::<Result<_>>()?)?;
                 }
