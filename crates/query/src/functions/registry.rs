@@ -173,7 +173,7 @@ mod tests {
 
     #[test]
     fn the_books_page_has_every_function() {
-        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book/src/queries.md");
+        let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/book/src/sql.md");
         let page = std::fs::read_to_string(page).unwrap();
         for SpatialFunction { name, takes, gives, doc, .. } in FUNCTIONS {
             let row = format!("| `{name}{takes}` | {gives} | {doc} |");

@@ -128,7 +128,7 @@ impl Guard<'_> {
         }
         let what = format!("{}the function {} may not be called", self.place(&plain), shown(&written));
         ControlFlow::Break(Error::not_found("function", &plain, functions::names(), what).help(
-            "questions give the same each time, and reach nothing but tables; the book's page on queries lists what there is",
+            "questions give the same each time, and reach nothing but tables; the book's page on SQL lists what there is",
         ))
     }
 }
