@@ -100,7 +100,12 @@ fn region() {
     );
     timed(
         "well-known binary and back",
-        || shapes.iter().filter(|shape| Geometry::from_wkb(&shape.to_wkb()).ok().as_ref() == Some(**shape)).count(),
+        || {
+            shapes
+                .iter()
+                .filter(|shape| Geometry::from_wkb(&shape.to_wkb()).ok().as_ref() == Some(**shape))
+                .count()
+        },
         |count| format!("{count} the same"),
     );
 }
