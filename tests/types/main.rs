@@ -1,4 +1,5 @@
-//! Types of objects that scripts declare have the same rights and duties as those of Rust.
+//! Types of objects that scripts declare: what they do while chains are drawn. What is asked of types from every side
+//! stands in `tests/kind`.
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
@@ -7,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use burgeon::kit::declare::as_ref;
-use burgeon::kit::{Call, Kind, ScriptObject, Table, TableKey, Value};
+use burgeon::kit::{ScriptObject, Value};
 use burgeon::picture::Picture;
 use burgeon::script::RunOptions;
 use burgeon::trace::{Pick, pick};
@@ -86,18 +87,6 @@ fn open_edges(run: &Run) -> usize {
     edges.values().filter(|turns| **turns != 0).count()
 }
 
-fn kinds() -> Vec<Arc<Kind>> {
-    let runs = examples().into_iter().map(|path| run(&path, 1));
-    runs.flat_map(|run| {
-        let objects = run.systems.iter().flat_map(|system| system.objects.iter());
-        objects
-            .map(|object| Arc::clone(object.kind()))
-            .filter(|kind| kind.script.is_some())
-            .collect::<Vec<_>>()
-    })
-    .collect()
-}
-
 #[test]
 fn every_example_gives_a_closed_model_and_the_same_for_any_number_of_threads() {
     for path in examples() {
@@ -110,54 +99,6 @@ fn every_example_gives_a_closed_model_and_the_same_for_any_number_of_threads() {
         for threads in [2, 7] {
             assert!(glb(&run(&path, threads)) == bytes, "{} with {threads} threads", path.display());
         }
-    }
-}
-
-#[test]
-fn what_the_examples_can_do_is_documented() {
-    let kinds = kinds();
-    assert!(kinds.len() >= 4);
-    for kind in kinds {
-        assert!(kind.doc.trim().ends_with('.'), "{}: {}", kind.name, kind.doc);
-        for method in &kind.methods {
-            assert!(method.doc.trim().ends_with('.'), "{}:{}", kind.name, method.name);
-        }
-        for field in &kind.fields {
-            assert!(field.doc.trim().len() > 8 && !field.luau.is_empty(), "{}.{}", kind.name, field.name);
-        }
-    }
-}
-
-#[test]
-fn a_constructor_refuses_an_unknown_field_and_names_the_nearest() {
-    for kind in kinds() {
-        let field = kind.fields.iter().max_by_key(|field| field.name.len()).unwrap();
-        let misspelt = format!("{}x", field.name);
-        let table =
-            Table { class: None, entries: vec![(TableKey::Name(misspelt.as_str().into()), Value::Nil)] };
-        let Err(error) = kind.make(&table) else { panic!("{} takes {misspelt}", kind.name) };
-        let text = error.to_string();
-        assert!(
-            text.contains(&*kind.name) && text.contains(&format!("did you mean {}", field.name)),
-            "{text}"
-        );
-    }
-}
-
-#[test]
-fn what_begins_each_pass_empty_has_nothing_left_of_the_pass_before() {
-    for kind in kinds().iter().filter(|kind| kind.begins_empty) {
-        let mut object = kind.make(&Table::default()).unwrap();
-        object.begin();
-        let fresh = object.triangles();
-        for method in &kind.methods {
-            let Call::Write { numbers: Some(call), .. } = &method.call else { continue };
-            // What it refuses does not matter here.
-            let _ = call(&mut *object, &vec![1.0; method.arguments.len()]);
-        }
-        let _ = object.end();
-        object.begin();
-        assert_eq!(object.triangles(), fresh, "{}", kind.name);
     }
 }
 

@@ -8,6 +8,7 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
+mod bytes;
 mod capability;
 mod color;
 mod colors;
@@ -35,6 +36,7 @@ mod script_type;
 mod seed;
 mod value;
 
+pub use bytes::Bytes;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use column_value::ColumnValue;

@@ -14,6 +14,7 @@ pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
+mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};

@@ -15,6 +15,7 @@ use super::deprecations::Deprecations;
 use super::options::RunOptions;
 use super::param::Param;
 use super::positions::RandomPositions;
+use super::types::DeclaredTypes;
 use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
@@ -99,8 +100,8 @@ pub struct Session {
     pub(crate) data: Data,
     /// How far its random numbers have got.
     pub(crate) drawn: RandomPositions,
-    /// The names of methods that scripts have added to types of objects.
-    pub(crate) extensions: Mutex<BTreeSet<String>>,
+    /// The types of objects that scripts have declared, and the methods that they have added to others.
+    pub(crate) declared: Mutex<DeclaredTypes>,
     stdlib: Option<(String, String)>,
     sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
     /// The main file while it is read ahead, and its path.
@@ -148,7 +149,7 @@ impl Session {
             used: Mutex::default(),
             data: Data::default(),
             drawn: RandomPositions::default(),
-            extensions: Mutex::default(),
+            declared: Mutex::default(),
             stdlib,
             sources: Mutex::default(),
             ahead: Mutex::default(),

@@ -7,7 +7,7 @@ use mlua::{Lua, LuaString, Value as LuaValue};
 use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
 use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::{FeatureShape, System, Table, TableKey, Value};
+use burgeon_kit::{Bytes, FeatureShape, System, Table, TableKey, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
@@ -116,6 +116,9 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
             }
         }
         LuaValue::Vector(_) => return Err(no_module()),
+        LuaValue::Buffer(buffer) if manner != CopyMode::Freeze => {
+            Value::Object(Arc::new(Bytes(buffer.to_vec().into())))
+        }
         other => {
             return Err(Error::argument(format!("a {} cannot be passed on", other.type_name()))
                 .help("pass numbers, booleans, strings, tables of these, or objects"));
@@ -141,6 +144,9 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
         Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
         Value::Object(object) => {
             let any: &dyn std::any::Any = &**object;
+            if let Some(bytes) = any.downcast_ref::<Bytes>() {
+                return Ok(LuaValue::Buffer(lua.create_buffer(&bytes.0)?));
+            }
             match any.downcast_ref::<FeatureShape>() {
                 Some(shape) => to_lua(lua, &shape.to_table(), freeze)?,
                 None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
