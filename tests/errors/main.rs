@@ -19,6 +19,7 @@ mod limits;
 mod mods;
 mod neighbors;
 mod outputs;
+mod own_types;
 mod packages;
 mod params;
 mod patterns;

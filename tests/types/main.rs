@@ -3,6 +3,9 @@
 
 #![allow(clippy::unwrap_used, reason = "a test stops at what is wrong")]
 
+mod held;
+mod meshes;
+
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -273,4 +276,69 @@ s:derive(0)
         })
         .collect();
     assert!(bytes.windows(2).all(|pair| pair[0] == pair[1]));
+}
+
+#[test]
+fn hooks_draw_random_numbers_of_their_own() {
+    let text = r#"
+local die = object("die", {
+  state = { thrown = {}, n = 0 },
+  begin = function(self) table.insert(self.thrown, random()) end,
+  push = function(self) table.insert(self.thrown, random()) end,
+  pop = function(self) table.insert(self.thrown, random()) end,
+  finish = function(self) table.insert(self.thrown, random()) end,
+  reads = { thrown = function(self) return self.thrown end },
+  changes = { throw = function(self) table.insert(self.thrown, random()) end },
+})
+local A = module("A")
+local s = lsystem({ object = die })
+s:axiom(source("field.geojson"), function(feature) return A(), { A(), { A() }, {} } end)
+s:rule("A", function() return A(), { A() } end)
+s:interpret("A", function(this) this:throw() end)
+for _, object in s:derive(1).objects do
+  for _, number in object:thrown() do
+    print(number)
+  end
+end
+"#;
+    let one = printed(text, 1);
+    assert_eq!(
+        one.len(),
+        200 * (1 + 6 + 2 * 6 + 1),
+        "each chain begins, ends, and has six modules and six branches"
+    );
+    let different: std::collections::BTreeSet<&String> = one.iter().collect();
+    assert_eq!(different.len(), one.len(), "no number twice");
+    for threads in [2, 7] {
+        assert!(printed(text, threads) == one, "{threads} threads");
+    }
+}
+
+#[test]
+fn a_type_draws_less_in_lower_levels_of_detail_and_notes_what_it_left_out() {
+    let text = r#"
+local post = object("post", {
+  extends = extruder,
+  state = { inner = object("cap", { changes = { cap = function(self) self:note("no cap", "there is no room") end } })() },
+  changes = { raise = function(self)
+    if self:detail() < 2 then
+      self:note("a plain post", `detail {self:detail()}`)
+      self.inner:cap()
+    end
+    self:regular(if self:detail() < 2 then 4 else 32):extrude(3)
+  end },
+})
+local A = module("A")
+local s = lsystem({ object = post })
+s:axiom(source("field.geojson"), function(feature) return post({ position = feature.geometry.points[1] }), A() end)
+s:interpret("A", function(this) this:raise() end)
+s:derive()
+"#;
+    let (_folder, path) = script(text);
+    let run = |lod: u8| burgeon::run(&path, RunOptions { lod, ..options(2) }).unwrap();
+    let (whole, less) = (run(3), run(1));
+    assert!(less.scene.triangles() * 5 < whole.scene.triangles());
+    assert_eq!(format!("{:?}", whole.report()).matches("a plain post").count(), 0);
+    let said = format!("{:?}", less.report());
+    assert!(said.contains("a plain post") && said.contains("detail 1") && said.contains("no cap"), "{said}");
 }

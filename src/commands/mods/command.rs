@@ -186,7 +186,7 @@ impl ModsCommand {
         // What the folder of a package is called by is how its files are told of.
         mods.insert(0, package.shown.clone());
         let options = RunOptions { mods, user_mods: search.user.clone(), ..burgeon::options() };
-        let ScriptCheck { params, warnings } = burgeon::check_package(&package.shown, options)?;
+        let ScriptCheck { params, warnings, .. } = burgeon::check_package(&package.shown, options)?;
         declared.insert(package.manifest.name.clone(), params);
         Ok(warnings)
     }

@@ -8,7 +8,7 @@ use std::time::Duration;
 
 use rustc_hash::FxHashMap;
 
-use super::analysis::{Analysis, Globals, ScriptReader, has_metatables};
+use super::analysis::{Analysis, CheckedFile, Globals, ScriptReader, call_problems, has_metatables};
 use super::api::api_version;
 use super::data::Data;
 use super::deprecations::Deprecations;
@@ -20,6 +20,7 @@ use burgeon_base::error::{Error, Limit, Result, SourcePlace};
 use burgeon_base::stop::Stop;
 use burgeon_base::warning::{Warning, Warnings};
 use burgeon_kit::rules::Values;
+use burgeon_language::CallForm;
 use burgeon_packages::{PackageSearch, Packages};
 
 /// The most (bytes) that one file of a script may have; reading it takes 300 times as much memory.
@@ -103,6 +104,8 @@ pub struct Session {
     /// The types of objects that scripts have declared, and the methods that they have added to others.
     pub(crate) declared: Mutex<DeclaredTypes>,
     stdlib: Option<(String, String)>,
+    /// By file: what it writes in `require`, and the files that are meant.
+    required: Mutex<BTreeMap<String, BTreeMap<String, String>>>,
     sources: Mutex<FxHashMap<PathBuf, Arc<SourceFile>>>,
     /// The main file while it is read ahead, and its path.
     ahead: Mutex<Option<(PathBuf, ScriptReader)>>,
@@ -151,6 +154,7 @@ impl Session {
             drawn: RandomPositions::default(),
             declared: Mutex::default(),
             stdlib,
+            required: Mutex::default(),
             sources: Mutex::default(),
             ahead: Mutex::default(),
             sought: Mutex::default(),
@@ -279,6 +283,33 @@ impl Session {
     /// Where the interpretation that begins in a line of a file returns modules, if that can be seen.
     pub(crate) fn loses_modules(&self, file: &str, line: usize) -> Option<usize> {
         self.source_called(file)?.analysis.lost.get(&line).copied()
+    }
+
+    /// How the function is called that begins in a line of a file, if it is the only one there.
+    pub(crate) fn signature(&self, file: &str, line: usize) -> Option<CallForm> {
+        self.source_called(file)?.analysis.signatures.get(&line).cloned()
+    }
+
+    /// Takes notice that the file `asker` means the file `meant` by `require(name)`.
+    pub(crate) fn note_required(&self, asker: &str, name: &str, meant: &str) {
+        let mut required = self.required.lock().unwrap_or_else(PoisonError::into_inner);
+        required.entry(asker.to_owned()).or_default().insert(name.to_owned(), meant.to_owned());
+    }
+
+    /// What is wrong with the calls of all files that were read, once the script has declared its types of objects.
+    pub(crate) fn call_problems(&self) -> Vec<Error> {
+        let required = self.required.lock().unwrap_or_else(PoisonError::into_inner).clone();
+        let sources = self.sources.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut files: Vec<CheckedFile> = sources
+            .values()
+            .filter_map(|source| {
+                let (name, ast) = (source.name.clone(), Arc::clone(source.analysis.ast.as_ref()?));
+                let required = required.get(&name).cloned().unwrap_or_default();
+                Some(CheckedFile { name, ast, required })
+            })
+            .collect();
+        files.sort_by(|a, b| a.name.cmp(&b.name));
+        call_problems(&files, &self.registry_with_types())
     }
 
     /// How people find a file that was read.

@@ -3,7 +3,7 @@
 use std::sync::{Arc, PoisonError};
 
 use super::session::Session;
-use burgeon_kit::{Kind, Method};
+use burgeon_kit::{Kind, Method, Registry};
 
 /// Types of objects that scripts have declared, and methods that they have added to others.
 #[derive(Default)]
@@ -35,6 +35,13 @@ impl Session {
         if !declared.methods.iter().any(|(of, known)| of == kind && known.name == method.name) {
             declared.methods.push((kind.to_owned(), method));
         }
+    }
+
+    /// The registry with what the scripts have declared besides, or have added to what is there.
+    pub(crate) fn registry_with_types(&self) -> Registry {
+        let own = self.types();
+        let others = self.options.registry.kinds().filter(|kind| !own.iter().any(|it| it.name == kind.name));
+        others.cloned().chain(own.iter().cloned()).collect()
     }
 
     /// The types of objects that the scripts have declared, in order, and those that they have added methods to.

@@ -7,8 +7,10 @@
 
 mod calls;
 mod expressions;
+mod files;
 mod held;
 mod inference;
+mod own_types;
 mod peeks;
 mod prepare;
 mod pure;
@@ -16,6 +18,7 @@ mod script;
 mod syntax;
 mod walk;
 
+pub(crate) use files::{CheckedFile, call_problems};
 pub(crate) use peeks::peeks;
 pub(crate) use pure::has_metatables;
 pub(crate) use script::{Analysis, Globals, ScriptReader, analyse, unmarked};

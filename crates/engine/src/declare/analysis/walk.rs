@@ -11,6 +11,7 @@ use super::Globals;
 use super::syntax::{declared_module, end_of, first_position, instead_of, text_of};
 use burgeon_base::error::{Error, SourcePlace};
 use burgeon_kit::rules::Signature;
+use burgeon_language::CallForm;
 
 /// What the first walk learned about the variables, in the order of their declaration.
 #[derive(Default)]
@@ -32,6 +33,10 @@ pub(super) enum FunctionRole {
     Rule,
     Guard,
     Interpretation,
+    /// Of a type of object, for rules and interpretations.
+    Reading,
+    /// Of a type of object, for interpretations.
+    Changing,
     Other,
 }
 
@@ -95,6 +100,8 @@ pub(super) struct Walk<'a> {
     pub(super) blind: BTreeMap<usize, bool>,
     /// By line: where an interpretation that begins there returns modules.
     pub(super) lost: BTreeMap<usize, usize>,
+    /// By line: how the function is called that begins there, if that is one only.
+    pub(super) signatures: BTreeMap<usize, Option<CallForm>>,
     /// Where the parameters of functions begin.
     pub(super) begins: Vec<usize>,
     /// The names that will go, and their lines.
@@ -118,6 +125,7 @@ impl<'a> Walk<'a> {
             pure: BTreeMap::new(),
             blind: BTreeMap::new(),
             lost: BTreeMap::new(),
+            signatures: BTreeMap::new(),
             begins: Vec::new(),
             deprecated: Vec::new(),
         }
