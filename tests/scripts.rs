@@ -198,7 +198,8 @@ fn every_lua_block_of_the_guide_runs() {
 #[test]
 fn what_the_readme_says_of_a_context_is_what_comes_out() {
     let folder = tempfile::tempdir().unwrap();
-    let block = README.split("\n```lua\n").find(|block| block.contains("local wire")).unwrap();
+    let guide = guide();
+    let block = guide.split("\n```lua\n").find(|block| block.contains("local wire")).unwrap();
     let (block, behind) = block.split_once("\n```").unwrap();
     let script = folder.path().join("wire.lua");
     fs::write(&script, block).unwrap();

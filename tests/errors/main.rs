@@ -15,6 +15,7 @@ mod files;
 mod fitting;
 mod footprints;
 mod foreign;
+mod hostile;
 mod limits;
 mod mods;
 mod neighbors;

@@ -119,3 +119,33 @@ end
     assert!(lines.iter().all(|line| line.starts_with("two one one4 two 3;one one")), "{lines:?}");
     assert_eq!(lines[0], lines[1]);
 }
+
+#[test]
+fn what_is_held_draws_with_its_own_colour_and_its_owner_with_its() {
+    let text = r#"
+local own = object("own", {
+  extends = turtle,
+  state = { pen = turtle({ color = "#ff0000", width = 0.3 }), rail = extruder({ color = "#00ff00" }) },
+  changes = { go = function(self)
+    self.pen:jump({ 1, 0, 0 }):forward(1)
+    self.rail:jump({ 2, 0, 0 }):extrude(1)
+  end },
+})
+local A = module("A")
+local s = lsystem({ object = own({ color = "#0000ff" }) })
+s:axiom(F(1), A(), F(1))
+s:interpret("A", function(this) this:go() end)
+s:derive(0)
+"#;
+    let (_folder, path) = script(text);
+    let run = run(&path, 1);
+    let mut seen: Vec<(String, i32)> = Vec::new();
+    for part in &run.scene.meshes[0].parts {
+        let [red, green, blue, _] = run.scene.materials[part.material].base_color;
+        let middle: f32 = part.positions.iter().map(|at| at.x).sum::<f32>() / part.positions.len() as f32;
+        #[allow(clippy::cast_possible_truncation, reason = "places are near")]
+        seen.push((format!("{red} {green} {blue}"), middle.round() as i32));
+    }
+    seen.sort();
+    assert_eq!(seen, [("0 0 1".to_owned(), 0), ("0 1 0".to_owned(), 2), ("1 0 0".to_owned(), 1)]);
+}

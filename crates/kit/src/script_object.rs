@@ -25,11 +25,17 @@ pub struct ScriptObject {
     notes: Vec<Note>,
 }
 
+/// The most notes that one object keeps of a pass.
+const MOST_NOTES: usize = 1000;
+
 #[methods("object")]
 impl ScriptObject {
     /// Notes what was done otherwise than asked, for the report of the run, such as "a short arm instead of a long one".
     pub fn note(&mut self, what: String, why: Option<String>) {
-        self.notes.push(Note::new(what, why.unwrap_or_default()));
+        // Nobody reads more of one object, and a loop that never ends must not fill the memory.
+        if self.notes.len() < MOST_NOTES {
+            self.notes.push(Note::new(what, why.unwrap_or_default()));
+        }
     }
 
     /// The level of detail to draw in: 0 the ground plan, 1 blocks, 2 roofs, 3 everything.
@@ -109,6 +115,12 @@ impl ScriptObject {
         })
     }
 
+    /// The drawing that it and what it holds draw into.
+    fn shared(&mut self) -> &mut Drawing {
+        let Self { base, drawing, .. } = self;
+        base.as_deref_mut().and_then(|base| base.drawing_mut()).unwrap_or(drawing)
+    }
+
     fn with_direct<T>(&mut self, index: usize, act: impl FnOnce(&mut dyn Object) -> Result<T>) -> Result<T> {
         let Self { base, held, drawing, .. } = self;
         let shared = base.as_deref_mut().and_then(|base| base.drawing_mut()).unwrap_or(drawing);
@@ -159,11 +171,14 @@ impl Object for ScriptObject {
         if let Some(base) = &mut self.base {
             base.begin();
         }
+        // What is held draws into the same drawing, and finds its materials there.
+        let before = self.shared().keep(true);
         // Beginning refuses nothing.
         let _: Result<()> = self.each_held(|object| {
             object.begin();
             Ok(())
         });
+        self.shared().keep(before);
     }
 
     fn push(&mut self) {

@@ -24,7 +24,6 @@ macro_rules! examples {
 /// All of them.
 pub const EXAMPLES: &[MemberExample] = examples! {
     "extruder" shows "extruder";
-    "facade" shows "facade";
     "footprint" shows "footprint";
     "planet" shows "planet";
     "terrain" shows "terrain";

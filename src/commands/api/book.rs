@@ -15,7 +15,7 @@ pub(super) type Page = (String, String);
 /// The pages that follow from what scripts can use, and the list of all pages.
 pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     let mut summary = String::from(
-        "# Summary\n\n[Burgeon](introduction.md)\n[Data and heights](data.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
+        "# Summary\n\n[Burgeon](introduction.md)\n[Contexts and features](rules.md)\n[Data and heights](data.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
     );
     let mut pages = Vec::new();
     for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {
@@ -134,7 +134,12 @@ fn method(text: &mut String, owner: &str, member: &Member) {
 
 /// What an example draws, and its script, within an item of a list.
 fn picture(text: &mut String, name: &str, example: &MemberExample) {
-    let _ = writeln!(text, "\n  ![{name}]({})\n", file_of(example));
+    let _ = writeln!(text, "\n  ![{name}]({})  ", file_of(example));
+    // The first line of the script says what there is to see.
+    if let Some(caption) = example.script.strip_prefix("-- ").and_then(|rest| rest.lines().next()) {
+        let _ = writeln!(text, "  *{}*", plain(caption));
+    }
+    text.push('\n');
     let _ = writeln!(text, "  <details><summary>Script</summary>\n\n  ```lua");
     for line in example.script.trim_end().lines() {
         let indent = if line.is_empty() { "" } else { "  " };

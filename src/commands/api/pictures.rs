@@ -51,6 +51,17 @@ pub(super) fn draw(folder: &Path) -> Result<()> {
         // Writing into a string cannot fail.
         let _ = writeln!(text, "{line}");
     }
+    // What shows nothing any more goes.
+    for entry in std::fs::read_dir(&pictures).into_iter().flatten().flatten() {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        if name.ends_with(".png")
+            && !EXAMPLES.iter().any(|example| file_of(example).ends_with(&format!("/{name}")))
+        {
+            std::fs::remove_file(entry.path()).map_err(|error| {
+                Error::file(entry.path(), format!("cannot remove {}: {error}", entry.path().display()))
+            })?;
+        }
+    }
     if text != known {
         export::write_file(&list, |out| std::io::Write::write_all(out, text.as_bytes()))?;
     }

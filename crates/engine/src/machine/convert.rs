@@ -22,6 +22,8 @@ enum CopyMode {
     Freeze,
     /// As they are, but sources and the geometries of features stay in Rust.
     Field,
+    /// As they are, and buffers too, for methods that read them at once.
+    Argument,
 }
 
 /// Copies a Lua value to Rust. With `freeze`, tables are made read-only on the way.
@@ -33,6 +35,11 @@ pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
 /// [`Features`](burgeon_kit::Features) and [`FeatureShape`](burgeon_kit::FeatureShape).
 pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Field, 0)
+}
+
+/// Copies what a method is given to Rust, where it may find buffers as [`Bytes`].
+pub(crate) fn to_argument(value: &LuaValue) -> Result<Value> {
+    convert(value, CopyMode::Argument, 0)
 }
 
 fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
@@ -116,7 +123,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
             }
         }
         LuaValue::Vector(_) => return Err(no_module()),
-        LuaValue::Buffer(buffer) if manner != CopyMode::Freeze => {
+        LuaValue::Buffer(buffer) if manner == CopyMode::Argument => {
             Value::Object(Arc::new(Bytes(buffer.to_vec().into())))
         }
         other => {

@@ -6,7 +6,7 @@ use std::sync::{Arc, LazyLock};
 use mlua::{Lua, MultiValue, Table, Value as LuaValue};
 
 use super::current::WorkState;
-use crate::machine::convert::{to_lua, to_value};
+use crate::machine::convert::{to_argument, to_lua, to_value};
 use crate::machine::library::Library;
 use crate::machine::types::ObjectHandle;
 use burgeon_base::error::{Error, Limit};
@@ -320,5 +320,5 @@ pub(crate) fn native(lua: &Lua, function: &mlua::Function) -> mlua::Result<()> {
 }
 
 fn values(arguments: &MultiValue) -> mlua::Result<Vec<Value>> {
-    arguments.iter().map(|value| to_value(value, false).map_err(mlua::Error::external)).collect()
+    arguments.iter().map(|value| to_argument(value).map_err(mlua::Error::external)).collect()
 }

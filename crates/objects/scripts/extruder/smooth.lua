@@ -1,6 +1,6 @@
--- Smooth and not.
+-- With 14 sides: smooth, and not.
 local Part = module("Part")
-local parts = lsystem({ object = extruder({ sides = 10 }) })
+local parts = lsystem({ object = extruder({ sides = 14 }) })
 parts:axiom(Part())
 parts:interpret("Part", function(this)
   for number, smooth in { true, false } do

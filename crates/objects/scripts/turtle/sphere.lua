@@ -1,3 +1,4 @@
+-- With a radius of 0.3 m, where the turtle is.
 local Part = module("Part")
 local parts = lsystem({ object = turtle({ width = 0.15 }) })
 parts:axiom(Part())

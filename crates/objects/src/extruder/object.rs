@@ -384,12 +384,15 @@ impl Extruder {
         }
         state.frame = end;
         state.scale = state.taper;
+        let run = state.run.as_ref();
+        self.drawing.expect(run.map_or(0, |run| 2 * run.stations.len() * run.section.corners()));
         Ok(())
     }
 
     /// Builds the solid of the segments so far.
     fn close(&mut self) -> Result<()> {
         let Some(run) = self.state.run.take() else { return Ok(()) };
+        self.drawing.expect(0);
         let options = SweepOptions {
             around: run.smooth,
             along: run.smooth,
