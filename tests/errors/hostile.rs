@@ -97,8 +97,8 @@ fn functions_of_types_end_like_all_others() {
         ),
         ("this:as(setmetatable({}, { __call = function() WHAT end }))", ""),
     ] {
-        let text =
-            stopped(&drawn("extruder", body, &functions.replace("WHAT", forever)).replace("WHAT", forever));
+        let script = drawn("extruder", body, functions).replace("WHAT", forever);
+        let text = stopped_within(&script, "2");
         let decent = text.contains("time")
             || text.contains("as takes the constructor")
             || text.contains("out of the limit");

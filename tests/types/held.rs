@@ -122,7 +122,7 @@ end
 
 #[test]
 fn what_is_held_draws_with_its_own_colour_and_its_owner_with_its() {
-    let text = r#"
+    let text = r##"
 local own = object("own", {
   extends = turtle,
   state = { pen = turtle({ color = "#ff0000", width = 0.3 }), rail = extruder({ color = "#00ff00" }) },
@@ -136,7 +136,7 @@ local s = lsystem({ object = own({ color = "#0000ff" }) })
 s:axiom(F(1), A(), F(1))
 s:interpret("A", function(this) this:go() end)
 s:derive(0)
-"#;
+"##;
     let (_folder, path) = script(text);
     let run = run(&path, 1);
     let mut seen: Vec<(String, i32)> = Vec::new();
