@@ -128,9 +128,6 @@ fn a_check_knows_types_of_required_files_and_of_packages() {
       help: did you mean power?
     error: s.lua:8: rule A (interpretation): arc:shine: n must be a number, not "far"
       | t:interpret("A", function(this) this:shine("far") end)
-    error: s.lua:10: rule A (interpretation): lamp:dim takes no arguments, not 1
-      | s:interpret("A", function(this) this:dim(1) end)
-      help: write lamp:dim()
     "##);
 }
 
