@@ -21,13 +21,16 @@ use std::io::{Read, Seek};
 use std::path::Path;
 use std::sync::Arc;
 
+pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use formats::GeoPackage;
-pub use frame::{Crs, ReferenceFrame};
+#[cfg(feature = "data")]
+pub use formats::TableShape;
+pub use frame::{Crs, Passage, ReferenceFrame};
 pub use layer::Layer;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
-pub use table::{Attribute, Feature, FeatureTable, Geometry, GeometryKind};
+pub use table::{Attribute, Feature, FeatureTable};
 
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Limit, Result};
@@ -39,9 +42,6 @@ pub const EXTENSIONS: [&str; 8] =
 
 /// The extensions of files that hold one GeoJSON document after another.
 const SEQUENCES: [&str; 5] = ["geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
-
-/// The deepest that geometries may be nested in collections.
-const DEEPEST: usize = 32;
 
 /// What is wanted of a data file.
 #[derive(Clone, Default)]

@@ -2,7 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::DVec3;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
@@ -10,93 +9,7 @@ use super::Crs;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
-use burgeon_geometry::Rings;
-
-/// The kinds of geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum GeometryKind {
-    /// A place.
-    Point,
-    /// A way from place to place.
-    Line,
-    /// An area with holes.
-    Polygon,
-}
-
-impl GeometryKind {
-    /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Point, Self::Line, Self::Polygon];
-
-    /// Its name in scripts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Line => "line",
-            Self::Polygon => "polygon",
-        }
-    }
-}
-
-/// A geometry of one part, as its file has it: nothing is promised of its points.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Geometry {
-    /// Its place.
-    Point(DVec3),
-    /// Its points, at least two.
-    Line(Vec<DVec3>),
-    /// Its outer ring and then its holes, each of at least three points, without the first one again at the end.
-    Polygon(Rings),
-}
-
-impl Geometry {
-    /// Its kind.
-    pub fn kind(&self) -> GeometryKind {
-        match self {
-            Self::Point(_) => GeometryKind::Point,
-            Self::Line(_) => GeometryKind::Line,
-            Self::Polygon(_) => GeometryKind::Polygon,
-        }
-    }
-
-    /// All of its points.
-    pub fn points(&self) -> impl Iterator<Item = &DVec3> {
-        let (single, rings): (&[DVec3], &[Vec<DVec3>]) = match self {
-            Self::Point(point) => (std::slice::from_ref(point), &[]),
-            Self::Line(points) => (points, &[]),
-            Self::Polygon(rings) => (&[], rings),
-        };
-        single.iter().chain(rings.iter().flatten())
-    }
-
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
-        let (single, rings): (&mut [DVec3], &mut [Vec<DVec3>]) = match self {
-            Self::Point(point) => (std::slice::from_mut(point), &mut []),
-            Self::Line(points) => (points, &mut []),
-            Self::Polygon(rings) => (&mut [], &mut rings.0),
-        };
-        single.iter_mut().chain(rings.iter_mut().flatten())
-    }
-
-    /// A line, or nothing if it has fewer than two points.
-    pub(super) fn line(points: Vec<DVec3>) -> Option<Self> {
-        (points.len() >= 2).then_some(Self::Line(points))
-    }
-
-    /// A polygon from rings that end where they begin; nothing if the outer one has no three points. Holes that
-    /// have not are left out.
-    pub(super) fn polygon(mut rings: Vec<Vec<DVec3>>) -> Option<Self> {
-        for ring in &mut rings {
-            while ring.len() > 1 && ring.first() == ring.last() {
-                ring.pop();
-            }
-        }
-        if rings.first()?.len() < 3 {
-            return None;
-        }
-        rings.retain(|ring| ring.len() >= 3);
-        Some(Self::Polygon(Rings(rings)))
-    }
-}
+use burgeon_spatial::{Geometry, GeometryKind};
 
 /// What a feature knows under a name.
 #[derive(Debug, Clone, PartialEq)]
@@ -116,7 +29,7 @@ pub enum Attribute {
 pub struct Feature {
     /// Tells it from all others of its layer.
     pub id: String,
-    /// Where it is.
+    /// Where it is: a geometry of one part.
     pub geometry: Geometry,
     /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Shared by the parts of a geometry.
     pub attributes: Arc<[(usize, Attribute)]>,
@@ -272,7 +185,7 @@ impl FeatureTable {
     /// Leaves only geometries of the kind that is wanted, of which there must be one.
     pub(super) fn choose(&mut self, kind: Option<GeometryKind>) -> Result<()> {
         let Some(kind) = kind else { return Ok(()) };
-        let there: Vec<&str> = GeometryKind::ALL
+        let there: Vec<&str> = GeometryKind::SINGLE
             .iter()
             .filter(|known| self.features.iter().any(|feature| feature.geometry.kind() == **known))
             .map(|known| known.name())
@@ -340,7 +253,7 @@ mod tests {
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
-        let point = Geometry::Point(DVec3::ZERO);
+        let point = Geometry::point([0.0; 3]);
         table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
         table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
         table.push("12", vec![point], Vec::new()).unwrap();
@@ -352,7 +265,7 @@ mod tests {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), Arc::default());
         for number in 0..200_000 {
             let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
-            table.push(&id, vec![Geometry::Point(DVec3::ZERO)], Vec::new()).unwrap();
+            table.push(&id, vec![Geometry::point([0.0; 3])], Vec::new()).unwrap();
         }
         let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &feature.id).collect();
         assert_eq!(ids.len(), 200_000);

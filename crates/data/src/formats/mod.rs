@@ -2,14 +2,13 @@
 //!
 //! A program that is built without the feature `data` has `absent` in its place, which says so.
 
-mod arc;
+mod blob;
 mod geopackage;
 pub(crate) mod geotiff;
 mod meaning;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
-mod wkb;
 pub(crate) mod zipped;
 
-pub use geopackage::GeoPackage;
+pub use geopackage::{GeoPackage, TableShape};
