@@ -8,7 +8,7 @@ extern crate self as burgeon_kit;
 
 pub mod declare;
 
-mod bytes;
+mod buffer_bytes;
 mod capability;
 mod color;
 mod colors;
@@ -37,7 +37,7 @@ mod script_type;
 mod seed;
 mod value;
 
-pub use bytes::Bytes;
+pub use buffer_bytes::BufferBytes;
 pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Show};
 pub use color::Color;
 pub use column_value::ColumnValue;

@@ -2,7 +2,7 @@
 
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{CornerShading, Frame, shaded_face};
-use burgeon_kit::{Bytes, Color, Drawing, Expectation, Field, Parameter, Table, Value, Vector, fields};
+use burgeon_kit::{BufferBytes, Color, Drawing, Expectation, Field, Parameter, Table, Value, Vector, fields};
 use burgeon_scene::{Material, Part};
 use glam::{DVec2, DVec3};
 
@@ -48,8 +48,8 @@ impl Parameter for MeshPoints {
     }
 
     fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
-        if let Some(bytes) = Bytes::of(&value) {
-            let read = Bytes::numbers::<3>(bytes, "point")?;
+        if let Some(bytes) = BufferBytes::of(&value) {
+            let read = BufferBytes::numbers::<3>(bytes, "point")?;
             return Ok(Self(read.into_iter().map(|at| DVec3::from_array(at.map(f64::from))).collect()));
         }
         Ok(Self(Vec::<Vector>::from_value(value)?.into_iter().map(|vector| vector.0).collect()))
@@ -66,8 +66,8 @@ impl Parameter for MeshPlaces {
     }
 
     fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
-        if let Some(bytes) = Bytes::of(&value) {
-            let read = Bytes::numbers::<2>(bytes, "point")?;
+        if let Some(bytes) = BufferBytes::of(&value) {
+            let read = BufferBytes::numbers::<2>(bytes, "point")?;
             return Ok(Self(read.into_iter().map(|at| DVec2::from_array(at.map(f64::from))).collect()));
         }
         Ok(Self(Vec::<Vector>::from_value(value)?.into_iter().map(|vector| vector.0.truncate()).collect()))
@@ -84,7 +84,7 @@ impl Parameter for MeshColors {
     }
 
     fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
-        let Some(bytes) = Bytes::of(&value) else { return Ok(Self(Vec::from_value(value)?)) };
+        let Some(bytes) = BufferBytes::of(&value) else { return Ok(Self(Vec::from_value(value)?)) };
         let (found, rest) = bytes.as_chunks::<4>();
         if rest.is_empty() {
             return Ok(Self(found.iter().copied().map(Color::of_bytes).collect()));
@@ -104,8 +104,8 @@ impl Parameter for MeshFaces {
     }
 
     fn from_value(value: Value) -> std::result::Result<Self, Expectation> {
-        if let Some(bytes) = Bytes::of(&value) {
-            let corners = Bytes::indices::<3>(bytes, "triangle")?.into_flattened();
+        if let Some(bytes) = BufferBytes::of(&value) {
+            let corners = BufferBytes::indices::<3>(bytes, "triangle")?.into_flattened();
             let ends = (1..=corners.len() / 3).map(|number| number * 3).collect();
             return Ok(Self { corners, ends, first: 0 });
         }

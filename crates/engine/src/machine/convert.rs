@@ -7,7 +7,7 @@ use mlua::{Lua, LuaString, Value as LuaValue};
 use super::system::{SourceHandle, SystemHandle, feature_of};
 use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::{Bytes, System, Table, TableKey, Value};
+use burgeon_kit::{BufferBytes, System, Table, TableKey, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
@@ -36,7 +36,7 @@ pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Field, 0)
 }
 
-/// Copies what a method is given to Rust, where it may find buffers as [`Bytes`].
+/// Copies what a method is given to Rust, where it may find buffers as [`BufferBytes`].
 pub(crate) fn to_argument(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Argument, 0)
 }
@@ -113,7 +113,7 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
         }
         LuaValue::Vector(_) => return Err(no_module()),
         LuaValue::Buffer(buffer) if manner == CopyMode::Argument => {
-            Value::Object(Arc::new(Bytes(buffer.to_vec().into())))
+            Value::Object(Arc::new(BufferBytes(buffer.to_vec().into())))
         }
         other => {
             return Err(Error::argument(format!("a {} cannot be passed on", other.type_name()))
@@ -140,7 +140,7 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
         Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
         Value::Object(object) => {
             let any: &dyn std::any::Any = &**object;
-            match any.downcast_ref::<Bytes>() {
+            match any.downcast_ref::<BufferBytes>() {
                 Some(bytes) => LuaValue::Buffer(lua.create_buffer(&bytes.0)?),
                 None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
             }

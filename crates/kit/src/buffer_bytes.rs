@@ -9,12 +9,12 @@ use burgeon_macros::{methods, object};
 ///
 /// A method may take it; a script holds it as Luau's own buffer.
 #[object("buffer", given)]
-pub struct Bytes(pub Arc<[u8]>);
+pub struct BufferBytes(pub Arc<[u8]>);
 
 #[methods("buffer")]
-impl Bytes {}
+impl BufferBytes {}
 
-impl Bytes {
+impl BufferBytes {
     /// The bytes of a value, if it is a buffer.
     pub fn of(value: &Value) -> Option<&[u8]> {
         let Value::Object(object) = value else { return None };
@@ -64,20 +64,20 @@ mod tests {
     #[test]
     fn a_buffer_is_rows_of_numbers_or_is_refused() {
         let bytes: Vec<u8> = [1.0_f32, -2.5, 3.0].iter().flat_map(|number| number.to_le_bytes()).collect();
-        assert_eq!(Bytes::numbers::<3>(&bytes, "point").ok(), Some(vec![[1.0, -2.5, 3.0]]));
-        assert_eq!(Bytes::indices::<1>(&[2, 1, 0, 0], "face").ok(), Some(vec![[258]]));
-        assert_eq!(Bytes::numbers::<3>(&[], "point").ok(), Some(Vec::new()));
+        assert_eq!(BufferBytes::numbers::<3>(&bytes, "point").ok(), Some(vec![[1.0, -2.5, 3.0]]));
+        assert_eq!(BufferBytes::indices::<1>(&[2, 1, 0, 0], "face").ok(), Some(vec![[258]]));
+        assert_eq!(BufferBytes::numbers::<3>(&[], "point").ok(), Some(Vec::new()));
         let said =
             |refused: Expectation| refused.refuse("turtle:mesh", "points", &Value::Nil).message().to_owned();
         for length in [1, 4, 11, 13, 16] {
-            let refused = Bytes::numbers::<3>(&vec![0; length], "point").expect_err("no whole rows");
+            let refused = BufferBytes::numbers::<3>(&vec![0; length], "point").expect_err("no whole rows");
             let expected = format!(
                 "turtle:mesh: points must be a buffer of 12 bytes for each point, not one of {length} bytes"
             );
             assert_eq!(said(refused), expected);
         }
         let infinite = [0.0_f32, 0.0, 0.0, f32::INFINITY].map(f32::to_le_bytes).concat();
-        let refused = Bytes::numbers::<2>(&infinite, "place").expect_err("infinity");
+        let refused = BufferBytes::numbers::<2>(&infinite, "place").expect_err("infinity");
         let expected = "turtle:mesh: points must be a buffer of finite numbers for each place, not one with infinity at byte 8";
         assert_eq!(said(refused), expected);
     }
