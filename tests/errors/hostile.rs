@@ -167,7 +167,7 @@ fn nothing_that_remembers_gets_into_the_state_or_the_fields() {
         ("rawset(this, \"extrude\", 3)", "", "readonly"),
         ("rawset(getmetatable(\"\"), \"x\", 3)", "", "table"),
         ("this:extrude(buffer.create(8))", "", "argument 1 must be a number, not a buffer"),
-        ("this:polygon(buffer.create(8))", "", "outer must be a list, not a buffer"),
+        ("this:polygon(buffer.create(8))", "", "a line or a polygon, not a buffer"),
     ] {
         let text = stopped(&drawn("extruder", body, functions));
         assert!(text.contains(said), "{body} {functions}: {text}");
