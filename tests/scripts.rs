@@ -69,6 +69,13 @@ fn the_gallery_shows_every_script_and_no_other() {
     assert!(shown.remove("quay"));
     let in_book = named(&guide().replace("](docs/book/src/", "]("), "](pictures/", ".png)");
     assert_eq!(in_book, ["castle", "live", "roofs", "variations", "village"].map(str::to_owned).into());
+    for path in quarter() {
+        let name = format!("geospatial/{}", path.file_stem().unwrap().to_string_lossy());
+        assert!(guide().contains(&format!("/scripts/{name}.lua")), "{name}");
+        if shown.remove(&name) {
+            assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
+        }
+    }
     let types: Vec<PathBuf> = lua_files("examples/types");
     assert!(
         types.iter().all(|path| shown.remove(&*path.file_stem().unwrap().to_string_lossy())),
@@ -77,6 +84,29 @@ fn the_gallery_shows_every_script_and_no_other() {
     assert_eq!(shown, shipped);
     for name in &shipped {
         assert!(root().join(format!("docs/pictures/{name}.png")).is_file(), "{name} has no picture");
+    }
+}
+
+/// The scripts that ask data of a quarter of a town, without those that others require.
+fn quarter() -> Vec<PathBuf> {
+    let mut paths = lua_files("scripts/geospatial");
+    paths.retain(|path| {
+        !["details", "models", "town"].iter().any(|part| path.ends_with(format!("{part}.lua")))
+    });
+    paths
+}
+
+#[test]
+fn the_scripts_of_a_quarter_ask_its_data_and_make_the_same_with_any_number_of_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let scripts = quarter();
+    assert_eq!(scripts.len(), 8);
+    for script in scripts {
+        let shown = script.display();
+        let first = run(&script, 1);
+        assert!(first.scene.triangles() > 1000 || first.scene.instances.len() > 30, "{shown}");
+        assert!(first.warnings.is_empty(), "{shown}: {}", first.warnings[0]);
+        assert!(glb(&first, folder.path()) == glb(&run(&script, 3), folder.path()), "{shown}");
     }
 }
 
@@ -129,7 +159,7 @@ fn every_script_writes_every_format_of_models_and_all_files_that_these_name() {
         let shown = script.display();
         let run = run(&script, 2);
         let folder = tempfile::tempdir().unwrap();
-        for format in ["glb", "gltf", "obj"] {
+        for format in ["glb", "gltf", "obj", "x3d", "city.json", "gpkg", "geojson"] {
             let path = folder.path().join(format!("a model.{format}"));
             export::write(&run.scene, &path, &Picture::default())
                 .unwrap_or_else(|error| panic!("{shown} as .{format}: {error}"));
@@ -137,6 +167,7 @@ fn every_script_writes_every_format_of_models_and_all_files_that_these_name() {
         }
         let mut named = files_of(&folder.path().join("a model.gltf"), "\"uri\":\"", "\"");
         named.extend(files_of(&folder.path().join("a model.obj"), "mtllib ", "\n"));
+        named.extend(files_of(&folder.path().join("a model.x3d"), "url='&quot;", "&quot;'"));
         let images = files_of(&folder.path().join("a_model.mtl"), "map_Kd ", "\n");
         textures += images.len();
         for file in named.iter().chain(&images) {

@@ -14,6 +14,7 @@ mod geojson;
 mod heights;
 mod layer;
 mod listing;
+pub mod output;
 mod table;
 
 use std::fmt;
@@ -26,6 +27,7 @@ pub use cache::Cache;
 pub use formats::GeoPackage;
 #[cfg(feature = "data")]
 pub use formats::TableShape;
+pub use formats::output::{check_geopackage, write_geopackage};
 pub use frame::{Crs, Passage, ReferenceFrame};
 pub use layer::Layer;
 pub use listing::nearest_file;

@@ -6,6 +6,7 @@ mod blob;
 mod geopackage;
 pub(crate) mod geotiff;
 mod meaning;
+pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;

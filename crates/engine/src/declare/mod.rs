@@ -14,6 +14,8 @@ pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
+#[cfg(feature = "data")]
+mod tables;
 mod types;
 
 pub(crate) use api::has_name;

@@ -6,6 +6,7 @@ use std::sync::{Arc, LazyLock};
 use std::time::Duration;
 
 use super::Preset;
+use crate::questions::RowSource;
 use burgeon_base::stop::Stop;
 use burgeon_data::Cache;
 use burgeon_kit::Registry;
@@ -92,6 +93,8 @@ pub struct RunOptions {
     pub user_mods: Option<PathBuf>,
     /// Layers that earlier runs have read.
     pub cache: Option<Arc<Cache>>,
+    /// Answers what scripts ask in SQL, in place of the sources that they have loaded.
+    pub rows: Option<Arc<dyn RowSource>>,
     /// The types of objects that scripts can use.
     pub registry: Registry,
     /// A file in the place of the built-in standard library.
@@ -108,6 +111,8 @@ pub struct RunOptions {
     ///
     /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
     pub strict: bool,
+    /// Whether what is known of the features in lists that scripts make is kept, for files that tell it.
+    pub records: bool,
     /// The chains to note the lineage of; see [`trace`](crate::trace).
     pub trace: Option<TraceRequest>,
 }
@@ -141,11 +146,13 @@ impl Default for RunOptions {
             mods: Vec::new(),
             user_mods: None,
             cache: None,
+            rows: None,
             registry: Registry::default(),
             stdlib: None,
             forgiving: false,
             profile: false,
             strict: false,
+            records: false,
             trace: None,
         }
     }

@@ -166,6 +166,13 @@ impl Walk<'_> {
                 *known = None;
             }
             self.begins.push(begin.bytes());
+            match self.functions.last_mut() {
+                Some(outer) if role == FunctionRole::Other && outer.role != FunctionRole::Script => {
+                    outer.queries.extend(function.queries.iter().cloned());
+                }
+                _ if role == FunctionRole::Other => {}
+                _ => self.queries.entry(begin.line()).or_default().extend(function.queries.iter().cloned()),
+            }
         }
         function
     }

@@ -6,6 +6,7 @@ use std::sync::atomic::AtomicUsize;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::time::Duration;
 
+use super::queries::QueryCall;
 use super::walk::{Facts, Walk};
 use burgeon_base::error::{Error, Limit, SourcePlace};
 use burgeon_kit::Deprecation;
@@ -50,6 +51,8 @@ pub(crate) struct Analysis {
     pub blind: Vec<usize>,
     /// By the line on which an interpretation begins: where it returns modules.
     pub lost: BTreeMap<usize, usize>,
+    /// By the line on which a function of a rule begins: what it asks of data, as far as that can be seen.
+    pub queries: BTreeMap<usize, Vec<QueryCall>>,
     /// The names that will go, and the lines on which they stand.
     pub deprecated: Vec<(String, usize)>,
     /// By line: how the function is called that begins there.
@@ -150,7 +153,17 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     let mut second = Walk::new(file, globals, std::mem::take(&mut first.facts));
     second.run(&ast);
     let Walk {
-        mut edits, mut problems, random, pure, mut blind, lost, signatures, begins, deprecated, ..
+        mut edits,
+        mut problems,
+        random,
+        pure,
+        mut blind,
+        lost,
+        queries,
+        signatures,
+        begins,
+        deprecated,
+        ..
     } = second;
     // Luau knows functions by the line of their first word, which is then another.
     let is_apart =
@@ -177,7 +190,19 @@ fn read(file: &str, text: &str, globals: &Receiver<Globals>) -> Analysis {
     let packages = package_names(&ast);
     let signatures = signatures.into_iter().filter_map(|(line, form)| Some((line, form?))).collect();
     let ast = globals.checks_calls.then(|| Arc::new(ast));
-    Analysis { text: out, problems, random, pure, blind, lost, signatures, ast, deprecated, packages }
+    Analysis {
+        text: out,
+        problems,
+        random,
+        pure,
+        blind,
+        lost,
+        queries,
+        signatures,
+        ast,
+        deprecated,
+        packages,
+    }
 }
 
 /// The texts of a script that begin as the names of packages' files do, and their lines.
