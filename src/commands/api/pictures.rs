@@ -117,6 +117,7 @@ fn add_axes(scene: &mut Scene) -> Result<()> {
         feature: None,
         origin: None,
         placement: None,
+        meaning: None,
     });
     Ok(())
 }
