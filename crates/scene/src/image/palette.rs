@@ -18,7 +18,7 @@ impl PaletteImage {
     pub fn of(image: &Image, most: usize) -> Self {
         let mut pixels: Vec<(usize, [u8; 3])> =
             image.pixels().iter().map(|pixel| [pixel[0], pixel[1], pixel[2]]).enumerate().collect();
-        let mut boxes = vec![0..pixels.len()];
+        let mut boxes: Vec<std::ops::Range<usize>> = std::iter::once(0..pixels.len()).collect();
         while boxes.len() < most.clamp(1, 256) {
             let longest =
                 boxes.iter().enumerate().map(|(number, range)| (side(&pixels[range.clone()]), number));
