@@ -14,7 +14,6 @@ pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
-#[cfg(feature = "data")]
 mod tables;
 mod types;
 
@@ -24,3 +23,4 @@ pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{RunProgress, Session};
+pub(crate) use tables::ListTable;
