@@ -141,7 +141,7 @@ impl Source {
     /// Reads what is `wanted`, in the order of the file.
     pub fn read(self, name: &str, wanted: &SourceOptions) -> Result<FeatureTable> {
         let layer = choose(name, &self.layers(), wanted.layer.as_deref())?;
-        let mut table = match self {
+        let table = match self {
             Self::GeoPackage(package) => package.read(&layer, wanted)?,
             Self::GeoJson(_) if wanted.condition.is_some() => {
                 return Err(Error::argument(format!("{name} is GeoJSON, which takes no where"))
@@ -152,32 +152,7 @@ impl Source {
                 *table
             }
         };
-        if let Some(code) = wanted.crs {
-            table.crs = Crs::epsg(code);
-        }
-        table.choose(wanted.kind)?;
-        if let Some(limit) = wanted.limit {
-            table.features.truncate(limit);
-        }
-        if let (true, Some((_, error))) = (table.features.is_empty(), table.refused.first()) {
-            return Err(error.clone());
-        }
-        if table.features.is_empty() {
-            let what = &table.shown;
-            return Err(match (&wanted.condition, wanted.limit) {
-                (_, Some(0)) => {
-                    Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out")
-                }
-                (Some(condition), _) => Error::data(format!("no feature of {what} meets where {condition}"))
-                    .help("burgeon sources FILE lists attributes and their values"),
-                (None, _) if table.empty > 0 => {
-                    Error::data(format!("{what} has no features with a geometry"))
-                }
-                (None, _) => Error::data(format!("{what} has no features")),
-            }
-            .help("check the file: burgeon sources FILE"));
-        }
-        Ok(table)
+        table.finished(wanted)
     }
 }
 

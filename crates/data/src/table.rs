@@ -5,7 +5,7 @@ use std::sync::Arc;
 use rayon::prelude::*;
 use rustc_hash::FxHashMap;
 
-use super::Crs;
+use super::{Crs, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
@@ -75,10 +75,22 @@ impl FeatureTable {
         }
     }
 
+    /// A layer with attributes called `names`, whose features are [pushed](Self::push) by another reader; `shown` is what
+    /// messages call it.
+    pub fn of_layer(
+        layer: &str,
+        shown: &str,
+        crs: Result<Crs>,
+        names: Vec<String>,
+        budget: Arc<Budget>,
+    ) -> Self {
+        Self { names, ..Self::new(layer, shown, crs, budget) }
+    }
+
     /// Adds a feature for each of `parts`; with an id that is taken, it becomes `id.2`, `id.3` and so on.
     ///
     /// Fails if reading is to end, or if there is no memory left for more.
-    pub(super) fn push(
+    pub fn push(
         &mut self,
         id: &str,
         parts: Vec<Geometry>,
@@ -100,6 +112,35 @@ impl FeatureTable {
             self.features.push(Feature { id, geometry, attributes: Arc::clone(&attributes) });
         }
         Ok(())
+    }
+
+    /// The table with what is wanted of it: a coordinate system in place of its own, one kind of geometry, so many
+    /// features. Fails if nothing is left.
+    pub fn finished(mut self, wanted: &SourceOptions) -> Result<Self> {
+        if let Some(code) = wanted.crs {
+            self.crs = Crs::epsg(code);
+        }
+        self.choose(wanted.kind)?;
+        if let Some(limit) = wanted.limit {
+            self.features.truncate(limit);
+        }
+        if let (true, Some((_, error))) = (self.features.is_empty(), self.refused.first()) {
+            return Err(error.clone());
+        }
+        if self.features.is_empty() {
+            let what = &self.shown;
+            return Err(match (&wanted.condition, wanted.limit) {
+                (_, Some(0)) => {
+                    Error::argument(format!("limit = 0 leaves no feature of {what}")).help("leave limit out")
+                }
+                (Some(condition), _) => Error::data(format!("no feature of {what} meets where {condition}"))
+                    .help("burgeon sources FILE lists attributes and their values"),
+                (None, _) if self.empty > 0 => Error::data(format!("{what} has no features with a geometry")),
+                (None, _) => Error::data(format!("{what} has no features")),
+            }
+            .help("check the file: burgeon sources FILE"));
+        }
+        Ok(self)
     }
 
     /// Leaves out a feature for the reason that `error` gives. Fails as [`FeatureTable::push`] does.

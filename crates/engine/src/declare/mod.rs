@@ -14,7 +14,6 @@ pub(crate) mod paths;
 mod positions;
 mod preset;
 mod session;
-#[cfg(feature = "data")]
 mod tables;
 
 pub(crate) use api::has_name;
@@ -23,3 +22,4 @@ pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{RunProgress, Session};
+pub(crate) use tables::ListTable;
