@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 use std::sync::Arc;
+#[cfg(feature = "postgis")]
+use std::time::Duration;
 
 use super::session::Session;
 use crate::questions::{Question, RowSource, Rows};
@@ -10,6 +12,8 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_base::text::grouped;
 use burgeon_data::{Layer, ReferenceFrame};
 use burgeon_kit::{GeometryObject, Value};
+#[cfg(feature = "postgis")]
+use burgeon_query::postgis::{Server, ServerAddress};
 use burgeon_query::{Cell, Database};
 
 /// A source as a table.
@@ -25,6 +29,9 @@ pub(super) enum TableContent {
     Layer(Arc<Layer>),
     /// A layer of a GeoPackage, as it is in the file.
     GeoPackage { path: PathBuf, shown: String, layer: String },
+    /// A table of a server.
+    #[cfg(feature = "postgis")]
+    Server(Arc<Server>),
 }
 
 /// The tables of a run, in the order in which they were loaded.
@@ -34,6 +41,9 @@ pub(super) struct SourceTables {
     database: Option<Arc<Database>>,
     /// How many are in the database.
     added: usize,
+    /// The servers that were asked.
+    #[cfg(feature = "postgis")]
+    servers: Vec<Arc<Server>>,
 }
 
 impl SourceTables {
@@ -56,11 +66,35 @@ impl SourceTables {
                 TableContent::GeoPackage { path, shown, layer } => {
                     database.add_geopackage(&table.name, path, shown, layer, budget)?;
                 }
+                #[cfg(feature = "postgis")]
+                TableContent::Server(_) => {}
             }
             self.added += 1;
         }
         self.database = Some(Arc::clone(&database));
         Ok(database)
+    }
+
+    /// The server at an address; no question to it takes longer than `most`.
+    #[cfg(feature = "postgis")]
+    pub(super) fn server(&mut self, address: &ServerAddress, most: Duration) -> Arc<Server> {
+        if let Some(known) = self.servers.iter().find(|known| known.address() == address) {
+            return Arc::clone(known);
+        }
+        let server = Arc::new(Server::new(address, Some(most)));
+        self.servers.push(Arc::clone(&server));
+        server
+    }
+
+    /// The server that has a table which a statement names.
+    #[cfg(feature = "postgis")]
+    fn asked_server(&self, sql: &str) -> Option<Arc<Server>> {
+        self.loaded.iter().find_map(|table| match &table.content {
+            TableContent::Server(server) if burgeon_query::names_table(sql, &table.name) => {
+                Some(Arc::clone(server))
+            }
+            _ => None,
+        })
     }
 }
 
@@ -72,6 +106,16 @@ impl RowSource for Session {
         let values = question.values()?;
         let cells: Vec<(&str, Cell)> =
             values.iter().map(|(name, value)| Ok((*name, cell(name, value)?))).collect::<Result<_>>()?;
+        #[cfg(feature = "postgis")]
+        let (server, frame) = self.data.with_tables(self, |tables, frame, _| {
+            Ok((tables.asked_server(question.sql()), frame.cloned()))
+        })?;
+        #[cfg(feature = "postgis")]
+        let answer = match server {
+            Some(server) => server.query(question.sql(), &cells, frame.as_ref(), &budget)?,
+            None => database.query(question.sql(), &cells, &budget)?,
+        };
+        #[cfg(not(feature = "postgis"))]
         let answer = database.query(question.sql(), &cells, &budget)?;
         if answer.rows.len() > most {
             let text =
