@@ -15,7 +15,6 @@ mod positions;
 mod preset;
 mod servers;
 mod session;
-#[cfg(feature = "data")]
 mod tables;
 
 pub(crate) use api::has_name;
@@ -24,3 +23,4 @@ pub use options::{Limits, Print, RunOptions, TraceRequest};
 pub use param::{Control, Param, Setting};
 pub use preset::Preset;
 pub use session::{RunProgress, Session};
+pub(crate) use tables::ListTable;
