@@ -15,6 +15,7 @@ mod positions;
 mod preset;
 mod session;
 mod tables;
+mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
