@@ -16,6 +16,7 @@ mod preset;
 mod servers;
 mod session;
 mod tables;
+mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
