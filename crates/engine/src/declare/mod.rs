@@ -13,8 +13,10 @@ mod param;
 pub(crate) mod paths;
 mod positions;
 mod preset;
+mod servers;
 mod session;
 mod tables;
+mod types;
 
 pub(crate) use api::has_name;
 pub use api::{API_VERSION, api_version};
