@@ -182,7 +182,7 @@ fn a_file_that_is_no_data_file_is_told() {
       help: points, lines, polygons, multi-geometries and collections of these are read
     "#);
     assert_snapshot!(told(r#"source("binary.geojson")"#), @r#"
-    error: in/s.lua:2: binary.geojson is a binary file, neither GeoJSON nor a GeoPackage
+    error: in/s.lua:2: binary.geojson is a binary file of no format that is known
       | source("binary.geojson")
       help: convert it: ogr2ogr out.gpkg FILE
     "#);
