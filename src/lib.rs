@@ -18,7 +18,8 @@
 //! macros     uses ──► nothing
 //! scene      uses ──► base
 //! geometry   uses ──► base, scene
-//! data       uses ──► base, geometry
+//! spatial    uses ──► base, geometry
+//! data       uses ──► base, spatial
 //! kit        uses ──► base, data, geometry, macros, scene
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
@@ -30,7 +31,7 @@
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, export, kit, scene
 //! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, scene, terrain, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, scene, spatial, terrain, variations, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
@@ -39,6 +40,7 @@
 //! - [`scene`]: a [`Scene`](scene::Scene) of meshes and instances, ready to be written.
 //! - [`geometry`]: lines, rings and polygons, frames, cross-sections, sweeps, straight skeletons and roofs, without rules
 //!   or scripts.
+//! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
@@ -111,6 +113,7 @@ pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_presets as presets;
 pub use burgeon_scene as scene;
+pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;
 pub use burgeon_variations as variations;
 pub use burgeon_watch as watch;

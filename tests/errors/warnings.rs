@@ -258,6 +258,33 @@ fn calls_that_draw_nothing() {
 }
 
 #[test]
+fn calls_of_an_object_that_is_held_name_their_line() {
+    let held = "local post = object(\"post\", { state = { rail = extruder() }, changes = {\n  up = function(self, r)\n    self.rail:scale(r):extrude(1)\n  end,\n} })\n\
+        local A = module(\"A\", \"r\")\nlocal s = lsystem({ object = post() })\ns:axiom(A(0))\ns:interpret(\"A(r)\", function(this, r)\n  this:up(r)\nend)\ns:derive(0)";
+    insta::assert_snapshot!(warned(&[held]), @r#"
+    local post = object("post", { state = { rail = extruder() }, changes = {
+      up = function(self, r)
+        self.rail:scale(r):extrude(1)
+      end,
+    } })
+    local A = module("A", "r")
+    local s = lsystem({ object = post() })
+    s:axiom(A(0))
+    s:interpret("A(r)", function(this, r)
+      this:up(r)
+    end)
+    s:derive(0)
+    warning: s.lua:3: rule A(r) (interpretation): extruder:extrude draws nothing where the scale is 0
+      | self.rail:scale(r):extrude(1)
+      module: A(0), step 0
+      help: give a scale above 0, or go on without drawing: this:advance(length)
+    warning: s.lua:7: the model is empty, for this system draws nothing
+      | local s = lsystem({ object = post() })
+      help: another warning tells why
+    "#);
+}
+
+#[test]
 fn a_system_that_is_derived_twice() {
     let twice = "local s = lsystem({ object = turtle() })\ns:axiom(F(1))\ns:rule(\"F(length)\", function(this, l) return F(l), Turn(90), F(l) end)\n\
         s:derive(1)\ns:derive(2)\nlocal last = s:derive(3)";

@@ -28,7 +28,7 @@ impl Corners {
         Self(match geometry {
             Geometry::Polygon(rings) => rings.first().cloned().unwrap_or_default(),
             Geometry::Line(points) => points.clone(),
-            Geometry::Point(point) => vec![*point],
+            other => other.points().copied().collect(),
         })
     }
 

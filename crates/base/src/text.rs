@@ -72,6 +72,12 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
+/// What a panic says of itself.
+pub fn panic_message(panic: &(dyn std::any::Any + Send)) -> &str {
+    let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
+    text.unwrap_or("without a message")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

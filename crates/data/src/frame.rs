@@ -341,14 +341,14 @@ fn centre(
 
 #[cfg(test)]
 mod tests {
+    use super::super::Geometry;
     use super::super::Layer;
-    use super::super::table::Geometry;
     use super::*;
 
     fn table(code: u32, points: &[[f64; 2]]) -> FeatureTable {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(code), &crate::SourceOptions::default());
         for [x, y] in points {
-            table.push("p", vec![Geometry::Point(DVec3::new(*x, *y, 5.0))], Vec::new()).unwrap();
+            table.push("p", vec![Geometry::point([*x, *y, 5.0])], Vec::new()).unwrap();
         }
         table
     }

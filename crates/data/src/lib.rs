@@ -21,6 +21,7 @@ mod tags;
 
 use std::path::Path;
 
+pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 pub use formats::{FlatGeobuf, GeoPackage, GmlFile, OsmFile};
 pub use frame::{Crs, ReferenceFrame};
@@ -29,7 +30,7 @@ pub use layer::Layer;
 pub use listing::nearest_file;
 pub use listing::{AttributeListing, LayerListing, Listing};
 pub use source::{Source, SourceOptions};
-pub use table::{Attribute, Feature, FeatureTable, Geometry, GeometryKind};
+pub use table::{Attribute, Feature, FeatureTable};
 pub use tags::{TagFilter, TagTest};
 
 /// The extensions of data files.
@@ -51,8 +52,6 @@ pub const EXTENSIONS: [&str; 12] = [
 /// The extensions of files that hold one GeoJSON document after another.
 const SEQUENCES: [&str; 5] = ["geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
 
-/// The deepest that geometries may be nested in collections.
-const DEEPEST: usize = 32;
 
 /// Parts `FILE:LAYER`; the layer is whatever follows the first colon behind a data file's extension.
 pub fn split_name(text: &str) -> (&str, Option<&str>) {

@@ -3,7 +3,6 @@
 use std::hash::BuildHasher;
 use std::sync::Arc;
 
-use glam::DVec3;
 use hashbrown::HashTable;
 use rayon::prelude::*;
 use rustc_hash::{FxBuildHasher, FxHashMap, FxHashSet};
@@ -13,93 +12,7 @@ use super::{Crs, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::{listed, shown};
-use burgeon_geometry::Rings;
-
-/// The kinds of geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub enum GeometryKind {
-    /// A place.
-    Point,
-    /// A way from place to place.
-    Line,
-    /// An area with holes.
-    Polygon,
-}
-
-impl GeometryKind {
-    /// All kinds.
-    pub const ALL: [Self; 3] = [Self::Point, Self::Line, Self::Polygon];
-
-    /// Its name in scripts.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Point => "point",
-            Self::Line => "line",
-            Self::Polygon => "polygon",
-        }
-    }
-}
-
-/// A geometry of one part, as its file has it: nothing is promised of its points.
-#[derive(Debug, Clone, PartialEq)]
-pub enum Geometry {
-    /// Its place.
-    Point(DVec3),
-    /// Its points, at least two.
-    Line(Vec<DVec3>),
-    /// Its outer ring and then its holes, each of at least three points, without the first one again at the end.
-    Polygon(Rings),
-}
-
-impl Geometry {
-    /// Its kind.
-    pub fn kind(&self) -> GeometryKind {
-        match self {
-            Self::Point(_) => GeometryKind::Point,
-            Self::Line(_) => GeometryKind::Line,
-            Self::Polygon(_) => GeometryKind::Polygon,
-        }
-    }
-
-    /// All of its points.
-    pub fn points(&self) -> impl Iterator<Item = &DVec3> {
-        let (single, rings): (&[DVec3], &[Vec<DVec3>]) = match self {
-            Self::Point(point) => (std::slice::from_ref(point), &[]),
-            Self::Line(points) => (points, &[]),
-            Self::Polygon(rings) => (&[], rings),
-        };
-        single.iter().chain(rings.iter().flatten())
-    }
-
-    pub(super) fn points_mut(&mut self) -> impl Iterator<Item = &mut DVec3> {
-        let (single, rings): (&mut [DVec3], &mut [Vec<DVec3>]) = match self {
-            Self::Point(point) => (std::slice::from_mut(point), &mut []),
-            Self::Line(points) => (points, &mut []),
-            Self::Polygon(rings) => (&mut [], &mut rings.0),
-        };
-        single.iter_mut().chain(rings.iter_mut().flatten())
-    }
-
-    /// A line, or nothing if it has fewer than two points.
-    pub(super) fn line(points: Vec<DVec3>) -> Option<Self> {
-        (points.len() >= 2).then_some(Self::Line(points))
-    }
-
-    /// A polygon from rings that end where they begin; nothing if the outer one has no three points. Holes that
-    /// have not are left out.
-    pub(super) fn polygon(mut rings: Vec<Vec<DVec3>>) -> Option<Self> {
-        for ring in &mut rings {
-            while ring.len() > 1 && ring.first() == ring.last() {
-                ring.pop();
-            }
-        }
-        if rings.first()?.len() < 3 {
-            return None;
-        }
-        rings.retain(|ring| ring.len() >= 3);
-        Some(Self::Polygon(Rings(rings)))
-    }
-}
+use burgeon_spatial::{Geometry, GeometryKind};
 
 /// What a feature knows under a name.
 #[derive(Debug, Clone, PartialEq)]
@@ -119,7 +32,7 @@ pub enum Attribute {
 pub struct Feature {
     /// Tells it from all others of its layer.
     pub id: FeatureId,
-    /// Where it is.
+    /// Where it is: a geometry of one part.
     pub geometry: Geometry,
     /// What it knows: the number of the name in [`FeatureTable::names`], and the value. Shared by the parts of a geometry.
     pub attributes: Arc<[(usize, Attribute)]>,
@@ -244,11 +157,7 @@ impl TakenIds {
 
 /// About how much memory (bytes) a geometry takes besides its own place.
 fn weight(geometry: &Geometry) -> usize {
-    match geometry {
-        Geometry::Point(_) => 0,
-        Geometry::Line(points) => 16 + 24 * points.len(),
-        Geometry::Polygon(rings) => rings.iter().map(|ring| 48 + 24 * ring.len()).sum(),
-    }
+    geometry.lists().iter().map(|list| if list.len() > 1 { 48 + 24 * list.len() } else { 0 }).sum()
 }
 
 /// How many texts are remembered, and the longest of them (bytes).
@@ -431,7 +340,7 @@ impl FeatureTable {
         let Some(kind) = self.selection.kind else { return Ok(()) };
         let seen = |known: &GeometryKind| self.selection.seen.get(*known as usize) == Some(&true);
         let there: Vec<&str> =
-            GeometryKind::ALL.iter().filter(|known| seen(known)).map(|known| known.name()).collect();
+            GeometryKind::SINGLE.iter().filter(|known| seen(known)).map(|known| known.name()).collect();
         if there.is_empty() || seen(&kind) {
             return Ok(());
         }
@@ -489,12 +398,14 @@ impl Attribute {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     #[test]
     fn parts_and_repeated_ids_are_numbered_on() {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
-        let point = Geometry::Point(DVec3::ZERO);
+        let point = Geometry::point([0.0; 3]);
         table.push("12", vec![point.clone(), point.clone(), point.clone()], Vec::new()).unwrap();
         table.push("12.2", vec![point.clone()], Vec::new()).unwrap();
         table.push("12", vec![point], Vec::new()).unwrap();
@@ -504,7 +415,7 @@ mod tests {
 
     #[test]
     fn what_is_not_wanted_is_not_kept_and_changes_no_id() {
-        let (point, line) = (Geometry::Point(DVec3::ONE), Geometry::Line(vec![DVec3::ZERO, DVec3::ONE]));
+        let (point, line) = (Geometry::point([1.0; 3]), Geometry::Line(vec![DVec3::ZERO, DVec3::ONE]));
         let far = Geometry::Line(vec![DVec3::splat(5.0), DVec3::splat(6.0)]);
         let kind = Some(GeometryKind::Line);
         let read = |wanted: SourceOptions| {
@@ -535,7 +446,7 @@ mod tests {
         let mut table = FeatureTable::new("a", "a", Crs::epsg(4326), &SourceOptions::default());
         for number in 0..200_000 {
             let id = if number % 3 == 0 { format!("a.{number}") } else { "a".to_owned() };
-            table.push(&id, vec![Geometry::Point(DVec3::ZERO)], Vec::new()).unwrap();
+            table.push(&id, vec![Geometry::point([0.0; 3])], Vec::new()).unwrap();
         }
         let ids: std::collections::HashSet<_> = table.features.iter().map(|feature| &*feature.id).collect();
         assert_eq!(ids.len(), 200_000);

@@ -57,7 +57,7 @@ impl FeatureShape {
                 ("rings", rings.iter().map(|ring| points(ring)).collect::<Vec<_>>().into_value())
             }
             Geometry::Line(line) => ("points", points(line).into_value()),
-            Geometry::Point(point) => ("points", points(&[*point]).into_value()),
+            other => ("points", points(&other.points().copied().collect::<Vec<_>>()).into_value()),
         };
         let kind = Value::Text(geometry.kind().name().into());
         let entries = vec![(TableKey::Name("kind".into()), kind), (TableKey::Name(name.into()), lists)];

@@ -58,7 +58,7 @@ pub use script_field::ScriptField;
 pub use script_object::ScriptObject;
 pub use script_type::ScriptType;
 pub use seed::Seed;
-pub use value::{Table, TableKey, Value};
+pub use value::{Table, TableKey, Value, is_keyword};
 
 #[doc(hidden)]
 pub use burgeon_base::Result;

@@ -165,7 +165,16 @@ impl Lines {
             Geometry::Polygon(rings) => {
                 self.lines.extend(rings.iter().filter_map(|ring| around(ring.clone())));
             }
-            Geometry::Point(_) => {}
+            Geometry::MultiLine(lines) => {
+                self.lines.extend(lines.iter().filter_map(|line| Line::without_repeats(line.clone())));
+            }
+            Geometry::MultiPolygon(polygons) => {
+                self.lines.extend(
+                    polygons.iter().flat_map(|rings| rings.iter()).filter_map(|ring| around(ring.clone())),
+                );
+            }
+            Geometry::Collection(members) => members.iter().for_each(|member| self.add(member)),
+            Geometry::Point(_) | Geometry::MultiPoint(_) => {}
         }
     }
 }

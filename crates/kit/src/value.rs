@@ -140,15 +140,20 @@ impl fmt::Display for Value {
     }
 }
 
-/// Whether Lua takes `name` for the name of a field without quotation marks.
-fn is_field(name: &str) -> bool {
+/// Whether `name` is a word of Lua's own, and so no name.
+pub fn is_keyword(name: &str) -> bool {
     const KEYWORDS: [&str; 21] = [
         "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",
         "nil", "not", "or", "repeat", "return", "then", "true", "until", "while",
     ];
+    KEYWORDS.contains(&name)
+}
+
+/// Whether Lua takes `name` for the name of a field without quotation marks.
+fn is_field(name: &str) -> bool {
     name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
         && name.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
-        && !KEYWORDS.contains(&name)
+        && !is_keyword(name)
 }
 
 /// Writes the shortest decimal that reads back as the same number.

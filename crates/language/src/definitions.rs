@@ -7,11 +7,12 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
 
-use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry};
+use burgeon_kit::{Argument, Construct, Field, Kind, Method, Registry, is_keyword};
 
-use crate::form::{CallForm, is_name, may_be_left_out};
+use crate::form::{is_name, may_be_left_out};
 use crate::luau_type::LuauType;
 use crate::names::{Name, NameKind, names};
+use crate::notation::{capital, is_plain, key, merged, module_form, optional, with_parameters};
 
 /// What editors are given.
 #[derive(Debug, Clone)]
@@ -420,122 +421,9 @@ impl Writer {
     }
 }
 
-/// Whether Luau knows the type of a list of these whoever made it.
-fn is_plain(item: &LuauType) -> bool {
-    match item {
-        LuauType::Named(name) => matches!(&**name, "number" | "string" | "boolean"),
-        _ => false,
-    }
-}
-
-/// Whether Luau takes `name` for no name.
-fn is_keyword(name: &str) -> bool {
-    const KEYWORDS: [&str; 21] = [
-        "and", "break", "do", "else", "elseif", "end", "false", "for", "function", "if", "in", "local",
-        "nil", "not", "or", "repeat", "return", "then", "true", "until", "while",
-    ];
-    KEYWORDS.contains(&name)
-}
-
-/// The name of a field in a table's type.
-fn key(name: &str) -> String {
-    if is_keyword(name) { format!("[\"{name}\"]") } else { name.to_owned() }
-}
-
-/// A type that may be left out.
-fn optional(luau: &str) -> String {
-    let is_one = is_name(luau) || luau.starts_with('{') && luau.find('}') == Some(luau.len() - 1);
-    match luau {
-        "any" => luau.to_owned(),
-        _ if is_one => format!("{luau}?"),
-        _ => format!("({luau})?"),
-    }
-}
-
-/// A name as a part of a type's name.
-fn capital(name: &str) -> String {
-    Kind::new(name.to_owned(), "").luau()
-}
-
-/// The form of a module's constructor, with what is known of the method that it calls.
-pub fn module_form(name: &Name, method: Option<&Method>) -> CallForm {
-    let mut form = name.forms.first().cloned().unwrap_or_default();
-    for (index, argument) in form.arguments.iter_mut().enumerate() {
-        if let Some(known) = method.and_then(|method| method.arguments.get(index)) {
-            let optional = if argument.luau.ends_with('?') && !known.luau.ends_with('?') { "?" } else { "" };
-            argument.luau = format!("{}{optional}", known.luau);
-            argument.unit.clone_from(&known.unit);
-            argument.fields.clone_from(&known.fields);
-        }
-    }
-    form
-}
-
-/// A function's type with parameters of its own in place of any number of any values: Luau passes on to a function in a
-/// call only the types of single parameters.
-fn with_parameters(luau: &str) -> String {
-    let parameters: String = ('a'..='l').map(|name| format!("{name}: any, ")).collect();
-    luau.replace("this: T, ...any", &format!("this: T, {parameters}...any"))
-}
-
-/// One form for several: what not all have may be left out.
-///
-/// Luau tells a function in a call what its parameters are only where there is one form, and where it is not one of
-/// several types; so a text may not stand there where only some forms have an argument.
-fn merged(forms: &[CallForm]) -> CallForm {
-    let Some((first, others)) = forms.split_first() else { return CallForm::default() };
-    let mut form = first.clone();
-    for other in others {
-        let variadic = |form: &CallForm| form.arguments.last().is_some_and(|last| last.name == "...");
-        if variadic(&form) || variadic(other) {
-            form.arguments = vec![crate::form::argument("...", "any")];
-            continue;
-        }
-        for (index, argument) in other.arguments.iter().enumerate() {
-            match form.arguments.get_mut(index) {
-                Some(known) if known.luau == argument.luau => {}
-                Some(known) => {
-                    // Among several types, a function must take what it is given for certain: nothing else than never.
-                    let known_luau = known.luau.replace("...any)", "...never)");
-                    let luau = format!("{known_luau} | {}", in_place(argument));
-                    *known = Argument { luau, ..argument.clone() };
-                }
-                None => {
-                    let luau = argument.luau.trim_end_matches(" | string");
-                    form.arguments.push(Argument { luau: format!("({luau})?"), ..argument.clone() });
-                }
-            }
-        }
-    }
-    form
-}
-
-/// The type of an argument, with the fields of its table where it stands.
-fn in_place(argument: &Argument) -> String {
-    if argument.fields.is_empty() {
-        return argument.luau.clone();
-    }
-    let fields = argument.fields.iter().map(|field| {
-        let luau = with_parameters(field.luau.trim_end_matches('?'));
-        format!("read {}: {}", key(&field.name), optional(luau.trim()))
-    });
-    format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn one_form_takes_what_any_of_several_takes() {
-        let forms = ["(a: string, b: (...any) -> any) -> T", "(a: string, b: number, c: boolean) -> T"];
-        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
-        let form = merged(&forms);
-        assert_eq!(form.to_string(), "(a: string, b: (...never) -> any | number, c: (boolean)?) -> T");
-        let forms = ["(...Module) -> T", "(source: Layer, chain: any) -> T"];
-        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
-        assert_eq!(merged(&forms).to_string(), "(...any) -> T");
-    }
 
     #[test]
     fn everything_is_declared_once_and_keeps_to_the_names_of_luau() {

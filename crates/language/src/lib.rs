@@ -9,8 +9,9 @@ mod editor;
 mod form;
 mod luau_type;
 mod names;
+mod notation;
 
-pub use definitions::{Definitions, definitions, module_form};
+pub use definitions::{Definitions, definitions};
 pub use editor::{EditorFile, SETTINGS, editor_files, merged_settings};
 pub use form::{CallForm, argument};
 pub use luau_type::{Literal, LuauType};
@@ -18,3 +19,4 @@ pub use names::{
     DERIVED, EXTEND, Effect, LAYER, LOCKED, LSYSTEM, Name, NameKind, OBJECT, PARAM, RULE, SOURCE, SYSTEM,
     VECTOR, deprecated_names, is_pure_function, is_pure_method, library_effect, names,
 };
+pub use notation::module_form;

@@ -13,6 +13,7 @@ use super::request::Inputs;
 use super::state::{ActiveRun, DueRun, LiveState, PresentModel, ServerState};
 use super::{Notice, describe};
 use burgeon_base::error::{Error, ErrorKind, Limit, Result};
+use burgeon_base::text::panic_message;
 use burgeon_base::warning::Warning;
 use burgeon_engine::run::{Run, run_session};
 use burgeon_engine::script::{Limits, RunOptions, Session, make_ready};
@@ -266,8 +267,7 @@ fn encode(run: &Run) -> Result<(File, Duration)> {
 }
 
 fn internal(panic: &(dyn std::any::Any + Send)) -> Error {
-    let text = panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-    Error::internal(format!("internal error: {}", text.unwrap_or("without a message")))
+    Error::internal(format!("internal error: {}", panic_message(panic)))
         .help("this is a mistake in Burgeon; please report it with the script")
 }
 

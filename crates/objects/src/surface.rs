@@ -92,6 +92,17 @@ impl MaterialOptions {
     }
 }
 
+/// A surface of one colour, from 0 like a mirror to 1 like chalk, and from 0 for wood to 1 for bare metal.
+#[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
+pub(crate) fn plain_material(color: Color, roughness: f64, metallic: f64) -> Material {
+    Material {
+        base_color: color.0,
+        roughness: roughness as f32,
+        metallic: metallic as f32,
+        ..Material::default()
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

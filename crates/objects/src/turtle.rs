@@ -6,6 +6,7 @@ use glam::{DAffine3, DQuat, DVec3};
 
 use super::MaterialOptions;
 use super::mesh::draw_mesh;
+use super::surface::plain_material;
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Frame, Strand, face, sphere};
 use burgeon_kit::{Color, Drawing, Model, Vector, fields, methods, object};
@@ -398,13 +399,7 @@ impl TurtleState {
     fn begin(options: &TurtleOptions, drawing: &mut Drawing) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
-        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
-        let material = Material {
-            base_color: options.color.0,
-            roughness: options.roughness as f32,
-            metallic: options.metallic as f32,
-            ..Material::default()
-        };
+        let material = plain_material(options.color, options.roughness, options.metallic);
         Self {
             frame,
             width: options.width,

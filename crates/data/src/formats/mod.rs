@@ -2,7 +2,7 @@
 //!
 //! A program that is built without the feature `data` has `absent` in its place, which says so.
 
-mod arc;
+mod blob;
 mod flatgeobuf;
 mod geopackage;
 pub(crate) mod geotiff;
@@ -12,7 +12,6 @@ mod osm;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;
-mod wkb;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;

@@ -8,9 +8,10 @@ use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess
 use serde_json::value::RawValue;
 
 use super::reader::{LARGE, words};
-use crate::{DEEPEST, Geometry, SourceOptions};
+use crate::{Geometry, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::text::shown;
+use burgeon_spatial::DEEPEST;
 
 #[derive(Deserialize)]
 struct RawGeometry<'a> {
@@ -135,8 +136,10 @@ fn members(
         .transpose()
         .map_err(|error| error.message().to_owned())?;
     match kind {
-        "Point" => parts.push(Geometry::Point(read_as(text, One(budget))?)),
-        "MultiPoint" => parts.extend(read_as(text, ListOf(One(budget)))?.into_iter().map(Geometry::Point)),
+        "Point" => parts.push(Geometry::point(read_as(text, One(budget))?)),
+        "MultiPoint" => {
+            parts.extend(read_as(text, ListOf(One(budget)))?.into_iter().map(|place| Geometry::point(place)))
+        }
         "LineString" => parts.extend(Geometry::line(read_as(text, ListOf(One(budget)))?)),
         "MultiLineString" => {
             parts.extend(read_as(text, ListOf(ListOf(One(budget))))?.into_iter().filter_map(Geometry::line));

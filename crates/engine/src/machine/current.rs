@@ -132,36 +132,6 @@ impl WorkState {
         })
     }
 
-    /// Calls a method of an object that the one at hand holds.
-    pub(crate) fn call_held(
-        &self,
-        slot: usize,
-        method: usize,
-        application: usize,
-        arguments: &[Value],
-    ) -> Result<Value> {
-        let chain = self.chain_of(application);
-        let objects = self.objects.borrow();
-        let objects = objects.as_ref().ok_or_else(outside)?;
-        let call = objects.read(chain, |object| {
-            let held = downcast_ref::<ScriptObject>(object)?.held(slot)?;
-            let method = held.kind().methods.get(method);
-            method.map(|method| method.call.clone()).ok_or_else(|| Error::internal("there is no such method"))
-        })?;
-        match call {
-            Call::Read(read) => objects
-                .read(chain, |object| read(downcast_ref::<ScriptObject>(object)?.held(slot)?, arguments))
-                .map_err(Error::of_data),
-            Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
-            Call::Write { values, .. } => objects
-                .write(chain, |object| {
-                    downcast_mut::<ScriptObject>(object)?.with_held(slot, |held| values(held, arguments))
-                })
-                .or_else(|error| objects.forgive(chain, error.of_data()).map(|()| Value::Nil)),
-            Call::Script { .. } => Err(Error::internal("an object of a script's type is not held")),
-        }
-    }
-
     /// The error for a name that objects of the type `kind` do not have.
     pub(crate) fn unknown_member(&self, kind: &str, name: &str) -> Error {
         let of = self.kind.borrow().as_ref().filter(|known| known.name == kind).cloned();
@@ -171,28 +141,43 @@ impl WorkState {
         }
     }
 
-    /// Calls a method of `this` at once, while rewriting or interpreting, in the line at `place`.
+    /// Calls a method of `this`, or of the object that it holds at `slot`, at once, while rewriting or interpreting, in the
+    /// line at `place`.
     pub(crate) fn call(
         &self,
+        slot: Option<usize>,
         method: usize,
         application: usize,
         arguments: &[Value],
         place: impl FnOnce() -> Option<SourcePlace>,
     ) -> Result<Value> {
-        let kind = self.kind.borrow();
-        let methods = kind.as_ref().map_or(&[][..], |kind| &kind.methods);
-        let method = methods.get(method).ok_or_else(|| Error::internal("there is no such method"))?;
         let chain = self.chain_of(application);
         let objects = self.objects.borrow();
         let objects = objects.as_ref().ok_or_else(outside)?;
-        match &method.call {
-            Call::Read(read) => objects.read(chain, |object| read(object, arguments)).map_err(Error::of_data),
+        let missing = || Error::internal("there is no such method");
+        let kind = match slot {
+            None => self.kind.borrow().clone().ok_or_else(missing)?,
+            Some(slot) => objects.read(chain, |object| {
+                Ok(Arc::clone(downcast_ref::<ScriptObject>(object)?.held(slot)?.kind()))
+            })?,
+        };
+        match &kind.methods.get(method).ok_or_else(missing)?.call {
+            Call::Read(read) => objects
+                .read(chain, |object| match slot {
+                    None => read(object, arguments),
+                    Some(slot) => read(downcast_ref::<ScriptObject>(object)?.held(slot)?, arguments),
+                })
+                .map_err(Error::of_data),
             Call::Script { .. } => Err(Error::internal("the script itself runs this method")),
             Call::Write { .. } if objects.has_failed(chain) => Ok(Value::Nil),
             Call::Write { values, .. } => {
                 let mut said = Vec::new();
                 let done = objects.write(chain, |object| {
-                    let done = values(object, arguments);
+                    let done = match slot {
+                        None => values(object, arguments),
+                        Some(slot) => downcast_mut::<ScriptObject>(object)?
+                            .with_held(slot, |held| values(held, arguments)),
+                    };
                     said = object.take_warnings();
                     done
                 });

@@ -19,6 +19,9 @@ const GUARD: u8 = 2;
 /// At the top level, in `prelude.luau`.
 const TOP: u8 = 0;
 
+/// A held object's place, a method's number, the application, and what the method is given.
+type HostCall = (Option<usize>, usize, usize, MultiValue);
+
 pub(crate) fn functions(lua: &Lua, current: &Rc<WorkState>, library: &Rc<Library>) -> mlua::Result<Table> {
     let host = lua.create_table()?;
     host.set("deepest", DEEPEST)?;
@@ -165,10 +168,10 @@ fn add_methods(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua::Result
     let state = Rc::clone(current);
     host.set(
         "call",
-        lua.create_function(move |lua, (method, application, arguments): (usize, usize, MultiValue)| {
+        lua.create_function(move |lua, (slot, method, application, arguments): HostCall| {
             let arguments = values(&arguments)?;
             let answer = state
-                .call(method, application, &arguments, || super::Machine::place(lua))
+                .call(slot, method, application, &arguments, || super::Machine::place(lua))
                 .map_err(mlua::Error::external)?;
             to_lua(lua, &answer, false)
         })?,
@@ -243,18 +246,6 @@ fn add_script_objects(lua: &Lua, host: &Table, current: &Rc<WorkState>) -> mlua:
             let kept = Arc::new(burgeon_kit::Table { class: None, entries });
             state.keep_state(chain, kept).map_err(mlua::Error::external)
         })?,
-    )?;
-    let state = Rc::clone(current);
-    host.set(
-        "call_held",
-        lua.create_function(
-            move |lua, (slot, method, application, arguments): (usize, usize, usize, MultiValue)| {
-                let arguments = values(&arguments)?;
-                let answer =
-                    state.call_held(slot, method, application, &arguments).map_err(mlua::Error::external)?;
-                to_lua(lua, &answer, false)
-            },
-        )?,
     )?;
     let state = Rc::clone(current);
     host.set(

@@ -6,6 +6,7 @@ use glam::DVec2;
 use smallvec::SmallVec;
 
 use super::object::ExtruderOptions;
+use crate::surface::plain_material;
 use burgeon_geometry::{Frame, Section, Station};
 use burgeon_scene::Material;
 
@@ -45,13 +46,7 @@ impl ExtruderState {
     pub(super) fn begin(options: &ExtruderOptions, section: &Arc<Section>) -> Self {
         let mut frame = Frame::default();
         frame.face(options.heading.0);
-        #[allow(clippy::cast_possible_truncation, reason = "materials are f32")]
-        let material = Material {
-            base_color: options.color.0,
-            roughness: options.roughness as f32,
-            metallic: options.metallic as f32,
-            ..Material::default()
-        };
+        let material = plain_material(options.color, options.roughness, options.metallic);
         Self {
             frame,
             section: Arc::clone(section),

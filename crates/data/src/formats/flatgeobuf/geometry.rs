@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::buffer::{Damage, Table};
 use super::header::doubles;
-use crate::{DEEPEST, Geometry};
+use crate::Geometry;
+use burgeon_spatial::DEEPEST;
 use burgeon_base::budget::Budget;
 
 /// Adds the parts of a geometry of a kind, which it may tell itself if that is 0. Fails with the reason.
@@ -26,9 +27,9 @@ pub(super) fn read(
     };
     match kind {
         1 => parts.extend(
-            points(table, budget)?.into_iter().filter(|place| !place.x.is_nan()).map(Geometry::Point),
+            points(table, budget)?.into_iter().filter(|place| !place.x.is_nan()).map(Geometry::point),
         ),
-        4 => parts.extend(points(table, budget)?.into_iter().map(Geometry::Point)),
+        4 => parts.extend(points(table, budget)?.into_iter().map(Geometry::point)),
         2 => parts.extend(Geometry::line(points(table, budget)?)),
         3 | 17 => parts.extend(Geometry::polygon(lists(table, budget)?)),
         5 => parts.extend(lists(table, budget)?.into_iter().filter_map(Geometry::line)),

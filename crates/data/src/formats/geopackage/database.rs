@@ -5,8 +5,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-use crate::formats::arc;
-use crate::formats::wkb::read_blob;
+use crate::formats::blob::read_blob;
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -148,7 +147,7 @@ impl GeoPackage {
         let label = format!("{name}:{}", shown(layer));
         let mut table = FeatureTable::new(layer, &label, described.crs, wanted);
         let crs = wanted.crs.map_or_else(|| table.crs.clone(), Crs::epsg);
-        let near = arc::NEAR / crs.map_or(1.0, |crs| crs.metres());
+        let near = burgeon_spatial::wkb::NEAR / crs.map_or(1.0, |crs| crs.metres());
         let columns = LayerColumns::read(&self.connection, layer, &described.column).map_err(error)?;
         table.names = columns.names.clone();
         let id = match &wanted.id {

@@ -75,7 +75,7 @@ pub(super) fn build(
     budget: &Budget,
 ) -> Built {
     match &record.shape {
-        Shape::Point(place) => Ok((vec![Geometry::Point(place.degrees())], false)),
+        Shape::Point(place) => Ok((vec![Geometry::point(place.degrees())], false)),
         Shape::Line(nodes) => lines(nodes, places),
         Shape::Area(nodes) => {
             let ring = all_places(nodes, places)?;

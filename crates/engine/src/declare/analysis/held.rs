@@ -3,7 +3,8 @@
 use full_moon::ast::{Expression, Field, FunctionArgs, TableConstructor};
 use full_moon::tokenizer::TokenReference;
 
-use super::calls::{CallCheck, Inference, expressions_of, line_of};
+use super::calls::{CallCheck, expressions_of, line_of};
+use super::inference::Inference;
 use super::syntax::{is_open, text_of};
 use burgeon_base::error::Error;
 use burgeon_kit::{Argument, Field as KindField, Kind};

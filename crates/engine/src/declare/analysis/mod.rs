@@ -8,6 +8,7 @@
 mod calls;
 mod expressions;
 mod held;
+mod inference;
 mod peeks;
 mod prepare;
 mod pure;

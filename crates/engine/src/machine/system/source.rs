@@ -248,7 +248,7 @@ impl Maker {
     pub(super) fn new(lua: &Lua) -> mlua::Result<Self> {
         let geometry: Function = lua.named_registry_value(GEOMETRY)?;
         native(lua, &geometry)?;
-        let [point, line, polygon] = GeometryKind::ALL.map(|kind| lua.create_string(kind.name()));
+        let [point, line, polygon] = GeometryKind::SINGLE.map(|kind| lua.create_string(kind.name()));
         Ok(Self {
             geometry,
             kinds: [point?, line?, polygon?],
@@ -292,8 +292,7 @@ impl Maker {
         #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
         match geometry {
             Geometry::Polygon(rings) => numbers.extend(rings.iter().map(|ring| ring.len() as f64)),
-            Geometry::Line(points) => numbers.push(points.len() as f64),
-            Geometry::Point(_) => numbers.push(1.0),
+            other => numbers.push(other.points().count() as f64),
         }
         let lists = numbers.len();
         numbers.extend(geometry.points().flat_map(|point| point.to_array()));
@@ -372,9 +371,9 @@ fn wanted(options: &ValueTable) -> Result<SourceOptions> {
             "crs" => wanted.crs = Some(whole("3067")?),
             "kind" => {
                 let kind = text("\"polygon\"")?.unwrap_or_default();
-                let known = GeometryKind::ALL.into_iter().find(|known| known.name() == kind);
+                let known = GeometryKind::SINGLE.into_iter().find(|known| known.name() == kind);
                 wanted.kind = Some(known.ok_or_else(|| {
-                    let names = GeometryKind::ALL.map(GeometryKind::name);
+                    let names = GeometryKind::SINGLE.map(GeometryKind::name);
                     let message = format!("source: there is no kind {kind:?} of geometry");
                     Error::not_found("kind", &kind, names, message)
                         .help(format!("it is one of {}", names.join(", ")))

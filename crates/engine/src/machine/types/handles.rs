@@ -8,6 +8,7 @@ use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value
 use crate::machine::convert::to_lua;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
+use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
 use burgeon_kit::{Object, ScriptObject};
 use burgeon_language::DERIVED;
@@ -84,10 +85,7 @@ impl Objects {
 /// Makes an error of a panic, which a type of object from outside of Burgeon may have: it costs its own chain.
 fn guarded<T>(act: impl FnOnce() -> Result<T>) -> Result<T> {
     std::panic::catch_unwind(std::panic::AssertUnwindSafe(act)).unwrap_or_else(|panic| {
-        let text =
-            panic.downcast_ref::<String>().map(String::as_str).or(panic.downcast_ref::<&str>().copied());
-        let text = text.unwrap_or("without a message");
-        Err(Error::internal(format!("the type of object panicked: {text}"))
+        Err(Error::internal(format!("the type of object panicked: {}", panic_message(&*panic)))
             .help("the mistake is in the type, not in the script; tell whoever made it")
             .of_data())
     })

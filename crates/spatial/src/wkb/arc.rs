@@ -7,7 +7,7 @@ use std::f64::consts::TAU;
 use glam::{DVec2, DVec3};
 
 /// How far (m) a line may be from the arc that it stands for.
-pub(super) const NEAR: f64 = 0.01;
+pub const NEAR: f64 = 0.01;
 
 /// The most pieces of half an arc: enough for a radius of 8,000 km.
 const MOST: f64 = 65_536.0;
@@ -16,7 +16,7 @@ const MOST: f64 = 65_536.0;
 /// `near` from it; all three are among them. Heights change evenly from each to the next.
 ///
 /// Where both ends are the same place, it is a circle, and `by` lies opposite. What lies on one line stays one.
-pub(super) fn add(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
+pub fn add_arc(points: &mut Vec<DVec3>, [from, by, to]: [DVec3; 3], near: f64) {
     // All as seen from the first point.
     let start = from.truncate();
     let [a, b] = [by, to].map(|point| point.truncate() - start);
@@ -55,7 +55,7 @@ mod tests {
     fn arc(places: [[f64; 3]; 3]) -> Vec<DVec3> {
         let places = places.map(DVec3::from);
         let mut points = vec![places[0]];
-        add(&mut points, places, NEAR);
+        add_arc(&mut points, places, NEAR);
         points
     }
 

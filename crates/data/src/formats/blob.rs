@@ -1,0 +1,55 @@
+//! Geometries as GeoPackages store them: a header before well-known binary.
+
+use burgeon_base::budget::Budget;
+use burgeon_spatial::{Geometry, wkb};
+
+/// Reads one blob of a GeoPackage: its geometry's parts, none if it is empty. Fails with the reason.
+///
+/// Arcs become lines that are at most `near` (in its own units) from them.
+///
+/// Source: OGC 12-128r18, GeoPackage Encoding Standard, clause 2.1.3.
+pub(super) fn read_blob(bytes: &[u8], near: f64, budget: &Budget) -> Result<Vec<Geometry>, String> {
+    wkb::read(body(bytes)?, near, budget).map(Geometry::into_parts)
+}
+
+/// The well-known binary behind the header of a blob.
+fn body(bytes: &[u8]) -> Result<&[u8], String> {
+    if !bytes.starts_with(b"GP") || bytes.len() < 8 {
+        return Err("is no geometry of a GeoPackage".into());
+    }
+    let flags = bytes[3];
+    if flags & 0x20 != 0 {
+        return Err("is of an extended type".into());
+    }
+    let envelope = match (flags >> 1) & 7 {
+        0 => 0,
+        1 => 32,
+        2 | 3 => 48,
+        4 => 64,
+        _ => return Err("has an envelope that is not known".into()),
+    };
+    // The flag of an empty geometry says nothing that its content does not say.
+    bytes.get(8 + envelope..).ok_or_else(|| "ends too early".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_stands_behind_a_header_of_any_length_is_read() {
+        let place = Geometry::point([1.0, 2.0, 3.0]);
+        for (envelope, size) in [(0, 0), (1, 32), (2, 48), (3, 48), (4, 64)] {
+            let mut blob = vec![b'G', b'P', 0, envelope << 1, 0, 0, 0, 0];
+            blob.resize(8 + size, 7);
+            blob.extend(place.to_wkb());
+            assert_eq!(read_blob(&blob, wkb::NEAR, &Budget::default()), Ok(vec![place.clone()]));
+            for end in 0..blob.len() {
+                assert!(read_blob(&blob[..end], wkb::NEAR, &Budget::default()).is_err(), "{end}");
+            }
+        }
+        for flags in [0x20, 5 << 1] {
+            assert!(body(&[b'G', b'P', 0, flags, 0, 0, 0, 0]).is_err());
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! How Luau's type checker has forms and types written.
+
+use burgeon_kit::{Argument, Kind, Method, is_keyword};
+
+use crate::form::{CallForm, argument, is_name};
+use crate::luau_type::LuauType;
+use crate::names::Name;
+
+/// Whether Luau knows the type of a list of these whoever made it.
+pub(crate) fn is_plain(item: &LuauType) -> bool {
+    match item {
+        LuauType::Named(name) => matches!(&**name, "number" | "string" | "boolean"),
+        _ => false,
+    }
+}
+
+/// The name of a field in a table's type.
+pub(crate) fn key(name: &str) -> String {
+    if is_keyword(name) { format!("[\"{name}\"]") } else { name.to_owned() }
+}
+
+/// A type that may be left out.
+pub(crate) fn optional(luau: &str) -> String {
+    let is_one = is_name(luau) || luau.starts_with('{') && luau.find('}') == Some(luau.len() - 1);
+    match luau {
+        "any" => luau.to_owned(),
+        _ if is_one => format!("{luau}?"),
+        _ => format!("({luau})?"),
+    }
+}
+
+/// A name as a part of a type's name.
+pub(crate) fn capital(name: &str) -> String {
+    Kind::new(name.to_owned(), "").luau()
+}
+
+/// The form of a module's constructor, with what is known of the method that it calls.
+pub fn module_form(name: &Name, method: Option<&Method>) -> CallForm {
+    let mut form = name.forms.first().cloned().unwrap_or_default();
+    for (index, argument) in form.arguments.iter_mut().enumerate() {
+        if let Some(known) = method.and_then(|method| method.arguments.get(index)) {
+            let optional = if argument.luau.ends_with('?') && !known.luau.ends_with('?') { "?" } else { "" };
+            argument.luau = format!("{}{optional}", known.luau);
+            argument.unit.clone_from(&known.unit);
+            argument.fields.clone_from(&known.fields);
+        }
+    }
+    form
+}
+
+/// A function's type with parameters of its own in place of any number of any values: Luau passes on to a function in a
+/// call only the types of single parameters.
+pub(crate) fn with_parameters(luau: &str) -> String {
+    let parameters: String = ('a'..='l').map(|name| format!("{name}: any, ")).collect();
+    luau.replace("this: T, ...any", &format!("this: T, {parameters}...any"))
+}
+
+/// One form for several: what not all have may be left out.
+///
+/// Luau tells a function in a call what its parameters are only where there is one form, and where it is not one of
+/// several types; so a text may not stand there where only some forms have an argument.
+pub(crate) fn merged(forms: &[CallForm]) -> CallForm {
+    let Some((first, others)) = forms.split_first() else { return CallForm::default() };
+    let mut form = first.clone();
+    for other in others {
+        let variadic = |form: &CallForm| form.arguments.last().is_some_and(|last| last.name == "...");
+        if variadic(&form) || variadic(other) {
+            form.arguments = vec![argument("...", "any")];
+            continue;
+        }
+        for (index, argument) in other.arguments.iter().enumerate() {
+            match form.arguments.get_mut(index) {
+                Some(known) if known.luau == argument.luau => {}
+                Some(known) => {
+                    // Among several types, a function must take what it is given for certain: nothing else than never.
+                    let known_luau = known.luau.replace("...any)", "...never)");
+                    let luau = format!("{known_luau} | {}", in_place(argument));
+                    *known = Argument { luau, ..argument.clone() };
+                }
+                None => {
+                    let luau = argument.luau.trim_end_matches(" | string");
+                    form.arguments.push(Argument { luau: format!("({luau})?"), ..argument.clone() });
+                }
+            }
+        }
+    }
+    form
+}
+
+/// The type of an argument, with the fields of its table where it stands.
+fn in_place(argument: &Argument) -> String {
+    if argument.fields.is_empty() {
+        return argument.luau.clone();
+    }
+    let fields = argument.fields.iter().map(|field| {
+        let luau = with_parameters(field.luau.trim_end_matches('?'));
+        format!("read {}: {}", key(&field.name), optional(luau.trim()))
+    });
+    format!("{{ {} }}", fields.collect::<Vec<_>>().join(", "))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_form_takes_what_any_of_several_takes() {
+        let forms = ["(a: string, b: (...any) -> any) -> T", "(a: string, b: number, c: boolean) -> T"];
+        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
+        let form = merged(&forms);
+        assert_eq!(form.to_string(), "(a: string, b: (...never) -> any | number, c: (boolean)?) -> T");
+        let forms = ["(...Module) -> T", "(source: Layer, chain: any) -> T"];
+        let forms: Vec<CallForm> = forms.iter().filter_map(|form| CallForm::read(form)).collect();
+        assert_eq!(merged(&forms).to_string(), "(...any) -> T");
+    }
+}

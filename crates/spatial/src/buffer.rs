@@ -1,0 +1,114 @@
+//! What lies within a distance of a geometry.
+
+use burgeon_base::error::{Error, Result};
+use geo::buffer::{Buffer, BufferStyle, LineCap, LineJoin};
+use geo::{BooleanOps, unary_union};
+
+use super::Geometry;
+use super::edges::with_heights;
+use super::overlay::FILL;
+use super::plane::Plane;
+
+/// What a buffer's border does at corners.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BufferJoin {
+    /// An arc.
+    #[default]
+    Round,
+    /// A corner, as far as it is no farther than five distances off.
+    Mitre,
+    /// A straight cut.
+    Bevel,
+}
+
+/// What a buffer's border does at the ends of lines.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub enum BufferCap {
+    /// Half a circle.
+    #[default]
+    Round,
+    /// It ends where the line ends.
+    Flat,
+    /// It goes on as far as the distance.
+    Square,
+}
+
+/// How a buffer's border runs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct BufferOptions {
+    /// At corners.
+    pub join: BufferJoin,
+    /// At the ends of lines.
+    pub cap: BufferCap,
+    /// How many edges stand for a quarter of a circle, 1 to 1000.
+    pub quadrant_segments: u32,
+}
+
+impl Default for BufferOptions {
+    fn default() -> Self {
+        Self { join: BufferJoin::Round, cap: BufferCap::Round, quadrant_segments: 8 }
+    }
+}
+
+/// How many distances a mitred corner may be off.
+const MITRE_LIMIT: f64 = 5.0;
+
+impl Geometry {
+    /// The area of all that lies within `distance` (m); of a polygon, a negative one takes as much off. Empty if nothing
+    /// is left. Fails if the distance is not finite, or no number of segments is given.
+    ///
+    /// Method: boolean operations on polygons (i_overlay, through `geo`).
+    ///
+    /// ```
+    /// use burgeon_spatial::{BufferCap, BufferJoin, BufferOptions, Geometry};
+    ///
+    /// let path = Geometry::from_wkt("LINESTRING (0 0, 10 0, 10 10)")?;
+    /// let options = BufferOptions { join: BufferJoin::Mitre, cap: BufferCap::Flat, ..BufferOptions::default() };
+    /// assert!((path.buffer(1.0, &options)?.area() - 40.0).abs() < 1e-6);
+    /// let disc = Geometry::from_wkt("POINT (0 0)")?.buffer(2.0, &BufferOptions::default())?;
+    /// assert!((disc.area() - 12.48).abs() < 0.01);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn buffer(&self, distance: f64, options: &BufferOptions) -> Result<Self> {
+        if !distance.is_finite() || distance.abs() > super::FARTHEST {
+            return Err(Error::argument(format!("buffer takes a finite distance, not {distance}"))
+                .help("give metres: more to grow, less than 0 to shrink"));
+        }
+        if !(1..=1000).contains(&options.quadrant_segments) {
+            let given = options.quadrant_segments;
+            return Err(Error::argument(format!("buffer takes 1 to 1000 quadrant_segments, not {given}"))
+                .help("8 are 1 % from a circle's area"));
+        }
+        let plane = Plane::of(&[self]);
+        let areas = plane.polygons(self);
+        if distance == 0.0 {
+            let none = geo::MultiPolygon::new(Vec::new());
+            return Ok(with_heights(plane.areas(&areas.union_with_fill_rule(&none, FILL)), &[self]));
+        }
+        let style = || {
+            let angle = std::f64::consts::FRAC_PI_2 / f64::from(options.quadrant_segments);
+            let join = match options.join {
+                BufferJoin::Round => LineJoin::Round(angle),
+                BufferJoin::Mitre => LineJoin::Miter(2.0 * (1.0 / MITRE_LIMIT).asin()),
+                BufferJoin::Bevel => LineJoin::Bevel,
+            };
+            let cap = match options.cap {
+                BufferCap::Round => LineCap::Round(angle),
+                BufferCap::Flat => LineCap::Butt,
+                BufferCap::Square => LineCap::Square,
+            };
+            BufferStyle::new(distance).line_join(join).line_cap(cap)
+        };
+        let parts: Vec<geo::MultiPolygon> = self
+            .parts()
+            .iter()
+            .filter(|part| distance > 0.0 || part.dimension() == 2)
+            .map(|part| plane.geo(part).buffer_with_style(style()))
+            .collect();
+        let whole = match &parts[..] {
+            [only] => only.clone(),
+            parts => unary_union(parts),
+        };
+        Ok(with_heights(plane.areas(&whole), &[self]))
+    }
+}

@@ -1,0 +1,12 @@
+//! Set operations on geometries of any kinds.
+//!
+//! Comes in: two geometries. Goes out: what both have, either, or only one. Areas are computed by i_overlay; lines and
+//! points by an [arrangement] of the edges of both.
+
+mod areas;
+mod arrangement;
+mod combine;
+mod inside;
+
+pub(crate) use areas::FILL;
+pub use combine::union_all;

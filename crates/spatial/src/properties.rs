@@ -1,0 +1,167 @@
+//! What holds of all geometries, whatever they look like.
+
+use glam::DVec3;
+use proptest::prelude::*;
+
+use crate::{BufferOptions, Geometry, union_all};
+
+/// Places on a small grid, so that much touches, and some far from it.
+fn place() -> impl Strategy<Value = DVec3> {
+    let number = || prop_oneof![8 => (0..8i32).prop_map(f64::from), 1 => (0.0..8.0f64)];
+    let height = prop::sample::select(vec![0.0, 0.0, 0.0, 2.5]);
+    (number(), number(), height).prop_map(|(x, y, z)| DVec3::new(x, y, z))
+}
+
+/// A star around a place: a ring that does not meet itself.
+fn star() -> impl Strategy<Value = Vec<DVec3>> {
+    (place(), prop::collection::vec(0.5..4.0f64, 3..9), any::<bool>()).prop_map(|(middle, far, whole)| {
+        let count = far.len() as f64;
+        let corner = |(index, far): (usize, &f64)| {
+            let angle = std::f64::consts::TAU * index as f64 / count;
+            let at = middle + DVec3::new(angle.cos(), angle.sin(), 0.0) * *far;
+            // On the grid corners meet edges of others; a star keeps its shape there or is given up.
+            if whole { DVec3::new(at.x.round(), at.y.round(), at.z) } else { at }
+        };
+        far.iter().enumerate().map(corner).collect()
+    })
+}
+
+fn polygon() -> impl Strategy<Value = Geometry> {
+    star().prop_filter_map("no polygon", |mut ring| {
+        ring.dedup_by(|a, b| a.truncate() == b.truncate());
+        let polygon = Geometry::polygon(vec![ring])?;
+        // What rounding to the grid made of it may meet itself.
+        (polygon.area() > 0.1 && (polygon.dissolved().area() - polygon.area()).abs() < 1e-9)
+            .then_some(polygon)
+    })
+}
+
+fn geometry() -> impl Strategy<Value = Geometry> {
+    let leaf = prop_oneof![
+        Just(Geometry::Point(None)),
+        place().prop_map(|at| Geometry::Point(Some(at))),
+        prop::collection::vec(place(), 2..6).prop_map(Geometry::Line),
+        prop::collection::vec(place(), 0..4).prop_map(Geometry::MultiPoint),
+        prop::collection::vec(prop::collection::vec(place(), 2..4), 0..3).prop_map(Geometry::MultiLine),
+        polygon(),
+        prop::collection::vec(place(), 3..7)
+            .prop_map(|ring| Geometry::polygon(vec![ring]).unwrap_or(Geometry::empty(2))),
+    ];
+    leaf.prop_recursive(3, 12, 3, |inner| prop::collection::vec(inner, 0..3).prop_map(Geometry::Collection))
+}
+
+fn settings(cases: u32) -> ProptestConfig {
+    ProptestConfig { cases, failure_persistence: None, ..ProptestConfig::default() }
+}
+
+proptest! {
+    #![proptest_config(settings(600))]
+
+    #[test]
+    fn what_is_written_reads_back_the_same(geometry in geometry()) {
+        prop_assert_eq!(Geometry::from_wkt(&geometry.to_wkt()).ok(), Some(geometry.clone()));
+        prop_assert_eq!(Geometry::from_wkb(&geometry.to_wkb()).ok(), Some(geometry.clone()));
+        prop_assert_eq!(Geometry::from_wkb(&geometry.to_ewkb(Some(3763))).ok(), Some(geometry.clone()));
+        prop_assert_eq!(crate::wkb::srid(&geometry.to_ewkb(Some(3763))), Some(3763));
+        let bytes = geometry.to_wkb();
+        for end in 0..bytes.len() {
+            prop_assert!(Geometry::from_wkb(&bytes[..end]).is_err());
+        }
+    }
+
+    #[test]
+    fn areas_add_up(a in polygon(), b in polygon()) {
+        let (both, either) = (a.intersection(&b), a.union(&b));
+        let near = |one: f64, two: f64| (one - two).abs() < 1e-6;
+        prop_assert!(near(a.area() + b.area(), either.area() + both.area()));
+        prop_assert!(near(a.difference(&b).area(), a.area() - both.area()));
+        prop_assert!(near(a.sym_difference(&b).area(), either.area() - both.area()));
+        prop_assert!(a.difference(&b).intersection(&b).area() < 1e-6);
+        prop_assert!(near(union_all([&a, &b]).area(), either.area()));
+        prop_assert_eq!(a.intersects(&b), !both.is_empty() || a.touches(&b));
+    }
+
+    #[test]
+    fn far_from_the_origin_all_is_as_it_is_near_to_it(a in polygon(), b in polygon()) {
+        let moved = |geometry: &Geometry| {
+            let mut moved = geometry.clone();
+            moved.points_mut().for_each(|point| *point += DVec3::new(4_194_304.0, 8_388_608.0, 0.0));
+            moved
+        };
+        let (far_a, far_b) = (moved(&a), moved(&b));
+        prop_assert!((far_a.area() - a.area()).abs() < 1e-6);
+        let both = [a.intersection(&b).area(), far_a.intersection(&far_b).area()];
+        prop_assert!((both[0] - both[1]).abs() < 1e-5, "{both:?}");
+    }
+}
+
+#[test]
+fn what_nests_too_deep_is_refused() {
+    let deep = |name: &str, count: usize| name.repeat(count) + "POINT (1 2)" + &")".repeat(count);
+    assert!(Geometry::from_wkt(&deep("GEOMETRYCOLLECTION (", 32)).is_ok());
+    for name in ["GEOMETRYCOLLECTION (", "geometrycollection(", "MULTISURFACE (", "COMPOUNDCURVE (", "("] {
+        assert!(Geometry::from_wkt(&deep(name, 100_000)).is_err(), "{name}");
+    }
+    let mut bytes = Vec::new();
+    for _ in 0..100_000 {
+        bytes.extend([1, 7, 0, 0, 0, 1, 0, 0, 0]);
+    }
+    let error = Geometry::from_wkb(&bytes).expect_err("deep");
+    assert_eq!(error.message(), "well-known binary is nested more than 32 deep");
+}
+
+#[test]
+fn what_is_no_number_is_refused_and_counts_as_empty() {
+    for text in ["POINT (nan 1)", "POINT (inf 1)", "LINESTRING (0 0, 1e300 1)", "POINT (1 2 3 4 5)"] {
+        assert!(Geometry::from_wkt(text).is_err(), "{text}");
+    }
+    let wild = Geometry::Line(vec![DVec3::NAN, DVec3::ONE, DVec3::INFINITY]);
+    let lawn = Geometry::from_wkt("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0))").expect("a polygon");
+    assert!(wild.check().is_err() && wild.convex_hull().is_empty() && wild.oriented_envelope().is_empty());
+    assert!(
+        !wild.intersects(&lawn) && wild.distance(&lawn).is_none() && wild.relate(&lawn).text() == "FFFFFF212"
+    );
+    assert!(lawn.difference(&wild).equals(&lawn));
+    assert!(lawn.buffer(f64::NAN, &BufferOptions::default()).is_err());
+}
+
+#[test]
+fn every_form_of_well_known_text_is_read() {
+    for (text, same) in [
+        ("POINTZM(1 2 3 4)", "POINT Z (1 2 3)"),
+        (" point m ( 1 2 3 ) ", "POINT (1 2)"),
+        ("MULTIPOINT (1 2, 3 4)", "MULTIPOINT ((1 2), (3 4))"),
+        ("MULTIPOINT ((1 2), EMPTY)", "MULTIPOINT ((1 2))"),
+        ("SRID=25831;LINESTRING EMPTY", "LINESTRING EMPTY"),
+        ("TRIANGLE ((0 0, 1 0, 0 1, 0 0))", "POLYGON ((0 0, 1 0, 0 1, 0 0))"),
+        ("TIN (((0 0, 1 0, 0 1, 0 0)))", "MULTIPOLYGON (((0 0, 1 0, 0 1, 0 0)))"),
+        ("COMPOUNDCURVE ((0 0, 1 0), (1 0, 2 2))", "LINESTRING (0 0, 1 0, 2 2)"),
+        (
+            "GEOMETRYCOLLECTION (POINT EMPTY, LINESTRING (0 0, 1e-9 1E2))",
+            "GEOMETRYCOLLECTION (POINT EMPTY, LINESTRING (0 0, 1e-9 100))",
+        ),
+    ] {
+        assert_eq!(Geometry::from_wkt(text).map(|it| it.to_wkt()).ok().as_deref(), Some(same), "{text}");
+    }
+    let disc = Geometry::from_wkt("CURVEPOLYGON (CIRCULARSTRING (0 0, 4 0, 0 0))").expect("a disc");
+    assert!((disc.area() - 4.0 * std::f64::consts::PI).abs() < 0.1);
+    for (text, why) in [
+        ("", "at letter 1 there should be the name of a kind of geometry, not its end"),
+        ("CIRCLE (1 2)", "at letter 1 there should be the name of a kind of geometry, not \"CIRCLE\""),
+        (
+            "LINESTRING (1 2)",
+            "at letter 17 there should be a second point in the line before this, not its end",
+        ),
+        (
+            "POLYGON ((0 0, 1 1))",
+            "at letter 21 there should be a third point in the ring before this, not its end",
+        ),
+        ("POINT Z (1 2)", "at letter 13 there should be a point of 3 numbers, not \")\""),
+        ("POINT (1 2) x", "at letter 13 there should be the end, not \"x\""),
+        ("LINESTRING (1 2; 3 4)", "at letter 16 there should be a number, not \";\""),
+    ] {
+        let error = Geometry::from_wkt(text).expect_err("no geometry");
+        assert_eq!(error.message(), format!("no well-known text: {why}"), "{text}");
+        assert!(error.remedy().is_some());
+    }
+}

@@ -1,0 +1,172 @@
+//! How two geometries lie to each other.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+use geo::coordinate_position::CoordPos;
+use geo::dimensions::Dimensions;
+use geo::{Intersects, Relate};
+
+use super::Geometry;
+use super::plane::Plane;
+
+/// What the dimensionally extended nine-intersection model says of two geometries: the dimensions in which the
+/// interior, the boundary and the exterior of one meet those of the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Relation {
+    /// Row by row, of the first geometry: interior, boundary, exterior; `F`, `0`, `1` or `2`.
+    cells: [u8; 9],
+}
+
+impl Relation {
+    /// Its nine letters.
+    pub fn text(&self) -> &str {
+        std::str::from_utf8(&self.cells).unwrap_or_default()
+    }
+
+    /// Whether it is as a pattern says: nine letters, of which `*` is anything, `T` is 0, 1 or 2, and `F`, `0`, `1` and
+    /// `2` are themselves. Fails if that is no pattern.
+    pub fn matches(&self, pattern: &str) -> Result<bool> {
+        let letters = pattern.as_bytes();
+        let known =
+            |letter: &u8| matches!(letter.to_ascii_uppercase(), b'*' | b'T' | b'F' | b'0' | b'1' | b'2');
+        if letters.len() != 9 || !letters.iter().all(known) {
+            return Err(Error::argument(format!("\"{}\" is no pattern of nine letters", shown(pattern)))
+                .help("write one of *, T, F, 0, 1 and 2 for each cell: \"F***1****\""));
+        }
+        Ok(self.cells.iter().zip(letters).all(|(cell, letter)| match letter.to_ascii_uppercase() {
+            b'*' => true,
+            b'T' => *cell != b'F',
+            letter => *cell == letter,
+        }))
+    }
+
+    fn is(&self, pattern: &str) -> bool {
+        self.matches(pattern).unwrap_or(false)
+    }
+}
+
+/// The predicates of OGC Simple Features (06-103r4, clause 6.1.15). Where one geometry is empty, all are false, but for
+/// `disjoint`, and `equals` of two that are.
+///
+/// ```
+/// use burgeon_spatial::Geometry;
+///
+/// let house = Geometry::from_wkt("POLYGON ((0 0, 8 0, 8 6, 0 6, 0 0))")?;
+/// let next_door = Geometry::from_wkt("POLYGON ((8 1, 14 1, 14 7, 8 7, 8 1))")?;
+/// let door = Geometry::from_wkt("POINT (8 3)")?;
+/// assert!(house.touches(&next_door) && house.intersects(&next_door) && !house.overlaps(&next_door));
+/// assert!(house.covers(&door) && !house.contains(&door));
+/// assert!(house.relate(&next_door).matches("FF*F1****")?);
+/// assert_eq!(house.relate(&door).text(), "FF20F1FF2");
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+impl Geometry {
+    /// The dimensions in which interiors, boundaries and exteriors of the two meet.
+    pub fn relate(&self, other: &Self) -> Relation {
+        let plane = Plane::of(&[self, other]);
+        let matrix = plane.geo(self).relate(&plane.geo(other));
+        let positions = [CoordPos::Inside, CoordPos::OnBoundary, CoordPos::Outside];
+        let mut cells = [b'F'; 9];
+        for (row, own) in positions.into_iter().enumerate() {
+            for (column, of_other) in positions.into_iter().enumerate() {
+                cells[row * 3 + column] = match matrix.get(own, of_other) {
+                    Dimensions::Empty => b'F',
+                    Dimensions::ZeroDimensional => b'0',
+                    Dimensions::OneDimensional => b'1',
+                    Dimensions::TwoDimensional => b'2',
+                };
+            }
+        }
+        Relation { cells }
+    }
+
+    /// Whether they have a point in common.
+    pub fn intersects(&self, other: &Self) -> bool {
+        if !self.is_near(other) {
+            return false;
+        }
+        let plane = Plane::of(&[self, other]);
+        plane.geo(self).intersects(&plane.geo(other))
+    }
+
+    /// Whether they have no point in common.
+    pub fn disjoint(&self, other: &Self) -> bool {
+        !self.intersects(other)
+    }
+
+    /// Whether no point of the other one lies outside, and one lies in the interior.
+    pub fn contains(&self, other: &Self) -> bool {
+        self.surrounds(other) && self.relate(other).is("T*****FF*")
+    }
+
+    /// Whether the other one contains it.
+    pub fn within(&self, other: &Self) -> bool {
+        other.contains(self)
+    }
+
+    /// Whether no point of the other one lies outside; borders count.
+    pub fn covers(&self, other: &Self) -> bool {
+        if !self.surrounds(other) {
+            return false;
+        }
+        let relation = self.relate(other);
+        ["T*****FF*", "*T****FF*", "***T**FF*", "****T*FF*"].iter().any(|pattern| relation.is(pattern))
+    }
+
+    /// Whether the other one covers it.
+    pub fn covered_by(&self, other: &Self) -> bool {
+        other.covers(self)
+    }
+
+    /// Whether they meet, and their interiors do not.
+    pub fn touches(&self, other: &Self) -> bool {
+        if !self.is_near(other) {
+            return false;
+        }
+        let relation = self.relate(other);
+        ["FT*******", "F**T*****", "F***T****"].iter().any(|pattern| relation.is(pattern))
+    }
+
+    /// Whether their interiors meet in less than the greater of their dimensions, and each has points outside of the
+    /// other: a line that leads through an area, or lines that cross in points.
+    pub fn crosses(&self, other: &Self) -> bool {
+        if !self.is_near(other) {
+            return false;
+        }
+        match self.dimension().cmp(&other.dimension()) {
+            std::cmp::Ordering::Less => self.relate(other).is("T*T******"),
+            std::cmp::Ordering::Greater => self.relate(other).is("T*****T**"),
+            std::cmp::Ordering::Equal => self.dimension() == 1 && self.relate(other).is("0********"),
+        }
+    }
+
+    /// Whether they are of one dimension, their interiors meet in it, and each has points outside of the other.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        if !self.is_near(other) || self.dimension() != other.dimension() {
+            return false;
+        }
+        let pattern = if self.dimension() == 1 { "1*T***T**" } else { "T*T***T**" };
+        self.relate(other).is(pattern)
+    }
+
+    /// Whether they are the same points, in whatever order and however divided.
+    pub fn equals(&self, other: &Self) -> bool {
+        let empty = [self, other].map(|it| it.is_empty() || !it.is_sound());
+        if empty.contains(&true) {
+            return empty == [true; 2];
+        }
+        self == other || self.bounds() == other.bounds() && self.relate(other).is("T*F**FFF*")
+    }
+
+    /// Whether both are sound and the rectangles around them meet.
+    fn is_near(&self, other: &Self) -> bool {
+        let (Some([a, b]), Some([c, d])) = (self.bounds(), other.bounds()) else { return false };
+        a.cmple(d).all() && c.cmple(b).all() && self.is_sound() && other.is_sound()
+    }
+
+    /// Whether both are sound and the other one's rectangle lies in its own.
+    fn surrounds(&self, other: &Self) -> bool {
+        let (Some([a, b]), Some([c, d])) = (self.bounds(), other.bounds()) else { return false };
+        a.cmple(c).all() && d.cmple(b).all() && self.is_sound() && other.is_sound()
+    }
+}

@@ -1,0 +1,10 @@
+//! Well-known binary: geometries as databases store them.
+
+mod arc;
+mod read;
+#[cfg(test)]
+mod tests;
+mod write;
+
+pub use arc::{NEAR, add_arc};
+pub use read::{read, srid};

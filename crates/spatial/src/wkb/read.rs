@@ -1,0 +1,242 @@
+//! Geometries from well-known binary: that of ISO and the extended one, in both byte orders, with Z and M.
+//!
+//! Curves become lines: their straight parts stay as they are, their arcs are divided.
+//!
+//! The reader is our own, since it must be bounded: 13 bytes that claim 2^32 points make others ask for the memory of
+//! all of them, which ends the program. Here room is made for what is there.
+
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result as BurgeonResult};
+use glam::DVec3;
+
+use super::{NEAR, add_arc};
+use crate::{DEEPEST, Geometry};
+
+impl Geometry {
+    /// The geometry that well-known binary tells of; M and the number of a reference system are left out, and curves
+    /// become lines within a centimetre of them where the unit is a metre.
+    ///
+    /// Fails if it ends too early, is nested deeper than [`DEEPEST`], is of a type that is not known, or has a coordinate
+    /// that is not finite.
+    pub fn from_wkb(bytes: &[u8]) -> BurgeonResult<Self> {
+        let geometry = read(bytes, NEAR, &Budget::default()).map_err(|why| {
+            Error::data(format!("well-known binary {why}")).help("give what ST_AsBinary gives")
+        })?;
+        geometry.check().map_err(Error::of_data)?;
+        Ok(geometry)
+    }
+}
+
+/// The geometry that well-known binary tells of, whatever its coordinates are. Fails with the reason, as a clause that
+/// follows the name of what was read.
+///
+/// Arcs become lines that are at most `near` (in its own units) from them.
+pub fn read(bytes: &[u8], near: f64, budget: &Budget) -> Result<Geometry, String> {
+    let mut reader = WkbReader { bytes, little: true, near, budget };
+    reader.geometry(|_| true, 0)
+}
+
+/// The number of the reference system that extended well-known binary names.
+pub fn srid(bytes: &[u8]) -> Option<u32> {
+    let read = |from: usize| {
+        let word: [u8; 4] = bytes.get(from..from + 4)?.try_into().ok()?;
+        Some(if bytes[0] == 1 { u32::from_le_bytes(word) } else { u32::from_be_bytes(word) })
+    };
+    (read(1)? & 0x2000_0000 != 0).then(|| read(5)).flatten()
+}
+
+const ENDS: &str = "ends too early";
+
+/// The types that may stand in a place.
+type TypeFilter = fn(u32) -> bool;
+
+struct WkbReader<'a> {
+    bytes: &'a [u8],
+    little: bool,
+    near: f64,
+    budget: &'a Budget,
+}
+
+/// What stands before each geometry: its type, and whether its points have Z and M.
+#[derive(Clone, Copy)]
+struct GeometryHeader {
+    kind: u32,
+    z: bool,
+    m: bool,
+}
+
+impl WkbReader<'_> {
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], String> {
+        let (taken, rest) = self.bytes.split_first_chunk::<N>().ok_or(ENDS)?;
+        self.bytes = rest;
+        Ok(*taken)
+    }
+
+    fn u32(&mut self) -> Result<u32, String> {
+        let bytes = self.take()?;
+        Ok(if self.little { u32::from_le_bytes(bytes) } else { u32::from_be_bytes(bytes) })
+    }
+
+    fn f64(&mut self) -> Result<f64, String> {
+        let bytes = self.take()?;
+        Ok(if self.little { f64::from_le_bytes(bytes) } else { f64::from_be_bytes(bytes) })
+    }
+
+    /// A number of items that take at least `size` bytes each, so that a wrong one asks for no memory.
+    fn count(&mut self, size: usize) -> Result<usize, String> {
+        let count = self.u32()? as usize;
+        if count > self.bytes.len() / size {
+            return Err(ENDS.into());
+        }
+        Ok(count)
+    }
+
+    fn point(&mut self, head: GeometryHeader) -> Result<DVec3, String> {
+        let point = DVec3::new(self.f64()?, self.f64()?, if head.z { self.f64()? } else { 0.0 });
+        if head.m {
+            self.f64()?;
+        }
+        // Some programs write a height that is not known so.
+        Ok(if point.z.is_nan() { point.with_z(0.0) } else { point })
+    }
+
+    fn points(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
+        let size = 16 + 8 * (usize::from(head.z) + usize::from(head.m));
+        let count = self.count(size)?;
+        (0..count).map(|_| self.point(head)).collect()
+    }
+
+    fn rings(&mut self, head: GeometryHeader) -> Result<Vec<Vec<DVec3>>, String> {
+        let count = self.count(4)?;
+        (0..count).map(|_| self.points(head)).collect()
+    }
+
+    /// The head of a geometry of a type that is `allowed` here.
+    fn head(&mut self, allowed: TypeFilter) -> Result<GeometryHeader, String> {
+        self.little = match self.take::<1>()? {
+            [0] => false,
+            [1] => true,
+            _ => return Err("has a byte order that is not known".into()),
+        };
+        let code = self.u32()?;
+        let (flags, code) = (code & 0xe000_0000, code & 0x1fff_ffff);
+        let (thousands, kind) = (code / 1000, code % 1000);
+        if flags & 0x2000_0000 != 0 {
+            self.u32()?;
+        }
+        if thousands > 3 || !allowed(kind) {
+            return Err(format!("has a part of type {code}, which does not belong there"));
+        }
+        let (z, m) =
+            (flags & 0x8000_0000 != 0 || thousands & 1 != 0, flags & 0x4000_0000 != 0 || thousands & 2 != 0);
+        Ok(GeometryHeader { kind, z, m })
+    }
+
+    /// One geometry. Lines of one point are empty, as are polygons without three points; such holes are left out.
+    fn geometry(&mut self, allowed: TypeFilter, depth: usize) -> Result<Geometry, String> {
+        self.budget.tick().map_err(|error| error.message().to_owned())?;
+        if depth > DEEPEST {
+            return Err(format!("is nested more than {DEEPEST} deep"));
+        }
+        let head = self.head(allowed)?;
+        Ok(match head.kind {
+            1 => {
+                let point = self.point(head)?;
+                // So is an empty point written.
+                Geometry::Point((!(point.x.is_nan() && point.y.is_nan())).then_some(point))
+            }
+            2 | 8 | 9 => Geometry::line(self.curve_of(head)?).unwrap_or(Geometry::empty(1)),
+            3 | 17 => Geometry::polygon(self.rings(head)?).unwrap_or(Geometry::empty(2)),
+            10 => {
+                let rings = (0..self.count(9)?).map(|_| self.curve(|kind| matches!(kind, 2 | 8 | 9)));
+                let rings = rings.collect::<Result<Vec<_>, String>>()?;
+                Geometry::polygon(rings).unwrap_or(Geometry::empty(2))
+            }
+            4 => Geometry::MultiPoint(self.members(
+                |kind| kind == 1,
+                depth,
+                |part| match part {
+                    Geometry::Point(point) => point,
+                    _ => None,
+                },
+            )?),
+            5 | 11 => {
+                let allowed: TypeFilter =
+                    if head.kind == 5 { |kind| kind == 2 } else { |kind| matches!(kind, 2 | 8 | 9) };
+                Geometry::MultiLine(self.members(allowed, depth, |part| match part {
+                    Geometry::Line(line) if !line.is_empty() => Some(line),
+                    _ => None,
+                })?)
+            }
+            6 | 12 | 15 | 16 => {
+                let allowed: TypeFilter = match head.kind {
+                    12 => |kind| matches!(kind, 3 | 10),
+                    16 => |kind| kind == 17,
+                    _ => |kind| kind == 3,
+                };
+                Geometry::MultiPolygon(self.members(allowed, depth, |part| match part {
+                    Geometry::Polygon(rings) if !rings.is_empty() => Some(rings),
+                    _ => None,
+                })?)
+            }
+            7 => Geometry::Collection(self.members(|_| true, depth, Some)?),
+            kind => return Err(format!("is of type {kind}, which is not known")),
+        })
+    }
+
+    /// The parts that stand in a geometry, as `each` wants them.
+    fn members<T>(
+        &mut self,
+        allowed: TypeFilter,
+        depth: usize,
+        each: impl Fn(Geometry) -> Option<T>,
+    ) -> Result<Vec<T>, String> {
+        let mut members = Vec::new();
+        for _ in 0..self.count(5)? {
+            members.extend(each(self.geometry(allowed, depth + 1)?));
+        }
+        Ok(members)
+    }
+
+    /// The points of a curve of a type that is `allowed` here.
+    fn curve(&mut self, allowed: TypeFilter) -> Result<Vec<DVec3>, String> {
+        let head = self.head(allowed)?;
+        self.curve_of(head)
+    }
+
+    /// The points of a line, a circular string or a compound of these, whose head has been read.
+    fn curve_of(&mut self, head: GeometryHeader) -> Result<Vec<DVec3>, String> {
+        match head.kind {
+            8 => {
+                let given = self.points(head)?;
+                if given.is_empty() {
+                    return Ok(given);
+                }
+                if given.len() < 3 || given.len().is_multiple_of(2) {
+                    return Err(format!("has a circular string of {} points", given.len()));
+                }
+                let mut points = vec![given[0]];
+                for from in (0..given.len() - 2).step_by(2) {
+                    let before = points.len();
+                    add_arc(&mut points, [given[from], given[from + 1], given[from + 2]], self.near);
+                    self.budget
+                        .take((points.len() - before) * 24)
+                        .map_err(|error| error.message().to_owned())?;
+                    self.budget.tick().map_err(|error| error.message().to_owned())?;
+                }
+                Ok(points)
+            }
+            9 => {
+                let mut points: Vec<DVec3> = Vec::new();
+                for _ in 0..self.count(9)? {
+                    let part = self.curve(|kind| matches!(kind, 2 | 8))?;
+                    // Each begins where the one before it ends.
+                    let same = points.last().is_some_and(|last| part.first() == Some(last));
+                    points.extend(part.into_iter().skip(usize::from(same)));
+                }
+                Ok(points)
+            }
+            _ => self.points(head),
+        }
+    }
+}
