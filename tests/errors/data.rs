@@ -72,6 +72,7 @@ fn folder() -> Folder {
     let folder = Folder::new()
         .with("in/village.geojson", village.as_str())
         .with("in/cut.geojson", &village[..150])
+        .with("in/town.osm.pbf", include_bytes!("../../fuzz/corpus/osm/good-town.osm.pbf").as_slice())
         .with("in/empty.geojson", "")
         .with("in/broken.geojson", "{\n\"type\": \"FeatureCollection\",\n\"features\": [ oops ]\n}")
         .with("in/plain.json", "{\"a\": 1}")
@@ -476,4 +477,32 @@ fn sources_are_listed_for_people_and_machines() {
     error: there is no data file in/vilage.geojson
       help: did you mean village.geojson?
     "#);
+}
+
+#[test]
+fn extracts_of_openstreetmap() {
+    assert_snapshot!(told(r#"source("town.osm.pbf")"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf:houses")"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { where = "height > 10" })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf", { tags = "building" })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf", { tags = {} })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { building = { a = 1 } } })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { "building" } })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { { building = true }, height = "*" } })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf", { tags = { aeroway = true } })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { within = { 1, 2 } })"#), @"");
+    assert_snapshot!(told(r#"source("town.osm.pbf:buildings", { within = { 1, 2, 3, 4 } })"#), @"");
+    assert_snapshot!(told(r#"source("village.geojson", { tags = { building = true } })"#), @"");
+    assert_snapshot!(
+        told(
+            r#"
+local houses = source("town.osm.pbf", { tags = { { building = { "house", "hut" } }, { building = true, height = "*" } } })
+local all = source("town.osm.pbf:buildings")
+local roads = source("town.osm.pbf", { tags = { highway = true, bridge = false }, kind = "line" })
+print(#houses, #all, #roads, houses.features[1].id, houses.features[1].levels, houses.features[1].roof_shape)
+print(all.features[2].id, #all.features[2].geometry.rings, roads.features[1].width + 1)
+error("done")"#
+        ),
+        @""
+    );
 }

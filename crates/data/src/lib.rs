@@ -52,7 +52,6 @@ pub const EXTENSIONS: [&str; 12] = [
 /// The extensions of files that hold one GeoJSON document after another.
 const SEQUENCES: [&str; 5] = ["geojsons", "geojsonl", "geojsonseq", "ndjson", "jsonl"];
 
-
 /// Parts `FILE:LAYER`; the layer is whatever follows the first colon behind a data file's extension.
 pub fn split_name(text: &str) -> (&str, Option<&str>) {
     let lower = text.to_ascii_lowercase();

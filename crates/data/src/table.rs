@@ -226,6 +226,7 @@ impl FeatureTable {
     }
 
     /// Whether features in this box (west, south, east, north) may be wanted.
+    #[cfg(feature = "data")]
     pub(super) fn may_keep(&self, [west, south, east, north]: [f64; 4]) -> bool {
         self.selection.within.is_none_or(|within| {
             west <= within[2] && south <= within[3] && east >= within[0] && north >= within[1]

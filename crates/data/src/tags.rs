@@ -15,6 +15,7 @@ pub enum TagTest {
     OneOf(Vec<Arc<str>>),
 }
 
+#[cfg(feature = "data")]
 impl TagTest {
     /// Whether it holds for the value of a tag, or for none.
     pub(crate) fn holds(&self, value: Option<&[u8]>) -> bool {
@@ -40,6 +41,7 @@ pub struct TagFilter {
     pub alternatives: Vec<Vec<(Arc<str>, TagTest)>>,
 }
 
+#[cfg(feature = "data")]
 impl TagFilter {
     /// The first alternative that holds for the values of keys.
     pub(crate) fn chosen<'v>(&self, value: impl Fn(&str) -> Option<&'v [u8]>) -> Option<usize> {
@@ -55,7 +57,7 @@ impl TagFilter {
     }
 }
 
-#[cfg(test)]
+#[cfg(all(test, feature = "data"))]
 mod tests {
     use super::*;
 

@@ -5,8 +5,8 @@ use glam::DVec3;
 use super::buffer::{Damage, Table};
 use super::header::doubles;
 use crate::Geometry;
-use burgeon_spatial::DEEPEST;
 use burgeon_base::budget::Budget;
+use burgeon_spatial::DEEPEST;
 
 /// Adds the parts of a geometry of a kind, which it may tell itself if that is 0. Fails with the reason.
 pub(super) fn read(

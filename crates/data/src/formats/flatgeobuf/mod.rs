@@ -13,5 +13,7 @@ mod geometry;
 mod header;
 mod index;
 mod reader;
+#[cfg(test)]
+mod tests;
 
 pub use reader::FlatGeobuf;

@@ -19,7 +19,7 @@ const MAGIC: &[u8] = b"fgb\x03fgb";
 const LARGEST_HEADER: u64 = 64 << 20;
 
 /// How much (of its size and place) a feature may lie outside of where it is said to be.
-const ROUNDING: f64 = 1e-9;
+const ROUNDING: f64 = 1e-12;
 
 /// An open FlatGeobuf.
 pub struct FlatGeobuf {
@@ -93,7 +93,7 @@ impl FlatGeobuf {
                 let touch = |bounds| table.may_keep(bounds);
                 let place = (self.index, self.header.fan);
                 let found = levels.search(&self.file, place, touch, (&wanted.budget, &damaged))?;
-                let mut reader = self.reader(self.features)?;
+                let mut reader = self.reader(self.features);
                 for (number, to) in found {
                     let at = self.features.checked_add(to).filter(|at| *at < self.end);
                     let at = at.ok_or_else(|| damaged("its index leads beyond its end"))?;
@@ -111,9 +111,9 @@ impl FlatGeobuf {
 
     /// Reads all features, in their order.
     fn all(&self, table: &mut FeatureTable, wanted: &SourceOptions) -> Result<()> {
-        let mut reader = self.reader(self.features)?;
+        let mut reader = self.reader(self.features);
         let leaves = self.levels.as_ref().map(|levels| self.index + levels.leaves() * super::index::ENTRY);
-        let mut leaves = leaves.map(|at| self.reader(at)).transpose()?;
+        let mut leaves = leaves.map(|at| self.reader(at));
         let mut number = 0;
         while reader.at < self.end && !table.is_full() {
             let entry = match &mut leaves {
@@ -138,11 +138,9 @@ impl FlatGeobuf {
         Ok(())
     }
 
-    fn reader(&self, at: u64) -> Result<Reader<'_>> {
-        let mut file = BufReader::with_capacity(1 << 16, &self.file);
-        let moved = file.seek(SeekFrom::Start(at));
-        moved.map_err(|error| damaged(&self.name, &error.to_string()))?;
-        Ok(Reader { file, at, name: &self.name, bytes: Vec::new() })
+    fn reader(&self, at: u64) -> Reader<'_> {
+        let file = BufReader::with_capacity(1 << 16, Position { file: &self.file, at });
+        Reader { file, at, name: &self.name, bytes: Vec::new() }
     }
 
     /// Reads the feature that the reader is at, which has a number and perhaps a box in the index.
@@ -240,9 +238,37 @@ fn lies([x, y]: [f64; 2], [west, south, east, north]: [f64; 4]) -> bool {
     !(x < west - across || x > east + across || y < south - along || y > north + along)
 }
 
+/// A place in a file that others read too.
+struct Position<'a> {
+    file: &'a File,
+    at: u64,
+}
+
+impl Read for Position<'_> {
+    fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
+        let mut file = self.file;
+        file.seek(SeekFrom::Start(self.at))?;
+        let count = file.read(into)?;
+        self.at += count as u64;
+        Ok(count)
+    }
+}
+
+impl Seek for Position<'_> {
+    fn seek(&mut self, to: SeekFrom) -> std::io::Result<u64> {
+        let at = match to {
+            SeekFrom::Start(at) => Some(at),
+            SeekFrom::Current(by) => self.at.checked_add_signed(by),
+            SeekFrom::End(by) => self.file.metadata()?.len().checked_add_signed(by),
+        };
+        self.at = at.ok_or(std::io::ErrorKind::InvalidInput)?;
+        Ok(self.at)
+    }
+}
+
 /// The file at a place.
 struct Reader<'a> {
-    file: BufReader<&'a File>,
+    file: BufReader<Position<'a>>,
     at: u64,
     name: &'a str,
     bytes: Vec<u8>,

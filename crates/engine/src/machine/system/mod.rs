@@ -8,6 +8,7 @@ mod declare;
 mod handle;
 mod lazy;
 mod source;
+mod tags;
 mod unseen;
 
 pub(crate) use axiom::Axiom;
