@@ -20,6 +20,7 @@
 //! geometry   uses ──► base, scene
 //! spatial    uses ──► base, geometry
 //! data       uses ──► base, spatial
+//! query      uses ──► base, data, geometry, spatial
 //! kit        uses ──► base, data, geometry, macros, scene
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
@@ -31,7 +32,7 @@
 //! presets    uses ──► base, engine, export, watch
 //! variations uses ──► base, engine, export, kit, scene
 //! live       uses ──► base, engine, export, kit, presets, scene, variations, watch
-//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, scene, spatial, terrain, variations, watch
+//! burgeon    uses ──► base, data, engine, export, geometry, kit, language, live, objects, packages, presets, query, scene, spatial, terrain, variations, watch
 //! ```
 //!
 //! - [`error`], [`warning`](mod@warning) and [`text`]: what a person is told when something is wrong, and when
@@ -43,6 +44,8 @@
 //! - [`spatial`]: a [`Geometry`](spatial::Geometry) as a value, with the operations of OGC Simple Features.
 //! - [`sources`]: data files, read into a [`Layer`](sources::Layer) of features in metres, or into a
 //!   [`Relief`](sources::elevation::Relief) of measured heights.
+//! - [`query`]: SQL over layers, in a database within the program: a [`Database`](query::Database) gives an
+//!   [`QueryAnswer`](query::QueryAnswer).
 //! - [`kit`]: the contract of objects. A [`Kind`](kit::Kind) in a [`Registry`](kit::Registry) says what an
 //!   [`Object`](kit::Object) can do; a [`Grammar`](kit::rules::Grammar) of [`Pattern`](kit::rules::Pattern)s matches
 //!   along a [`Chain`](kit::rules::Chain), without Lua.
@@ -112,6 +115,7 @@ pub use burgeon_live as live;
 pub use burgeon_objects as objects;
 pub use burgeon_packages as packages;
 pub use burgeon_presets as presets;
+pub use burgeon_query as query;
 pub use burgeon_scene as scene;
 pub use burgeon_spatial as spatial;
 pub use burgeon_terrain as terrain;

@@ -184,7 +184,7 @@ impl ReferenceFrame {
     }
 
     /// The way from `crs` into this frame, and back.
-    pub(super) fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
+    pub fn passage(&self, crs: &Crs) -> Result<Passage<'_>> {
         let stays = normal(&crs.definition) == normal(&self.definition);
         Ok(Passage { frame: self, outside: crs.projection()?, unit: crs.unit(), stays })
     }
@@ -231,18 +231,18 @@ fn within(place: [f64; 2]) -> bool {
 }
 
 /// The way from a coordinate system into a frame, and back.
-pub(super) struct Passage<'a> {
+pub struct Passage<'a> {
     frame: &'a ReferenceFrame,
     outside: Projection,
     /// What the outside's coordinates are multiplied by to be radians, or 1.
     unit: f64,
     /// Whether both have the same projection, so that coordinates stay as they are.
-    pub(super) stays: bool,
+    pub stays: bool,
 }
 
 impl Passage<'_> {
     /// Where a point of the coordinate system lies in the frame (m); NaN if it cannot be projected.
-    pub(super) fn enter(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn enter(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let mut point = (x * self.unit, y * self.unit, 0.0);
         if self.stays {
             point = (x, y, 0.0);
@@ -253,7 +253,7 @@ impl Passage<'_> {
     }
 
     /// Which point of the coordinate system lies at a place of the frame (m); NaN if it cannot be projected.
-    pub(super) fn leave(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+    pub fn leave(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         let mut point = (x + self.frame.origin[0], y + self.frame.origin[1], 0.0);
         if self.stays {
             return [point.0, point.1];

@@ -23,8 +23,10 @@ use std::path::Path;
 
 pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
+#[cfg(feature = "data")]
+pub use formats::TableShape;
 pub use formats::{FlatGeobuf, GeoPackage, GmlFile, OsmFile};
-pub use frame::{Crs, ReferenceFrame};
+pub use frame::{Crs, Passage, ReferenceFrame};
 pub use id::FeatureId;
 pub use layer::Layer;
 pub use listing::nearest_file;

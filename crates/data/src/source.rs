@@ -222,7 +222,7 @@ fn nothing(table: &FeatureTable, wanted: &SourceOptions) -> Error {
 }
 
 /// The layer of `name` that is meant.
-fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
+pub(crate) fn choose(name: &str, layers: &[String], wanted: Option<&str>) -> Result<String> {
     let list = listed(layers.iter().map(String::as_str));
     match (wanted, layers) {
         (_, []) => Err(Error::data(format!("{name} has no layers of features"))

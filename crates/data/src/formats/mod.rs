@@ -15,6 +15,6 @@ pub(crate) mod projection;
 pub(crate) mod zipped;
 
 pub use flatgeobuf::FlatGeobuf;
-pub use geopackage::GeoPackage;
+pub use geopackage::{GeoPackage, TableShape};
 pub use gml::GmlFile;
 pub use osm::OsmFile;

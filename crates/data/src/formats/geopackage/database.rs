@@ -216,10 +216,71 @@ fn limit_heap(memory: usize) {
     }
 }
 
+/// What is known of a layer's table without reading its features.
+#[derive(Debug)]
+pub struct TableShape {
+    /// The column of whole numbers that tells its rows apart; a view has none.
+    pub key: Option<String>,
+    /// The column with geometries.
+    pub geometry: String,
+    /// The names of all columns, and how each was declared.
+    pub columns: Vec<(String, String)>,
+    /// How many rows it has.
+    pub rows: usize,
+    /// The coordinate system, or why it is not known.
+    pub crs: Result<Crs>,
+}
+
+impl GeoPackage {
+    /// What is known of the layer `layer` of the file at `path`, which messages call `name`.
+    pub fn shape(path: &Path, name: &str, layer: &str, budget: &Arc<Budget>) -> Result<TableShape> {
+        let wanted = SourceOptions { budget: Arc::clone(budget), ..SourceOptions::default() };
+        let mut package = Self::open(path, name, &wanted)?;
+        let layer = crate::source::choose(name, &package.layers(), Some(layer))?;
+        let position = package.layers.iter().position(|known| known.table == layer).unwrap_or_default();
+        let LayerDescription { column, crs, .. } = package.layers.swap_remove(position);
+        let name = name.to_owned();
+        watched(package.connection, budget, move |connection| {
+            let read = || -> rusqlite::Result<TableShape> {
+                let mut shape = TableShape { key: None, geometry: column, columns: Vec::new(), rows: 0, crs };
+                let mut statement = connection.prepare(&format!("PRAGMA table_info({})", quoted(&layer)))?;
+                let mut rows = statement.query([])?;
+                while let Some(row) = rows.next()? {
+                    let (name, kind, key): (String, String, i64) = (row.get(1)?, row.get(2)?, row.get(5)?);
+                    if key == 1 && kind.eq_ignore_ascii_case("integer") {
+                        shape.key = Some(name.clone());
+                    }
+                    // Names mean the same in whatever letters.
+                    if name.eq_ignore_ascii_case(&shape.geometry) {
+                        shape.geometry.clone_from(&name);
+                    }
+                    shape.columns.push((name, kind));
+                }
+                let count: i64 =
+                    connection.query_row(&format!("SELECT count(*) FROM {}", quoted(&layer)), [], |row| {
+                        row.get(0)
+                    })?;
+                shape.rows = usize::try_from(count).unwrap_or(0);
+                Ok(shape)
+            };
+            read().map_err(|error| broken(&name, &error))
+        })
+    }
+
+    /// An address by which SQLite opens the file at `path` so that nothing beside it is made or changed.
+    pub fn address(path: &Path) -> String {
+        address(path)
+    }
+}
+
 /// Opens the database so that nothing beside it is made or changed.
 fn connect(path: &Path) -> rusqlite::Result<Connection> {
     let flags =
         OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI;
+    Connection::open_with_flags(address(path), flags)
+}
+
+fn address(path: &Path) -> String {
     let mut log = path.as_os_str().to_owned();
     log.push("-wal");
     // Changes that another program has not yet brought home stand in the log; without one, the file is all.
@@ -234,7 +295,7 @@ fn connect(path: &Path) -> rusqlite::Result<Connection> {
         }
     }
     address.push_str(if changing { "?mode=ro" } else { "?mode=ro&immutable=1" });
-    Connection::open_with_flags(address, flags)
+    address
 }
 
 /// The layers of features, in the order of the file.

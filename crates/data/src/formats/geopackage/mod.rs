@@ -9,4 +9,4 @@ mod database;
 #[cfg(test)]
 mod tests;
 
-pub use database::GeoPackage;
+pub use database::{GeoPackage, TableShape};

@@ -1,0 +1,67 @@
+//! Geometries as the database within the program has them: GeoPackage's blobs, and well-known binary.
+
+use burgeon_base::budget::Budget;
+use burgeon_spatial::{Geometry, wkb};
+
+/// How far (in its own units) lines may be from the arcs that they stand for.
+const NEAR: f64 = 0.01;
+
+/// The well-known binary in a blob, which may be a GeoPackage's. Fails with the reason.
+fn body(bytes: &[u8]) -> Result<&[u8], String> {
+    if !bytes.starts_with(b"GP") {
+        return Ok(bytes);
+    }
+    let envelope = envelope_size(bytes)?;
+    bytes.get(8 + envelope..).ok_or_else(|| "ends too early".to_owned())
+}
+
+/// The size (bytes) of the bounds in a GeoPackage's blob.
+fn envelope_size(bytes: &[u8]) -> Result<usize, String> {
+    let flags = *bytes.get(3).ok_or("ends too early")?;
+    if flags & 0x20 != 0 {
+        return Err("is of an extended type".into());
+    }
+    match (flags >> 1) & 7 {
+        0 => Ok(0),
+        1 => Ok(32),
+        2 | 3 => Ok(48),
+        4 => Ok(64),
+        _ => Err("has an envelope that is not known".into()),
+    }
+}
+
+/// The geometry in a blob. Fails with the reason.
+pub(crate) fn read(bytes: &[u8], budget: &Budget) -> Result<Geometry, String> {
+    let geometry = wkb::read(body(bytes)?, NEAR, budget)?;
+    if geometry.is_sound() { Ok(geometry) } else { Err("has a coordinate that is no finite number".into()) }
+}
+
+/// A geometry as a GeoPackage's blob with its bounds.
+pub(crate) fn write(geometry: &Geometry) -> Vec<u8> {
+    let bounds = geometry.bounds();
+    let mut bytes = b"GP\0".to_vec();
+    bytes.push(1 | if bounds.is_some() { 2 } else { 0x10 });
+    bytes.extend([0; 4]);
+    if let Some([low, high]) = bounds {
+        for value in [low.x, high.x, low.y, high.y] {
+            bytes.extend(value.to_le_bytes());
+        }
+    }
+    bytes.extend(geometry.to_wkb());
+    bytes
+}
+
+/// The bounds of the geometry in a blob as it tells them; nothing if it does not.
+pub(crate) fn told_bounds(bytes: &[u8]) -> Option<[f64; 4]> {
+    if !bytes.starts_with(b"GP") || bytes.get(3)? & 0x10 != 0 || envelope_size(bytes).ok()? == 0 {
+        return None;
+    }
+    let little = bytes[3] & 1 == 1;
+    let number = |index: usize| -> Option<f64> {
+        let word: [u8; 8] = bytes.get(8 + 8 * index..16 + 8 * index)?.try_into().ok()?;
+        Some(if little { f64::from_le_bytes(word) } else { f64::from_be_bytes(word) })
+    };
+    let [low_x, high_x, low_y, high_y] = [number(0)?, number(1)?, number(2)?, number(3)?];
+    let bounds = [low_x, low_y, high_x, high_y];
+    (bounds.iter().all(|value| value.is_finite()) && low_x <= high_x && low_y <= high_y).then_some(bounds)
+}

@@ -1,0 +1,216 @@
+//! Connections to the database within the program: what they see, and what they may do.
+//!
+//! Each reads the same pages in memory, and the files beside them; none can write. What a statement may do is asked by
+//! SQLite before it runs: reading, and calling functions of a list.
+
+use std::collections::BTreeMap;
+use std::panic::{AssertUnwindSafe, RefUnwindSafe, UnwindSafe};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+
+use rusqlite::config::DbConfig;
+use rusqlite::hooks::{AuthAction, AuthContext, Authorization};
+use rusqlite::limits::Limit;
+use rusqlite::{Connection, OpenFlags};
+
+use crate::functions::{self, GeometryArgument};
+use crate::index::SpatialIndex;
+use burgeon_base::budget::Budget;
+use burgeon_base::error::Result;
+
+/// The longest text or blob (bytes).
+const LONGEST: i32 = 200_000_000;
+
+/// The longest statement (bytes).
+pub(crate) const LONGEST_STATEMENT: usize = 200_000;
+
+/// Where SQLite finds files.
+const FILES: &str = if cfg!(windows) { "win32" } else { "unix" };
+
+/// How many files are read as they are; others are copied.
+pub(crate) const MOST_FILES: usize = 8;
+
+/// How many kibibytes of pages a connection keeps.
+const PAGES: i64 = 32_768;
+
+/// How many prepared statements a connection keeps.
+const STATEMENTS: usize = 64;
+
+/// How many steps of SQLite lie between two looks at the clock.
+const STEPS: i32 = 1000;
+
+/// The indexes of all tables, by table and column.
+pub(crate) type Indexes = RwLock<BTreeMap<String, Arc<SpatialIndex>>>;
+
+/// What the functions of a connection know.
+pub(crate) struct ConnectionState {
+    /// What the statement that runs may take.
+    budget: Mutex<Arc<Budget>>,
+    /// The indexes that there are.
+    pub indexes: Arc<Indexes>,
+    /// The geometries that were read last: those of an outer loop are asked for again and again.
+    recent: Mutex<RecentGeometries>,
+    /// Whether what comes is Burgeon's own.
+    trusted: Mutex<bool>,
+}
+
+impl UnwindSafe for ConnectionState {}
+impl RefUnwindSafe for ConnectionState {}
+
+#[derive(Default)]
+struct RecentGeometries {
+    kept: [Option<(Vec<u8>, Arc<GeometryArgument>)>; 2],
+    next: usize,
+}
+
+impl ConnectionState {
+    /// What may be taken.
+    pub(crate) fn budget(&self) -> Arc<Budget> {
+        Arc::clone(&self.budget.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    /// Lets the next statement take something.
+    pub(crate) fn give(&self, budget: &Arc<Budget>) {
+        *self.budget.lock().unwrap_or_else(PoisonError::into_inner) = Arc::clone(budget);
+    }
+
+    /// The geometry in a blob. Fails with the reason.
+    pub(crate) fn geometry(&self, bytes: &[u8]) -> Result<Arc<GeometryArgument>, String> {
+        let mut recent = self.recent.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, parsed)) = recent.kept.iter().flatten().find(|(known, _)| known == bytes) {
+            return Ok(Arc::clone(parsed));
+        }
+        let parsed = Arc::new(GeometryArgument::read(bytes, &self.budget())?);
+        let place = recent.next;
+        recent.kept[place] = Some((bytes.to_vec(), Arc::clone(&parsed)));
+        recent.next = (place + 1) % recent.kept.len();
+        Ok(parsed)
+    }
+}
+
+/// A connection and what its functions know.
+pub(crate) struct DatabaseLink {
+    /// The connection.
+    pub connection: Connection,
+    /// What its functions know.
+    pub state: Arc<ConnectionState>,
+    /// Which state of the tables it has seen.
+    pub generation: usize,
+}
+
+/// A file that is read as it is: its name in statements, and its address.
+#[derive(Debug, Clone)]
+pub(crate) struct AttachedFile {
+    /// Such as `file1`.
+    pub schema: String,
+    /// An address that SQLite takes.
+    pub address: String,
+}
+
+/// A name in statements for a table of a file.
+#[derive(Debug, Clone)]
+pub(crate) struct TableView {
+    /// The name.
+    pub name: String,
+    /// The file.
+    pub schema: String,
+    /// Its table.
+    pub table: String,
+}
+
+/// Opens the memory that all connections share.
+pub(crate) fn open_memory(address: &str, write: bool) -> rusqlite::Result<Connection> {
+    let access = if write {
+        OpenFlags::SQLITE_OPEN_READ_WRITE | OpenFlags::SQLITE_OPEN_CREATE
+    } else {
+        // Views of one's own are made in a place of one's own.
+        OpenFlags::SQLITE_OPEN_READ_ONLY
+    };
+    Connection::open_with_flags(
+        address,
+        access | OpenFlags::SQLITE_OPEN_NO_MUTEX | OpenFlags::SQLITE_OPEN_URI,
+    )
+}
+
+impl DatabaseLink {
+    /// A connection that reads `files`, and whose tables there have names of their own where `views` say so.
+    pub(crate) fn open(
+        address: &str,
+        files: &[AttachedFile],
+        views: &[TableView],
+        indexes: &Arc<Indexes>,
+        generation: usize,
+    ) -> rusqlite::Result<Self> {
+        let mut connection = open_memory(address, false)?;
+        connection.pragma_update(None, "temp_store", "MEMORY")?;
+        connection.pragma_update(None, "cache_size", -PAGES)?;
+        connection.pragma_update(None, "case_sensitive_like", true)?;
+        for AttachedFile { schema, address } in files {
+            // Without a name it would be looked for in memory, too.
+            connection.execute(&format!("ATTACH ?1 AS {schema}"), [format!("{address}&vfs={FILES}")])?;
+        }
+        for TableView { name, schema, table } in views {
+            let (name, table) = (quoted(name), quoted(table));
+            connection
+                .execute_batch(&format!("CREATE TEMP VIEW {name} AS SELECT * FROM {schema}.{table}"))?;
+        }
+        let state = Arc::new(ConnectionState {
+            budget: Mutex::default(),
+            indexes: Arc::clone(indexes),
+            recent: Mutex::default(),
+            trusted: Mutex::new(false),
+        });
+        functions::register(&connection, &state)?;
+        rusqlite::vtab::array::load_module(&connection)?;
+        lock(&mut connection, &state)?;
+        connection.set_prepared_statement_cache_capacity(STATEMENTS);
+        Ok(Self { connection, state, generation })
+    }
+
+    /// Lets SQLite make indexes of its own for a statement, or not: where rows are looked up by keys they only hinder.
+    pub(crate) fn set_automatic_index(&self, on: bool) -> rusqlite::Result<()> {
+        let trust = |trusted| *self.state.trusted.lock().unwrap_or_else(PoisonError::into_inner) = trusted;
+        trust(true);
+        let done = self.connection.pragma_update(None, "automatic_index", on);
+        trust(false);
+        done
+    }
+}
+
+/// Lets a connection do nothing but read.
+fn lock(connection: &mut Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DEFENSIVE, true)?;
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_TRUSTED_SCHEMA, false)?;
+    // A misspelt name in quotes is an error, not a text.
+    connection.set_db_config(DbConfig::SQLITE_DBCONFIG_DQS_DML, false)?;
+    #[allow(clippy::cast_possible_wrap, clippy::cast_possible_truncation, reason = "a constant")]
+    for (limit, most) in [
+        (Limit::SQLITE_LIMIT_LENGTH, LONGEST),
+        (Limit::SQLITE_LIMIT_SQL_LENGTH, 4 * LONGEST_STATEMENT as i32),
+        (Limit::SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000),
+        (Limit::SQLITE_LIMIT_EXPR_DEPTH, 200),
+        (Limit::SQLITE_LIMIT_ATTACHED, 0),
+        (Limit::SQLITE_LIMIT_WORKER_THREADS, 0),
+    ] {
+        connection.set_limit(limit, most)?;
+    }
+    let clock = Arc::clone(state);
+    let over = AssertUnwindSafe(move || clock.budget().check().is_err());
+    connection.progress_handler(STEPS, Some(move || (over.0)()))?;
+    let trust = AssertUnwindSafe(Arc::clone(state));
+    connection.authorizer(Some(move |context: AuthContext<'_>| {
+        let trusted = || *trust.0.trusted.lock().unwrap_or_else(PoisonError::into_inner);
+        match context.action {
+            AuthAction::Select | AuthAction::Read { .. } | AuthAction::Recursive => Authorization::Allow,
+            AuthAction::Function { function_name } if functions::is_allowed(function_name) => {
+                Authorization::Allow
+            }
+            AuthAction::Pragma { pragma_name: "automatic_index", .. } if trusted() => Authorization::Allow,
+            _ => Authorization::Deny,
+        }
+    }))
+}
+
+/// A name as it stands in a statement.
+pub(crate) fn quoted(name: &str) -> String {
+    format!("\"{}\"", name.replace('"', "\"\""))
+}

@@ -1,0 +1,324 @@
+//! The database within the program: the tables of a run, and what is asked of them.
+
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError, RwLock};
+
+use rusqlite::Connection;
+use rustc_hash::FxHashMap;
+
+use crate::ask;
+use crate::cell::{Cell, QueryAnswer};
+use crate::connection::{AttachedFile, DatabaseLink, Indexes, MOST_FILES, TableView, open_memory};
+use crate::errors;
+use crate::rewrite::{self, Catalogue, Dialect, Rewritten, TableInfo};
+use crate::tables::{self, FileLayer};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Result};
+use burgeon_base::text::shown;
+use burgeon_data::{Layer, ReferenceFrame};
+
+/// How many rewritten statements are kept.
+const STATEMENTS: usize = 500;
+
+/// The number of the next database's memory, which all of the process share.
+static MEMORIES: AtomicUsize = AtomicUsize::new(0);
+
+/// TableSet of features, and questions that are put to them in SQL.
+///
+/// Threads may ask at the same time. In statements, coordinates are those of the run's projection; what comes in and goes
+/// out is in metres around the run's origin.
+///
+/// ```
+/// use std::sync::Arc;
+/// use burgeon_base::Budget;
+/// use burgeon_query::{Cell, Database};
+///
+/// let database = Database::new(None)?;
+/// let sql = "SELECT ST_Area(ST_Buffer(ST_MakePoint(0, 0), $r)) > 3 AS large, $r * 2 AS width";
+/// let answer = database.query(sql, &[("r", Cell::Number(1.0))], &Arc::new(Budget::default()))?;
+/// assert_eq!(answer.names, ["large", "width"]);
+/// assert_eq!(answer.rows, [[Cell::Boolean(true), Cell::Number(2.0)]]);
+/// # Ok::<(), burgeon_base::error::Error>(())
+/// ```
+pub struct Database {
+    address: String,
+    frame: Option<ReferenceFrame>,
+    tables: RwLock<TableSet>,
+    indexes: Arc<Indexes>,
+    /// Held while an index is made, so that nobody makes it twice.
+    building: Mutex<()>,
+    idle: Mutex<Vec<DatabaseLink>>,
+    statements: Mutex<FxHashMap<String, Arc<PreparedStatement>>>,
+    /// Keeps the memory, and writes into it.
+    writer: Mutex<Connection>,
+}
+
+/// What there is.
+#[derive(Default)]
+struct TableSet {
+    catalogue: Catalogue,
+    files: Vec<AttachedFile>,
+    views: Vec<TableView>,
+    /// What each table was made of, to tell what is added twice from what has the same name.
+    origins: FxHashMap<String, String>,
+    /// Counts changes.
+    generation: usize,
+}
+
+/// A statement as it is asked.
+pub(crate) struct PreparedStatement {
+    /// As it was written.
+    pub original: String,
+    /// As it was rewritten, if it could be read.
+    pub rewritten: Option<Rewritten>,
+}
+
+impl std::fmt::Debug for Database {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "Database({})", self.tables().join(", "))
+    }
+}
+
+impl Database {
+    /// One without tables, whose coordinates are those of `frame`'s projection.
+    pub fn new(frame: Option<ReferenceFrame>) -> Result<Self> {
+        let address = format!("file:/burgeon-{}?vfs=memdb", MEMORIES.fetch_add(1, Ordering::Relaxed));
+        let writer = open_memory(&address, true).map_err(|error| errors::internal(&error))?;
+        // Memory that nothing was written to has no pages, and those who only read could not open it.
+        let begin = "PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA application_id = 1;";
+        writer.execute_batch(begin).map_err(|error| errors::internal(&error))?;
+        Ok(Self {
+            address,
+            frame,
+            tables: RwLock::default(),
+            indexes: Arc::default(),
+            building: Mutex::new(()),
+            idle: Mutex::default(),
+            statements: Mutex::default(),
+            writer: Mutex::new(writer),
+        })
+    }
+
+    /// The names of its tables, in the order of the alphabet.
+    pub fn tables(&self) -> Vec<String> {
+        let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
+        tables.catalogue.values().map(|table| table.name.clone()).collect()
+    }
+
+    /// Adds the features of a layer as the table `name`: their `id`, their attributes, and their geometry as `geom`.
+    ///
+    /// Fails if another table is called so, or if there is no memory for it.
+    pub fn add_layer(&self, name: &str, layer: &Layer, budget: &Budget) -> Result<()> {
+        let origin = format!("{} {:?} {}", layer.shown, layer.origin, layer.features.len());
+        let mut tables = self.tables.write().unwrap_or_else(PoisonError::into_inner);
+        if tables.is_there(name, &origin)? {
+            return Ok(());
+        }
+        let writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
+        let info = tables::write_layer(&writer, name, layer, budget)?;
+        tables.add(info, origin);
+        Ok(())
+    }
+
+    /// Adds the layer `layer` of the GeoPackage at `path`, which messages call `shown_name`, as the table `name`. The file
+    /// is read as it is where its coordinates are those of the database, and otherwise copied.
+    ///
+    /// Fails if another table is called so, if the file cannot be read, and if it has no such layer.
+    pub fn add_geopackage(
+        &self,
+        name: &str,
+        path: &Path,
+        shown_name: &str,
+        layer: &str,
+        budget: &Arc<Budget>,
+    ) -> Result<()> {
+        let origin = format!("{}:{layer}", path.display());
+        let mut tables = self.tables.write().unwrap_or_else(PoisonError::into_inner);
+        if tables.is_there(name, &origin)? {
+            return Ok(());
+        }
+        let found = FileLayer::find(path, shown_name, layer, budget)?;
+        let known = tables.files.iter().position(|file| file.address == found.address);
+        let fits = found.stays(self.frame.as_ref())? && (known.is_some() || tables.files.len() < MOST_FILES);
+        if !fits {
+            let writer = self.writer.lock().unwrap_or_else(PoisonError::into_inner);
+            let info = found.copy(&writer, name, self.frame.as_ref(), budget)?;
+            tables.add(info, origin);
+            return Ok(());
+        }
+        let schema = match known {
+            Some(index) => tables.files[index].schema.clone(),
+            None => {
+                let schema = format!("file{}", tables.files.len() + 1);
+                tables.files.push(AttachedFile { schema: schema.clone(), address: found.address.clone() });
+                schema
+            }
+        };
+        // Another file may have a table of that name, too.
+        let alone = tables.files.len() == 1 && name == layer;
+        if !alone {
+            tables.views.push(TableView { name: name.to_owned(), schema, table: layer.to_owned() });
+        }
+        let info = TableInfo { name: name.to_owned(), ..found.info };
+        tables.add(info, origin);
+        Ok(())
+    }
+
+    /// The rows that a statement asks for, with `parameters` in place of the names behind `$`.
+    ///
+    /// Where it says nothing of their order, they are ordered by `fid`, `id` or `ogc_fid` if there is such a column, and
+    /// by all columns. Fails at what it may not do: anything but reading.
+    pub fn query(
+        &self,
+        sql: &str,
+        parameters: &[(&str, Cell)],
+        budget: &Arc<Budget>,
+    ) -> Result<Arc<QueryAnswer>> {
+        self.asked(sql, budget, |link, prepared| {
+            ask::rows(link, prepared, parameters, self.frame.as_ref(), budget)
+        })
+    }
+
+    /// The rows of a statement as it was written, whatever time that takes.
+    #[cfg(test)]
+    pub(crate) fn query_plainly(
+        &self,
+        sql: &str,
+        parameters: &[(&str, Cell)],
+        budget: &Arc<Budget>,
+    ) -> Result<Arc<QueryAnswer>> {
+        self.asked(sql, budget, |link, _| {
+            let prepared = PreparedStatement { original: sql.to_owned(), rewritten: None };
+            ask::rows(link, &prepared, parameters, self.frame.as_ref(), budget)
+        })
+    }
+
+    /// How SQLite goes about a statement, a line for each step, after it was rewritten.
+    pub fn plan(&self, sql: &str, budget: &Arc<Budget>) -> Result<String> {
+        self.asked(sql, budget, |link, prepared| ask::plan(link, prepared))
+    }
+
+    fn asked<T>(
+        &self,
+        sql: &str,
+        budget: &Arc<Budget>,
+        work: impl FnOnce(&DatabaseLink, &PreparedStatement) -> std::result::Result<T, ask::QueryFailure>,
+    ) -> Result<T> {
+        budget.check()?;
+        errors::check_length(sql)?;
+        let link = self.link().map_err(|error| errors::internal(&error))?;
+        link.state.give(budget);
+        let prepared = self.prepared(sql, &link, budget)?;
+        let done = work(&link, &prepared);
+        let result = done.map_err(|failure| {
+            // What was interrupted does not say why.
+            budget.check().err().unwrap_or_else(|| self.error(sql, failure))
+        });
+        link.state.give(&Arc::default());
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        idle.push(link);
+        result
+    }
+
+    fn error(&self, sql: &str, failure: ask::QueryFailure) -> Error {
+        let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
+        match failure {
+            ask::QueryFailure::Told(error) => error,
+            ask::QueryFailure::Sqlite(error) => errors::told(&error, sql, &tables.catalogue),
+        }
+    }
+
+    /// A connection that sees all tables.
+    fn link(&self) -> rusqlite::Result<DatabaseLink> {
+        let tables = self.tables.read().unwrap_or_else(PoisonError::into_inner);
+        let mut idle = self.idle.lock().unwrap_or_else(PoisonError::into_inner);
+        while let Some(link) = idle.pop() {
+            if link.generation == tables.generation {
+                return Ok(link);
+            }
+        }
+        drop(idle);
+        DatabaseLink::open(&self.address, &tables.files, &tables.views, &self.indexes, tables.generation)
+    }
+
+    /// The statement as it is asked, with all indexes that it needs.
+    fn prepared(
+        &self,
+        sql: &str,
+        link: &DatabaseLink,
+        budget: &Arc<Budget>,
+    ) -> Result<Arc<PreparedStatement>> {
+        let generation = link.generation;
+        let key = format!("{generation} {sql}");
+        let known = self.statements.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
+        if let Some(known) = known {
+            return Ok(known);
+        }
+        let catalogue = self.tables.read().unwrap_or_else(PoisonError::into_inner).catalogue.clone();
+        let rewritten = rewrite::rewrite(sql, &catalogue, Dialect::Sqlite);
+        for (name, nearest) in rewritten.iter().flat_map(|rewritten| &rewritten.indexes) {
+            self.index(name, *nearest, link, &catalogue, budget)?;
+        }
+        let prepared = Arc::new(PreparedStatement { original: sql.to_owned(), rewritten });
+        let mut statements = self.statements.lock().unwrap_or_else(PoisonError::into_inner);
+        if statements.len() >= STATEMENTS {
+            statements.clear();
+        }
+        statements.insert(key, Arc::clone(&prepared));
+        Ok(prepared)
+    }
+
+    /// Makes the index of a table's column, unless it is there.
+    fn index(
+        &self,
+        name: &str,
+        nearest: bool,
+        link: &DatabaseLink,
+        catalogue: &Catalogue,
+        budget: &Arc<Budget>,
+    ) -> Result<()> {
+        let _alone = self.building.lock().unwrap_or_else(PoisonError::into_inner);
+        let there = self.indexes.read().unwrap_or_else(PoisonError::into_inner);
+        if there.get(name).is_some_and(|index| index.has_lines() || !nearest) {
+            return Ok(());
+        }
+        drop(there);
+        let found = catalogue.values().find_map(|table| {
+            let column = name.strip_prefix(&table.name)?.strip_prefix('.')?;
+            Some((table, table.geometries.iter().find(|known| *known == column)?))
+        });
+        let (table, column) =
+            found.ok_or_else(|| Error::internal(format!("no index can be made for {name}")))?;
+        let built = tables::index(&link.connection, table, column, nearest, budget)
+            .map_err(|error| errors::or_sqlite(error, |error| errors::told(error, "", catalogue)))?;
+        let mut indexes = self.indexes.write().unwrap_or_else(PoisonError::into_inner);
+        indexes.insert(name.to_owned(), Arc::new(built));
+        Ok(())
+    }
+}
+
+impl TableSet {
+    /// Whether the table is there already. Fails if another one is called so.
+    fn is_there(&self, name: &str, origin: &str) -> Result<bool> {
+        let reserved = ["sqlite_", "burgeon_", "gpkg_", "rtree_"];
+        let key = name.to_ascii_lowercase();
+        if name.is_empty() || name.len() > 200 || reserved.iter().any(|prefix| key.starts_with(prefix)) {
+            return Err(Error::argument(format!("a table cannot be called {:?}", shown(name)))
+                .help("name it otherwise: source(file, { table = \"houses\" })"));
+        }
+        match self.origins.get(&key) {
+            None => Ok(false),
+            Some(known) if known == origin => Ok(true),
+            Some(_) => Err(Error::argument(format!("there are two tables called {}", shown(name)))
+                .help("name one of them otherwise: source(file, { table = \"houses\" })")),
+        }
+    }
+
+    fn add(&mut self, info: TableInfo, origin: String) {
+        let key = info.name.to_ascii_lowercase();
+        self.origins.insert(key.clone(), origin);
+        self.catalogue.insert(key, info);
+        self.generation += 1;
+    }
+}

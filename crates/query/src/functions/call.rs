@@ -1,0 +1,291 @@
+//! One call of a function: its arguments on the way in, its result on the way out.
+
+use std::rc::Rc;
+use std::sync::Arc;
+
+use rusqlite::Connection;
+use rusqlite::functions::{Context, FunctionFlags};
+use rusqlite::types::{ToSqlOutput, Value, ValueRef};
+use rusqlite::vtab::array::Array;
+
+use super::{GeometryArgument, SpatialFunction};
+use crate::blob;
+use crate::connection::ConnectionState;
+use crate::index::SpatialIndex;
+use burgeon_spatial::Geometry;
+
+/// What a function gives.
+pub(crate) enum FunctionResult {
+    /// NULL.
+    Nothing,
+    /// True or false.
+    Boolean(bool),
+    /// A number.
+    Number(f64),
+    /// A whole number.
+    Count(usize),
+    /// Text.
+    Text(String),
+    /// A geometry.
+    Geometry(Geometry),
+    /// Bytes.
+    Bytes(Vec<u8>),
+}
+
+impl From<Option<f64>> for FunctionResult {
+    fn from(number: Option<f64>) -> Self {
+        number.map_or(Self::Nothing, Self::Number)
+    }
+}
+
+/// The arguments of a call.
+pub(crate) struct FunctionCall<'a> {
+    function: &'static SpatialFunction,
+    context: &'a Context<'a>,
+    state: &'a ConnectionState,
+}
+
+/// An error that a statement ends with.
+fn failed(message: String) -> rusqlite::Error {
+    rusqlite::Error::UserFunctionError(message.into())
+}
+
+/// Runs a function.
+pub(super) fn run(
+    function: &'static SpatialFunction,
+    context: &Context<'_>,
+    state: &ConnectionState,
+) -> rusqlite::Result<Value> {
+    if (0..context.len()).any(|index| matches!(context.get_raw(index), ValueRef::Null)) {
+        return Ok(Value::Null);
+    }
+    state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
+    let name = function.name;
+    let output = (function.run)(&FunctionCall { function, context, state });
+    value(output.map_err(|why| failed(format!("{name}: {why}")))?)
+}
+
+/// What SQLite gets.
+pub(super) fn value(output: FunctionResult) -> rusqlite::Result<Value> {
+    Ok(match output {
+        FunctionResult::Nothing => Value::Null,
+        FunctionResult::Boolean(value) => Value::Integer(i64::from(value)),
+        FunctionResult::Number(value) => Value::Real(value),
+        FunctionResult::Count(count) => Value::Integer(i64::try_from(count).unwrap_or(i64::MAX)),
+        FunctionResult::Text(text) => Value::Text(text),
+        FunctionResult::Geometry(geometry) => Value::Blob(blob::write(&geometry)),
+        FunctionResult::Bytes(bytes) => Value::Blob(bytes),
+    })
+}
+
+impl FunctionCall<'_> {
+    /// How many arguments there are.
+    pub(super) fn len(&self) -> usize {
+        self.context.len()
+    }
+
+    fn wrong(&self, index: usize, wanted: &str) -> String {
+        let found = match self.context.get_raw(index) {
+            ValueRef::Null => "nothing",
+            ValueRef::Integer(_) | ValueRef::Real(_) => "a number",
+            ValueRef::Text(_) => "a text",
+            ValueRef::Blob(_) => "a geometry",
+        };
+        format!(
+            "argument {} must be {wanted}, not {found}: {}{}",
+            index + 1,
+            self.function.name,
+            self.function.takes
+        )
+    }
+
+    /// A geometry.
+    pub(super) fn geometry(&self, index: usize) -> Result<Arc<GeometryArgument>, String> {
+        match self.context.get_raw(index) {
+            ValueRef::Blob(bytes) => {
+                let read = self.state.geometry(bytes);
+                read.map_err(|why| format!("the geometry of argument {} {why}", index + 1))
+            }
+            // As PostGIS takes it.
+            ValueRef::Text(text) => {
+                let text = std::str::from_utf8(text).map_err(|_| self.wrong(index, "a geometry"))?;
+                let read = Geometry::from_wkt_within(text, &self.state.budget());
+                read.map(|geometry| Arc::new(GeometryArgument::from(geometry)))
+                    .map_err(|error| error.message().to_owned())
+            }
+            _ => Err(self.wrong(index, "a geometry")),
+        }
+    }
+
+    /// The bounds of a geometry, if it has any.
+    pub(super) fn bounds(&self, index: usize) -> Result<Option<[f64; 4]>, String> {
+        if let ValueRef::Blob(bytes) = self.context.get_raw(index)
+            && let Some(bounds) = blob::told_bounds(bytes)
+        {
+            return Ok(Some(bounds));
+        }
+        let parsed = self.geometry(index)?;
+        Ok(bounds(&parsed))
+    }
+
+    /// A number.
+    pub(super) fn number(&self, index: usize) -> Result<f64, String> {
+        number(self.context.get_raw(index)).ok_or_else(|| self.wrong(index, "a number"))
+    }
+
+    /// The same, or `other` if there is no such argument.
+    pub(super) fn number_or(&self, index: usize, other: f64) -> Result<f64, String> {
+        if index < self.len() { self.number(index) } else { Ok(other) }
+    }
+
+    /// Text.
+    pub(super) fn text(&self, index: usize) -> Result<&str, String> {
+        match self.context.get_raw(index) {
+            ValueRef::Text(text) => std::str::from_utf8(text).map_err(|_| self.wrong(index, "a text")),
+            _ => Err(self.wrong(index, "a text")),
+        }
+    }
+
+    /// Bytes.
+    pub(super) fn bytes(&self, index: usize) -> Result<&[u8], String> {
+        match self.context.get_raw(index) {
+            ValueRef::Blob(bytes) => Ok(bytes),
+            _ => Err(self.wrong(index, "well-known binary")),
+        }
+    }
+
+    /// What may be taken.
+    pub(super) fn budget(&self) -> Arc<burgeon_base::budget::Budget> {
+        self.state.budget()
+    }
+}
+
+fn number(value: ValueRef<'_>) -> Option<f64> {
+    match value {
+        #[allow(clippy::cast_precision_loss, reason = "SQLite does the same")]
+        ValueRef::Integer(value) => Some(value as f64),
+        ValueRef::Real(value) => Some(value),
+        _ => None,
+    }
+}
+
+fn bounds(parsed: &GeometryArgument) -> Option<[f64; 4]> {
+    let [low, high] = parsed.geometry.bounds()?;
+    Some([low.x, low.y, high.x, high.y])
+}
+
+/// The greatest of the arguments that are not NULL, or the least.
+pub(super) fn extreme(context: &Context<'_>, greater: bool) -> rusqlite::Result<Value> {
+    let mut best: Option<Value> = None;
+    for index in 0..context.len() {
+        let next = Value::try_from(context.get_raw(index))?;
+        let better = match (&next, &best) {
+            (Value::Null, _) => false,
+            (_, None) => true,
+            (Value::Text(a), Some(Value::Text(b))) => (a > b) == greater,
+            (a, Some(b)) => match (number(a.into()), number(b.into())) {
+                (Some(a), Some(b)) => (a > b) == greater,
+                _ => {
+                    return Err(failed(
+                        "greatest and least compare numbers with numbers, and texts with texts".into(),
+                    ));
+                }
+            },
+        };
+        if better {
+            best = Some(next);
+        }
+    }
+    Ok(best.unwrap_or(Value::Null))
+}
+
+/// Gives a connection the functions that statements are rewritten with.
+pub(super) fn register_index(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
+    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
+    let own = Arc::clone(state);
+    connection.create_scalar_function("burgeon_near", 3, flags, move |context| {
+        let index = index(context, &own)?;
+        let distance = number(context.get_raw(2)).unwrap_or(f64::NAN);
+        let Some(asked) = asked(context, &own)? else { return Ok(keys(&[])) };
+        Ok(keys(&index.near(asked, distance)))
+    })?;
+    let own = Arc::clone(state);
+    connection.create_scalar_function("burgeon_nearest", 3, flags, move |context| {
+        let index = index(context, &own)?;
+        #[allow(
+            clippy::cast_possible_truncation,
+            clippy::cast_sign_loss,
+            reason = "it saturates, and is checked"
+        )]
+        let found = match number(context.get_raw(2)).unwrap_or(-1.0) {
+            count if count >= 0.0 => match geometry(context, &own)? {
+                Some(from) if !from.geometry.is_empty() => index.nearest(from.flat(), count as usize),
+                _ => index.all(),
+            },
+            _ => index.all(),
+        };
+        Ok(keys(&found))
+    })?;
+    let own = Arc::clone(state);
+    connection.create_scalar_function("burgeon_nearest_one", 2, flags, move |context| {
+        let index = index(context, &own)?;
+        Ok(match geometry(context, &own)? {
+            Some(from) if !from.geometry.is_empty() => index.nearest_one(from.flat()),
+            _ => index.first(),
+        })
+    })
+}
+
+/// The index that the first argument names.
+fn index(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Arc<SpatialIndex>> {
+    state.budget().tick().map_err(|error| failed(error.message().to_owned()))?;
+    // Kept as long as the statement runs.
+    let found = context.get_or_create_aux(0, |name| -> Result<Arc<SpatialIndex>, rusqlite::Error> {
+        let name = name.as_str().map_err(|error| failed(error.to_string()))?;
+        let indexes = state.indexes.read().unwrap_or_else(std::sync::PoisonError::into_inner);
+        indexes.get(name).cloned().ok_or_else(|| failed(format!("there is no index {name}")))
+    })?;
+    Ok(Arc::clone(&found))
+}
+
+/// The geometry of the second argument.
+fn geometry(
+    context: &Context<'_>,
+    state: &ConnectionState,
+) -> rusqlite::Result<Option<Arc<GeometryArgument>>> {
+    match context.get_raw(1) {
+        ValueRef::Blob(bytes) => {
+            state.geometry(bytes).map(Some).map_err(|why| failed(format!("a geometry {why}")))
+        }
+        ValueRef::Text(text) => {
+            let text = std::str::from_utf8(text).unwrap_or_default();
+            let read = Geometry::from_wkt_within(text, &state.budget());
+            read.map(|it| Some(Arc::new(GeometryArgument::from(it))))
+                .map_err(|error| failed(error.message().to_owned()))
+        }
+        _ => Ok(None),
+    }
+}
+
+/// The bounds of the second argument, which may be empty; nothing if it is NULL.
+fn asked(context: &Context<'_>, state: &ConnectionState) -> rusqlite::Result<Option<Option<[f64; 4]>>> {
+    if let ValueRef::Blob(bytes) = context.get_raw(1)
+        && let Some(bounds) = blob::told_bounds(bytes)
+    {
+        return Ok(Some(Some(bounds)));
+    }
+    Ok(geometry(context, state)?.map(|parsed| bounds(&parsed)))
+}
+
+/// Keys as a list that a statement reads.
+fn keys(keys: &[i64]) -> KeyList {
+    KeyList(Rc::new(keys.iter().map(|key| Value::Integer(*key)).collect()))
+}
+
+struct KeyList(Array);
+
+impl rusqlite::ToSql for KeyList {
+    fn to_sql(&self) -> rusqlite::Result<ToSqlOutput<'_>> {
+        self.0.to_sql()
+    }
+}

@@ -1,0 +1,173 @@
+//! Which functions statements may call, and how a connection gets them.
+
+use std::sync::Arc;
+
+use rusqlite::Connection;
+use rusqlite::functions::FunctionFlags;
+
+use crate::connection::ConnectionState;
+
+use super::{FUNCTIONS, SpatialFunction, aggregates, call};
+
+/// Functions of SQLite that statements may call: those that give the same each time, and reach nothing.
+const ALLOWED: [&str; 97] = [
+    "->",
+    "->>",
+    "abs",
+    "acos",
+    "acosh",
+    "asin",
+    "asinh",
+    "atan",
+    "atan2",
+    "atanh",
+    "avg",
+    "ceil",
+    "ceiling",
+    "char",
+    "coalesce",
+    "concat",
+    "concat_ws",
+    "cos",
+    "cosh",
+    "count",
+    "cume_dist",
+    "degrees",
+    "dense_rank",
+    "exp",
+    "first_value",
+    "floor",
+    "format",
+    "glob",
+    "group_concat",
+    "hex",
+    "if",
+    "ifnull",
+    "iif",
+    "instr",
+    "json",
+    "json_array",
+    "json_array_length",
+    "json_each",
+    "json_extract",
+    "json_group_array",
+    "json_group_object",
+    "json_object",
+    "json_type",
+    "json_valid",
+    "lag",
+    "last_value",
+    "lead",
+    "length",
+    "like",
+    "likelihood",
+    "likely",
+    "ln",
+    "log",
+    "log10",
+    "log2",
+    "lower",
+    "ltrim",
+    "max",
+    "min",
+    "mod",
+    "nth_value",
+    "ntile",
+    "nullif",
+    "octet_length",
+    "percent_rank",
+    "pi",
+    "pow",
+    "power",
+    "printf",
+    "quote",
+    "radians",
+    "rank",
+    "rarray",
+    "replace",
+    "round",
+    "row_number",
+    "rtrim",
+    "sign",
+    "sin",
+    "sinh",
+    "sqrt",
+    "string_agg",
+    "substr",
+    "substring",
+    "subtype",
+    "sum",
+    "tan",
+    "tanh",
+    "total",
+    "trim",
+    "trunc",
+    "typeof",
+    "unicode",
+    "unlikely",
+    "upper",
+    "greatest",
+    "least",
+];
+
+/// Functions that the rewriting of statements uses.
+const OWN: [&str; 3] = ["burgeon_near", "burgeon_nearest", "burgeon_nearest_one"];
+
+/// The function with a name, in whatever letters.
+pub(crate) fn find(name: &str) -> Option<&'static SpatialFunction> {
+    FUNCTIONS.iter().find(|function| function.name.eq_ignore_ascii_case(name))
+}
+
+/// Whether statements may call a function.
+pub(crate) fn is_allowed(name: &str) -> bool {
+    find(name).is_some()
+        || ALLOWED.iter().chain(&OWN).any(|known| known.eq_ignore_ascii_case(name))
+        || aggregates::NAMES.iter().any(|known| known.eq_ignore_ascii_case(name))
+}
+
+/// The names of all functions that statements may call.
+pub(crate) fn names() -> impl Iterator<Item = &'static str> {
+    FUNCTIONS.iter().map(|function| function.name).chain(aggregates::NAMES).chain(ALLOWED)
+}
+
+/// Whether a function gives true or false.
+pub(crate) fn is_predicate(name: &str) -> bool {
+    find(name).is_some_and(|function| function.gives == "boolean")
+}
+
+/// Gives a connection all functions.
+pub(crate) fn register(connection: &Connection, state: &Arc<ConnectionState>) -> rusqlite::Result<()> {
+    let flags = FunctionFlags::SQLITE_UTF8 | FunctionFlags::SQLITE_DETERMINISTIC;
+    for function in FUNCTIONS {
+        for count in function.least..=function.most {
+            let state = Arc::clone(state);
+            let run = move |context: &rusqlite::functions::Context<'_>| call::run(function, context, &state);
+            connection.create_scalar_function(function.name, i32::from(count), flags, run)?;
+        }
+    }
+    call::register_index(connection, state)?;
+    aggregates::register(connection, state)?;
+    for (name, greater) in [("greatest", true), ("least", false)] {
+        connection.create_scalar_function(name, -1, flags, move |context| call::extreme(context, greater))?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_function_is_named_once_and_says_what_it_does() {
+        let mut names: Vec<String> = names().map(str::to_ascii_lowercase).collect();
+        // ST_Collect and ST_Union are of two geometries, and of all of a group.
+        let before = names.len();
+        names.sort_unstable();
+        names.dedup();
+        assert_eq!(before - names.len(), aggregates::NAMES.len());
+        for function in FUNCTIONS {
+            assert!(function.least <= function.most && !function.doc.is_empty(), "{}", function.name);
+            assert!(function.takes.starts_with('(') && function.takes.ends_with(')'), "{}", function.name);
+        }
+    }
+}

@@ -1,0 +1,308 @@
+//! Which rows of a table lie where: their boxes in a tree, and for what is nearest their lines.
+//!
+//! Comes in: keys and blobs of a column. Goes out: the keys of rows whose boxes meet a box, and of those that are nearest
+//! to a geometry. Rows without a geometry are known too, since they come last where rows are ordered by distance.
+
+use geo::{BoundingRect, Coord, CoordsIter, Intersects, Line, LinesIter};
+use rstar::primitives::{GeomWithData, Rectangle};
+use rstar::{AABB, PointDistance, RTree, RTreeObject};
+use rustc_hash::FxHashMap;
+
+use crate::{blob, plane};
+use burgeon_base::budget::Budget;
+use burgeon_base::error::{Error, Limit, Result};
+
+/// The box of a row, and its number.
+type RowBox = GeomWithData<Rectangle<[f64; 2]>, u32>;
+
+/// A line of a row's geometry; a point is one without length.
+#[derive(Debug, Clone, Copy)]
+struct RowSegment {
+    line: Line<f64>,
+    row: u32,
+}
+
+impl RTreeObject for RowSegment {
+    type Envelope = AABB<[f64; 2]>;
+
+    fn envelope(&self) -> Self::Envelope {
+        AABB::from_corners(self.line.start.into(), self.line.end.into())
+    }
+}
+
+impl PointDistance for RowSegment {
+    fn distance_2(&self, point: &[f64; 2]) -> f64 {
+        square_distance(&self.line, (*point).into())
+    }
+}
+
+/// The rows of one column of geometries.
+#[derive(Debug)]
+pub(crate) struct SpatialIndex {
+    boxes: RTree<RowBox>,
+    /// The key of each row that has a geometry.
+    keys: Vec<i64>,
+    /// The keys of rows without a geometry, or with an empty one, in order.
+    without: Vec<i64>,
+    /// What is asked for the nearest, if it was wanted.
+    lines: Option<RowLines>,
+    /// How far coordinates may be off where they are compared.
+    slack: f64,
+}
+
+#[derive(Debug)]
+struct RowLines {
+    tree: RTree<RowSegment>,
+    /// The geometry of each row that is an area.
+    areas: Vec<Option<geo::Geometry<f64>>>,
+}
+
+/// Takes rows in.
+#[derive(Default)]
+pub(crate) struct IndexBuilder {
+    boxes: Vec<RowBox>,
+    keys: Vec<i64>,
+    without: Vec<i64>,
+    lines: Option<(Vec<RowSegment>, Vec<Option<geo::Geometry<f64>>>)>,
+    greatest: f64,
+}
+
+impl IndexBuilder {
+    /// One that is asked for the nearest, too, if `nearest`.
+    pub(crate) fn new(nearest: bool) -> Self {
+        Self { lines: nearest.then(Default::default), ..Self::default() }
+    }
+
+    /// Adds a row. What cannot be read is as if it was not there: functions tell of it.
+    pub(crate) fn push(&mut self, key: i64, bytes: Option<&[u8]>, budget: &Budget) -> Result<()> {
+        budget.tick()?;
+        let told = bytes.and_then(blob::told_bounds).filter(|_| self.lines.is_none());
+        let (bounds, geometry) = match (told, bytes) {
+            (Some(bounds), _) => (Some(bounds), None),
+            (None, Some(bytes)) => {
+                let geometry = blob::read(bytes, budget).ok().map(|geometry| plane::flat(&geometry));
+                let bounds = geometry.as_ref().and_then(BoundingRect::bounding_rect);
+                (bounds.map(|it| [it.min().x, it.min().y, it.max().x, it.max().y]), geometry)
+            }
+            (None, None) => (None, None),
+        };
+        let Some([low_x, low_y, high_x, high_y]) = bounds else {
+            budget.take(8)?;
+            self.without.push(key);
+            return Ok(());
+        };
+        let Ok(row) = u32::try_from(self.keys.len()) else { return Err(too_many()) };
+        budget.take(80)?;
+        self.keys.push(key);
+        self.greatest =
+            [low_x, low_y, high_x, high_y].iter().fold(self.greatest, |most, it| most.max(it.abs()));
+        let corners = Rectangle::from_corners([low_x, low_y], [high_x, high_y]);
+        self.boxes.push(GeomWithData::new(corners, row));
+        if let (Some((segments, areas)), Some(geometry)) = (&mut self.lines, geometry) {
+            let before = segments.len();
+            segments.extend(lines(&geometry).into_iter().map(|line| RowSegment { line, row }));
+            let area = is_area(&geometry);
+            budget.take((segments.len() - before) * if area { 120 } else { 80 } + 40)?;
+            areas.push(area.then_some(geometry));
+        }
+        Ok(())
+    }
+
+    /// The index of all that was added.
+    pub(crate) fn build(mut self) -> SpatialIndex {
+        self.without.sort_unstable();
+        SpatialIndex {
+            boxes: RTree::bulk_load(self.boxes),
+            keys: self.keys,
+            without: self.without,
+            lines: self.lines.map(|(segments, areas)| RowLines { tree: RTree::bulk_load(segments), areas }),
+            slack: 1e-12 * self.greatest,
+        }
+    }
+}
+
+impl SpatialIndex {
+    /// Whether it can be asked for the nearest.
+    pub(crate) fn has_lines(&self) -> bool {
+        self.lines.is_some()
+    }
+
+    /// The keys of rows whose boxes are at most `distance` from that of a geometry; of those without one, if it has none.
+    pub(crate) fn near(&self, bounds: Option<[f64; 4]>, distance: f64) -> Vec<i64> {
+        let Some([low_x, low_y, high_x, high_y]) = bounds else { return self.without.clone() };
+        let most = distance + 1e-12 * distance.abs() + 4.0 * self.slack;
+        if !(most >= 0.0) {
+            return Vec::new();
+        }
+        let around = AABB::from_corners([low_x - most, low_y - most], [high_x + most, high_y + most]);
+        let mut keys: Vec<i64> = self
+            .boxes
+            .locate_in_envelope_intersecting(&around)
+            .map(|row| self.keys[row.data as usize])
+            .collect();
+        keys.sort_unstable();
+        keys
+    }
+
+    /// The keys of the rows that are nearest to a geometry, and of those as near as the last of them. Rows without a
+    /// geometry are farther than all others; all are as far from nothing.
+    pub(crate) fn nearest(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<i64> {
+        let mut rows = self.measured(from, count);
+        rows.sort_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        let farthest =
+            rows.get(count.saturating_sub(1)).map_or(f64::INFINITY, |row| row.1 * (1.0 + 1e-12) + self.slack);
+        let mut keys: Vec<i64> = rows.iter().filter(|row| row.1 <= farthest).map(|row| row.0).collect();
+        if keys.len() < count {
+            keys.extend(&self.without);
+        }
+        keys.sort_unstable();
+        keys
+    }
+
+    /// The key of the row that is nearest to a geometry; of equal ones the least.
+    pub(crate) fn nearest_one(&self, from: &geo::Geometry<f64>) -> Option<i64> {
+        let rows = self.measured(from, 1);
+        let best = rows.into_iter().min_by(|a, b| a.1.total_cmp(&b.1).then(a.0.cmp(&b.0)));
+        best.map(|row| row.0).or_else(|| self.without.first().copied())
+    }
+
+    /// The least of all keys.
+    pub(crate) fn first(&self) -> Option<i64> {
+        self.keys.iter().chain(self.without.first()).min().copied()
+    }
+
+    /// All keys.
+    pub(crate) fn all(&self) -> Vec<i64> {
+        let mut keys: Vec<i64> = self.keys.iter().chain(&self.without).copied().collect();
+        keys.sort_unstable();
+        keys
+    }
+
+    /// The rows that can be among the `count` nearest, with their distances.
+    fn measured(&self, from: &geo::Geometry<f64>, count: usize) -> Vec<(i64, f64)> {
+        let (Some(RowLines { tree, areas }), Some(bounds)) = (&self.lines, from.bounding_rect()) else {
+            return Vec::new();
+        };
+        let own = lines(from);
+        let area = is_area(from).then_some(from);
+        let distance = |segment: &RowSegment| distance(&own, area, &segment.line);
+        // No row is farther than the lines that are nearest to the middle.
+        let middle: [f64; 2] = bounds.center().into();
+        let mut found: Vec<(u32, f64)> = Vec::new();
+        for segment in tree.nearest_neighbor_iter(&middle) {
+            let far = distance(segment);
+            match found.iter_mut().find(|(row, _)| *row == segment.row) {
+                Some((_, known)) => *known = known.min(far),
+                None => found.push((segment.row, far)),
+            }
+            if found.len() >= count {
+                break;
+            }
+        }
+        let mut bound = match found.len() < count {
+            true => f64::INFINITY,
+            false => found.iter().map(|(_, far)| *far).fold(0.0, f64::max),
+        };
+        let mut nearest: FxHashMap<u32, f64> = FxHashMap::default();
+        let mut best = |row: u32, far: f64| {
+            let known = nearest.entry(row).or_insert(f64::INFINITY);
+            *known = known.min(far);
+        };
+        let (low, high) = (bounds.min(), bounds.max());
+        let reach = if bound.is_finite() { bound + self.slack } else { f64::MAX / 4.0 };
+        let around = AABB::from_corners([low.x - reach, low.y - reach], [high.x + reach, high.y + reach]);
+        let own_box = AABB::from_corners([low.x, low.y], [high.x, high.y]);
+        for segment in tree.locate_in_envelope_intersecting(&around) {
+            let apart = box_distance(&own_box, &segment.envelope());
+            if apart > bound + self.slack {
+                continue;
+            }
+            let far = distance(segment);
+            if far <= bound + self.slack {
+                best(segment.row, far);
+                if count == 1 {
+                    bound = bound.min(far);
+                }
+            }
+        }
+        // Areas reach to what lies in them.
+        if let Some(corner) = from.coords_iter().next() {
+            for row in self.boxes.locate_in_envelope_intersecting(&AABB::from_point(corner.into())) {
+                let area = areas.get(row.data as usize).and_then(Option::as_ref);
+                if area.is_some_and(|area| area.intersects(&geo::Point(corner))) {
+                    best(row.data, 0.0);
+                }
+            }
+        }
+        let mut found: Vec<(u32, f64)> = nearest.into_iter().collect();
+        found.sort_unstable_by_key(|row| row.0);
+        found.into_iter().map(|(row, far)| (self.keys[row as usize], far)).collect()
+    }
+}
+
+fn too_many() -> Error {
+    Error::limit(Limit::Size, "a table has more than 4,294,967,295 rows with a geometry")
+        .help("read a part of it")
+}
+
+fn is_area(geometry: &geo::Geometry<f64>) -> bool {
+    match geometry {
+        geo::Geometry::Polygon(_) | geo::Geometry::MultiPolygon(_) => true,
+        geo::Geometry::GeometryCollection(members) => members.iter().any(is_area),
+        _ => false,
+    }
+}
+
+/// All lines of a geometry; its points as lines without length.
+fn lines(geometry: &geo::Geometry<f64>) -> Vec<Line<f64>> {
+    let dot = |at: Coord<f64>| Line::new(at, at);
+    match geometry {
+        geo::Geometry::Point(point) => vec![dot(point.0)],
+        geo::Geometry::MultiPoint(points) => points.iter().map(|point| dot(point.0)).collect(),
+        geo::Geometry::GeometryCollection(members) => members.iter().flat_map(lines).collect(),
+        geo::Geometry::LineString(line) => line.lines().collect(),
+        geo::Geometry::MultiLineString(lines) => lines.lines_iter().collect(),
+        geo::Geometry::Polygon(polygon) => polygon.lines_iter().collect(),
+        geo::Geometry::MultiPolygon(polygons) => polygons.lines_iter().collect(),
+        _ => Vec::new(),
+    }
+}
+
+/// How far a line is from lines, and from the area that they bound.
+fn distance(own: &[Line<f64>], area: Option<&geo::Geometry<f64>>, line: &Line<f64>) -> f64 {
+    let mut least = f64::INFINITY;
+    for each in own {
+        let apart = box_distance(&boxed(each), &boxed(line));
+        if apart * apart < least {
+            if apart == 0.0 && each.intersects(line) {
+                return 0.0;
+            }
+            least = least
+                .min(square_distance(each, line.start))
+                .min(square_distance(each, line.end))
+                .min(square_distance(line, each.start))
+                .min(square_distance(line, each.end));
+        }
+    }
+    if area.is_some_and(|area| area.intersects(&geo::Point(line.start))) { 0.0 } else { least.sqrt() }
+}
+
+fn boxed(line: &Line<f64>) -> AABB<[f64; 2]> {
+    AABB::from_corners(line.start.into(), line.end.into())
+}
+
+/// How far two boxes are from each other.
+fn box_distance(a: &AABB<[f64; 2]>, b: &AABB<[f64; 2]>) -> f64 {
+    let apart =
+        |axis: usize| (b.lower()[axis] - a.upper()[axis]).max(a.lower()[axis] - b.upper()[axis]).max(0.0);
+    apart(0).hypot(apart(1))
+}
+
+/// The square of the distance of a point from a line.
+fn square_distance(line: &Line<f64>, at: Coord<f64>) -> f64 {
+    let (along, to) = (line.end - line.start, at - line.start);
+    let length = along.x * along.x + along.y * along.y;
+    let part = if length > 0.0 { ((to.x * along.x + to.y * along.y) / length).clamp(0.0, 1.0) } else { 0.0 };
+    let (x, y) = (to.x - along.x * part, to.y - along.y * part);
+    x * x + y * y
+}

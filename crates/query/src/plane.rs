@@ -1,0 +1,40 @@
+//! Geometries as `geo` has them, for what is asked of pairs.
+
+use burgeon_geometry::Rings;
+use burgeon_spatial::Geometry;
+use geo::{Coord, LineString, MultiLineString, MultiPoint, MultiPolygon, Point, Polygon};
+use glam::DVec3;
+
+/// A geometry as seen from above, in `geo`'s types. Empty ones keep their kind, but for an empty point.
+pub(crate) fn flat(geometry: &Geometry) -> geo::Geometry<f64> {
+    match geometry {
+        Geometry::Point(None) => MultiPoint(Vec::new()).into(),
+        Geometry::Point(Some(at)) => point(at).into(),
+        Geometry::Line(points) => line(points).into(),
+        Geometry::Polygon(rings) => polygon(rings).into(),
+        Geometry::MultiPoint(points) => MultiPoint(points.iter().map(point).collect()).into(),
+        Geometry::MultiLine(lines) => MultiLineString(lines.iter().map(|it| line(it)).collect()).into(),
+        Geometry::MultiPolygon(polygons) => MultiPolygon(polygons.iter().map(polygon).collect()).into(),
+        Geometry::Collection(members) => {
+            geo::Geometry::GeometryCollection(members.iter().map(flat).collect::<Vec<_>>().into())
+        }
+    }
+}
+
+fn coord(at: &DVec3) -> Coord<f64> {
+    Coord { x: at.x, y: at.y }
+}
+
+fn point(at: &DVec3) -> Point<f64> {
+    Point(coord(at))
+}
+
+fn line(points: &[DVec3]) -> LineString<f64> {
+    LineString(points.iter().map(coord).collect())
+}
+
+fn polygon(rings: &Rings) -> Polygon<f64> {
+    // Rings are closed as they are taken in.
+    let mut rings = rings.iter().map(|ring| line(ring));
+    Polygon::new(rings.next().unwrap_or_else(|| LineString(Vec::new())), rings.collect())
+}

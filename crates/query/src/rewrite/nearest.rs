@@ -1,0 +1,126 @@
+//! The nearest rows: `ORDER BY ST_Distance(t.geom, ...) LIMIT 1` is answered by an index.
+//!
+//! Of one table without conditions it is the nearest row itself. With a condition, those rows are taken that are
+//! nearest, some more than are wanted; should too few of them meet it, all.
+
+use sqlparser::ast::{
+    Expr, GroupByExpr, LimitClause, OrderBy, OrderByExpr, OrderByKind, OrderBySort, Query, Select, SetExpr,
+    Value,
+};
+
+use super::operators::call;
+use super::scope::{geometry_column, mentioned, quoted, relations, text};
+use super::{Catalogue, order, parse};
+
+/// How many rows more than are wanted are looked at where there is a condition.
+const MORE: usize = 64;
+
+/// Lets an index answer a query, and gives its name. The order of the rows is settled then.
+pub(super) fn index(query: &mut Query, tables: &Catalogue) -> Option<String> {
+    let answer = asked(query, tables)?;
+    let SetExpr::Select(select) = &mut *query.body else { return None };
+    select.selection = Some(parse::expression(&answer.condition)?);
+    if answer.only {
+        query.order_by = None;
+    } else {
+        order::settle(query, tables, super::Dialect::Sqlite);
+    }
+    Some(answer.index)
+}
+
+struct NearestAnswer {
+    /// The index that is asked.
+    index: String,
+    /// What stands behind WHERE.
+    condition: String,
+    /// Whether it leaves one row alone.
+    only: bool,
+}
+
+fn asked(query: &Query, tables: &Catalogue) -> Option<NearestAnswer> {
+    let SetExpr::Select(select) = &*query.body else { return None };
+    if query.with.is_some() || query.fetch.is_some() || !is_plain(select) {
+        return None;
+    }
+    let keys = ordered(query.order_by.as_ref()?)?;
+    let first = keys.first()?;
+    if !matches!(first.options.sort, None | Some(OrderBySort::Asc)) || first.options.nulls_first == Some(true)
+    {
+        return None;
+    }
+    let relations = relations(select, tables);
+    let [relation] = relations.as_slice() else { return None };
+    let (name, arguments) = call(&first.expr)?;
+    let [a, b] = arguments.as_slice() else { return None };
+    if name != "st_distance" {
+        return None;
+    }
+    let sides = [(a, b), (b, a)].into_iter();
+    let (table, column, other) = sides.into_iter().find_map(|(own, other)| {
+        let (_, table, column) = geometry_column(own, &relations)?;
+        mentioned(other, &relations).is_empty().then_some((table, column, other))
+    })?;
+    let (alias, key) = (&relation.alias.as_ref()?.value, table.key.as_ref()?);
+    let wanted = count(query.limit_clause.as_ref()?)?;
+    let column_of_keys = format!("{}.{}", quoted(alias), quoted(key));
+    let name = format!("{}.{column}", table.name);
+    let index = text(&name);
+    let (condition, only) = match &select.selection {
+        None if wanted == "1" && keys.len() == 1 => {
+            (format!("{column_of_keys} = burgeon_nearest_one({index}, {other})"), true)
+        }
+        None => {
+            let nearest = format!("burgeon_nearest({index}, {other}, {wanted})");
+            (format!("{column_of_keys} IN (SELECT value FROM rarray({nearest}))"), false)
+        }
+        Some(condition) => {
+            let some = format!("{wanted} + {MORE}");
+            let few = format!(
+                "(SELECT count(*) FROM {} AS {} WHERE ({condition}) AND {column_of_keys} IN \
+                 (SELECT value FROM rarray(burgeon_nearest({index}, {other}, {some}))))",
+                quoted(&table.name),
+                quoted(alias)
+            );
+            let enough = format!("CASE WHEN {few} >= {wanted} THEN {some} ELSE -1 END");
+            let nearest = format!("burgeon_nearest({index}, {other}, {enough})");
+            (format!("{column_of_keys} IN (SELECT value FROM rarray({nearest})) AND ({condition})"), false)
+        }
+    };
+    Some(NearestAnswer { index: name, condition, only })
+}
+
+/// Whether each row of the table gives one of the result.
+fn is_plain(select: &Select) -> bool {
+    let grouped = !matches!(&select.group_by, GroupByExpr::Expressions(keys, _) if keys.is_empty());
+    select.distinct.is_none() && !grouped && select.having.is_none() && !order::aggregates(select)
+}
+
+fn ordered(order: &OrderBy) -> Option<&[OrderByExpr]> {
+    match &order.kind {
+        OrderByKind::Expressions(keys) => Some(keys),
+        OrderByKind::All(_) => None,
+    }
+}
+
+/// How many rows are wanted, and left out before: a number, or a sum.
+fn count(limit: &LimitClause) -> Option<String> {
+    let (limit, offset) = match limit {
+        LimitClause::LimitOffset { limit: Some(limit), offset, .. } => {
+            (limit, offset.as_ref().map(|it| &it.value))
+        }
+        LimitClause::OffsetCommaLimit { offset, limit } => (limit, Some(offset)),
+        LimitClause::LimitOffset { limit: None, .. } => return None,
+    };
+    let number = |expression: &Expr| match expression {
+        Expr::Value(value) => match &value.value {
+            Value::Number(number, _) => number.parse::<u32>().ok().map(|number| number.to_string()),
+            Value::Placeholder(name) => Some(name.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    Some(match offset {
+        None => number(limit)?,
+        Some(offset) => format!("({} + {})", number(limit)?, number(offset)?),
+    })
+}

@@ -1,0 +1,164 @@
+//! Reads statements: in the words that SQLite and PostgreSQL share, with operators of PostGIS.
+
+use sqlparser::ast::{BinaryOperator, Expr, Query, Statement};
+use sqlparser::dialect::Dialect as Grammar;
+use sqlparser::keywords::Keyword;
+use sqlparser::parser::{Parser, ParserError};
+use sqlparser::tokenizer::{Location, Token, TokenWithSpan, Tokenizer};
+
+/// The most words of a statement that is read: more could nest too deep.
+const MOST_TOKENS: usize = 10_000;
+
+/// How deep parentheses may nest.
+const DEEPEST: usize = 60;
+
+/// What is read of both databases.
+#[derive(Debug)]
+struct SharedGrammar;
+
+impl Grammar for SharedGrammar {
+    fn is_delimited_identifier_start(&self, letter: char) -> bool {
+        matches!(letter, '"' | '`' | '[')
+    }
+
+    fn is_identifier_start(&self, letter: char) -> bool {
+        letter.is_alphabetic() || letter == '_'
+    }
+
+    fn is_identifier_part(&self, letter: char) -> bool {
+        letter.is_alphanumeric() || letter == '_'
+    }
+
+    fn supports_filter_during_aggregation(&self) -> bool {
+        true
+    }
+
+    fn supports_limit_comma(&self) -> bool {
+        true
+    }
+
+    fn supports_dollar_placeholder(&self) -> bool {
+        true
+    }
+
+    fn supports_in_empty_list(&self) -> bool {
+        true
+    }
+
+    fn supports_notnull_operator(&self) -> bool {
+        true
+    }
+
+    fn supports_geometric_types(&self) -> bool {
+        true
+    }
+
+    fn parse_infix(
+        &self,
+        parser: &mut Parser,
+        left: &Expr,
+        precedence: u8,
+    ) -> Option<Result<Expr, ParserError>> {
+        let operator = if parser.consume_token(&Token::Overlap) {
+            BinaryOperator::PGOverlap
+        } else {
+            parser.parse_keyword(Keyword::GLOB).then_some(BinaryOperator::Glob)?
+        };
+        let right = parser.parse_subexpr(precedence);
+        Some(right.map(|right| Expr::BinaryOp {
+            left: Box::new(left.clone()),
+            op: operator,
+            right: Box::new(right),
+        }))
+    }
+}
+
+/// A statement that asks for rows.
+pub(crate) struct SyntaxTree {
+    /// It.
+    pub query: Box<Query>,
+}
+
+/// What is wrong with a statement, and the line and column where, counted from 1; 0 where that is not known.
+#[derive(Debug, Clone)]
+pub(crate) struct SyntaxError {
+    /// In the parser's words.
+    pub message: String,
+}
+
+fn tokens(sql: &str) -> Result<Vec<TokenWithSpan>, SyntaxError> {
+    let tokens = Tokenizer::new(&SharedGrammar, sql).tokenize_with_location();
+    tokens.map_err(|error| SyntaxError { message: error.to_string() })
+}
+
+/// Reads a statement, which must ask for rows.
+pub(crate) fn parse(sql: &str) -> Result<SyntaxTree, SyntaxError> {
+    let tokens = tokens(sql)?;
+    if tokens.len() > MOST_TOKENS {
+        return Err(SyntaxError { message: format!("it has more than {MOST_TOKENS} words") });
+    }
+    let mut parser =
+        Parser::new(&SharedGrammar).with_recursion_limit(DEEPEST).with_tokens_with_locations(tokens);
+    let mut statements =
+        parser.parse_statements().map_err(|error| SyntaxError { message: error.to_string() })?;
+    match (statements.pop(), statements.is_empty()) {
+        (Some(Statement::Query(query)), true) => Ok(SyntaxTree { query }),
+        (None, _) => Err(SyntaxError { message: "it says nothing".into() }),
+        (Some(_), true) => Err(SyntaxError { message: "it does not ask for rows".into() }),
+        (Some(_), false) => Err(SyntaxError { message: "it holds more than one statement".into() }),
+    }
+}
+
+/// Reads an expression that was made here.
+pub(super) fn expression(text: &str) -> Option<Expr> {
+    let parser = Parser::new(&SharedGrammar).with_recursion_limit(2 * DEEPEST).try_with_sql(text);
+    parser.ok()?.parse_expr().ok()
+}
+
+/// The names behind `$` in a statement, each once, and where each stands first.
+pub(crate) fn placeholders(sql: &str) -> Vec<(String, Location)> {
+    let mut names: Vec<(String, Location)> = Vec::new();
+    for token in tokens(sql).unwrap_or_default() {
+        if let Token::Placeholder(text) = &token.token
+            && let Some(name) = text.strip_prefix('$')
+            && !names.iter().any(|(known, _)| known == name)
+        {
+            names.push((name.to_owned(), token.span.start));
+        }
+    }
+    names
+}
+
+/// Where a second statement begins (bytes), if there is one.
+pub(crate) fn second_statement(sql: &str) -> Option<usize> {
+    let mut ended = false;
+    for token in tokens(sql).ok()? {
+        match token.token {
+            Token::SemiColon => ended = true,
+            Token::Whitespace(_) | Token::EOF => {}
+            _ if ended => return Some(offset(sql, token.span.start)),
+            _ => {}
+        }
+    }
+    None
+}
+
+/// Where a name, or a parameter with its `$`, stands first in a statement (bytes).
+pub(crate) fn find_word(sql: &str, word: &str) -> Option<usize> {
+    let name = word.rsplit('.').next().unwrap_or(word);
+    let found = tokens(sql).ok()?.into_iter().find(|token| match &token.token {
+        Token::Word(found) => found.value.eq_ignore_ascii_case(name),
+        Token::Placeholder(found) => found == word,
+        _ => false,
+    });
+    found.map(|token| offset(sql, token.span.start))
+}
+
+/// The byte at a line and column, which are counted from 1, columns in characters.
+fn offset(sql: &str, at: Location) -> usize {
+    let line = usize::try_from(at.line.saturating_sub(1)).unwrap_or(0);
+    let column = usize::try_from(at.column.saturating_sub(1)).unwrap_or(0);
+    let begin: usize = sql.split_inclusive('\n').take(line).map(str::len).sum();
+    let rest = sql.get(begin..).unwrap_or("");
+    begin + rest.char_indices().nth(column).map_or(rest.len(), |(index, _)| index)
+}

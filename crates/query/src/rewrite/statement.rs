@@ -1,0 +1,138 @@
+//! A statement that is rewritten, and what is known of the tables that it is about.
+
+use std::collections::BTreeMap;
+use std::ops::ControlFlow;
+
+use super::parse::{SyntaxTree, parse};
+use super::{joins, nearest, operators, order, scope};
+use sqlparser::ast::{Query, Select, SelectItem, SetExpr, VisitMut, VisitorMut};
+
+/// How much stack (bytes) the parser and what works on its trees have: as deep as a statement of so many words can be.
+const STACK: usize = 256 << 20;
+
+/// What is known of a table.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct TableInfo {
+    /// Its name.
+    pub name: String,
+    /// The column of whole numbers that tells its rows apart.
+    pub key: Option<String>,
+    /// The columns with geometries.
+    pub geometries: Vec<String>,
+    /// All columns.
+    pub columns: Vec<String>,
+    /// How many rows it has.
+    pub rows: usize,
+}
+
+impl TableInfo {
+    /// Whether it has a column called `name`.
+    pub(super) fn has(&self, name: &str) -> bool {
+        self.columns.iter().any(|known| known.eq_ignore_ascii_case(name))
+    }
+
+    /// Its column of geometries called `name`.
+    pub(super) fn geometry(&self, name: &str) -> Option<&str> {
+        self.geometries.iter().find(|known| known.eq_ignore_ascii_case(name)).map(String::as_str)
+    }
+}
+
+/// Tables by their names in small letters.
+pub(crate) type Catalogue = BTreeMap<String, TableInfo>;
+
+/// Who is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Dialect {
+    /// The database within the program.
+    Sqlite,
+    /// A PostGIS server.
+    Postgis,
+}
+
+/// A statement that is ready to be asked.
+#[derive(Debug, Clone, Default)]
+pub(crate) struct Rewritten {
+    /// What is asked.
+    pub sql: String,
+    /// Whether an index is used that the statement as it was written would not use.
+    pub indexed: bool,
+    /// These indexes, by table and column, and whether each is asked for the nearest.
+    pub indexes: Vec<(String, bool)>,
+    /// Whether the rows come in an order that the statement decides.
+    pub ordered: bool,
+    /// Which columns are true or false; empty if that is not known.
+    pub booleans: Vec<bool>,
+}
+
+/// Rewrites a statement for who is asked; `None` if it cannot be read here, which does not mean that it is wrong.
+pub(crate) fn rewrite(sql: &str, catalogue: &Catalogue, dialect: Dialect) -> Option<Rewritten> {
+    std::thread::scope(|scope| {
+        let work = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
+        let begun = work.spawn_scoped(scope, || {
+            let mut parsed = parse(sql).ok()?;
+            Some(rewritten(&mut parsed, catalogue, dialect))
+        });
+        begun.ok()?.join().ok().flatten()
+    })
+}
+
+/// Runs `work` with as much stack as a parsed statement may need.
+pub(crate) fn with_stack<T: Send>(work: impl FnOnce() -> T + Send) -> Option<T> {
+    std::thread::scope(|scope| {
+        let thread = std::thread::Builder::new().name("sql".into()).stack_size(STACK);
+        thread.spawn_scoped(scope, work).ok()?.join().ok()
+    })
+}
+
+/// Rewrites what was parsed.
+pub(crate) fn rewritten(parsed: &mut SyntaxTree, catalogue: &Catalogue, dialect: Dialect) -> Rewritten {
+    let booleans = booleans(&parsed.query);
+    if dialect == Dialect::Sqlite {
+        operators::translate(&mut parsed.query);
+    }
+    let tables = scope::visible(&parsed.query, catalogue);
+    let ordered = parsed.query.order_by.is_some() || parsed.query.limit_clause.is_some();
+    let mut visitor = IndexVisitor { tables: &tables, dialect, indexes: Vec::new() };
+    let _ = VisitMut::visit(&mut *parsed.query, &mut visitor);
+    let indexes = visitor.indexes;
+    Rewritten { indexed: !indexes.is_empty(), indexes, ordered, booleans, sql: parsed.query.to_string() }
+}
+
+/// Visits each query from the inside out.
+struct IndexVisitor<'a> {
+    tables: &'a Catalogue,
+    dialect: Dialect,
+    indexes: Vec<(String, bool)>,
+}
+
+impl VisitorMut for IndexVisitor<'_> {
+    type Break = ();
+
+    fn post_visit_select(&mut self, select: &mut Select) -> ControlFlow<()> {
+        if self.dialect == Dialect::Sqlite {
+            self.indexes.extend(joins::index(select, self.tables).into_iter().map(|name| (name, false)));
+        }
+        ControlFlow::Continue(())
+    }
+
+    fn post_visit_query(&mut self, query: &mut Query) -> ControlFlow<()> {
+        let nearest = (self.dialect == Dialect::Sqlite).then(|| nearest::index(query, self.tables)).flatten();
+        match nearest {
+            Some(name) => self.indexes.push((name, true)),
+            None => order::settle(query, self.tables, self.dialect),
+        }
+        ControlFlow::Continue(())
+    }
+}
+
+/// Which columns of the result are true or false; empty where a star hides how many there are.
+fn booleans(query: &Query) -> Vec<bool> {
+    let SetExpr::Select(select) = &*query.body else { return Vec::new() };
+    let column = |item: &SelectItem| match item {
+        SelectItem::UnnamedExpr(expression) | SelectItem::ExprWithAlias { expr: expression, .. } => {
+            Some(operators::is_boolean(expression))
+        }
+        _ => None,
+    };
+    select.projection.iter().map(column).collect::<Option<_>>().unwrap_or_default()
+}
