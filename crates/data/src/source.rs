@@ -186,7 +186,9 @@ impl Source {
             table.crs = Crs::epsg(code);
         }
         table.check_kind()?;
-        if let (true, Some((_, error))) = (table.features.is_empty(), table.refused.first()) {
+        if let (true, Some((_, error))) =
+            (table.features.is_empty() && !table.has_seen(), table.refused.first())
+        {
             return Err(error.clone());
         }
         if table.features.is_empty() {

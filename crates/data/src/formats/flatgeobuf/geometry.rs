@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::buffer::{Damage, Table};
+use super::buffer::{BufferDamage, BufferTable};
 use super::header::doubles;
 use crate::Geometry;
 use burgeon_base::budget::Budget;
@@ -10,7 +10,7 @@ use burgeon_spatial::DEEPEST;
 
 /// Adds the parts of a geometry of a kind, which it may tell itself if that is 0. Fails with the reason.
 pub(super) fn read(
-    table: &Table<'_>,
+    table: &BufferTable<'_>,
     kind: u8,
     budget: &Budget,
     depth: usize,
@@ -20,7 +20,7 @@ pub(super) fn read(
     if depth > DEEPEST {
         return Err(format!("is nested more than {DEEPEST} deep"));
     }
-    let broken = |why: Damage| format!("has a geometry that {why}");
+    let broken = |why: BufferDamage| format!("has a geometry that {why}");
     let kind = match (kind, table.fixed(6).map_err(broken)?) {
         (0, Some([own])) => own,
         (kind, _) => kind,
@@ -51,8 +51,8 @@ pub(super) fn read(
 }
 
 /// The points of a geometry.
-fn points(table: &Table<'_>, budget: &Budget) -> Result<Vec<DVec3>, String> {
-    let broken = |why: Damage| format!("has a geometry that {why}");
+fn points(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<DVec3>, String> {
+    let broken = |why: BufferDamage| format!("has a geometry that {why}");
     let (places, heights) = (table.list(1, 8).map_err(broken)?, table.list(2, 8).map_err(broken)?);
     if !places.len().is_multiple_of(16) || !(heights.is_empty() || heights.len() * 2 == places.len()) {
         return Err("has points that lack a coordinate".to_owned());
@@ -70,7 +70,7 @@ fn points(table: &Table<'_>, budget: &Budget) -> Result<Vec<DVec3>, String> {
 }
 
 /// The lists of points that a geometry is divided into.
-fn lists(table: &Table<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, String> {
+fn lists(table: &BufferTable<'_>, budget: &Budget) -> Result<Vec<Vec<DVec3>>, String> {
     let ends = table.list(0, 4).map_err(|why| format!("has a geometry that {why}"))?;
     let all = points(table, budget)?;
     if ends.is_empty() {

@@ -1,12 +1,12 @@
 //! The header of a FlatGeobuf: what its features know, how many there are, and in which coordinate system.
 
-use super::buffer::{Damage, Table};
+use super::buffer::{BufferDamage, BufferTable};
 use crate::Crs;
 use burgeon_base::error::{Error, Result as Checked};
 use burgeon_base::text::shown;
 
 /// What stands before all features.
-pub(super) struct Header {
+pub(super) struct LayerHeader {
     pub(super) name: String,
     /// West, south, east and north, if it tells them.
     pub(super) bounds: Option<[f64; 4]>,
@@ -39,9 +39,9 @@ pub(super) fn doubles(bytes: &[u8]) -> impl ExactSizeIterator<Item = f64> {
     bytes.as_chunks().0.iter().copied().map(double)
 }
 
-impl Header {
-    pub(super) fn read(bytes: &[u8]) -> Result<Self, Damage> {
-        let table = Table::root(bytes)?;
+impl LayerHeader {
+    pub(super) fn read(bytes: &[u8]) -> Result<Self, BufferDamage> {
+        let table = BufferTable::root(bytes)?;
         let bounds: Vec<f64> = doubles(table.list(1, 8)?).collect();
         // With heights, there may be more of them.
         let bounds = match bounds[..] {
@@ -64,8 +64,8 @@ impl Header {
 }
 
 /// The columns in a field of a table.
-pub(super) fn columns(table: &Table<'_>, number: usize) -> Result<Vec<Column>, Damage> {
-    let column = |table: Result<Table<'_>, Damage>| -> Result<Column, Damage> {
+pub(super) fn columns(table: &BufferTable<'_>, number: usize) -> Result<Vec<Column>, BufferDamage> {
+    let column = |table: Result<BufferTable<'_>, BufferDamage>| -> Result<Column, BufferDamage> {
         let table = table?;
         Ok(Column {
             name: table.text(0)?.ok_or("has a column without a name")?,
@@ -77,7 +77,7 @@ pub(super) fn columns(table: &Table<'_>, number: usize) -> Result<Vec<Column>, D
 }
 
 /// The coordinate system that a table describes, or why it is not known.
-fn system(table: Option<Table<'_>>) -> Result<Checked<Crs>, Damage> {
+fn system(table: Option<BufferTable<'_>>) -> Result<Checked<Crs>, BufferDamage> {
     let remedy = "name its EPSG code: source(file, { crs = 3067 })";
     let none = Err(Error::data("the layer has no coordinate system").help(remedy));
     let Some(table) = table else { return Ok(none) };

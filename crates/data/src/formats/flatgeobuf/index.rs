@@ -13,14 +13,14 @@ pub(super) const ENTRY: u64 = 40;
 
 /// A box, and where that lies which it is around.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Entry {
+pub(super) struct BoxEntry {
     /// West, south, east and north.
     pub(super) bounds: [f64; 4],
     /// For a feature, where it begins behind the index; for a box, the number of the first that it is around.
     pub(super) to: u64,
 }
 
-impl Entry {
+impl BoxEntry {
     pub(super) fn read(file: &mut impl Read) -> Result<Self> {
         let mut bytes = [0; 40];
         file.read_exact(&mut bytes)?;
@@ -96,7 +96,7 @@ impl Levels {
             budget.check()?;
             file.seek(SeekFrom::Start(at + first * ENTRY)).map_err(cannot)?;
             for number in first..end.min(first + fan) {
-                let entry = Entry::read(&mut file).map_err(cannot)?;
+                let entry = BoxEntry::read(&mut file).map_err(cannot)?;
                 if !touch(entry.bounds) {
                     continue;
                 }

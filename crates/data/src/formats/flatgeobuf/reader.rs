@@ -5,10 +5,10 @@ use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::buffer::{Damage, Table};
+use super::buffer::{BufferDamage, BufferTable};
 use super::geometry;
-use super::header::{Column, Header, columns};
-use super::index::{Entry, Levels};
+use super::header::{Column, LayerHeader, columns};
+use super::index::{BoxEntry, Levels};
 use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
 use burgeon_base::error::{Error, Result};
 
@@ -26,7 +26,7 @@ pub struct FlatGeobuf {
     file: File,
     name: String,
     layer: String,
-    header: Header,
+    header: LayerHeader,
     levels: Option<Levels>,
     /// Where the index and the features begin, and the file ends (bytes).
     index: u64,
@@ -62,7 +62,7 @@ impl FlatGeobuf {
         let _held = wanted.budget.hold(usize::try_from(size).unwrap_or(usize::MAX) * 4)?;
         let mut bytes = vec![0; usize::try_from(size).unwrap_or_default()];
         file.read_exact(&mut bytes).map_err(cannot)?;
-        let header = Header::read(&bytes).map_err(|why| damaged(&format!("its header {why}")))?;
+        let header = LayerHeader::read(&bytes).map_err(|why| damaged(&format!("its header {why}")))?;
         let index = 12 + size;
         let levels = Levels::new(header.count, header.fan);
         let taken = match (&levels, header.fan > 0 && header.count > 0) {
@@ -118,7 +118,7 @@ impl FlatGeobuf {
         while reader.at < self.end && !table.is_full() {
             let entry = match &mut leaves {
                 Some(leaves) if number < self.header.count => {
-                    let entry = Entry::read(&mut leaves.file);
+                    let entry = BoxEntry::read(&mut leaves.file);
                     let entry = entry.map_err(|error| damaged(&self.name, &error.to_string()))?;
                     if self.features.checked_add(entry.to) != Some(reader.at) {
                         return Err(damaged(&self.name, "its index leads to where no feature begins"));
@@ -147,7 +147,7 @@ impl FlatGeobuf {
     fn feature(
         &self,
         reader: &mut Reader<'_>,
-        (number, entry): (u64, Option<Entry>),
+        (number, entry): (u64, Option<BoxEntry>),
         table: &mut FeatureTable,
         wanted: &SourceOptions,
     ) -> Result<()> {
@@ -183,12 +183,12 @@ impl FlatGeobuf {
     fn parts(
         &self,
         bytes: &[u8],
-        entry: Option<Entry>,
+        entry: Option<BoxEntry>,
         wanted: &SourceOptions,
     ) -> std::result::Result<Vec<Geometry>, String> {
-        let broken = |why: Damage| format!("cannot be read: it {why}");
+        let broken = |why: BufferDamage| format!("cannot be read: it {why}");
         let mut parts = Vec::new();
-        if let Some(table) = Table::root(bytes).and_then(|feature| feature.table(0)).map_err(broken)? {
+        if let Some(table) = BufferTable::root(bytes).and_then(|feature| feature.table(0)).map_err(broken)? {
             geometry::read(&table, self.header.kind, &wanted.budget, 0, &mut parts)?;
         }
         for bounds in entry.map(|entry| entry.bounds).into_iter().chain(self.header.bounds) {
@@ -202,11 +202,15 @@ impl FlatGeobuf {
     }
 
     /// What a feature knows, and its key if it has one.
-    fn attributes(&self, bytes: &[u8], table: &mut FeatureTable) -> std::result::Result<Known, Damage> {
-        let feature = Table::root(bytes)?;
+    fn attributes(
+        &self,
+        bytes: &[u8],
+        table: &mut FeatureTable,
+    ) -> std::result::Result<PropertyList, BufferDamage> {
+        let feature = BufferTable::root(bytes)?;
         let own = columns(&feature, 2)?;
         let known = if own.is_empty() { &self.header.columns } else { &own };
-        let mut values = Values(feature.list(1, 1)?);
+        let mut values = PropertyBytes(feature.list(1, 1)?);
         let (mut attributes, mut key) = (Vec::new(), None);
         while !values.0.is_empty() {
             let number = usize::from(u16::from_le_bytes(values.take()?));
@@ -223,7 +227,7 @@ impl FlatGeobuf {
 }
 
 /// Attributes, and the key among them.
-type Known = (Vec<(usize, Attribute)>, Option<String>);
+type PropertyList = (Vec<(usize, Attribute)>, Option<String>);
 
 /// The error for bytes that are not as they should be.
 fn damaged(name: &str, why: &str) -> Error {
@@ -303,16 +307,16 @@ impl Reader<'_> {
 }
 
 /// Values one behind the other.
-struct Values<'a>(&'a [u8]);
+struct PropertyBytes<'a>(&'a [u8]);
 
-impl<'a> Values<'a> {
-    fn take<const N: usize>(&mut self) -> std::result::Result<[u8; N], Damage> {
+impl<'a> PropertyBytes<'a> {
+    fn take<const N: usize>(&mut self) -> std::result::Result<[u8; N], BufferDamage> {
         let (taken, rest) = self.0.split_first_chunk().ok_or("ends too early")?;
         self.0 = rest;
         Ok(*taken)
     }
 
-    fn bytes(&mut self) -> std::result::Result<&'a [u8], Damage> {
+    fn bytes(&mut self) -> std::result::Result<&'a [u8], BufferDamage> {
         let length = u32::from_le_bytes(self.take()?) as usize;
         let (taken, rest) = self.0.split_at_checked(length).ok_or("ends too early")?;
         self.0 = rest;
@@ -325,7 +329,7 @@ impl<'a> Values<'a> {
         &mut self,
         column: &Column,
         table: &mut FeatureTable,
-    ) -> std::result::Result<Option<Attribute>, Damage> {
+    ) -> std::result::Result<Option<Attribute>, BufferDamage> {
         let number = match column.kind {
             0 => i8::from_le_bytes(self.take()?).into(),
             1 => u8::from_le_bytes(self.take()?).into(),

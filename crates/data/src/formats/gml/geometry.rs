@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::system::System;
-use super::xml::{Element, Piece, Xml};
+use super::system::NamedSystem;
+use super::xml::{Element, Xml, XmlPiece};
 use crate::Geometry;
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result as Checked};
@@ -14,37 +14,41 @@ use burgeon_base::text::shown;
 use burgeon_spatial::wkb::{NEAR, add_arc};
 
 /// Why a geometry is not read.
-pub(super) enum Problem {
+pub(super) enum GeometryProblem {
     /// Reading ends.
     Stop(Error),
     /// It is wrong, for this reason.
     Wrong(String),
 }
 
-impl From<Error> for Problem {
+impl From<Error> for GeometryProblem {
     fn from(error: Error) -> Self {
         Self::Stop(error)
     }
 }
 
-type Read<T> = Result<T, Problem>;
+type GeometryResult<T> = Result<T, GeometryProblem>;
 
-fn wrong<T>(why: impl Into<String>) -> Read<T> {
-    Err(Problem::Wrong(why.into()))
+fn wrong<T>(why: impl Into<String>) -> GeometryResult<T> {
+    Err(GeometryProblem::Wrong(why.into()))
 }
 
 /// What holds for coordinates, unless an element within says otherwise.
 #[derive(Clone, Default)]
-pub(super) struct Context {
+pub(super) struct GmlContext {
     /// The coordinate system, or why it is not known.
-    pub(super) system: Option<Rc<Checked<System>>>,
+    pub(super) system: Option<Rc<Checked<NamedSystem>>>,
     /// How many numbers make a place.
     dimension: Option<usize>,
 }
 
-impl Context {
+impl GmlContext {
     /// What holds within `element`; `named` gives the coordinate system of a name.
-    pub(super) fn within(&self, element: &Element, named: impl FnOnce(&str) -> Rc<Checked<System>>) -> Self {
+    pub(super) fn within(
+        &self,
+        element: &Element,
+        named: impl FnOnce(&str) -> Rc<Checked<NamedSystem>>,
+    ) -> Self {
         let dimension = element.attribute("srsDimension").or_else(|| element.attribute("dimension"));
         let dimension =
             dimension.and_then(|text| text.trim().parse().ok()).filter(|number| (2..=4).contains(number));
@@ -52,7 +56,7 @@ impl Context {
         Self { system: system.or_else(|| self.system.clone()), dimension: dimension.or(self.dimension) }
     }
 
-    fn known(&self) -> Option<&System> {
+    fn known(&self) -> Option<&NamedSystem> {
         self.system.as_ref().and_then(|system| system.as_ref().as_ref().ok())
     }
 }
@@ -98,9 +102,9 @@ fn is_curve(name: &str) -> bool {
 /// Reads geometries from a file.
 pub(super) struct GeometryReader<'x> {
     pub(super) xml: &'x mut Xml,
-    pub(super) named: &'x mut dyn FnMut(&str) -> Rc<Checked<System>>,
+    pub(super) named: &'x mut dyn FnMut(&str) -> Rc<Checked<NamedSystem>>,
     /// The coordinate system that was found first.
-    pub(super) system: Option<Rc<Checked<System>>>,
+    pub(super) system: Option<Rc<Checked<NamedSystem>>>,
     pub(super) budget: Arc<Budget>,
 }
 
@@ -109,9 +113,9 @@ impl GeometryReader<'_> {
     pub(super) fn geometry(
         &mut self,
         element: &Element,
-        context: &Context,
+        context: &GmlContext,
         parts: &mut Vec<Geometry>,
-    ) -> Read<()> {
+    ) -> GeometryResult<()> {
         self.budget.tick()?;
         let context = context.within(element, &mut *self.named);
         if self.system.is_none() {
@@ -144,18 +148,18 @@ impl GeometryReader<'_> {
     }
 
     /// The next element that begins within the one that began at `depth`, however deep; none where that one ends.
-    fn child(&mut self, depth: usize) -> Read<Option<Element>> {
+    fn child(&mut self, depth: usize) -> GeometryResult<Option<Element>> {
         loop {
             match self.xml.next()? {
-                Piece::Start(element) => return Ok(Some(element)),
-                Piece::End if self.xml.depth >= depth => {}
-                Piece::End | Piece::Eof => return Ok(None),
+                XmlPiece::Start(element) => return Ok(Some(element)),
+                XmlPiece::End if self.xml.depth >= depth => {}
+                XmlPiece::End | XmlPiece::Eof => return Ok(None),
             }
         }
     }
 
     /// The rings of a polygon: the outer one first.
-    fn rings(&mut self, context: &Context) -> Read<Vec<Vec<DVec3>>> {
+    fn rings(&mut self, context: &GmlContext) -> GeometryResult<Vec<Vec<DVec3>>> {
         let depth = self.xml.depth;
         let (mut rings, mut outer) = (Vec::new(), None);
         let mut is_outer = true;
@@ -183,7 +187,7 @@ impl GeometryReader<'_> {
     }
 
     /// The places along the curve that `element` begins.
-    fn curve(&mut self, element: &Element, context: &Context) -> Read<Vec<DVec3>> {
+    fn curve(&mut self, element: &Element, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let mut places = match &*element.name {
             "LineString" | "LinearRing" | "LineStringSegment" | "GeodesicString" | "Geodesic" => {
                 self.places(context)?
@@ -202,7 +206,7 @@ impl GeometryReader<'_> {
     }
 
     /// The places along the curves and segments within an element, each of which begins where the one before it ends.
-    fn chain(&mut self, context: &Context) -> Read<Vec<DVec3>> {
+    fn chain(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let depth = self.xml.depth;
         let mut places: Vec<DVec3> = Vec::new();
         while let Some(inner) = self.child(depth)? {
@@ -221,7 +225,7 @@ impl GeometryReader<'_> {
         Ok(places)
     }
 
-    fn arcs(&self, element: &Element, given: &[DVec3], context: &Context) -> Read<Vec<DVec3>> {
+    fn arcs(&self, element: &Element, given: &[DVec3], context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         if given.len() < 3 || given.len().is_multiple_of(2) {
             return wrong(format!("has a curve that is an {} of {} places", element.name, given.len()));
         }
@@ -242,7 +246,7 @@ impl GeometryReader<'_> {
     }
 
     /// The places that are told within an element.
-    fn places(&mut self, context: &Context) -> Read<Vec<DVec3>> {
+    fn places(&mut self, context: &GmlContext) -> GeometryResult<Vec<DVec3>> {
         let depth = self.xml.depth;
         let mut places = Vec::new();
         while let Some(inner) = self.child(depth)? {
@@ -300,9 +304,9 @@ impl GeometryReader<'_> {
     }
 
     /// Goes to where the element that began at `depth` ends, which is to hold text alone.
-    fn end(&mut self, depth: usize) -> Read<()> {
+    fn end(&mut self, depth: usize) -> GeometryResult<()> {
         match self.xml.next()? {
-            Piece::End if self.xml.depth < depth => Ok(()),
+            XmlPiece::End if self.xml.depth < depth => Ok(()),
             _ => wrong("has an element where numbers should be"),
         }
     }
@@ -326,7 +330,7 @@ fn around(given: &[DVec3]) -> DVec3 {
 }
 
 /// How many numbers make a place in a list.
-fn dimension(numbers: &[f64], element: &Element, context: &Context) -> Read<usize> {
+fn dimension(numbers: &[f64], element: &Element, context: &GmlContext) -> GeometryResult<usize> {
     if let Some(told) = context.dimension {
         return Ok(told);
     }
@@ -352,7 +356,7 @@ fn dimension(numbers: &[f64], element: &Element, context: &Context) -> Read<usiz
 }
 
 /// A place with east first.
-fn ordered(place: &[f64], context: &Context) -> DVec3 {
+fn ordered(place: &[f64], context: &GmlContext) -> DVec3 {
     let z = place.get(2).copied().unwrap_or_default();
     match context.known() {
         Some(system) if system.north_first => DVec3::new(place[1], place[0], z),
@@ -360,17 +364,17 @@ fn ordered(place: &[f64], context: &Context) -> DVec3 {
     }
 }
 
-fn number(text: &str) -> Read<f64> {
+fn number(text: &str) -> GeometryResult<f64> {
     text.parse().or_else(|_| wrong(format!("has \"{}\" where a number should be", shown(text))))
 }
 
 /// The numbers between blanks.
-fn numbers(text: &str) -> Read<Vec<f64>> {
+fn numbers(text: &str) -> GeometryResult<Vec<f64>> {
     text.split_ascii_whitespace().map(number).collect()
 }
 
 /// The places of a text of version 2, whose separators may be others.
-fn tuples(text: &str, element: &Element) -> Read<Vec<Vec<f64>>> {
+fn tuples(text: &str, element: &Element) -> GeometryResult<Vec<Vec<f64>>> {
     let mark = |name: &str, usual: char| {
         let told = element.attribute(name).and_then(|text| text.chars().next());
         told.unwrap_or(usual)
@@ -382,7 +386,7 @@ fn tuples(text: &str, element: &Element) -> Read<Vec<Vec<f64>>> {
             '.' => number(text.trim()),
             mark => number(&text.trim().replace(mark, ".")),
         });
-        let numbers: Vec<f64> = numbers.collect::<Read<_>>()?;
+        let numbers: Vec<f64> = numbers.collect::<GeometryResult<_>>()?;
         if numbers.len() < 2 { wrong("has a place of fewer than two numbers") } else { Ok(numbers) }
     });
     places.collect()

@@ -7,9 +7,9 @@ use std::sync::Arc;
 
 use rustc_hash::FxHashMap;
 
-use super::geometry::{Context, GeometryReader, Problem, is_geometry};
-use super::system::System;
-use super::xml::{Element, Piece, Xml};
+use super::geometry::{GeometryProblem, GeometryReader, GmlContext, is_geometry};
+use super::system::NamedSystem;
+use super::xml::{Element, Xml, XmlPiece};
 use crate::{Attribute, FeatureTable, Geometry, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -70,7 +70,8 @@ impl GmlFile {
             .help("name its EPSG code: source(file, { crs = 3067 })");
         let table = FeatureTable::new(layer, &label, Err(none), wanted);
         let budget = Arc::clone(&wanted.budget);
-        let mut features = Features { table, label, system: None, kinds: Vec::new(), number: 0, budget };
+        let mut features =
+            FeatureBuilder { table, label, system: None, kinds: Vec::new(), number: 0, budget };
         self.walk(wanted, |xml, element, around| {
             if element.name != layer {
                 xml.leave(xml.depth - 1)?;
@@ -86,20 +87,20 @@ impl GmlFile {
     fn walk(
         &self,
         wanted: &SourceOptions,
-        mut each: impl FnMut(&mut Xml, Element, &mut Around) -> Result<bool>,
+        mut each: impl FnMut(&mut Xml, Element, &mut Surroundings) -> Result<bool>,
     ) -> Result<()> {
         let mut xml = Xml::new(&self.file, &self.name, &wanted.budget)?;
         let mut around =
-            Around { context: Context::default(), names: FxHashMap::default(), forced: wanted.crs };
+            Surroundings { context: GmlContext::default(), names: FxHashMap::default(), forced: wanted.crs };
         let mut levels: Vec<Level> = Vec::new();
         loop {
             let element = match xml.next()? {
-                Piece::Eof => return Ok(()),
-                Piece::End => {
+                XmlPiece::Eof => return Ok(()),
+                XmlPiece::End => {
                     levels.truncate(xml.depth);
                     continue;
                 }
-                Piece::Start(element) => element,
+                XmlPiece::Start(element) => element,
             };
             let is_member = matches!(
                 &*element.name,
@@ -122,19 +123,19 @@ impl GmlFile {
 }
 
 /// What holds for all features.
-struct Around {
-    context: Context,
-    names: FxHashMap<String, Rc<Result<System>>>,
+struct Surroundings {
+    context: GmlContext,
+    names: FxHashMap<String, Rc<Result<NamedSystem>>>,
     forced: Option<u32>,
 }
 
-impl Around {
+impl Surroundings {
     /// The coordinate system of a name.
-    fn named(&mut self, name: &str) -> Rc<Result<System>> {
+    fn named(&mut self, name: &str) -> Rc<Result<NamedSystem>> {
         if let Some(known) = self.names.get(name) {
             return Rc::clone(known);
         }
-        let system = Rc::new(System::named(name, self.forced));
+        let system = Rc::new(NamedSystem::named(name, self.forced));
         self.names.insert(name.to_owned(), Rc::clone(&system));
         system
     }
@@ -144,12 +145,12 @@ impl Around {
         let depth = xml.depth;
         while xml.depth >= depth {
             match xml.next()? {
-                Piece::Start(element) => {
+                XmlPiece::Start(element) => {
                     let context = self.context.clone();
                     self.context = context.within(&element, |name| self.named(name));
                 }
-                Piece::End => {}
-                Piece::Eof => break,
+                XmlPiece::End => {}
+                XmlPiece::Eof => break,
             }
         }
         Ok(())
@@ -158,50 +159,50 @@ impl Around {
 
 /// What all values of an attribute have been so far.
 #[derive(Clone, Copy)]
-struct Values {
+struct ValueKinds {
     numbers: bool,
     booleans: bool,
 }
 
 /// The features that have been read.
-struct Features {
+struct FeatureBuilder {
     table: FeatureTable,
     label: String,
-    system: Option<Rc<Result<System>>>,
-    kinds: Vec<Values>,
+    system: Option<Rc<Result<NamedSystem>>>,
+    kinds: Vec<ValueKinds>,
     number: usize,
     budget: Arc<Budget>,
 }
 
-impl Features {
+impl FeatureBuilder {
     /// Reads the feature that `element` begins.
-    fn feature(&mut self, xml: &mut Xml, element: &Element, around: &mut Around) -> Result<()> {
+    fn feature(&mut self, xml: &mut Xml, element: &Element, around: &mut Surroundings) -> Result<()> {
         self.number += 1;
         let id = element.attribute("id").or_else(|| element.attribute("fid")).filter(|id| !id.is_empty());
         let id = id.map_or_else(|| self.number.to_string(), str::to_owned);
         let depth = xml.depth;
-        let mut found = Found { parts: Vec::new(), values: Vec::new(), system: None, wrong: None };
+        let mut found = FeatureContent { parts: Vec::new(), values: Vec::new(), system: None, wrong: None };
         let mut context = around.context.clone();
         loop {
             match xml.next()? {
-                Piece::Start(property) if property.name == "boundedBy" => {
+                XmlPiece::Start(property) if property.name == "boundedBy" => {
                     let before = std::mem::replace(&mut around.context, context);
                     around.bounds(xml)?;
                     context = std::mem::replace(&mut around.context, before);
                 }
-                Piece::Start(property) => {
+                XmlPiece::Start(property) => {
                     let name = property.name.clone();
                     found.property(xml, &property, name, (&context, around, &self.budget))?;
                 }
-                Piece::End if xml.depth < depth => break,
-                Piece::End => {}
-                Piece::Eof => break,
+                XmlPiece::End if xml.depth < depth => break,
+                XmlPiece::End => {}
+                XmlPiece::Eof => break,
             }
         }
         self.add(&id, found)
     }
 
-    fn add(&mut self, id: &str, found: Found) -> Result<()> {
+    fn add(&mut self, id: &str, found: FeatureContent) -> Result<()> {
         let refuse = |table: &mut FeatureTable, why: &str| {
             let error = Error::data(format!("feature {} of {} {why}", shown(id), self.label))
                 .help("points, curves, polygons, surfaces and collections of these are read");
@@ -223,7 +224,7 @@ impl Features {
         for (name, value) in found.values {
             let number = self.table.name(&name);
             if self.kinds.len() <= number {
-                self.kinds.resize(number + 1, Values { numbers: true, booleans: true });
+                self.kinds.resize(number + 1, ValueKinds { numbers: true, booleans: true });
             }
             let kind = &mut self.kinds[number];
             kind.numbers &= as_number(&value).is_some();
@@ -271,28 +272,28 @@ fn as_number(text: &str) -> Option<f64> {
 }
 
 /// What was found of a feature.
-struct Found {
+struct FeatureContent {
     parts: Vec<Geometry>,
     values: Vec<(String, String)>,
-    system: Option<Rc<Result<System>>>,
+    system: Option<Rc<Result<NamedSystem>>>,
     wrong: Option<String>,
 }
 
-impl Found {
+impl FeatureContent {
     /// Reads the property that `element` begins, whose attribute is called `name`.
     fn property(
         &mut self,
         xml: &mut Xml,
         element: &Element,
         name: String,
-        all: (&Context, &mut Around, &Arc<Budget>),
+        all: (&GmlContext, &mut Surroundings, &Arc<Budget>),
     ) -> Result<()> {
         let (context, around, budget) = all;
         let depth = xml.depth;
         let mut is_simple = true;
         loop {
             match xml.next()? {
-                Piece::Start(inner) => {
+                XmlPiece::Start(inner) => {
                     is_simple = false;
                     if is_geometry(&inner.name) {
                         self.geometry(xml, &inner, (context, around, budget))?;
@@ -301,9 +302,9 @@ impl Found {
                         self.property(xml, &inner, name, (context, around, budget))?;
                     }
                 }
-                Piece::End if xml.depth < depth => break,
-                Piece::End => {}
-                Piece::Eof => return Ok(()),
+                XmlPiece::End if xml.depth < depth => break,
+                XmlPiece::End => {}
+                XmlPiece::Eof => return Ok(()),
             }
         }
         if !is_simple {
@@ -334,7 +335,7 @@ impl Found {
         &mut self,
         xml: &mut Xml,
         element: &Element,
-        (context, around, budget): (&Context, &mut Around, &Arc<Budget>),
+        (context, around, budget): (&GmlContext, &mut Surroundings, &Arc<Budget>),
     ) -> Result<()> {
         let depth = xml.depth;
         let mut parts = Vec::new();
@@ -350,8 +351,8 @@ impl Found {
                     (self.parts, self.system) = (parts, system);
                 }
             }
-            Err(Problem::Stop(error)) => return Err(error),
-            Err(Problem::Wrong(why)) => {
+            Err(GeometryProblem::Stop(error)) => return Err(error),
+            Err(GeometryProblem::Wrong(why)) => {
                 self.wrong.get_or_insert(why);
             }
         }

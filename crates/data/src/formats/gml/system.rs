@@ -7,7 +7,7 @@ use burgeon_base::text::shown;
 
 /// A coordinate system as a file names it.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct System {
+pub(super) struct NamedSystem {
     pub(super) crs: Crs,
     /// Whether the first coordinate is the northing, or the latitude.
     pub(super) north_first: bool,
@@ -15,7 +15,7 @@ pub(super) struct System {
     pub(super) has_heights: bool,
 }
 
-impl System {
+impl NamedSystem {
     /// What `name` means; `forced` is the code that holds in its place.
     ///
     /// A URN, or an address of opengis.net, has coordinates in the order of the registry; so latitude comes first. In the
@@ -73,7 +73,7 @@ mod tests {
     #[test]
     fn names_of_all_forms_are_known_with_their_order() {
         let of = |name: &str| {
-            System::named(name, None)
+            NamedSystem::named(name, None)
                 .map(|system| (system.crs.name(), system.north_first, system.has_heights))
                 .ok()
         };
@@ -101,6 +101,6 @@ mod tests {
         {
             assert_eq!(of(name), None, "{name}");
         }
-        assert!(System::named("urn:ogc:def:crs:EPSG::99999", Some(4326)).unwrap().north_first);
+        assert!(NamedSystem::named("urn:ogc:def:crs:EPSG::99999", Some(4326)).unwrap().north_first);
     }
 }

@@ -21,7 +21,7 @@ const DEEPEST: usize = 100;
 const LONGEST: usize = 100_000_000;
 
 /// A piece of a file.
-pub(super) enum Piece {
+pub(super) enum XmlPiece {
     /// An element begins.
     Start(Element),
     /// The element that began last ends.
@@ -46,7 +46,7 @@ impl Element {
 
 /// A file that is read from the front to the end.
 pub(super) struct Xml {
-    reader: Reader<Bounded<BufReader<Text>>>,
+    reader: Reader<BoundedReader<BufReader<Text>>>,
     buffer: Vec<u8>,
     /// The text since an element began or ended.
     text: String,
@@ -69,8 +69,11 @@ impl Xml {
         let unread = Rc::new(Cell::new(0));
         let longest = LONGEST.min(budget.memory() / 4);
         let text = Text { file, is_latin: is_latin(&head[..count], name)?, held: Vec::new() };
-        let bounded =
-            Bounded { inner: BufReader::with_capacity(1 << 16, text), unread: Rc::clone(&unread), longest };
+        let bounded = BoundedReader {
+            inner: BufReader::with_capacity(1 << 16, text),
+            unread: Rc::clone(&unread),
+            longest,
+        };
         let mut reader = Reader::from_reader(bounded);
         reader.config_mut().expand_empty_elements = true;
         let (name, budget) = (name.to_owned(), Arc::clone(budget));
@@ -83,7 +86,7 @@ impl Xml {
     }
 
     /// The next beginning or end. Text, of which [`Xml::text`] tells, begins anew where an element begins.
-    pub(super) fn next(&mut self) -> Result<Piece> {
+    pub(super) fn next(&mut self) -> Result<XmlPiece> {
         self.text.clear();
         loop {
             self.budget.tick()?;
@@ -102,14 +105,14 @@ impl Xml {
                             &format!("its elements are nested more than {DEEPEST} deep"),
                         ));
                     }
-                    return Ok(Piece::Start(element));
+                    return Ok(XmlPiece::Start(element));
                 }
                 Event::End(_) => {
                     self.depth = self.depth.saturating_sub(1);
-                    return Ok(Piece::End);
+                    return Ok(XmlPiece::End);
                 }
                 Event::Eof if self.depth > 0 => return Err(broken(&self.name, "it ends within an element")),
-                Event::Eof => return Ok(Piece::Eof),
+                Event::Eof => return Ok(XmlPiece::Eof),
                 Event::Text(text) => self.text.push_str(&text.into_inner()),
                 Event::CData(text) => self.text.push_str(&text.into_inner()),
                 Event::GeneralRef(reference) => {
@@ -141,7 +144,7 @@ impl Xml {
     /// Passes over what is left of the elements that are deeper than `depth`.
     pub(super) fn leave(&mut self, depth: usize) -> Result<()> {
         while self.depth > depth {
-            if matches!(self.next()?, Piece::Eof) {
+            if matches!(self.next()?, XmlPiece::Eof) {
                 break;
             }
         }
@@ -214,19 +217,19 @@ impl Read for Text {
 }
 
 /// Bytes of which no more than so many are read for one piece.
-struct Bounded<R> {
+struct BoundedReader<R> {
     inner: R,
     unread: Rc<Cell<usize>>,
     longest: usize,
 }
 
-impl<R: Read> Read for Bounded<R> {
+impl<R: Read> Read for BoundedReader<R> {
     fn read(&mut self, into: &mut [u8]) -> std::io::Result<usize> {
         self.inner.read(into)
     }
 }
 
-impl<R: BufRead> BufRead for Bounded<R> {
+impl<R: BufRead> BufRead for BoundedReader<R> {
     fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
         if self.unread.get() > self.longest {
             return Err(std::io::Error::other("a tag, a text or a comment is too long"));

@@ -7,7 +7,7 @@ use std::sync::{Mutex, OnceLock, PoisonError};
 
 use flate2::{Decompress, FlushDecompress, Status};
 
-use super::wire::{Damage, Field, Fields};
+use super::wire::{WireDamage, WireField, WireFields};
 use crate::formats::packed::{DEFLATED, can_hold};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -102,7 +102,7 @@ impl BlobFile {
         let mut header = vec![0; length];
         file.read_exact(&mut header).map_err(ends)?;
         let (mut kind, mut size) = (&[][..], None);
-        for field in Fields(&header) {
+        for field in WireFields(&header) {
             let wrong = |why| self.damaged(&format!("the header of the blob at byte {at} {why}"));
             match field.map_err(wrong)? {
                 (1, field) => kind = field.bytes().map_err(wrong)?,
@@ -126,7 +126,7 @@ impl BlobFile {
         &self,
         index: usize,
         budget: &Budget,
-        work: impl FnOnce(&[u8]) -> Result<T, Damage>,
+        work: impl FnOnce(&[u8]) -> Result<T, WireDamage>,
     ) -> Result<T> {
         let blob = &self.blobs[index];
         self.look(blob, budget, |bytes| {
@@ -152,7 +152,7 @@ impl BlobFile {
             let read = file.seek(SeekFrom::Start(blob.at)).and_then(|_| file.read_exact(&mut packed));
             read.map_err(|error| self.damaged(&error.to_string()))?;
         }
-        let wrong = |why: Damage| self.damaged(&format!("the blob at byte {} {why}", blob.at));
+        let wrong = |why: WireDamage| self.damaged(&format!("the blob at byte {} {why}", blob.at));
         let (content, size) = self.content(&packed).map_err(wrong)?.map_err(|packing| {
             Error::data(format!("{} is packed by {packing}, which is not read", self.name))
                 .help("pack it anew: osmium cat IN.osm.pbf -o OUT.osm.pbf -f pbf,pbf_compression=zlib")
@@ -172,17 +172,17 @@ impl BlobFile {
     }
 
     /// What a blob holds and how many bytes that are unpacked; or by what it is packed, if that is not read.
-    fn content<'a>(&self, blob: &'a [u8]) -> Result<Result<(Content<'a>, usize), &'static str>, Damage> {
+    fn content<'a>(&self, blob: &'a [u8]) -> Result<Result<(Content<'a>, usize), &'static str>, WireDamage> {
         let (mut content, mut size) = (None, None);
-        for field in Fields(blob) {
+        for field in WireFields(blob) {
             match field? {
                 (1, field) => content = Some(Content::Plain(field.bytes()?)),
                 (2, field) => size = Some(field.number()?),
                 (3, field) => content = Some(Content::Deflated(field.bytes()?)),
-                (4, Field::Bytes(_)) => return Ok(Err("LZMA")),
-                (5, Field::Bytes(_)) => return Ok(Err("bzip2")),
-                (6, Field::Bytes(_)) => return Ok(Err("LZ4")),
-                (7, Field::Bytes(_)) => return Ok(Err("Zstandard")),
+                (4, WireField::Bytes(_)) => return Ok(Err("LZMA")),
+                (5, WireField::Bytes(_)) => return Ok(Err("bzip2")),
+                (6, WireField::Bytes(_)) => return Ok(Err("LZ4")),
+                (7, WireField::Bytes(_)) => return Ok(Err("Zstandard")),
                 _ => {}
             }
         }
@@ -203,7 +203,7 @@ impl BlobFile {
 
     /// Fails if the header block says that something is needed that is not known.
     fn check(&self, header: &[u8]) -> Result<()> {
-        for field in Fields(header) {
+        for field in WireFields(header) {
             let field = field.and_then(|(number, field)| if number == 4 { field.bytes() } else { Ok(&[]) });
             let needed = field.map_err(|why| self.damaged(&format!("its header {why}")))?;
             if needed == b"HistoricalInformation" {
@@ -227,7 +227,7 @@ enum Content<'a> {
 }
 
 /// Unpacks what becomes exactly `size` bytes.
-fn inflate(packed: &[u8], size: usize) -> Result<Vec<u8>, Damage> {
+fn inflate(packed: &[u8], size: usize) -> Result<Vec<u8>, WireDamage> {
     // One more, so that a stream that goes on is told from one that ends.
     let mut bytes = Vec::with_capacity(size + 1);
     let mut stream = Decompress::new(true);

@@ -3,13 +3,13 @@
 use rustc_hash::FxHashMap;
 
 use super::places::Place;
-use super::wire::{Damage, Deltas, Fields, Numbers, signed};
+use super::wire::{Deltas, Varints, WireDamage, WireFields, signed};
 
 /// The numbers of a key and of a value among the texts of a block.
 pub(super) type TagNumbers = (usize, usize);
 
 /// A block that has been opened.
-pub(super) struct Block<'a> {
+pub(super) struct OsmBlock<'a> {
     strings: Vec<&'a [u8]>,
     groups: Vec<&'a [u8]>,
     granularity: i64,
@@ -17,7 +17,7 @@ pub(super) struct Block<'a> {
 }
 
 /// What comes of a visit.
-pub(super) type Visited<T> = Result<T, Damage>;
+pub(super) type VisitResult<T> = Result<T, WireDamage>;
 
 /// What is done with what a block holds.
 pub(super) trait Visitor {
@@ -27,23 +27,23 @@ pub(super) trait Visitor {
     }
 
     /// Takes a node.
-    fn node(&mut self, _: &Block<'_>, _id: i64, _: Place, _: &[TagNumbers]) -> Visited<()> {
+    fn node(&mut self, _: &OsmBlock<'_>, _id: i64, _: Place, _: &[TagNumbers]) -> VisitResult<()> {
         Ok(())
     }
 
     /// Takes a way with its nodes.
-    fn way(&mut self, _: &Block<'_>, _id: i64, _: &[TagNumbers], _nodes: Deltas<'_>) -> Visited<()> {
+    fn way(&mut self, _: &OsmBlock<'_>, _id: i64, _: &[TagNumbers], _nodes: Deltas<'_>) -> VisitResult<()> {
         Ok(())
     }
 
     /// Takes a relation with the ids of its members, and their types.
     fn relation(
         &mut self,
-        _: &Block<'_>,
+        _: &OsmBlock<'_>,
         _id: i64,
         _: &[TagNumbers],
-        _members: (Deltas<'_>, Numbers<'_>),
-    ) -> Visited<()> {
+        _members: (Deltas<'_>, Varints<'_>),
+    ) -> VisitResult<()> {
         Ok(())
     }
 }
@@ -57,14 +57,14 @@ pub(super) enum WantedTags {
     None,
 }
 
-impl<'a> Block<'a> {
+impl<'a> OsmBlock<'a> {
     /// Opens a block.
-    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, Damage> {
+    pub(super) fn open(bytes: &'a [u8]) -> Result<Self, WireDamage> {
         let mut block = Self { strings: Vec::new(), groups: Vec::new(), granularity: 100, offset: [0; 2] };
-        for field in Fields(bytes) {
+        for field in WireFields(bytes) {
             match field? {
                 (1, field) => {
-                    for text in Fields(field.bytes()?) {
+                    for text in WireFields(field.bytes()?) {
                         block.strings.push(text?.1.bytes()?);
                     }
                 }
@@ -79,7 +79,7 @@ impl<'a> Block<'a> {
     }
 
     /// The text with a number.
-    pub(super) fn string(&self, number: usize) -> Result<&'a [u8], Damage> {
+    pub(super) fn string(&self, number: usize) -> Result<&'a [u8], WireDamage> {
         self.strings.get(number).copied().ok_or("names a text that it does not have")
     }
 
@@ -89,10 +89,10 @@ impl<'a> Block<'a> {
     }
 
     /// Hands everything that it holds to `visitor`.
-    pub(super) fn visit(&self, visitor: &mut impl Visitor) -> Result<(), Damage> {
+    pub(super) fn visit(&self, visitor: &mut impl Visitor) -> Result<(), WireDamage> {
         let mut tags = Vec::new();
         for group in &self.groups {
-            for field in Fields(group) {
+            for field in WireFields(group) {
                 match field? {
                     (1, field) => self.node(field.bytes()?, visitor, &mut tags)?,
                     (2, field) => self.dense(field.bytes()?, visitor, &mut tags)?,
@@ -106,11 +106,11 @@ impl<'a> Block<'a> {
     }
 
     /// Which kinds of things it holds.
-    pub(super) fn holds(&self) -> Result<Holds, Damage> {
+    pub(super) fn holds(&self) -> Result<Holds, WireDamage> {
         let mut holds = Holds::default();
         for group in &self.groups {
             // A group holds one kind.
-            if let Some(field) = Fields(group).next() {
+            if let Some(field) = WireFields(group).next() {
                 let (number, _) = field?;
                 holds.nodes |= matches!(number, 1 | 2);
                 holds.ways |= number == 3;
@@ -129,10 +129,10 @@ impl<'a> Block<'a> {
         bytes: &[u8],
         visitor: &mut impl Visitor,
         tags: &mut Vec<TagNumbers>,
-    ) -> Result<(), Damage> {
+    ) -> Result<(), WireDamage> {
         let Some(wanted) = visitor.wants_nodes() else { return Ok(()) };
         let (mut id, mut place, mut lists) = (0, [0; 2], TagLists::default());
-        for field in Fields(bytes) {
+        for field in WireFields(bytes) {
             match field? {
                 (1, field) => id = signed(field.number()?),
                 (8, field) => place[1] = signed(field.number()?),
@@ -151,16 +151,16 @@ impl<'a> Block<'a> {
         bytes: &[u8],
         visitor: &mut impl Visitor,
         tags: &mut Vec<TagNumbers>,
-    ) -> Result<(), Damage> {
+    ) -> Result<(), WireDamage> {
         let Some(wanted) = visitor.wants_nodes() else { return Ok(()) };
         let (mut ids, mut north, mut east) = (Deltas::default(), Deltas::default(), Deltas::default());
-        let mut known = Numbers::default();
-        for field in Fields(bytes) {
+        let mut known = Varints::default();
+        for field in WireFields(bytes) {
             match field? {
                 (1, field) => ids = Deltas::new(field.bytes()?),
                 (8, field) => north = Deltas::new(field.bytes()?),
                 (9, field) => east = Deltas::new(field.bytes()?),
-                (10, field) => known = Numbers(field.bytes()?),
+                (10, field) => known = Varints(field.bytes()?),
                 _ => {}
             }
         }
@@ -187,9 +187,9 @@ impl<'a> Block<'a> {
         bytes: &[u8],
         visitor: &mut impl Visitor,
         tags: &mut Vec<TagNumbers>,
-    ) -> Result<(), Damage> {
+    ) -> Result<(), WireDamage> {
         let (mut id, mut nodes, mut lists) = (0, Deltas::default(), TagLists::default());
-        for field in Fields(bytes) {
+        for field in WireFields(bytes) {
             match field? {
                 (1, field) => id = field.number()?.cast_signed(),
                 (8, field) => nodes = Deltas::new(field.bytes()?),
@@ -205,14 +205,14 @@ impl<'a> Block<'a> {
         bytes: &[u8],
         visitor: &mut impl Visitor,
         tags: &mut Vec<TagNumbers>,
-    ) -> Result<(), Damage> {
+    ) -> Result<(), WireDamage> {
         let (mut id, mut lists) = (0, TagLists::default());
-        let (mut members, mut types) = (Deltas::default(), Numbers::default());
-        for field in Fields(bytes) {
+        let (mut members, mut types) = (Deltas::default(), Varints::default());
+        for field in WireFields(bytes) {
             match field? {
                 (1, field) => id = field.number()?.cast_signed(),
                 (9, field) => members = Deltas::new(field.bytes()?),
-                (10, field) => types = Numbers(field.bytes()?),
+                (10, field) => types = Varints(field.bytes()?),
                 (number, field) => lists.take(number, field)?,
             }
         }
@@ -231,21 +231,21 @@ pub(super) struct Holds {
 /// The lists of keys and of values of a node, a way or a relation.
 #[derive(Default)]
 struct TagLists<'a> {
-    keys: Numbers<'a>,
-    values: Numbers<'a>,
+    keys: Varints<'a>,
+    values: Varints<'a>,
 }
 
 impl<'a> TagLists<'a> {
-    fn take(&mut self, number: u64, field: super::wire::Field<'a>) -> Result<(), Damage> {
+    fn take(&mut self, number: u64, field: super::wire::WireField<'a>) -> Result<(), WireDamage> {
         match number {
-            2 => self.keys = Numbers(field.bytes()?),
-            3 => self.values = Numbers(field.bytes()?),
+            2 => self.keys = Varints(field.bytes()?),
+            3 => self.values = Varints(field.bytes()?),
             _ => {}
         }
         Ok(())
     }
 
-    fn read(mut self, tags: &mut Vec<TagNumbers>) -> Result<(), Damage> {
+    fn read(mut self, tags: &mut Vec<TagNumbers>) -> Result<(), WireDamage> {
         tags.clear();
         while let Some(key) = self.keys.next()? {
             let value = self.values.next()?.ok_or("has a key without a value")?;

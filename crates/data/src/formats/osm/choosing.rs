@@ -2,17 +2,17 @@
 
 use rustc_hash::{FxHashMap, FxHashSet};
 
-use super::block::{Block, TagNumbers, Visited, Visitor, WantedTags};
+use super::block::{OsmBlock, TagNumbers, VisitResult, Visitor, WantedTags};
 use super::layers::{ReadyLayer, is_area};
 use super::places::Place;
 use super::shapes::{Record, Shape};
-use super::wire::{Deltas, Numbers};
+use super::wire::{Deltas, Varints};
 use crate::tags::TagFilter;
 use crate::{GeometryKind, SourceOptions};
 use burgeon_base::budget::Budget;
 
 /// What is wanted of an extract.
-pub(super) struct Choice {
+pub(super) struct TagChoice {
     /// What tags have to be: all of these hold.
     filters: Vec<TagFilter>,
     /// Keys of which a feature has one; none if any feature may be meant.
@@ -23,7 +23,7 @@ pub(super) struct Choice {
     by_tags: bool,
 }
 
-impl Choice {
+impl TagChoice {
     pub(super) fn new(layer: Option<&ReadyLayer>, wanted: &SourceOptions) -> Self {
         let filters: Vec<TagFilter> =
             layer.map(ReadyLayer::filter).into_iter().chain(wanted.tags.clone()).collect();
@@ -40,8 +40,8 @@ impl Choice {
 }
 
 /// Looks for what is chosen.
-pub(super) struct Choosing<'c> {
-    pub(super) choice: &'c Choice,
+pub(super) struct TagSearch<'c> {
+    pub(super) choice: &'c TagChoice,
     pub(super) budget: &'c Budget,
     /// Which texts of the block are keys of which a feature has one.
     pub(super) class: Option<Vec<usize>>,
@@ -49,19 +49,19 @@ pub(super) struct Choosing<'c> {
 }
 
 /// Fails if reading is to end.
-fn told_to_go_on(budget: &Budget) -> Visited<()> {
+fn told_to_go_on(budget: &Budget) -> VisitResult<()> {
     budget.tick().map_err(|_| "takes too much")
 }
 
 /// The value of a key among tags.
-fn value_of<'b>(block: &Block<'b>, tags: &[TagNumbers], key: &str) -> Option<&'b [u8]> {
+fn value_of<'b>(block: &OsmBlock<'b>, tags: &[TagNumbers], key: &str) -> Option<&'b [u8]> {
     let found = tags.iter().find(|(number, _)| block.string(*number) == Ok(key.as_bytes()));
     found.and_then(|(_, value)| block.string(*value).ok())
 }
 
-impl Choosing<'_> {
+impl TagSearch<'_> {
     /// The alternative that holds for tags, if they are chosen.
-    fn chosen(&self, block: &Block<'_>, tags: &[TagNumbers]) -> Visited<Option<usize>> {
+    fn chosen(&self, block: &OsmBlock<'_>, tags: &[TagNumbers]) -> VisitResult<Option<usize>> {
         told_to_go_on(self.budget)?;
         if let Some(class) = &self.class
             && !tags.iter().any(|(key, _)| class.get(*key).is_some_and(|class| *class > 0))
@@ -79,10 +79,10 @@ impl Choosing<'_> {
 
     fn take(
         &mut self,
-        block: &Block<'_>,
+        block: &OsmBlock<'_>,
         (id, tags, alternative): (i64, &[TagNumbers], usize),
         shape: Shape,
-    ) -> Visited<()> {
+    ) -> VisitResult<()> {
         let mut taken = Vec::with_capacity(tags.len());
         let mut weight = 100 + 8 * (shape.nodes().len() + shape.ways().len());
         for (key, value) in tags {
@@ -97,12 +97,12 @@ impl Choosing<'_> {
     }
 }
 
-impl Visitor for Choosing<'_> {
+impl Visitor for TagSearch<'_> {
     fn wants_nodes(&self) -> Option<WantedTags> {
         self.choice.wants(GeometryKind::Point).then_some(WantedTags::All)
     }
 
-    fn node(&mut self, block: &Block<'_>, id: i64, place: Place, tags: &[TagNumbers]) -> Visited<()> {
+    fn node(&mut self, block: &OsmBlock<'_>, id: i64, place: Place, tags: &[TagNumbers]) -> VisitResult<()> {
         // Most nodes are nothing but places of ways.
         if tags.is_empty() {
             return told_to_go_on(self.budget);
@@ -113,7 +113,13 @@ impl Visitor for Choosing<'_> {
         }
     }
 
-    fn way(&mut self, block: &Block<'_>, id: i64, tags: &[TagNumbers], nodes: Deltas<'_>) -> Visited<()> {
+    fn way(
+        &mut self,
+        block: &OsmBlock<'_>,
+        id: i64,
+        tags: &[TagNumbers],
+        nodes: Deltas<'_>,
+    ) -> VisitResult<()> {
         let (lines, areas) =
             (self.choice.wants(GeometryKind::Line), self.choice.wants(GeometryKind::Polygon));
         if !(lines || areas) {
@@ -137,11 +143,11 @@ impl Visitor for Choosing<'_> {
 
     fn relation(
         &mut self,
-        block: &Block<'_>,
+        block: &OsmBlock<'_>,
         id: i64,
         tags: &[TagNumbers],
-        (mut members, mut types): (Deltas<'_>, Numbers<'_>),
-    ) -> Visited<()> {
+        (mut members, mut types): (Deltas<'_>, Varints<'_>),
+    ) -> VisitResult<()> {
         let kind = value_of(block, tags, "type");
         if !self.choice.wants(GeometryKind::Polygon) || !matches!(kind, Some(b"multipolygon" | b"boundary")) {
             return Ok(());
@@ -159,7 +165,7 @@ impl Visitor for Choosing<'_> {
 }
 
 /// All of some numbers.
-fn all(mut deltas: Deltas<'_>) -> Visited<Vec<i64>> {
+fn all(mut deltas: Deltas<'_>) -> VisitResult<Vec<i64>> {
     let mut numbers = Vec::new();
     while let Some(number) = deltas.next()? {
         numbers.push(number);
@@ -168,14 +174,14 @@ fn all(mut deltas: Deltas<'_>) -> Visited<Vec<i64>> {
 }
 
 /// Looks for ways by their ids.
-pub(super) struct Members<'w> {
+pub(super) struct WaySearch<'w> {
     pub(super) wanted: &'w FxHashSet<i64>,
     pub(super) found: Vec<(i64, Vec<i64>)>,
     pub(super) budget: &'w Budget,
 }
 
-impl Visitor for Members<'_> {
-    fn way(&mut self, _: &Block<'_>, id: i64, _: &[TagNumbers], nodes: Deltas<'_>) -> Visited<()> {
+impl Visitor for WaySearch<'_> {
+    fn way(&mut self, _: &OsmBlock<'_>, id: i64, _: &[TagNumbers], nodes: Deltas<'_>) -> VisitResult<()> {
         told_to_go_on(self.budget)?;
         if self.wanted.contains(&id) {
             let nodes = all(nodes)?;
@@ -187,18 +193,18 @@ impl Visitor for Members<'_> {
 }
 
 /// Looks for places of nodes by their ids.
-pub(super) struct Places<'w> {
+pub(super) struct PlaceSearch<'w> {
     pub(super) wanted: &'w FxHashSet<i64>,
     pub(super) found: Vec<(i64, Place)>,
     pub(super) budget: &'w Budget,
 }
 
-impl Visitor for Places<'_> {
+impl Visitor for PlaceSearch<'_> {
     fn wants_nodes(&self) -> Option<WantedTags> {
         Some(WantedTags::None)
     }
 
-    fn node(&mut self, _: &Block<'_>, id: i64, place: Place, _: &[TagNumbers]) -> Visited<()> {
+    fn node(&mut self, _: &OsmBlock<'_>, id: i64, place: Place, _: &[TagNumbers]) -> VisitResult<()> {
         told_to_go_on(self.budget)?;
         if self.wanted.contains(&id) {
             self.found.push((id, place));

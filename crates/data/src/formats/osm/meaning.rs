@@ -4,7 +4,7 @@
 
 /// What a value is read as.
 #[derive(Clone, Copy, PartialEq)]
-enum Meaning {
+enum TagMeaning {
     /// A length (m).
     Length,
     /// A number of something.
@@ -16,36 +16,36 @@ enum Meaning {
 }
 
 /// Names of attributes, the keys whose values they are, of which the first that is there counts, and what these mean.
-const NAMES: [(&str, &[&str], Meaning); 20] = [
-    ("height", &["height", "building:height", "est_height"], Meaning::Length),
-    ("min_height", &["min_height", "building:min_height"], Meaning::Length),
-    ("levels", &["building:levels", "levels"], Meaning::Count),
-    ("min_level", &["building:min_level", "min_level"], Meaning::Count),
-    ("roof_shape", &["roof:shape", "building:roof:shape"], Meaning::Text),
-    ("roof_height", &["roof:height", "building:roof:height"], Meaning::Length),
-    ("roof_levels", &["roof:levels", "building:roof:levels"], Meaning::Count),
-    ("roof_angle", &["roof:angle"], Meaning::Count),
-    ("roof_direction", &["roof:direction"], Meaning::Bearing),
-    ("roof_orientation", &["roof:orientation"], Meaning::Text),
-    ("roof_colour", &["roof:colour", "roof:color", "building:roof:colour"], Meaning::Text),
-    ("roof_material", &["roof:material", "building:roof:material"], Meaning::Text),
+const NAMES: [(&str, &[&str], TagMeaning); 20] = [
+    ("height", &["height", "building:height", "est_height"], TagMeaning::Length),
+    ("min_height", &["min_height", "building:min_height"], TagMeaning::Length),
+    ("levels", &["building:levels", "levels"], TagMeaning::Count),
+    ("min_level", &["building:min_level", "min_level"], TagMeaning::Count),
+    ("roof_shape", &["roof:shape", "building:roof:shape"], TagMeaning::Text),
+    ("roof_height", &["roof:height", "building:roof:height"], TagMeaning::Length),
+    ("roof_levels", &["roof:levels", "building:roof:levels"], TagMeaning::Count),
+    ("roof_angle", &["roof:angle"], TagMeaning::Count),
+    ("roof_direction", &["roof:direction"], TagMeaning::Bearing),
+    ("roof_orientation", &["roof:orientation"], TagMeaning::Text),
+    ("roof_colour", &["roof:colour", "roof:color", "building:roof:colour"], TagMeaning::Text),
+    ("roof_material", &["roof:material", "building:roof:material"], TagMeaning::Text),
     (
         "colour",
         &["building:colour", "building:color", "building:facade:colour", "colour", "color"],
-        Meaning::Text,
+        TagMeaning::Text,
     ),
-    ("material", &["building:material", "building:facade:material", "material"], Meaning::Text),
-    ("width", &["width", "est_width"], Meaning::Length),
-    ("lanes", &["lanes"], Meaning::Count),
-    ("circumference", &["circumference"], Meaning::Length),
-    ("diameter_crown", &["diameter_crown"], Meaning::Length),
-    ("depth", &["depth"], Meaning::Length),
-    ("direction", &["direction"], Meaning::Bearing),
+    ("material", &["building:material", "building:facade:material", "material"], TagMeaning::Text),
+    ("width", &["width", "est_width"], TagMeaning::Length),
+    ("lanes", &["lanes"], TagMeaning::Count),
+    ("circumference", &["circumference"], TagMeaning::Length),
+    ("diameter_crown", &["diameter_crown"], TagMeaning::Length),
+    ("depth", &["depth"], TagMeaning::Length),
+    ("direction", &["direction"], TagMeaning::Bearing),
 ];
 
 /// What tags mean under a name.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) enum Told<'v> {
+pub(super) enum TagValue<'v> {
     /// A number.
     Number(f64),
     /// A text.
@@ -57,19 +57,19 @@ pub(super) enum Told<'v> {
 /// What tags mean, name by name; `value` gives the value of a key.
 pub(super) fn told<'v>(
     value: impl Fn(&str) -> Option<&'v str>,
-) -> impl Iterator<Item = (&'static str, Told<'v>)> {
+) -> impl Iterator<Item = (&'static str, TagValue<'v>)> {
     NAMES.iter().filter_map(move |(name, keys, meaning)| {
         let text = keys.iter().find_map(|key| value(key))?;
         let number = match meaning {
-            Meaning::Text => return Some((*name, Told::Text(text))),
-            Meaning::Length => length(text),
-            Meaning::Count => count(text),
-            Meaning::Bearing => bearing(text),
+            TagMeaning::Text => return Some((*name, TagValue::Text(text))),
+            TagMeaning::Length => length(text),
+            TagMeaning::Count => count(text),
+            TagMeaning::Bearing => bearing(text),
         };
         Some(match number {
-            Some(number) => (*name, Told::Number(number)),
-            None if *meaning == Meaning::Bearing => (*name, Told::Text(text)),
-            None => (*name, Told::Unread(text)),
+            Some(number) => (*name, TagValue::Number(number)),
+            None if *meaning == TagMeaning::Bearing => (*name, TagValue::Text(text)),
+            None => (*name, TagValue::Unread(text)),
         })
     })
 }
@@ -204,11 +204,11 @@ mod tests {
         ];
         let told: Vec<_> = told(|key| tags.iter().find(|tag| tag.0 == key).map(|tag| tag.1)).collect();
         let expected = [
-            ("height", Told::Unread("tall")),
-            ("levels", Told::Number(3.0)),
-            ("roof_shape", Told::Text("gabled")),
-            ("colour", Told::Text("red")),
-            ("direction", Told::Text("forward")),
+            ("height", TagValue::Unread("tall")),
+            ("levels", TagValue::Number(3.0)),
+            ("roof_shape", TagValue::Text("gabled")),
+            ("colour", TagValue::Text("red")),
+            ("direction", TagValue::Text("forward")),
         ];
         assert_eq!(told, expected);
     }

@@ -7,12 +7,12 @@ use rayon::prelude::*;
 use rustc_hash::{FxHashMap, FxHashSet};
 
 use super::blobs::{BlobFile, is_extract};
-use super::block::{Block, Holds, Visitor};
-use super::choosing::{Choice, Choosing, Members, Places};
+use super::block::{Holds, OsmBlock, Visitor};
+use super::choosing::{PlaceSearch, TagChoice, TagSearch, WaySearch};
 use super::layers::{LAYERS, ReadyLayer};
-use super::meaning::{Told, told};
+use super::meaning::{TagValue, told};
 use super::places::Place;
-use super::shapes::{Built, Record, build};
+use super::shapes::{BuildResult, Record, build};
 use crate::{Attribute, Crs, FeatureTable, SourceOptions};
 use burgeon_base::budget::Budget;
 use burgeon_base::error::{Error, Result};
@@ -70,23 +70,23 @@ impl OsmFile {
         };
         let title = layer.map_or(&*self.stem, |layer| layer.name);
         let mut table = FeatureTable::new(title, &label, Crs::epsg(4326), wanted);
-        let choice = Choice::new(layer, wanted);
+        let choice = TagChoice::new(layer, wanted);
         let records = self.records(&choice, &wanted.budget)?;
         let ways = self.member_ways(&records, &wanted.budget)?;
         let places = self.places(&records, &ways, &wanted.budget)?;
         let build = |record: &Record| build(record, &ways, &places, &wanted.budget);
-        let built: Vec<Built> = records.par_iter().map(build).collect();
+        let built: Vec<BuildResult> = records.par_iter().map(build).collect();
         self.fill(&mut table, layer, records, built, wanted)?;
         Ok(table)
     }
 
     /// What is chosen, in the order of the file.
-    fn records(&self, choice: &Choice, budget: &Budget) -> Result<Vec<Record>> {
+    fn records(&self, choice: &TagChoice, budget: &Budget) -> Result<Vec<Record>> {
         let found = (0..self.blobs.len()).into_par_iter().map(|index| {
             self.blobs.block(index, budget, |bytes| {
-                let block = Block::open(bytes)?;
+                let block = OsmBlock::open(bytes)?;
                 let class = choice.words.as_ref().map(|words| block.numbered(words));
-                let mut choosing = Choosing { choice, budget, class, records: Vec::new() };
+                let mut choosing = TagSearch { choice, budget, class, records: Vec::new() };
                 block.visit(&mut choosing)?;
                 Ok(choosing.records)
             })
@@ -104,7 +104,7 @@ impl OsmFile {
         let found = self.collect(
             budget,
             |holds| holds.ways,
-            || Members { wanted: &wanted, found: Vec::new(), budget },
+            || WaySearch { wanted: &wanted, found: Vec::new(), budget },
         )?;
         // Of what stands there twice, the first counts.
         let mut ways = FxHashMap::default();
@@ -133,7 +133,7 @@ impl OsmFile {
         let found = self.collect(
             budget,
             |holds| holds.nodes,
-            || Places { wanted: &wanted, found: Vec::new(), budget },
+            || PlaceSearch { wanted: &wanted, found: Vec::new(), budget },
         )?;
         let mut places = FxHashMap::with_capacity_and_hasher(wanted.len(), Default::default());
         for (id, place) in found.into_iter().flat_map(|places| places.found) {
@@ -151,7 +151,7 @@ impl OsmFile {
     ) -> Result<Vec<V>> {
         let visit = |index| {
             self.blobs.block(index, budget, |bytes| {
-                let (block, mut visitor) = (Block::open(bytes)?, visitor());
+                let (block, mut visitor) = (OsmBlock::open(bytes)?, visitor());
                 if holds(block.holds()?) {
                     block.visit(&mut visitor)?;
                 }
@@ -167,7 +167,7 @@ impl OsmFile {
         table: &mut FeatureTable,
         layer: Option<&ReadyLayer>,
         records: Vec<Record>,
-        built: Vec<Built>,
+        built: Vec<BuildResult>,
         wanted: &SourceOptions,
     ) -> Result<()> {
         let mut cut = 0;
@@ -220,9 +220,9 @@ impl OsmFile {
         };
         let mut plain: Vec<(&str, Option<Attribute>)> = told(value)
             .map(|(name, told)| match told {
-                Told::Number(number) => (name, Some(Attribute::Number(number))),
-                Told::Text(text) => (name, Some(table.text(text))),
-                Told::Unread(text) => {
+                TagValue::Number(number) => (name, Some(Attribute::Number(number))),
+                TagValue::Text(text) => (name, Some(table.text(text))),
+                TagValue::Unread(text) => {
                     unread(name, text);
                     (name, None)
                 }

@@ -171,8 +171,8 @@ impl Graph {
     }
 
     /// Which walks have the inside to their left, and what they are parts of.
-    fn inside(&self, walks: &Walks, budget: &Budget) -> Result<Vec<Side>, String> {
-        let mut sides: Vec<Option<Side>> = vec![None; walks.begins.len()];
+    fn inside(&self, walks: &Walks, budget: &Budget) -> Result<Vec<WalkSide>, String> {
+        let mut sides: Vec<Option<WalkSide>> = vec![None; walks.begins.len()];
         for first in 0..walks.begins.len() {
             if sides[first].is_some() {
                 continue;
@@ -185,7 +185,7 @@ impl Graph {
                 if sides[walk].is_some() {
                     continue;
                 }
-                sides[walk] = Some(Side { is_inside, component });
+                sides[walk] = Some(WalkSide { is_inside, component });
                 members.push(walk);
                 for edge in self.walk(walks.begins[walk]) {
                     told(budget)?;
@@ -220,7 +220,12 @@ impl Graph {
     }
 
     /// The polygons that the walks with the inside to their left are the borders of.
-    fn polygons(&self, walks: &Walks, sides: &[Side], budget: &Budget) -> Result<Vec<PolygonRings>, String> {
+    fn polygons(
+        &self,
+        walks: &Walks,
+        sides: &[WalkSide],
+        budget: &Budget,
+    ) -> Result<Vec<PolygonRings>, String> {
         let (mut polygons, mut loose): (Vec<PolygonRings>, Vec<Vec<Place>>) = (Vec::new(), Vec::new());
         for (begin, side) in walks.begins.iter().zip(sides) {
             told(budget)?;
@@ -295,7 +300,7 @@ struct Walks {
 
 /// What lies to the left of a walk.
 #[derive(Clone, Copy)]
-struct Side {
+struct WalkSide {
     is_inside: bool,
     /// The number of the connected borders that it belongs to.
     component: usize,

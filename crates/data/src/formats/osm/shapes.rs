@@ -8,7 +8,7 @@ use crate::Geometry;
 use burgeon_base::budget::Budget;
 
 /// What the tags of a feature are.
-pub(super) type Tags = Vec<(String, String)>;
+pub(super) type TagTexts = Vec<(String, String)>;
 
 /// What was chosen.
 pub(super) struct Record {
@@ -17,7 +17,7 @@ pub(super) struct Record {
     /// What its geometry is made of.
     pub(super) shape: Shape,
     /// Its tags.
-    pub(super) tags: Tags,
+    pub(super) tags: TagTexts,
     /// The alternative of the filter that held.
     pub(super) alternative: usize,
 }
@@ -35,7 +35,7 @@ pub(super) enum Shape {
 }
 
 /// What comes of a shape: its parts, and whether it lacks nodes.
-pub(super) type Built = Result<(Vec<Geometry>, bool), String>;
+pub(super) type BuildResult = Result<(Vec<Geometry>, bool), String>;
 
 impl Record {
     /// The feature's id, as OpenStreetMap's pages have it.
@@ -73,7 +73,7 @@ pub(super) fn build(
     ways: &FxHashMap<i64, Vec<i64>>,
     places: &FxHashMap<i64, Place>,
     budget: &Budget,
-) -> Built {
+) -> BuildResult {
     match &record.shape {
         Shape::Point(place) => Ok((vec![Geometry::point(place.degrees())], false)),
         Shape::Line(nodes) => lines(nodes, places),
@@ -113,7 +113,7 @@ fn all_places(nodes: &[i64], places: &FxHashMap<i64, Place>) -> Result<Vec<Place
 }
 
 /// The lines that there are between nodes of which some may be missing.
-fn lines(nodes: &[i64], places: &FxHashMap<i64, Place>) -> Built {
+fn lines(nodes: &[i64], places: &FxHashMap<i64, Place>) -> BuildResult {
     let known: Vec<Option<Place>> = nodes.iter().map(|node| places.get(node).copied()).collect();
     let lacking = known.iter().filter(|place| place.is_none()).count();
     let mut parts = Vec::new();

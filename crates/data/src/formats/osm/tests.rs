@@ -58,7 +58,7 @@ fn deflated(bytes: &[u8], claimed: usize) -> Vec<u8> {
     [number(2, claimed as u64), message(3, &packed)].concat()
 }
 
-type Tags<'a> = &'a [(&'a str, &'a str)];
+type TagSlice<'a> = &'a [(&'a str, &'a str)];
 
 /// A file as it is made: its texts, and what goes into its groups.
 #[derive(Default)]
@@ -77,14 +77,14 @@ impl Extract {
         at as u64 + 1
     }
 
-    fn tags(&mut self, tags: Tags<'_>) -> Vec<u8> {
+    fn tags(&mut self, tags: TagSlice<'_>) -> Vec<u8> {
         let keys: Vec<u64> = tags.iter().map(|tag| self.text(tag.0)).collect();
         let values: Vec<u64> = tags.iter().map(|tag| self.text(tag.1)).collect();
         [numbers(2, keys), numbers(3, values)].concat()
     }
 
     /// Nodes with ids and places (ten-millionths of a degree) in one dense group; the last has tags.
-    fn nodes(mut self, nodes: &[(i64, i64, i64)], tags: Tags<'_>) -> Self {
+    fn nodes(mut self, nodes: &[(i64, i64, i64)], tags: TagSlice<'_>) -> Self {
         let list = |get: fn(&(i64, i64, i64)) -> i64| nodes.iter().map(get).collect::<Vec<_>>();
         let mut known: Vec<u64> = vec![0; nodes.len() - 1];
         for (key, value) in tags {
@@ -101,13 +101,13 @@ impl Extract {
         self
     }
 
-    fn way(mut self, id: i64, nodes: &[i64], tags: Tags<'_>) -> Self {
+    fn way(mut self, id: i64, nodes: &[i64], tags: TagSlice<'_>) -> Self {
         let way = [number(1, id as u64), self.tags(tags), deltas(8, nodes)].concat();
         self.groups.push(message(3, &way));
         self
     }
 
-    fn relation(mut self, id: i64, members: &[(u64, i64)], tags: Tags<'_>) -> Self {
+    fn relation(mut self, id: i64, members: &[(u64, i64)], tags: TagSlice<'_>) -> Self {
         let ids: Vec<i64> = members.iter().map(|member| member.1).collect();
         let types = numbers(10, members.iter().map(|member| member.0));
         let roles = numbers(8, members.iter().map(|_| 0));

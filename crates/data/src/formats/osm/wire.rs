@@ -3,22 +3,22 @@
 //! Source: Protocol Buffers, "Encoding".
 
 /// What is wrong with bytes.
-pub(super) type Damage = &'static str;
+pub(super) type WireDamage = &'static str;
 
-const ENDS: Damage = "ends too early";
+const ENDS: WireDamage = "ends too early";
 
 /// What a field holds.
 #[derive(Clone, Copy)]
-pub(super) enum Field<'a> {
+pub(super) enum WireField<'a> {
     /// A number.
     Number(u64),
     /// A text, a message or a list of numbers.
     Bytes(&'a [u8]),
 }
 
-impl<'a> Field<'a> {
+impl<'a> WireField<'a> {
     /// Its bytes; fails if it is a number.
-    pub(super) fn bytes(self) -> Result<&'a [u8], Damage> {
+    pub(super) fn bytes(self) -> Result<&'a [u8], WireDamage> {
         match self {
             Self::Bytes(bytes) => Ok(bytes),
             Self::Number(_) => Err("has a number where a message should be"),
@@ -26,7 +26,7 @@ impl<'a> Field<'a> {
     }
 
     /// Its number; fails if it is something else.
-    pub(super) fn number(self) -> Result<u64, Damage> {
+    pub(super) fn number(self) -> Result<u64, WireDamage> {
         match self {
             Self::Number(number) => Ok(number),
             Self::Bytes(_) => Err("has a message where a number should be"),
@@ -35,10 +35,10 @@ impl<'a> Field<'a> {
 }
 
 /// The fields of a message, each with its number.
-pub(super) struct Fields<'a>(pub(super) &'a [u8]);
+pub(super) struct WireFields<'a>(pub(super) &'a [u8]);
 
-impl<'a> Iterator for Fields<'a> {
-    type Item = Result<(u64, Field<'a>), Damage>;
+impl<'a> Iterator for WireFields<'a> {
+    type Item = Result<(u64, WireField<'a>), WireDamage>;
 
     fn next(&mut self) -> Option<Self::Item> {
         (!self.0.is_empty()).then(|| {
@@ -51,23 +51,23 @@ impl<'a> Iterator for Fields<'a> {
     }
 }
 
-impl<'a> Fields<'a> {
-    fn field(&mut self) -> Result<(u64, Field<'a>), Damage> {
+impl<'a> WireFields<'a> {
+    fn field(&mut self) -> Result<(u64, WireField<'a>), WireDamage> {
         let key = varint(&mut self.0)?;
         let field = match key & 7 {
-            0 => Field::Number(varint(&mut self.0)?),
-            1 => Field::Bytes(self.take(8)?),
+            0 => WireField::Number(varint(&mut self.0)?),
+            1 => WireField::Bytes(self.take(8)?),
             2 => {
                 let length = varint(&mut self.0)?;
-                Field::Bytes(self.take(length)?)
+                WireField::Bytes(self.take(length)?)
             }
-            5 => Field::Bytes(self.take(4)?),
+            5 => WireField::Bytes(self.take(4)?),
             _ => return Err("has a field of a type that is not known"),
         };
         Ok((key >> 3, field))
     }
 
-    fn take(&mut self, length: u64) -> Result<&'a [u8], Damage> {
+    fn take(&mut self, length: u64) -> Result<&'a [u8], WireDamage> {
         let length = usize::try_from(length).map_err(|_| ENDS)?;
         let (taken, rest) = self.0.split_at_checked(length).ok_or(ENDS)?;
         self.0 = rest;
@@ -77,7 +77,7 @@ impl<'a> Fields<'a> {
 
 /// Takes a number from the front of bytes.
 #[inline]
-fn varint(bytes: &mut &[u8]) -> Result<u64, Damage> {
+fn varint(bytes: &mut &[u8]) -> Result<u64, WireDamage> {
     let mut number = 0;
     for (at, byte) in bytes.iter().enumerate().take(10) {
         number |= u64::from(byte & 0x7f) << (7 * at);
@@ -97,12 +97,12 @@ pub(super) fn signed(number: u64) -> i64 {
 
 /// Numbers one behind the other.
 #[derive(Clone, Copy, Default)]
-pub(super) struct Numbers<'a>(pub(super) &'a [u8]);
+pub(super) struct Varints<'a>(pub(super) &'a [u8]);
 
-impl Numbers<'_> {
+impl Varints<'_> {
     /// The next number, if there is one.
     #[inline]
-    pub(super) fn next(&mut self) -> Result<Option<u64>, Damage> {
+    pub(super) fn next(&mut self) -> Result<Option<u64>, WireDamage> {
         if self.0.is_empty() { Ok(None) } else { varint(&mut self.0).map(Some) }
     }
 }
@@ -110,18 +110,18 @@ impl Numbers<'_> {
 /// Numbers of which each is told by how much it differs from the one before.
 #[derive(Clone, Copy, Default)]
 pub(super) struct Deltas<'a> {
-    numbers: Numbers<'a>,
+    numbers: Varints<'a>,
     last: i64,
 }
 
 impl<'a> Deltas<'a> {
     pub(super) fn new(bytes: &'a [u8]) -> Self {
-        Self { numbers: Numbers(bytes), last: 0 }
+        Self { numbers: Varints(bytes), last: 0 }
     }
 
     /// The next number, if there is one.
     #[inline]
-    pub(super) fn next(&mut self) -> Result<Option<i64>, Damage> {
+    pub(super) fn next(&mut self) -> Result<Option<i64>, WireDamage> {
         let Some(step) = self.numbers.next()? else { return Ok(None) };
         self.last = self.last.wrapping_add(signed(step));
         Ok(Some(self.last))
@@ -147,7 +147,7 @@ mod tests {
     #[test]
     fn a_field_that_claims_more_than_there_is_ends_the_message() {
         for bytes in [&[0x0a, 0x05, 1, 2][..], &[0x08], &[0x0b, 0], &[0x0a, 0xff, 0xff, 0xff, 0xff, 0xff]] {
-            let mut fields = Fields(bytes);
+            let mut fields = WireFields(bytes);
             assert!(matches!(fields.next(), Some(Err(_))), "{bytes:?}");
             assert!(fields.next().is_none());
         }
