@@ -21,7 +21,7 @@
 //! spatial    uses ──► base, geometry
 //! data       uses ──► base, spatial
 //! query      uses ──► base, data, geometry, spatial
-//! kit        uses ──► base, data, geometry, macros, scene
+//! kit        uses ──► base, data, geometry, macros, scene, spatial
 //! language   uses ──► kit
 //! terrain    uses ──► base, geometry, kit, scene
 //! objects    uses ──► base, data, geometry, kit, scene, terrain

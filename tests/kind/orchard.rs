@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use burgeon::Result;
 use burgeon::geometry::sphere;
 use burgeon::kit::{
-    Drawing, Expand, Expectation, FeatureShape, Features, Object, Parameter, Prefetch, Rewriter, Table,
+    Drawing, Expand, Expectation, Features, GeometryObject, Object, Parameter, Prefetch, Rewriter, Table,
     Value, Vector, methods, object,
 };
 use burgeon::scene::Material;
@@ -46,7 +46,7 @@ impl Parameter for Corners {
         let what = || Expectation::new("a feature's geometry");
         let Value::Object(object) = &value else { return Err(what()) };
         let any: &dyn Any = &**object;
-        any.downcast_ref::<FeatureShape>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
+        any.downcast_ref::<GeometryObject>().map(|shape| Self::of(shape.geometry())).ok_or_else(what)
     }
 
     fn into_value(self) -> Value {
@@ -155,7 +155,7 @@ impl Orchard {
 fn prefetched(table: &Table) -> Option<DVec3> {
     let Some(Value::Object(object)) = table.get("geometry") else { return None };
     let any: &dyn Any = &**object;
-    let (prefetch, number) = any.downcast_ref::<FeatureShape>()?.prefetch()?;
+    let (prefetch, number) = any.downcast_ref::<GeometryObject>()?.prefetch()?;
     let any: &dyn Any = prefetch;
     LOOKED_FOR.fetch_add(1, Ordering::Relaxed);
     any.downcast_ref::<Middles>()?.middles.get(number)?.get().copied()

@@ -22,7 +22,7 @@ pub struct Kind {
     pub doc: Text,
     /// How a script uses it; empty where nothing is to be said.
     pub example: Text,
-    /// What its constructor takes.
+    /// What its constructor takes; of what something else gives, what scripts read of it.
     pub fields: Vec<Field>,
     /// The field that may be given before the table, as `geometry` in `footprint(geometry, { ... })`.
     pub first: Option<Text>,
@@ -232,6 +232,12 @@ impl Kind {
     ) -> Self {
         let make = move |table: &Table| make(table).map(|made| Box::new(made) as Box<dyn Object>);
         Self { fields, construct: Construct::Fields(Arc::new(make)), ..self }
+    }
+
+    /// Is given by something else, and has these fields, which scripts read.
+    #[must_use]
+    pub fn has(self, fields: Vec<Field>) -> Self {
+        Self { fields, ..self }
     }
 
     /// Will do without `name`, a field or a method, or empty for the type itself: scripts that use it are told that

@@ -2,7 +2,7 @@
 //!
 //! Comes in: values from scripts. Goes out: [`Kind`]s in a [`Registry`], [`Object`]s with their drawings, and a
 //! [`Grammar`](rules::Grammar) with the chains that it matches. It never knows a virtual machine, nor a type of
-//! object but the [`Model`], which is what a system has drawn.
+//! object but the [`Model`], which is what a system has drawn, and the [`GeometryObject`], which is a value.
 
 extern crate self as burgeon_kit;
 
@@ -16,6 +16,7 @@ mod distance;
 mod drawing;
 mod features;
 mod fields;
+mod geometry;
 mod kind;
 mod loading;
 mod makers;
@@ -39,8 +40,9 @@ pub use capability::{Capability, Draw, Expand, Gather, LevelOfDetail, Report, Sh
 pub use color::Color;
 pub use column_value::ColumnValue;
 pub use drawing::Drawing;
-pub use features::{FeatureShape, Features};
+pub use features::Features;
 pub use fields::{Fields, TableOf};
+pub use geometry::{Constructor, GeometryObject, Path, Shape, constructors};
 pub use kind::{
     Argument, Call, Construct, Deprecation, Field, Kind, Make, Method, ReadCall, Write, WriteNumbers,
 };

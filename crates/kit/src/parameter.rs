@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{ColumnValue, Field, Object, Table, TableKey, Value};
+use super::{ColumnValue, Field, Object, Table, TableKey, Value, geometry};
 use burgeon_base::error::{Error, Result};
 
 /// What was expected instead of a value, such as "a positive whole number".
@@ -146,6 +146,16 @@ macro_rules! answers {
 }
 
 answers!(f64, u32, bool, String, DVec3, Vec<f64>, Value);
+
+impl<T: Answer> Answer for Option<T> {
+    fn luau() -> String {
+        format!("{}?", T::luau())
+    }
+
+    fn answer(self) -> Result<Value> {
+        self.map_or(Ok(Value::Nil), T::answer)
+    }
+}
 
 /// The object of type `T` that a value is; otherwise `what` was expected.
 pub fn object<T: Object>(value: Value, what: &str) -> Result<Arc<T>, Expectation> {
@@ -384,6 +394,9 @@ impl Parameter for Vector {
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
         let what = || Expectation::new("a vector: { x, y, z } or vec(x, y, z)");
+        if let Some(place) = geometry::vector(&value) {
+            return Ok(place);
+        }
         let Value::Table(table) = value else { return Err(what()) };
         let mut parts = table.list();
         if parts.is_empty() {

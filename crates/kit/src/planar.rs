@@ -4,20 +4,17 @@ use std::sync::Arc;
 
 use glam::DVec3;
 
-use super::{Expectation, FeatureShape, Features, Parameter, Value, Vector};
+use super::{Expectation, Features, GeometryObject, Parameter, Value, Vector};
 use burgeon_data::Geometry;
 use burgeon_geometry::{Line, Rings};
 
-impl FeatureShape {
-    /// The rings of its geometry, if that is a polygon.
-    pub fn rings(&self) -> Option<&Rings> {
-        rings(self.geometry())
-    }
-}
-
 /// The rings of a geometry, if it is a polygon.
 pub fn rings(geometry: &Geometry) -> Option<&Rings> {
-    if let Geometry::Polygon(rings) = geometry { Some(rings) } else { None }
+    match geometry {
+        Geometry::Polygon(rings) => Some(rings),
+        Geometry::MultiPolygon(polygons) if polygons.len() == 1 => polygons.first(),
+        _ => None,
+    }
 }
 
 /// Points as scripts have them.
@@ -31,7 +28,7 @@ fn places(vectors: Vec<Vector>) -> Vec<DVec3> {
 
 impl Parameter for Rings {
     fn luau() -> String {
-        "Geometry".into()
+        "Geometry | { any }".into()
     }
 
     fn from_value(value: Value) -> Result<Self, Expectation> {
@@ -45,9 +42,8 @@ impl Parameter for Rings {
         let table = match &value {
             Value::Table(table) => table,
             Value::Object(object) => {
-                let any: &dyn std::any::Any = &**object;
-                let shape = any.downcast_ref::<FeatureShape>().ok_or_else(what)?;
-                return shape.rings().cloned().ok_or_else(|| not_this(shape.geometry().kind().name()));
+                let geometry = GeometryObject::of(&**object).ok_or_else(what)?;
+                return rings(geometry).cloned().ok_or_else(|| not_this(geometry.kind().name()));
             }
             _ => return Err(what()),
         };
@@ -108,8 +104,8 @@ impl Lines {
         match value {
             Value::Object(object) => {
                 let any: &dyn std::any::Any = &*object;
-                if let Some(shape) = any.downcast_ref::<FeatureShape>() {
-                    self.add(shape.geometry());
+                if let Some(geometry) = GeometryObject::of(&*object) {
+                    self.add(geometry);
                     return Ok(());
                 }
                 let features = any.downcast_ref::<Features>().ok_or_else(what)?;

@@ -4,7 +4,10 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::sync::Arc;
 
-use super::Object;
+use super::{GeometryObject, Object};
+
+/// About how many letters of a geometry are shown.
+const SHORT: usize = 60;
 
 /// A number, a boolean, a string, a frozen table or an object.
 #[derive(Clone)]
@@ -49,7 +52,11 @@ impl PartialEq for Value {
             (Self::Number(a), Self::Number(b)) => a.to_bits() == b.to_bits(),
             (Self::Text(a), Self::Text(b)) => a == b,
             (Self::Table(a), Self::Table(b)) => a == b,
-            (Self::Object(a), Self::Object(b)) => Arc::ptr_eq(a, b),
+            (Self::Object(a), Self::Object(b)) => {
+                // Geometries are values.
+                let same = || Some(GeometryObject::of(&**a)? == GeometryObject::of(&**b)?);
+                Arc::ptr_eq(a, b) || same().unwrap_or(false)
+            }
             _ => false,
         }
     }
@@ -66,7 +73,10 @@ impl Hash for Value {
             Self::Number(value) => value.to_bits().hash(state),
             Self::Text(value) => value.hash(state),
             Self::Table(value) => value.hash(state),
-            Self::Object(value) => Arc::as_ptr(value).cast::<()>().hash(state),
+            Self::Object(value) => match GeometryObject::of(&**value) {
+                Some(geometry) => GeometryObject::hash(geometry, state),
+                None => Arc::as_ptr(value).cast::<()>().hash(state),
+            },
         }
     }
 }
@@ -119,7 +129,10 @@ impl fmt::Display for Value {
             Self::Boolean(value) => write!(f, "{value}"),
             Self::Number(value) => write_number(*value, f),
             Self::Text(value) => write!(f, "{value:?}"),
-            Self::Object(value) => f.write_str(&value.kind().name),
+            Self::Object(value) => match GeometryObject::of(&**value) {
+                Some(geometry) => f.write_str(&geometry.to_short_wkt(SHORT)),
+                None => f.write_str(&value.kind().name),
+            },
             Self::Table(table) => {
                 f.write_str(table.class.as_deref().unwrap_or_default())?;
                 f.write_str("{")?;

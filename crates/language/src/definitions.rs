@@ -195,6 +195,12 @@ impl Writer {
         let own = kind.luau();
         self.doc(out, &format!("globaltype/{own}"), &kind.doc, "");
         let _ = writeln!(out, "declare class {own} extends {}", kind.family.as_deref().unwrap_or("Object"));
+        let read = if matches!(kind.construct, Construct::Given) { &kind.fields[..] } else { &[] };
+        for field in read {
+            self.doc(out, &format!("globaltype/{own}.{}", field.name), &field.doc, "  ");
+            let luau = self.got(field.luau.trim_end_matches('?'));
+            let _ = writeln!(out, "  {}: {luau}", field.name);
+        }
         for method in &kind.methods {
             self.doc(out, &format!("globaltype/{own}.{}", method.name), &method.doc, "  ");
             self.options = format!("{own}{}Options", capital(&method.name));

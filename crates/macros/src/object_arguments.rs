@@ -11,9 +11,9 @@ use crate::attribute::AttributeArguments;
 /// The verbs of a kind that take the type.
 const CAPABILITIES: [&str; 5] = ["draws", "expands", "has_detail", "reports", "shows"];
 /// The verbs of a kind that take a value.
-const VALUES: [&str; 4] = ["example", "first", "gathers", "prefetches"];
+const VALUES: [&str; 5] = ["example", "first", "gathers", "has", "prefetches"];
 /// Everything, for messages.
-const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has_detail, loader, make, options, \
+const ALL: &str = "begins_empty, crate, deprecates, draws, example, expands, first, gathers, given, has, has_detail, loader, make, options, \
                    prefetches, reports, shows";
 
 /// What stands in the attribute.

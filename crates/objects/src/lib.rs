@@ -31,7 +31,7 @@ pub use universe::Universe;
 
 use std::sync::Arc;
 
-use burgeon_kit::Registry;
+use burgeon_kit::{GeometryObject, Registry};
 
 /// The types that come with Burgeon.
 pub fn registry() -> Registry {
@@ -39,6 +39,7 @@ pub fn registry() -> Registry {
     let own = [
         Extruder::kind(),
         Footprint::kind(),
+        GeometryObject::kind(),
         Planet::kind(),
         LineIndex::kind(),
         Terrain::kind(),
@@ -58,6 +59,6 @@ mod tests {
     #[test]
     fn no_type_is_left_out_for_its_name() {
         super::registry().check().expect("each has a name of its own");
-        assert_eq!(super::registry().kinds().count(), 12 + super::facade::kinds().len());
+        assert_eq!(super::registry().kinds().count(), 13 + super::facade::kinds().len());
     }
 }

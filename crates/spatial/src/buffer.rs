@@ -2,11 +2,11 @@
 
 use burgeon_base::error::{Error, Result};
 use geo::buffer::{Buffer, BufferStyle, LineCap, LineJoin};
-use geo::{BooleanOps, unary_union};
+use geo::unary_union;
 
 use super::Geometry;
 use super::edges::with_heights;
-use super::overlay::FILL;
+use super::overlay::dissolved;
 use super::plane::Plane;
 
 /// What a buffer's border does at corners.
@@ -80,10 +80,9 @@ impl Geometry {
                 .help("8 are 1 % from a circle's area"));
         }
         let plane = Plane::of(&[self]);
-        let areas = plane.polygons(self);
+        let areas = dissolved(plane.polygons(self));
         if distance == 0.0 {
-            let none = geo::MultiPolygon::new(Vec::new());
-            return Ok(with_heights(plane.areas(&areas.union_with_fill_rule(&none, FILL)), &[self]));
+            return Ok(with_heights(plane.areas(&areas), &[self]));
         }
         let style = || {
             let angle = std::f64::consts::FRAC_PI_2 / f64::from(options.quadrant_segments);
@@ -99,12 +98,20 @@ impl Geometry {
             };
             BufferStyle::new(distance).line_join(join).line_cap(cap)
         };
-        let parts: Vec<geo::MultiPolygon> = self
-            .parts()
-            .iter()
-            .filter(|part| distance > 0.0 || part.dimension() == 2)
-            .map(|part| plane.geo(part).buffer_with_style(style()))
-            .collect();
+        let mut parts = Vec::new();
+        if !areas.0.is_empty() {
+            parts.push(areas.buffer_with_style(style()));
+        }
+        if distance > 0.0 && self.is_sound() {
+            let thin = self.parts().into_iter().filter(|part| part.dimension() < 2);
+            parts.extend(thin.map(|part| match part {
+                // A line without length is its place.
+                Geometry::Line(line) if line.iter().all(|point| point.truncate() == line[0].truncate()) => {
+                    geo::Point(plane.coord(line[0])).buffer_with_style(style())
+                }
+                part => plane.geo(&part).buffer_with_style(style()),
+            }));
+        }
         let whole = match &parts[..] {
             [only] => only.clone(),
             parts => unary_union(parts),

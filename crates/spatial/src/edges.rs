@@ -70,16 +70,20 @@ impl EdgeTree {
 
     /// The point on the edges that is nearest to a place; of several, that on the edge that comes first. None of none.
     pub(crate) fn nearest(&self, place: DVec2) -> Option<DVec3> {
+        self.nearest_edge(place).map(|(_, nearest)| nearest)
+    }
+
+    /// The edge that it is on, and that point.
+    pub(crate) fn nearest_edge(&self, place: DVec2) -> Option<(Edge, DVec3)> {
         let place_array = place.to_array();
         let mut near = self.0.nearest_neighbor_iter_with_distance_2(&place_array);
         let (mut best, least) = near.next()?;
-        for (edge, distance) in near.take_while(|(_, distance)| *distance <= least) {
-            debug_assert!(distance <= least);
+        for (edge, _) in near.take_while(|(_, distance)| *distance <= least) {
             if edge.number < best.number {
                 best = edge;
             }
         }
-        Some(best.nearest(place))
+        Some((*best, best.nearest(place)))
     }
 }
 

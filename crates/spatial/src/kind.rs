@@ -1,7 +1,7 @@
 //! Kinds of geometry.
 
 /// The kinds of geometry.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum GeometryKind {
     /// A place.
     Point,

@@ -13,14 +13,21 @@
 mod buffer;
 mod edges;
 mod geometry;
+#[cfg(test)]
+mod geos;
 mod kind;
+mod lines;
 mod measure;
 mod nearest;
 mod overlay;
+mod parts;
 mod plane;
 #[cfg(test)]
 mod properties;
 mod relation;
+mod skeleton;
+mod validity;
+mod within;
 pub mod wkb;
 pub mod wkt;
 

@@ -1,7 +1,7 @@
 //! What is measured on one geometry, and the simple shapes around it.
 
 use burgeon_geometry::Rings;
-use geo::{Centroid, InteriorPoint, MinimumRotatedRect};
+use geo::{Centroid, MinimumRotatedRect};
 use glam::{DVec2, DVec3};
 
 use super::Geometry;
@@ -87,14 +87,6 @@ impl Geometry {
         let plane = Plane::of(&[self]);
         let centre = plane.geo(self).centroid();
         with_heights(Self::Point(centre.map(|at| plane.back(DVec2::new(at.x(), at.y())))), &[self])
-    }
-
-    /// A point of it that is well inside where it has an area, and none of its ends where it has a length. Empty of an
-    /// empty one.
-    pub fn point_on_surface(&self) -> Self {
-        let plane = Plane::of(&[self]);
-        let inside = plane.geo(self).interior_point();
-        with_heights(Self::Point(inside.map(|at| plane.back(DVec2::new(at.x(), at.y())))), &[self])
     }
 
     /// The smallest convex geometry that it lies in: a line if all is on one, a point if all is in one place.

@@ -25,6 +25,11 @@ impl Plane {
         Self { origin: if far { middle } else { DVec2::ZERO } }
     }
 
+    /// How far (m) coordinates are rounded for how far away they are.
+    pub(crate) fn rounding(self) -> f64 {
+        self.origin.abs().max_element() * 2.0 * f64::EPSILON
+    }
+
     /// A place around the origin.
     pub(crate) fn flat(self, point: DVec3) -> DVec2 {
         point.truncate() - self.origin

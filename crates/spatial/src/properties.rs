@@ -7,7 +7,7 @@ use crate::{BufferOptions, Geometry, union_all};
 
 /// Places on a small grid, so that much touches, and some far from it.
 fn place() -> impl Strategy<Value = DVec3> {
-    let number = || prop_oneof![8 => (0..8i32).prop_map(f64::from), 1 => (0.0..8.0f64)];
+    let number = || prop_oneof![8 => (0..8i32).prop_map(f64::from), 1 => 0.0..8.0f64];
     let height = prop::sample::select(vec![0.0, 0.0, 0.0, 2.5]);
     (number(), number(), height).prop_map(|(x, y, z)| DVec3::new(x, y, z))
 }
@@ -70,6 +70,20 @@ proptest! {
     }
 
     #[test]
+    fn nothing_panics_on_any_two_geometries(a in geometry(), b in geometry(), distance in -3.0..3.0f64) {
+        for made in [a.intersection(&b), a.union(&b), a.difference(&b), a.sym_difference(&b)] {
+            prop_assert!(made.is_sound());
+        }
+        for made in [a.centroid(), a.point_on_surface(), a.convex_hull(), a.oriented_envelope(), a.envelope()] {
+            prop_assert!(made.is_sound());
+            prop_assert!(a.is_empty() == made.is_empty(), "{a}: {made}");
+        }
+        prop_assert!(a.buffer(distance, &BufferOptions::default()).is_ok_and(|made| made.is_sound()));
+        prop_assert_eq!(a.distance(&b).is_none(), a.is_empty() || b.is_empty());
+        let _ = a.relate(&b);
+    }
+
+    #[test]
     fn areas_add_up(a in polygon(), b in polygon()) {
         let (both, either) = (a.intersection(&b), a.union(&b));
         let near = |one: f64, two: f64| (one - two).abs() < 1e-6;
@@ -79,6 +93,35 @@ proptest! {
         prop_assert!(a.difference(&b).intersection(&b).area() < 1e-6);
         prop_assert!(near(union_all([&a, &b]).area(), either.area()));
         prop_assert_eq!(a.intersects(&b), !both.is_empty() || a.touches(&b));
+    }
+
+    #[test]
+    fn a_greater_buffer_holds_a_lesser_one(a in geometry(), less in 0.1..2.0f64, more in 0.1..2.0f64) {
+        let options = BufferOptions::default();
+        let (one, two) = (a.buffer(less, &options)?, a.buffer(less + more, &options)?);
+        prop_assert!(one.difference(&two).area() < 1e-6);
+        prop_assert!(a.is_empty() || two.area() > one.area());
+        prop_assert!(two.dimension() == 2);
+    }
+
+    #[test]
+    fn predicates_say_what_the_relation_says(a in geometry(), b in geometry()) {
+        let relation = a.relate(&b);
+        let is = |pattern: &str| relation.matches(pattern).expect("a pattern");
+        prop_assert_eq!(a.intersects(&b), !is("FF*FF****"), "{} {} {}", a, b, relation.text());
+        prop_assert_eq!(a.disjoint(&b), !b.intersects(&a));
+        prop_assert_eq!(a.contains(&b), b.within(&a));
+        prop_assert_eq!(a.contains(&b), is("T*****FF*"));
+        prop_assert!(!a.contains(&b) || a.covers(&b));
+        prop_assert_eq!(a.touches(&b), b.touches(&a));
+        prop_assert_eq!(a.overlaps(&b), b.overlaps(&a));
+        prop_assert_eq!(a.crosses(&b), b.crosses(&a));
+        prop_assert_eq!(a.equals(&b), b.equals(&a));
+        prop_assert!(a.equals(&a));
+        if let Some(distance) = a.distance(&b) {
+            prop_assert_eq!(distance == 0.0, a.intersects(&b));
+            prop_assert!((distance - b.distance(&a).unwrap_or(f64::NAN)).abs() < 1e-12);
+        }
     }
 
     #[test]

@@ -2,11 +2,10 @@
 
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::shown;
-use geo::coordinate_position::CoordPos;
-use geo::dimensions::Dimensions;
-use geo::{Intersects, Relate};
+use geo::Intersects;
 
 use super::Geometry;
+use super::overlay;
 use super::plane::Plane;
 
 /// What the dimensionally extended nine-intersection model says of two geometries: the dimensions in which the
@@ -63,21 +62,7 @@ impl Relation {
 impl Geometry {
     /// The dimensions in which interiors, boundaries and exteriors of the two meet.
     pub fn relate(&self, other: &Self) -> Relation {
-        let plane = Plane::of(&[self, other]);
-        let matrix = plane.geo(self).relate(&plane.geo(other));
-        let positions = [CoordPos::Inside, CoordPos::OnBoundary, CoordPos::Outside];
-        let mut cells = [b'F'; 9];
-        for (row, own) in positions.into_iter().enumerate() {
-            for (column, of_other) in positions.into_iter().enumerate() {
-                cells[row * 3 + column] = match matrix.get(own, of_other) {
-                    Dimensions::Empty => b'F',
-                    Dimensions::ZeroDimensional => b'0',
-                    Dimensions::OneDimensional => b'1',
-                    Dimensions::TwoDimensional => b'2',
-                };
-            }
-        }
-        Relation { cells }
+        Relation { cells: overlay::relate(self, other) }
     }
 
     /// Whether they have a point in common.

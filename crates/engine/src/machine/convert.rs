@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use mlua::{Lua, LuaString, Value as LuaValue};
 
-use super::system::{SourceHandle, SystemHandle, feature_of, shape_of};
+use super::system::{SourceHandle, SystemHandle, feature_of};
 use super::types::{DerivedHandle, ObjectHandle};
 use burgeon_base::error::{Error, Limit, Result};
-use burgeon_kit::{FeatureShape, System, Table, TableKey, Value};
+use burgeon_kit::{System, Table, TableKey, Value};
 
 /// The field of a metatable that names a class of tables, so that they keep their operators as parameters.
 const CLASS: &str = "__class";
@@ -20,7 +20,7 @@ enum CopyMode {
     Plain,
     /// Tables are made read-only on the way.
     Freeze,
-    /// As they are, but sources and the geometries of features stay in Rust.
+    /// As they are; systems may be among them.
     Field,
 }
 
@@ -29,8 +29,7 @@ pub(crate) fn to_value(value: &LuaValue, freeze: bool) -> Result<Value> {
     convert(value, if freeze { CopyMode::Freeze } else { CopyMode::Plain }, 0)
 }
 
-/// Copies what a constructor takes to Rust, where it may find sources and geometries as
-/// [`Features`](burgeon_kit::Features) and [`FeatureShape`](burgeon_kit::FeatureShape).
+/// Copies what a constructor takes to Rust, where it may find sources as [`Features`](burgeon_kit::Features), and systems.
 pub(crate) fn to_field(value: &LuaValue) -> Result<Value> {
     convert(value, CopyMode::Field, 0)
 }
@@ -51,18 +50,8 @@ fn convert(value: &LuaValue, manner: CopyMode, depth: usize) -> Result<Value> {
                 ));
             }
             let metatable = table.metatable();
-            if let Some(shape) = metatable.as_ref().and_then(|metatable| shape_of(table, metatable)) {
-                return Ok(match manner {
-                    CopyMode::Field => Value::Object(Arc::new(shape)),
-                    _ => shape.to_table(),
-                });
-            }
-            if let Some((shape, mut entries)) = metatable.as_ref().and_then(|it| feature_of(table, it)) {
-                let geometry = match manner {
-                    CopyMode::Field => Value::Object(Arc::new(shape)),
-                    _ => shape.to_table(),
-                };
-                entries.push((TableKey::Name("geometry".into()), geometry));
+            if let Some((geometry, mut entries)) = metatable.as_ref().and_then(|it| feature_of(table, it)) {
+                entries.push((TableKey::Name("geometry".into()), Value::Object(Arc::new(geometry))));
                 entries.sort_by(|a, b| a.0.cmp(&b.0));
                 return Ok(Value::Table(Arc::new(Table { class: None, entries })));
             }
@@ -139,13 +128,7 @@ pub(crate) fn to_lua(lua: &Lua, value: &Value, freeze: bool) -> mlua::Result<Lua
         Value::Boolean(value) => LuaValue::Boolean(*value),
         Value::Number(value) => LuaValue::Number(*value),
         Value::Text(text) => LuaValue::String(lua.create_string(text.as_bytes())?),
-        Value::Object(object) => {
-            let any: &dyn std::any::Any = &**object;
-            match any.downcast_ref::<FeatureShape>() {
-                Some(shape) => to_lua(lua, &shape.to_table(), freeze)?,
-                None => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
-            }
-        }
+        Value::Object(object) => LuaValue::UserData(lua.create_userdata(ObjectHandle(Arc::clone(object)))?),
         Value::Table(table) => {
             let made = lua.create_table_with_capacity(0, table.entries.len())?;
             for (key, value) in &table.entries {

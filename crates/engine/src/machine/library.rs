@@ -11,7 +11,8 @@ use super::convert::{class_key, to_lua};
 use super::require::require;
 use super::system::{EagerMark, SourceHandle, SystemDeclaration, SystemHandle, install_lazy};
 use super::types::{
-    ScriptFunction, ScriptTypeEntry, declare_type, extend_type, install_kind, named_fields, no_table,
+    ScriptFunction, ScriptTypeEntry, declare_type, extend_type, install_geometries, install_kind,
+    named_fields, no_table,
 };
 use super::{Machine, compile, native};
 use crate::declare::analysis::Globals;
@@ -242,6 +243,7 @@ impl Library {
         self.install_plain(machine, &globals)?;
         lua.set_app_data(EagerMark(Arc::clone(&machine.session)));
         install_lazy(lua, self)?;
+        install_geometries(machine, &globals)?;
         for kind in machine.session.options.registry.kinds() {
             install_kind(machine, &globals, kind)?;
             if matches!(kind.construct, Construct::Fields(_)) {

@@ -5,7 +5,8 @@ use std::sync::LazyLock;
 use mlua::chunk::ChunkMode;
 use mlua::{Buffer, Function, Lua, Table};
 
-use crate::machine::system::{GEOMETRY, UNREAD};
+use crate::machine::system::UNREAD;
+use crate::machine::types::POINTS;
 
 const TEMPLATE: &str = include_str!("prelude.luau");
 /// The part of it that is about types of objects of scripts.
@@ -56,7 +57,7 @@ pub(crate) struct Prelude {
     pub phase: Function,
     /// `(value)`: whether it is a module made outside of rules.
     pub is_module: Function,
-    geometry: Function,
+    points: Function,
     unread: Function,
     input: Function,
     counts: Function,
@@ -97,7 +98,7 @@ impl Prelude {
             globals: table.get("globals")?,
             phase: table.get("phase")?,
             is_module: table.get("is_module")?,
-            geometry: table.get("geometry")?,
+            points: table.get("points")?,
             unread: table.get("unread")?,
             input: table.get("input")?,
             counts: table.get("counts")?,
@@ -111,7 +112,7 @@ impl Prelude {
     /// Keeps what makes features and their geometries where sources find it.
     pub(super) fn keep_features(&self, lua: &Lua) -> mlua::Result<()> {
         lua.set_named_registry_value(UNREAD, &self.unread)?;
-        lua.set_named_registry_value(GEOMETRY, &self.geometry)
+        lua.set_named_registry_value(POINTS, &self.points)
     }
 
     /// The column of arguments, at least `size` bytes long.

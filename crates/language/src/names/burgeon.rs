@@ -63,17 +63,28 @@ pub(super) fn names() -> Vec<Name> {
             Field::new("layer", "string", "The name of its layer."),
             Field::new("[string]", "any", "Its attributes, by name."),
         ]),
-        Name::given("geometry", "Geometry", "Where a feature of a data file is.")
-            .instead("{ any }")
-            .fields([
-                Field::new("kind", "string", "What it is: \"point\", \"line\" or \"polygon\"."),
-                metres(
-                    "rings",
-                    "{ { { number } } }?",
-                    "Of a polygon, the outer ring, which turns left, and its holes: points { x, y, z } (m).",
-                ),
-                metres("points", "{ { number } }?", "Of a line or a point, its points { x, y, z } (m)."),
-            ]),
+        Name::global(
+            "geometry",
+            "The geometry of a well-known text such as \"POLYGON ((0 0, 4 0, 4 3, 0 0))\", of a feature, or of a table \
+             with rings or points; what it has is told of under the type geometry.",
+        )
+        .form([argument("text", "string | Geometry | { any }")], "Geometry")
+        .pure(),
+        Name::global("point", "A point: where it is to the east and to the north, and its height (m); or a vector.")
+            .form([argument("x", "number"), argument("y", "number"), argument("z", "number?")], "Geometry")
+            .form([argument("place", "Vector | Geometry")], "Geometry")
+            .pure(),
+        Name::global("line", "A line through points (m): a list of them, or one after the other.")
+            .form([argument("points", "{ any }")], "Geometry")
+            .form([argument("...", "Vector | Geometry")], "Geometry")
+            .pure(),
+        Name::global(
+            "polygon",
+            "A polygon: the points of its outer ring (m), or a list of rings, of which the others are holes.",
+        )
+        .form([argument("rings", "{ any } | Geometry")], "Geometry")
+        .form([argument("...", "Vector | Geometry")], "Geometry")
+        .pure(),
     ]);
     names
 }

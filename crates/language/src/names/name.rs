@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::LazyLock;
 
-use burgeon_kit::{Argument, Deprecation, Field, Registry};
+use burgeon_kit::{Argument, Deprecation, Field, GeometryObject, Registry};
 
 use crate::form::CallForm;
 
@@ -189,9 +189,9 @@ pub fn library_effect(library: &str, function: &str) -> Effect {
     library.and_then(|library| library.find(function)).map_or(Effect::Other, |function| function.effect)
 }
 
-/// Whether a method of strings is pure.
+/// Whether a method of what a feature has is pure: one of strings, or of its geometry, which never changes.
 pub fn is_pure_method(name: &str) -> bool {
-    library_effect("string", name) == Effect::Pure
+    library_effect("string", name) == Effect::Pure || GeometryObject::kind().method(name).is_some()
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@ use crate::mesh::draw_mesh;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_geometry::{Rings, Section, Segment, SweepOptions, sweep};
-use burgeon_kit::{Color, Drawing, Model, Vector, fields, methods, object};
+use burgeon_kit::{Color, Drawing, Model, Path, Vector, fields, methods, object};
 use glam::{DAffine3, DVec2, DVec3};
 use smallvec::{SmallVec, smallvec};
 
@@ -108,9 +108,11 @@ impl Extruder {
         self.set(SectionShape::Rectangle(width, height))
     }
 
-    /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m).
-    pub fn polygon(&mut self, outer: Vec<Vector>, holes: Option<Vec<Vec<Vector>>>) -> Result<()> {
-        let section = Section::polygon(&flat(std::iter::once(outer).chain(holes.unwrap_or_default())))?;
+    /// Sets the cross-section to a polygon with holes, each a list of points { x, y } (m), or to a geometry.
+    pub fn polygon(&mut self, outer: Path, holes: Option<Vec<Path>>) -> Result<()> {
+        let Path { points, holes: own } = outer;
+        let holes = holes.unwrap_or_default().into_iter().map(|hole| hole.points);
+        let section = Section::polygon(&flat(std::iter::once(points).chain(own).chain(holes)))?;
         self.state.section = Arc::new(shaded(section, self.state.smooth));
         Ok(())
     }
@@ -253,8 +255,8 @@ impl Extruder {
 }
 
 /// Rings of points, of which a section has x and y.
-fn flat(rings: impl IntoIterator<Item = Vec<Vector>>) -> Rings<DVec2> {
-    rings.into_iter().map(|ring| ring.iter().map(|point| point.0.truncate()).collect()).collect()
+fn flat(rings: impl IntoIterator<Item = Vec<DVec3>>) -> Rings<DVec2> {
+    rings.into_iter().map(|ring| ring.iter().map(|point| point.truncate()).collect()).collect()
 }
 
 /// The section with its corners marked for shading.
@@ -281,7 +283,7 @@ impl Extruder {
         let section = if options.shape.is_empty() {
             Section::regular(options.sides as usize)?
         } else {
-            shaded(Section::polygon(&flat([options.shape.clone()]))?, options.smooth)
+            shaded(Section::polygon(&flat([Path::from(options.shape.clone()).points]))?, options.smooth)
         };
         let section = Arc::new(section);
         let state = ExtruderState::begin(&options, &section);

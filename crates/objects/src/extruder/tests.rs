@@ -63,7 +63,7 @@ fn a_hole_is_taken_from_the_volume() {
     };
     near(
         volume(ExtruderOptions::default(), |it| {
-            it.polygon(ring(1.0), Some(vec![ring(0.5)]))?;
+            it.polygon(ring(1.0).into(), Some(vec![ring(0.5).into()]))?;
             it.extrude(2.0)
         }),
         (4.0 - 1.0) * 2.0,

@@ -13,8 +13,8 @@ use crate::{LineIndex, MaterialOptions, Terrain};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Rings};
 use burgeon_kit::{
-    Color, Drawing, Expectation, FeatureShape, LevelOfDetail, Note, Parameter, Report, Table, TableOf, Value,
-    Vector, fields, methods, object,
+    Color, Drawing, Expectation, GeometryObject, LevelOfDetail, Note, Parameter, Report, Table, TableOf,
+    Value, Vector, fields, methods, object,
 };
 use burgeon_scene::Material;
 use glam::{DVec2, DVec3};
@@ -289,7 +289,7 @@ impl Footprint {
 fn prefetched(options: &Table) -> Option<Result<LocalPlan>> {
     let Some(Value::Object(object)) = options.get("geometry") else { return None };
     let any: &dyn std::any::Any = &**object;
-    let (prefetch, number) = any.downcast_ref::<FeatureShape>()?.prefetch()?;
+    let (prefetch, number) = any.downcast_ref::<GeometryObject>()?.prefetch()?;
     let any: &dyn std::any::Any = prefetch;
     any.downcast_ref::<PlanPrefetch>()?.take(number)
 }

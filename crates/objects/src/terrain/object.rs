@@ -8,7 +8,7 @@ use crate::Elevation;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::warning::{Warning, WarningKind};
 use burgeon_kit::rules::ModuleKey;
-use burgeon_kit::{Color, ObjectParameter, Vector, fields, methods, object};
+use burgeon_kit::{Color, ObjectParameter, Path, Vector, fields, methods, object};
 use burgeon_kit::{Expand, Rewriter, Show};
 use burgeon_scene::Scene;
 use burgeon_terrain::{Cells, DEEPEST, Drainage, Dry, Edit, Edits, Ground, GroundMap, View, World};
@@ -120,8 +120,8 @@ impl Terrain {
 
     /// Makes the ground within an outline level, when the pass ends: at `height` (m), or as it is in the middle. Over
     /// `margin` (m, 5 unless given) around it the ground changes less and less.
-    pub fn flatten(&mut self, outline: Vec<Vector>, height: Option<f64>, margin: Option<f64>) -> Result<()> {
-        let outline = flat(&outline);
+    pub fn flatten(&mut self, outline: Path, height: Option<f64>, margin: Option<f64>) -> Result<()> {
+        let outline = flat(&outline.points);
         let middle = outline.iter().map(|at| DVec2::from(*at)).sum::<DVec2>() / outline.len().max(1) as f64;
         let height = match height {
             Some(height) => height - self.options.position.0.z,
@@ -132,16 +132,16 @@ impl Terrain {
 
     /// Gives the ground along a path the heights of the path, over `width` (m), when the pass ends; beside it the
     /// ground changes less and less over `margin` (m, the width unless given).
-    pub fn cut(&mut self, path: Vec<Vector>, width: f64, margin: Option<f64>) -> Result<()> {
+    pub fn cut(&mut self, path: Path, width: f64, margin: Option<f64>) -> Result<()> {
         let lift = self.options.position.0.z;
-        let path = path.iter().map(|at| [at.0.x, at.0.y, at.0.z - lift]).collect();
+        let path = path.points.iter().map(|at| [at.x, at.y, at.z - lift]).collect();
         self.change(Edit::Cut { path, width, margin: margin.unwrap_or(width) })
     }
 
     /// Lowers the ground along a path of `width` (m) when the pass ends, by `depth` (m) in the middle; raises it, if
     /// the depth is below 0.
-    pub fn dig(&mut self, path: Vec<Vector>, width: f64, depth: f64) -> Result<()> {
-        self.change(Edit::Dig { path: flat(&path), width, depth })
+    pub fn dig(&mut self, path: Path, width: f64, depth: f64) -> Result<()> {
+        self.change(Edit::Dig { path: flat(&path.points), width, depth })
     }
 
     /// Lets a river of `width` (m) run from a place downhill, to the standing water, the rim or an earlier river; its
@@ -353,8 +353,8 @@ impl std::fmt::Debug for Terrain {
     }
 }
 
-fn flat(points: &[Vector]) -> Vec<[f64; 2]> {
-    points.iter().map(|at| at.0.truncate().to_array()).collect()
+fn flat(points: &[DVec3]) -> Vec<[f64; 2]> {
+    points.iter().map(|at| at.truncate().to_array()).collect()
 }
 
 impl Terrain {

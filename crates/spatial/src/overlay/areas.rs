@@ -7,30 +7,36 @@ use rustc_hash::FxHashMap;
 /// What is inside of rings: all that they go around, in whatever direction, so that polygons of one geometry may overlap.
 pub(crate) const FILL: FillRule = FillRule::NonZero;
 
-/// The area that an operation makes of two. Its corners that are as good as corners of one of them are these.
+/// The area that an operation makes of two. Its corners are those of `nodes` that they were meant to be.
 ///
 /// Outer rings are counter-clockwise, and holes clockwise.
-pub(super) fn combine(one: &MultiPolygon, two: &MultiPolygon, operation: OpType) -> MultiPolygon {
+pub(super) fn combine(
+    one: &MultiPolygon,
+    two: &MultiPolygon,
+    operation: OpType,
+    nodes: impl IntoIterator<Item = Coord>,
+) -> MultiPolygon {
     let mut made = one.boolean_op_with_fill_rule(two, operation, FILL);
-    snap(&mut made, [one, two]);
+    snap(&mut made, nodes);
     made
+}
+
+/// The corners of areas.
+pub(super) fn corners(areas: &MultiPolygon) -> impl Iterator<Item = Coord> {
+    let rings = areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
+    rings.flat_map(|ring| ring.0.iter().copied())
 }
 
 /// The places of the grid that i_overlay computes on, to each side of the middle.
 const GRID: f64 = 268_435_456.0;
 
-/// Moves corners that were put on the grid to where they came from, and leaves out what has no area but for that.
-pub(super) fn snap<'a>(made: &mut MultiPolygon, from: impl IntoIterator<Item = &'a MultiPolygon>) {
+/// Moves corners that were put on the grid to the nodes that they came from, and leaves out what has no area but for that.
+pub(super) fn snap(made: &mut MultiPolygon, nodes: impl IntoIterator<Item = Coord>) {
     if made.0.is_empty() {
         return;
     }
-    let corners: Vec<Coord> = from
-        .into_iter()
-        .flat_map(|shape| shape.iter())
-        .flat_map(|polygon| std::iter::once(polygon.exterior()).chain(polygon.interiors()))
-        .flat_map(|ring| ring.0.iter().copied())
-        .collect();
-    let extent = corners.iter().fold(0.0_f64, |most, at| most.max(at.x.abs()).max(at.y.abs()));
+    let nodes: Vec<Coord> = nodes.into_iter().collect();
+    let extent = nodes.iter().fold(0.0_f64, |most, at| most.max(at.x.abs()).max(at.y.abs()));
     if extent == 0.0 {
         return;
     }
@@ -38,10 +44,10 @@ pub(super) fn snap<'a>(made: &mut MultiPolygon, from: impl IntoIterator<Item = &
     #[allow(clippy::cast_possible_truncation, reason = "far less than 2^63 steps")]
     let cell = |at: Coord| ((at.x / step).floor() as i64, (at.y / step).floor() as i64);
     let mut known: FxHashMap<(i64, i64), Vec<Coord>> = FxHashMap::default();
-    for corner in corners {
-        let there = known.entry(cell(corner)).or_default();
-        if !there.contains(&corner) {
-            there.push(corner);
+    for node in nodes {
+        let there = known.entry(cell(node)).or_default();
+        if !there.contains(&node) {
+            there.push(node);
         }
     }
     let snapped = |at: Coord| {

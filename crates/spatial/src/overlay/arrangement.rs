@@ -6,6 +6,8 @@ use glam::DVec2;
 use rstar::{AABB, RTree, RTreeObject};
 use rustc_hash::FxHashMap;
 
+use crate::plane::Plane;
+
 /// Where a way of edges comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) struct WayOrigin {
@@ -63,12 +65,12 @@ impl RTreeObject for IndexedEdge {
 impl Arrangement {
     /// That of `ways`; `points` are nodes too.
     ///
-    /// Places are one node if they are within 1e-12 of the extent: the place where two edges cross is that of one of
-    /// their ends if it is as near.
-    pub(super) fn new(ways: &[Way], points: &[DVec2]) -> Self {
+    /// Places are one node if they are within 1e-12 of the extent, or the rounding of coordinates in this plane: the place
+    /// where two edges cross is that of one of their ends if it is as near.
+    pub(super) fn new(ways: &[Way], points: &[DVec2], plane: Plane) -> Self {
         let places = ways.iter().flat_map(|way| &way.places).chain(points);
         let extent = places.fold(0.0_f64, |most, at| most.max(at.abs().max_element()));
-        let near = extent * SAME;
+        let near = extent * SAME + plane.rounding();
         let edges: Vec<[DVec2; 2]> =
             ways.iter().flat_map(|way| way.places.windows(2).map(|pair| [pair[0], pair[1]])).collect();
         let mut nodes = Nodes::new(near);

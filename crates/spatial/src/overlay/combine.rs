@@ -5,15 +5,16 @@
 //! its areas, and points what does not lie on its lines.
 
 use geo::bool_ops::OpType;
-use geo::{Coord, MultiPolygon, unary_union};
+use geo::{Coord, MultiPolygon};
 use glam::{DVec2, DVec3};
 
 use super::areas;
-use super::arrangement::{Arrangement, Piece, Way, WayOrigin};
+use super::arrangement::{Arrangement, Piece, Way};
 use super::inside::Inside;
+use super::operand::Operand;
 use crate::Geometry;
 use crate::edges::with_heights;
-use crate::plane::{Plane, collect_lines, collect_points};
+use crate::plane::Plane;
 
 /// A set operation.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,64 +110,42 @@ pub fn union_all<'a>(geometries: impl IntoIterator<Item = &'a Geometry>) -> Geom
     Geometry::Collection(geometries.into_iter().filter(|it| it.is_sound()).cloned().collect()).dissolved()
 }
 
-/// One of the two, as far as an operation needs it.
-struct Operand {
-    areas: MultiPolygon,
-    lines: Vec<Vec<DVec2>>,
-    points: Vec<DVec2>,
-}
-
-impl Operand {
-    fn new(plane: Plane, geometry: &Geometry) -> Self {
-        let mut areas = plane.polygons(geometry);
-        if areas.0.len() > 1 {
-            // Walls between two of them are none.
-            let whole = unary_union(&areas);
-            let given = std::mem::replace(&mut areas, whole);
-            areas::snap(&mut areas, [&given]);
-        }
-        let (mut lines, mut points) = (Vec::new(), Vec::new());
-        if geometry.is_sound() {
-            collect_lines(geometry, &mut |line| {
-                lines.push(line.iter().map(|point| plane.flat(*point)).collect());
-            });
-            collect_points(geometry, &mut |point| points.push(plane.flat(point)));
-        }
-        Self { areas, lines, points }
-    }
-
-    fn ways(&self, second: bool) -> Vec<Way> {
-        let origin = |ring| WayOrigin { second, ring };
-        let lines = self.lines.iter().map(|line| Way { origin: origin(false), places: line.clone() });
-        let rings = self.areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
-        let rings = rings.map(|ring| {
-            let places = ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
-            Way { origin: origin(true), places }
-        });
-        lines.chain(rings).collect()
-    }
-
-    fn is_of_areas(&self) -> bool {
-        self.lines.is_empty() && self.points.is_empty()
-    }
-}
+/// With more edges than these the corners of areas stay on the grid of i_overlay, unless they were corners before.
+const MANY: usize = 20_000;
 
 fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usize) -> Geometry {
     let plane = Plane::of(&[one, two]);
     let operands = [Operand::new(plane, one), Operand::new(plane, two)];
     let [a, b] = &operands;
-    let areas = match (a.areas.0.is_empty(), b.areas.0.is_empty()) {
-        (true, true) => MultiPolygon::new(Vec::new()),
-        // Nothing changes, but that what is odd is mended.
-        _ => areas::combine(&a.areas, &b.areas, operation.of_areas()),
+    let ways: Vec<Way> =
+        operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
+    // Of areas alone only what they have in common may be less than an area.
+    let is_of_areas = a.is_of_areas() && b.is_of_areas() && operation != Operation::Intersection;
+    let arrangement =
+        if is_of_areas && (two.is_empty() || ways.iter().map(|way| way.places.len()).sum::<usize>() > MANY) {
+            None
+        } else {
+            let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
+            Some(Arrangement::new(&ways, &points, plane))
+        };
+    let coord = |at: &DVec2| Coord { x: at.x, y: at.y };
+    let areas = match (&arrangement, a.areas.0.is_empty() && b.areas.0.is_empty()) {
+        (_, true) => MultiPolygon::new(Vec::new()),
+        (Some(arrangement), false) => {
+            let nodes = arrangement.nodes.iter().map(coord);
+            areas::combine(&a.areas, &b.areas, operation.of_areas(), nodes)
+        }
+        (None, false) => {
+            let nodes = areas::corners(&a.areas).chain(areas::corners(&b.areas));
+            areas::combine(&a.areas, &b.areas, operation.of_areas(), nodes)
+        }
     };
     let mut parts = match plane.areas(&areas) {
         Geometry::Polygon(rings) if rings.is_empty() => Vec::new(),
         areas => vec![areas],
     };
-    // Of areas alone only what they have in common may be less than an area.
-    if !(a.is_of_areas() && b.is_of_areas()) || operation == Operation::Intersection {
-        let (lines, points) = lines_and_points(&operands, operation);
+    if let (Some(arrangement), false) = (&arrangement, is_of_areas) {
+        let (lines, points) = lines_and_points(&operands, &ways, arrangement, operation);
         let back = |places: Vec<DVec2>| places.into_iter().map(|at| plane.back(at)).collect::<Vec<DVec3>>();
         parts.extend(lines.into_iter().map(|line| Geometry::Line(back(line))));
         parts.push(Geometry::MultiPoint(back(points)));
@@ -176,11 +155,12 @@ fn combine(one: &Geometry, two: &Geometry, operation: Operation, dimension: usiz
 }
 
 /// The lines and points of the result that its areas have not.
-fn lines_and_points(operands: &[Operand; 2], operation: Operation) -> (Vec<Vec<DVec2>>, Vec<DVec2>) {
-    let ways: Vec<Way> =
-        operands.iter().zip([false, true]).flat_map(|(it, second)| it.ways(second)).collect();
-    let points: Vec<DVec2> = operands.iter().flat_map(|it| it.points.iter().copied()).collect();
-    let arrangement = Arrangement::new(&ways, &points);
+fn lines_and_points(
+    operands: &[Operand; 2],
+    ways: &[Way],
+    arrangement: &Arrangement,
+    operation: Operation,
+) -> (Vec<Vec<DVec2>>, Vec<DVec2>) {
     let inside = [0, 1].map(|index| Inside::new(&operands[index].areas));
     let coord = |at: DVec2| Coord { x: at.x, y: at.y };
     // By piece: whether it is a line of the result, and what lies in each geometry at it and beside it.
@@ -221,7 +201,7 @@ fn lines_and_points(operands: &[Operand; 2], operation: Operation) -> (Vec<Vec<D
         .zip(&arrangement.nodes)
         .filter(|(node, _)| node.is_met && !node.is_covered && operation.keeps(node.is_in));
     let points = points.map(|(_, place)| *place).collect();
-    (runs(&arrangement, &ways, &pieces), points)
+    (runs(arrangement, ways, &pieces), points)
 }
 
 /// What is known of a node.

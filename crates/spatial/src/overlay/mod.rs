@@ -7,6 +7,9 @@ mod areas;
 mod arrangement;
 mod combine;
 mod inside;
+mod operand;
+mod relate;
 
-pub(crate) use areas::FILL;
 pub use combine::union_all;
+pub(crate) use operand::{dissolved, filled};
+pub(crate) use relate::relate;

@@ -1,33 +1,30 @@
-//! Features and geometries that become tables only where the script looks into them.
+//! Features that become tables only where the script looks into them.
 //!
-//! Most geometries are just handed on to a constructor, for which making a table of every point and reading it again
-//! would be most of the work, and most attributes nobody asks for. Until then such a table is empty and frozen, with
-//! the number of its feature under a key that no script has. A script could tell the difference with the functions that
-//! look at a table as it is, such as `pairs`; where one of them is named anywhere, the tables are made at once.
+//! Most attributes nobody asks for. Until then such a table is empty and frozen, with the number of its feature under a
+//! key that no script has. A script could tell the difference with the functions that look at a table as it is, such as
+//! `pairs`; where one of them is named anywhere, the tables are made at once.
 
 use std::ffi::c_void;
-use std::rc::Rc;
 use std::sync::Arc;
 
 use mlua::{Function, LightUserData, Lua, MetaMethod, Table, UserData, UserDataRef, Value as LuaValue};
 
 use rustc_hash::FxHashMap;
 
-use super::source::{Maker, nested};
+use super::source::nested;
 use crate::machine::library::Library;
 use crate::machine::native;
-use burgeon_data::{Attribute, GeometryKind, Layer};
-use burgeon_kit::{FeatureShape, Prefetch, Table as ValueTable, TableKey, Value};
+use crate::machine::types::ObjectHandle;
+use burgeon_data::{Attribute, Layer};
+use burgeon_kit::{GeometryObject, Prefetch, Table as ValueTable, TableKey, Value};
 
 /// What tables of features and their metatables know of themselves, under keys that no script has: addresses, which
 /// take no text to be made of at each question.
-static KEYS: [u8; 3] = [0; 3];
+static KEYS: [u8; 2] = [0; 2];
 /// The feature's number.
 const NUMBER: usize = 0;
 /// In the metatable: the layer.
 const LAYER: usize = 1;
-/// In the metatable of features, not in that of geometries.
-const IS_FEATURE: usize = 2;
 
 /// A layer as Lua holds it, with its attributes by name.
 struct LayerHandle {
@@ -38,9 +35,6 @@ struct LayerHandle {
 }
 
 impl UserData for LayerHandle {}
-
-/// What makes tables of geometries, kept by the machine.
-struct MakerHandle(Rc<Maker>);
 
 /// Marks a machine whose script could see the difference.
 pub(crate) struct EagerMark(pub Arc<crate::declare::Session>);
@@ -67,29 +61,20 @@ pub(super) fn unread(
     if lua.app_data_ref::<EagerMark>().is_none_or(|eager| eager.0.peeks()) {
         return Ok(None);
     }
-    if lua.app_data_ref::<MakerHandle>().is_none() {
-        lua.set_app_data(MakerHandle(Rc::new(Maker::new(lua)?)));
-    }
     let names = (0..).zip(&layer.names).map(|(index, name)| (name.clone(), index)).collect();
     let held =
         lua.create_userdata(LayerHandle { layer: Arc::clone(layer), prefetch: prefetch.cloned(), names })?;
     let functions: Table = lua.named_registry_value(LAZY)?;
-    let make = |kind: &str| -> mlua::Result<Table> {
-        let metatable = lua.create_table()?;
-        metatable.raw_set(key(LAYER), &held)?;
-        for event in [MetaMethod::Index, MetaMethod::Iter] {
-            let function: Function = functions.raw_get(format!("{kind}{}", event.name()))?;
-            metatable.raw_set(event.name(), function)?;
-        }
-        Ok(metatable)
-    };
-    let (feature, geometry) = (make("feature")?, make("geometry")?);
-    geometry.set_readonly(true);
-    feature.raw_set(key(IS_FEATURE), true)?;
-    feature.set_readonly(true);
+    let metatable = lua.create_table()?;
+    metatable.raw_set(key(LAYER), &held)?;
+    for event in [MetaMethod::Index, MetaMethod::Iter] {
+        let function: Function = functions.raw_get(event.name())?;
+        metatable.raw_set(event.name(), function)?;
+    }
+    metatable.set_readonly(true);
     let unread: Function = lua.named_registry_value(UNREAD)?;
     native(lua, &unread)?;
-    Ok(Some(LazyLayer { make: unread.call((key(NUMBER), feature, geometry))? }))
+    Ok(Some(LazyLayer { make: unread.call((key(NUMBER), metatable))? }))
 }
 
 /// The registry's name for the functions of such metatables.
@@ -102,34 +87,20 @@ pub(crate) fn install(lua: &Lua, library: &Library) -> mlua::Result<()> {
         LuaValue::String(name) => Some(name.to_string_lossy()),
         _ => None,
     };
-    let indices = [
-        lua.create_function(move |lua, (table, name): (Table, LuaValue)| match named(name) {
-            Some(name) => of_geometry(lua, &table, &name),
-            None => Ok(LuaValue::Nil),
-        })?,
-        lua.create_function(move |lua, (table, name): (Table, LuaValue)| match named(name) {
-            Some(name) => of_feature(lua, &table, &name),
-            None => Ok(LuaValue::Nil),
-        })?,
-    ];
-    let iterations = [
-        lua.create_function(|lua, table: Table| {
-            let names = ["kind", "rings", "points"].map(str::to_owned);
-            walk(lua, names.as_slice(), |name| of_geometry(lua, &table, name))
-        })?,
-        lua.create_function(|lua, table: Table| {
-            let mut names = ["id", "layer", "geometry"].map(str::to_owned).to_vec();
-            if let Some(held) = held(&table) {
-                names.extend(held.layer.names.iter().cloned());
-            }
-            walk(lua, &names, |name| of_feature(lua, &table, name))
-        })?,
-    ];
-    for (event, made) in [(MetaMethod::Index, indices), (MetaMethod::Iter, iterations)] {
-        for (kind, function) in ["geometry", "feature"].into_iter().zip(made) {
-            library.stateless.borrow_mut().insert(function.to_pointer() as usize);
-            functions.raw_set(format!("{kind}{}", event.name()), function)?;
+    let index = lua.create_function(move |lua, (table, name): (Table, LuaValue)| match named(name) {
+        Some(name) => of_feature(lua, &table, &name),
+        None => Ok(LuaValue::Nil),
+    })?;
+    let iterate = lua.create_function(|lua, table: Table| {
+        let mut names = ["id", "layer", "geometry"].map(str::to_owned).to_vec();
+        if let Some(held) = held(&table) {
+            names.extend(held.layer.names.iter().cloned());
         }
+        walk(lua, &names, |name| of_feature(lua, &table, name))
+    })?;
+    for (event, function) in [(MetaMethod::Index, index), (MetaMethod::Iter, iterate)] {
+        library.stateless.borrow_mut().insert(function.to_pointer() as usize);
+        functions.raw_set(event.name(), function)?;
     }
     lua.set_named_registry_value(LAZY, functions)
 }
@@ -161,27 +132,14 @@ fn held(table: &Table) -> Option<UserDataRef<LayerHandle>> {
 
 /// Whether this is what the features of a layer have in common.
 pub(super) fn is_feature(metatable: &Table) -> bool {
-    matches!(metatable.raw_get(key(IS_FEATURE)), Ok(true))
-}
-
-/// Whether this stands for a geometry, which has no fields before someone asks for them.
-pub(crate) fn is_unread_geometry(table: &Table) -> bool {
-    table.metatable().is_some_and(|metatable| {
-        matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_))) && !is_feature(&metatable)
-    })
-}
-
-/// The geometry that a table with this metatable stands for.
-pub(crate) fn shape_of(table: &Table, metatable: &Table) -> Option<FeatureShape> {
-    let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
-    if is_feature(metatable) {
-        return None;
-    }
-    FeatureShape::new(&held.layer, table.raw_get(key(NUMBER)).ok()?, held.prefetch.as_ref())
+    matches!(metatable.raw_get(key(LAYER)), Ok(LuaValue::UserData(_)))
 }
 
 /// What a table with this metatable knows of its feature, if it stands for one: its geometry and its other fields.
-pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(FeatureShape, Vec<(TableKey, Value)>)> {
+pub(crate) fn feature_of(
+    table: &Table,
+    metatable: &Table,
+) -> Option<(GeometryObject, Vec<(TableKey, Value)>)> {
     let held: UserDataRef<LayerHandle> = metatable.raw_get(key(LAYER)).ok()?;
     let index: usize = table.raw_get(key(NUMBER)).ok()?;
     let feature = held.layer.features.get(index)?;
@@ -201,7 +159,7 @@ pub(crate) fn feature_of(table: &Table, metatable: &Table) -> Option<(FeatureSha
         .collect();
     fields.push((name("id"), Value::Text(feature.id.as_str().into())));
     fields.push((name("layer"), Value::Text(held.layer.name.as_str().into())));
-    Some((FeatureShape::new(&held.layer, index, held.prefetch.as_ref())?, fields))
+    Some((GeometryObject::of_feature(&held.layer, index, held.prefetch.as_ref())?, fields))
 }
 
 /// A list or an object of GeoJSON; nulls are left out of objects, and are false in lists.
@@ -247,7 +205,9 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     match name {
         "id" => return text(&feature.id),
         "layer" => return text(&held.layer.name),
-        "geometry" => return table.raw_get(name),
+        "geometry" => {
+            return kept(table, name, || geometry(lua, &held.layer, index, held.prefetch.as_ref()));
+        }
         _ => {}
     }
     let column = held.names.get(name);
@@ -261,22 +221,13 @@ fn of_feature(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
     }
 }
 
-/// A field of a geometry.
-fn of_geometry(lua: &Lua, table: &Table, name: &str) -> mlua::Result<LuaValue> {
-    let Some(shape) = table.metatable().and_then(|metatable| shape_of(table, &metatable)) else {
-        return Ok(LuaValue::Nil);
-    };
-    let polygon = shape.geometry().kind() == GeometryKind::Polygon;
-    match name {
-        "kind" => lua.create_string(shape.geometry().kind().name()).map(LuaValue::String),
-        "rings" if polygon => kept(table, name, || made(lua, &shape, name)),
-        "points" if !polygon => kept(table, name, || made(lua, &shape, name)),
-        _ => Ok(LuaValue::Nil),
-    }
-}
-
-/// The tables of a geometry's points.
-fn made(lua: &Lua, shape: &FeatureShape, name: &str) -> mlua::Result<LuaValue> {
-    let maker = lua.app_data_ref::<MakerHandle>().map(|kept| Rc::clone(&kept.0));
-    maker.map_or(Ok(LuaValue::Nil), |maker| maker.shape(lua, shape.geometry())?.raw_get(name))
+/// The geometry of a feature.
+pub(super) fn geometry(
+    lua: &Lua,
+    layer: &Arc<Layer>,
+    index: usize,
+    prefetch: Option<&Arc<dyn Prefetch>>,
+) -> mlua::Result<LuaValue> {
+    let Some(geometry) = GeometryObject::of_feature(layer, index, prefetch) else { return Ok(LuaValue::Nil) };
+    lua.create_userdata(ObjectHandle(Arc::new(geometry))).map(LuaValue::UserData)
 }

@@ -16,6 +16,6 @@ pub(super) use declaration::{DeclaredAxiom, DeclaredInterpretation, DeclaredRule
 pub(crate) use declaration::{Interpretations, SystemDeclaration, SystemFunctions};
 pub(crate) use declare::returns_modules;
 pub(crate) use handle::SystemHandle;
-pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy, is_unread_geometry, shape_of};
-pub(crate) use source::{GEOMETRY, SourceHandle};
+pub(crate) use lazy::{EagerMark, UNREAD, feature_of, install as install_lazy};
+pub(crate) use source::SourceHandle;
 pub(crate) use unseen::tell_unseen;

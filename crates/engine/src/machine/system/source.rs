@@ -1,14 +1,13 @@
 //! Sources as scripts hold them: a list that the script made, or a layer of a data file.
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use mlua::{AnyUserData, Function, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
 use super::lazy;
-use crate::machine::{Machine, native, write_column};
+use crate::machine::Machine;
 use burgeon_base::error::{Error, Result};
-use burgeon_data::{Attribute, Feature, Geometry, GeometryKind, Layer, SourceOptions};
+use burgeon_data::{Attribute, GeometryKind, Layer, SourceOptions};
 use burgeon_kit::{Features, Prefetch, Table as ValueTable, Value};
 use burgeon_language::{LAYER, SOURCE};
 
@@ -60,7 +59,7 @@ impl SourceHandle {
         }
     }
 
-    fn field(&self, lua: &Lua, maker: &Maker, name: &str) -> mlua::Result<LuaValue> {
+    fn field(&self, lua: &Lua, name: &str) -> mlua::Result<LuaValue> {
         let frozen = |table: Table| {
             table.set_readonly(true);
             Ok(LuaValue::Table(table))
@@ -74,9 +73,7 @@ impl SourceHandle {
                 // All of it stays, so looking for what does not would be in vain.
                 let collects = lua.gc_is_running();
                 lua.gc_stop();
-                let features = layer.features.iter().enumerate();
-                let made = features
-                    .map(|(index, feature)| table.raw_push(maker.feature(lua, &names, index, feature)?));
+                let made = (0..layer.features.len()).map(|index| table.raw_push(names.feature(lua, index)?));
                 let made: mlua::Result<()> = made.collect();
                 if collects {
                     lua.gc_restart();
@@ -144,7 +141,7 @@ fn field(lua: &Lua, this: &AnyUserData, name: &str) -> mlua::Result<LuaValue> {
     {
         return Ok(value);
     }
-    let value = this.borrow::<SourceHandle>()?.field(lua, &Maker::new(lua)?, name)?;
+    let value = this.borrow::<SourceHandle>()?.field(lua, name)?;
     let kept = match this.user_value::<LuaValue>()? {
         LuaValue::Table(kept) => kept,
         _ => lua.create_table()?,
@@ -202,12 +199,11 @@ pub(super) fn each_feature(
         }
         SourceHandle::Layer(layer) => Arc::clone(layer),
     };
-    let (maker, names) =
-        (Maker::new(lua).map_err(&failed)?, AttributeNames::new(lua, &layer, prefetch).map_err(&failed)?);
+    let names = AttributeNames::new(lua, &layer, prefetch).map_err(&failed)?;
     for (index, feature) in layer.features.iter().enumerate() {
         let made = match &kept {
             LuaValue::Table(kept) => kept.raw_get(index + 1),
-            _ => maker.feature(lua, &names, index, feature).map(LuaValue::Table),
+            _ => names.feature(lua, index).map(LuaValue::Table),
         };
         each(index + 1, made.map_err(&failed)?, Some(&feature.id))?;
     }
@@ -216,6 +212,8 @@ pub(super) fn each_feature(
 
 /// The names of a layer's attributes, and of what every feature has, as Lua's strings.
 struct AttributeNames {
+    of: Arc<Layer>,
+    prefetch: Option<Arc<dyn Prefetch>>,
     attributes: Vec<mlua::LuaString>,
     layer: mlua::LuaString,
     fixed: [mlua::LuaString; 3],
@@ -227,6 +225,8 @@ impl AttributeNames {
     fn new(lua: &Lua, layer: &Arc<Layer>, prefetch: Option<&Arc<dyn Prefetch>>) -> mlua::Result<Self> {
         let text = |text: &str| lua.create_string(text);
         Ok(Self {
+            of: Arc::clone(layer),
+            prefetch: prefetch.cloned(),
             attributes: layer.names.iter().map(|name| text(name)).collect::<mlua::Result<_>>()?,
             layer: text(&layer.name)?,
             fixed: [text("id")?, text("geometry")?, text("layer")?],
@@ -235,41 +235,16 @@ impl AttributeNames {
     }
 }
 
-/// Makes features' tables.
-pub(super) struct Maker {
-    geometry: Function,
-    kinds: [mlua::LuaString; 3],
-    /// Lists of points on their way to Lua, and the same as bytes.
-    numbers: RefCell<Vec<f64>>,
-    column: RefCell<mlua::Buffer>,
-}
-
-impl Maker {
-    pub(super) fn new(lua: &Lua) -> mlua::Result<Self> {
-        let geometry: Function = lua.named_registry_value(GEOMETRY)?;
-        native(lua, &geometry)?;
-        let [point, line, polygon] = GeometryKind::SINGLE.map(|kind| lua.create_string(kind.name()));
-        Ok(Self {
-            geometry,
-            kinds: [point?, line?, polygon?],
-            numbers: RefCell::default(),
-            column: RefCell::new(lua.create_buffer(vec![0; 8192])?),
-        })
-    }
-
-    fn feature(
-        &self,
-        lua: &Lua,
-        names: &AttributeNames,
-        index: usize,
-        feature: &Feature,
-    ) -> mlua::Result<Table> {
-        if let Some(unread) = &names.unread {
+impl AttributeNames {
+    /// The table of the feature with this number, from 0.
+    fn feature(&self, lua: &Lua, index: usize) -> mlua::Result<Table> {
+        let feature = &self.of.features[index];
+        if let Some(unread) = &self.unread {
             return unread.feature(index);
         }
         let table = lua.create_table_with_capacity(0, feature.attributes.len() + 3)?;
-        for (index, value) in feature.attributes.iter() {
-            let name = &names.attributes[*index];
+        for (column, value) in feature.attributes.iter() {
+            let name = &self.attributes[*column];
             match value {
                 Attribute::Boolean(value) => table.raw_set(name, *value)?,
                 Attribute::Number(value) => table.raw_set(name, *value)?,
@@ -277,36 +252,14 @@ impl Maker {
                 Attribute::Nested(value) => table.raw_set(name, nested(lua, value)?)?,
             }
         }
-        let [id, geometry, layer] = &names.fixed;
+        let [id, geometry, layer] = &self.fixed;
         table.raw_set(id, feature.id.as_str())?;
-        table.raw_set(geometry, self.shape(lua, &feature.geometry)?)?;
-        table.raw_set(layer, &names.layer)?;
+        table.raw_set(geometry, lazy::geometry(lua, &self.of, index, self.prefetch.as_ref())?)?;
+        table.raw_set(layer, &self.layer)?;
         table.set_readonly(true);
         Ok(table)
     }
-
-    /// A geometry, written into a column and read from there by Lua, which makes its many small tables much faster.
-    pub(super) fn shape(&self, lua: &Lua, geometry: &Geometry) -> mlua::Result<Table> {
-        let mut numbers = self.numbers.borrow_mut();
-        numbers.clear();
-        #[allow(clippy::cast_precision_loss, reason = "counts below 2^53")]
-        match geometry {
-            Geometry::Polygon(rings) => numbers.extend(rings.iter().map(|ring| ring.len() as f64)),
-            other => numbers.push(other.points().count() as f64),
-        }
-        let lists = numbers.len();
-        numbers.extend(geometry.points().flat_map(|point| point.to_array()));
-        let mut column = self.column.borrow_mut();
-        if column.len() < numbers.len() * 8 {
-            *column = lua.create_buffer(vec![0; numbers.len() * 16])?;
-        }
-        write_column(column.clone(), &numbers).map_err(mlua::Error::external)?;
-        self.geometry.call((&self.kinds[geometry.kind() as usize], &*column, lists))
-    }
 }
-
-/// The registry's name for what the prelude knows of geometries.
-pub(crate) const GEOMETRY: &str = "burgeon geometry";
 
 /// A list or an object of GeoJSON as a frozen table; nulls are left out of objects, and are false in lists.
 pub(super) fn nested(lua: &Lua, value: &serde_json::Value) -> mlua::Result<LuaValue> {

@@ -5,12 +5,13 @@ use std::sync::{Arc, OnceLock, PoisonError, RwLock};
 
 use mlua::{AnyUserData, Lua, MetaMethod, Table, UserData, UserDataMethods, Value as LuaValue};
 
+use super::geometries::geometry_field;
 use crate::machine::convert::to_lua;
 use crate::results::DerivedSystem;
 use burgeon_base::error::{Error, Result};
 use burgeon_base::text::panic_message;
 use burgeon_kit::declare::as_ref;
-use burgeon_kit::{Object, ScriptObject};
+use burgeon_kit::{Object, ScriptObject, Value};
 use burgeon_language::DERIVED;
 
 /// The objects of a system, one for each chain: read while rewriting, changed while interpreting.
@@ -100,17 +101,24 @@ pub(crate) struct ObjectHandle(pub Arc<dyn Object>);
 
 impl UserData for ObjectHandle {
     fn add_methods<M: UserDataMethods<Self>>(methods: &mut M) {
-        methods.add_meta_method(MetaMethod::Index, |lua, this, name: String| {
-            let table: Table = lua.named_registry_value(&methods_key(&this.0.kind().name))?;
+        methods.add_meta_function(MetaMethod::Index, |lua, (this, name): (AnyUserData, String)| {
+            let object = Arc::clone(&this.borrow::<Self>()?.0);
+            let table: Table = lua.named_registry_value(&methods_key(&object.kind().name))?;
             match table.raw_get::<LuaValue>(name.as_str())? {
-                LuaValue::Nil => {
-                    match as_ref::<ScriptObject>(&*this.0).and_then(|object| object.member(&name)) {
-                        Some(value) => to_lua(lua, &value, true),
-                        None => Err(mlua::Error::external(this.0.kind().unknown_method(&name))),
-                    }
-                }
-                method => Ok(method),
+                LuaValue::Nil => {}
+                method => return Ok(method),
             }
+            if let Some(field) = geometry_field(lua, &this, &name)? {
+                return Ok(field);
+            }
+            match as_ref::<ScriptObject>(&*object).and_then(|object| object.member(&name)) {
+                Some(value) => to_lua(lua, &value, true),
+                None => Err(mlua::Error::external(object.kind().unknown_method(&name))),
+            }
+        });
+        methods.add_meta_function(MetaMethod::Eq, |_, (one, two): (AnyUserData, AnyUserData)| {
+            let (Ok(one), Ok(two)) = (one.borrow::<Self>(), two.borrow::<Self>()) else { return Ok(false) };
+            Ok(Value::Object(Arc::clone(&one.0)) == Value::Object(Arc::clone(&two.0)))
         });
         methods.add_meta_method(
             MetaMethod::NewIndex,
@@ -122,7 +130,9 @@ impl UserData for ObjectHandle {
                 ))
             },
         );
-        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| Ok(this.0.kind().name.to_string()));
+        methods.add_meta_method(MetaMethod::ToString, |_, this, ()| {
+            Ok(Value::Object(Arc::clone(&this.0)).to_string())
+        });
     }
 }
 

@@ -6,7 +6,6 @@ use mlua::{Function, MultiValue, Table, Value as LuaValue};
 
 use super::handles::{ObjectHandle, methods_key};
 use crate::machine::convert::to_field;
-use crate::machine::system::is_unread_geometry;
 use crate::machine::{Machine, compile};
 use burgeon_base::error::{Error, Result};
 use burgeon_kit::{Call, Construct, Deprecation, Kind, Table as ValueTable, TableKey, Value};
@@ -150,7 +149,7 @@ fn constructor_fields(kind: &Kind, given: MultiValue) -> Result<Arc<ValueTable>>
     let Some(first) = kind.first.as_deref() else { return named_fields(&kind.name, one) };
     let alone = match (&one, &two) {
         (LuaValue::Nil, LuaValue::Nil) => true,
-        (LuaValue::Table(table), LuaValue::Nil) if !is_unread_geometry(table) => {
+        (LuaValue::Table(table), LuaValue::Nil) => {
             table.pairs::<LuaValue, LuaValue>().flatten().any(|(key, _)| {
                 kind.fields.iter().any(|field| matches!(&key, LuaValue::String(key) if *key == *field.name))
             })

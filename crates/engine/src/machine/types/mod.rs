@@ -3,11 +3,14 @@
 //! Comes in: kinds from the registry, and what a script declares. Goes out: constructors and methods that scripts call. What
 //! they do is a matter of the kinds; no kind is known by its name.
 
+mod geometries;
 mod handles;
 mod kinds;
 mod script_types;
 
-pub(crate) use handles::Objects;
-pub(super) use handles::{DerivedHandle, ObjectHandle, methods_key};
+pub(crate) use geometries::POINTS;
+pub(super) use geometries::install_geometries;
+pub(super) use handles::{DerivedHandle, methods_key};
+pub(crate) use handles::{ObjectHandle, Objects};
 pub(super) use kinds::{install_kind, named_fields, no_table};
 pub(super) use script_types::{ScriptFunction, ScriptTypeEntry, declare_type, extend_type};

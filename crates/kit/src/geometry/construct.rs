@@ -1,0 +1,133 @@
+//! How scripts make geometries: the functions `geometry`, `point`, `line` and `polygon`.
+
+use std::sync::Arc;
+
+use burgeon_base::error::{Error, Result};
+use burgeon_geometry::Rings;
+use burgeon_spatial::Geometry;
+use glam::DVec3;
+
+use super::Shape;
+use crate::{Answer, Expectation, GeometryObject, Parameter, Value, Vector};
+
+/// A function that scripts have, and which makes a geometry of what it is given.
+pub struct Constructor {
+    /// Its name.
+    pub name: &'static str,
+    /// The function.
+    pub make: fn(&[Value]) -> Result<Value>,
+}
+
+/// All of them.
+pub fn constructors() -> [Constructor; 4] {
+    [
+        Constructor { name: "geometry", make: geometry },
+        Constructor { name: "point", make: point },
+        Constructor { name: "line", make: line },
+        Constructor { name: "polygon", make: polygon },
+    ]
+}
+
+/// The geometry of a text, of a feature or of a table; one as it is.
+fn geometry(given: &[Value]) -> Result<Value> {
+    let what = "a text such as \"POINT (1 2)\", a feature, or a table with rings or points";
+    match given {
+        [Value::Text(text)] => Geometry::from_wkt(text).map_err(|error| error.about("geometry"))?.answer(),
+        [value @ (Value::Object(_) | Value::Table(_))] => {
+            let shape = Shape::from_value(value.clone());
+            let shape =
+                shape.map_err(|_| Expectation::new(what).refuse("geometry", "what it is given", value))?;
+            shape.geometry().check().map_err(|error| error.about("geometry"))?;
+            Ok(shape.into_value())
+        }
+        [value] => Err(Expectation::new(what).refuse("geometry", "what it is given", value)),
+        _ => Err(Error::argument(format!("geometry takes 1 argument, not {}", given.len()))
+            .help("write geometry(\"LINESTRING (0 0, 5 0)\")")),
+    }
+}
+
+/// A place of two or three numbers, or of a vector.
+fn point(given: &[Value]) -> Result<Value> {
+    if let [value @ (Value::Table(_) | Value::Object(_))] = given {
+        let place = Vector::from_value(value.clone());
+        let place = place.map_err(|error| error.refuse("point", "what it is given", value))?;
+        return sound("point", Geometry::Point(Some(place.0)));
+    }
+    if !(2..=3).contains(&given.len()) {
+        return Err(Error::argument(format!("point takes 2 or 3 numbers, not {}", given.len()))
+            .help("write point(x, y), or point(x, y, height)"));
+    }
+    let mut place = DVec3::ZERO;
+    for ((value, name), number) in given.iter().zip(["x", "y", "z"]).zip(place.as_mut()) {
+        *number = f64::from_value(value.clone()).map_err(|error| error.refuse("point", name, value))?;
+    }
+    sound("point", Geometry::Point(Some(place)))
+}
+
+/// A line through points, given one by one or as a list.
+fn line(given: &[Value]) -> Result<Value> {
+    let points = points("line", given)?;
+    if points.len() < 2 {
+        return Err(Error::argument(format!("line takes 2 points or more, not {}", points.len()))
+            .help("write line({ { 0, 0 }, { 5, 0 } })"));
+    }
+    sound("line", Geometry::Line(points))
+}
+
+/// A polygon of its outer ring, or of a list of rings of which the others are holes.
+fn polygon(given: &[Value]) -> Result<Value> {
+    let rings = match given {
+        [value] => Rings::from_value(value.clone())
+            .map_err(|error| error.refuse("polygon", "what it is given", value))?,
+        _ => Rings(vec![points("polygon", given)?]),
+    };
+    let few = rings.iter().position(|ring| {
+        let closed = ring.len() > 1 && ring.first() == ring.last();
+        ring.len() - usize::from(closed) < 3
+    });
+    if few.is_some() || rings.is_empty() {
+        let name = match few {
+            Some(0) | None => "its outer ring".to_owned(),
+            Some(number) => format!("hole {number}"),
+        };
+        return Err(Error::argument(format!("polygon: {name} has fewer than 3 points"))
+            .help("write polygon({ { 0, 0 }, { 4, 0 }, { 4, 3 } })"));
+    }
+    let mut made = Geometry::polygon(rings.0).unwrap_or(Geometry::empty(2));
+    made.turn();
+    sound("polygon", made)
+}
+
+/// Points that are given one by one or as a list.
+fn points(name: &str, given: &[Value]) -> Result<Vec<DVec3>> {
+    let one_by_one = |value: &Value| Vector::from_value(value.clone());
+    if let [only @ Value::Table(table)] = given
+        && one_by_one(only).is_err()
+    {
+        let items = table.list();
+        if items.len() != table.entries.len() {
+            return Err(Expectation::new("a list of points").refuse(name, "what it is given", only));
+        }
+        return items
+            .iter()
+            .enumerate()
+            .map(|(index, item)| {
+                let number = format!("point {}", index + 1);
+                one_by_one(item).map(|place| place.0).map_err(|error| error.refuse(name, &number, item))
+            })
+            .collect();
+    }
+    let numbered = given.iter().enumerate();
+    numbered
+        .map(|(index, item)| {
+            let number = format!("point {}", index + 1);
+            one_by_one(item).map(|place| place.0).map_err(|error| error.refuse(name, &number, item))
+        })
+        .collect()
+}
+
+/// The geometry as a script's value; fails if a coordinate cannot be computed with.
+fn sound(name: &str, geometry: Geometry) -> Result<Value> {
+    geometry.check().map_err(|error| error.about(name))?;
+    Ok(Value::Object(Arc::new(GeometryObject::new(geometry))))
+}

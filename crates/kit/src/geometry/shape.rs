@@ -1,0 +1,101 @@
+//! Geometries and lists of points as arguments.
+
+use std::sync::Arc;
+
+use burgeon_geometry::Rings;
+use burgeon_spatial::Geometry;
+use glam::DVec3;
+
+use super::GeometryObject;
+use super::object::place;
+use crate::{Expectation, Parameter, Value, Vector, object};
+
+/// A geometry as an argument: one that a script holds, that of a feature, or a place.
+pub struct Shape(Arc<GeometryObject>);
+
+impl Shape {
+    /// The geometry itself.
+    pub fn geometry(&self) -> &Geometry {
+        self.0.geometry()
+    }
+}
+
+impl Parameter for Shape {
+    fn luau() -> String {
+        "Geometry | { any }".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let what = || {
+            Expectation::new(
+                "a geometry: feature.geometry, point(x, y), line({ ... }), polygon({ ... }) or geometry(\"POINT (1 2)\")",
+            )
+        };
+        let Value::Table(table) = &value else { return object(value, "").map(Self).map_err(|_| what()) };
+        if let Some(geometry) = table.get("geometry") {
+            return Self::from_value(geometry.clone());
+        }
+        let made = if let Some(rings) = table.get("rings") {
+            Geometry::Polygon(Rings::from_value(rings.clone())?)
+        } else if let Some(points) = table.get("points") {
+            let points: Vec<DVec3> = Vec::<DVec3>::from_value(points.clone())?;
+            if points.len() == 1 { Geometry::Point(points.first().copied()) } else { Geometry::Line(points) }
+        } else {
+            Geometry::Point(Some(Vector::from_value(value).map_err(|_| what())?.0))
+        };
+        Ok(Self(Arc::new(GeometryObject::new(made))))
+    }
+
+    fn into_value(self) -> Value {
+        Value::Object(self.0)
+    }
+}
+
+/// A list of points as an argument, or the geometry that has one: a line, or a polygon, of which it is the outer ring.
+#[derive(Debug, Clone)]
+pub struct Path {
+    /// The points.
+    pub points: Vec<DVec3>,
+    /// The holes of a polygon.
+    pub holes: Vec<Vec<DVec3>>,
+}
+
+impl From<Vec<Vector>> for Path {
+    fn from(points: Vec<Vector>) -> Self {
+        Self { points: points.into_iter().map(|it| it.0).collect(), holes: Vec::new() }
+    }
+}
+
+impl Parameter for Path {
+    fn luau() -> String {
+        "{ Vector } | Geometry".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let Value::Object(object) = &value else {
+            return Vec::<Vector>::from_value(value).map(Self::from);
+        };
+        let what = || Expectation::new("a list of points, a line or a polygon");
+        match GeometryObject::of(&**object).ok_or_else(what)? {
+            Geometry::Line(points) => Ok(Self { points: points.clone(), holes: Vec::new() }),
+            Geometry::Polygon(rings) => {
+                let mut rings = rings.iter().cloned();
+                let points = rings.next().unwrap_or_default();
+                Ok(Self { points, holes: rings.collect() })
+            }
+            other => Err(what().but_was(format!("a geometry of kind {:?}", other.kind().name()))),
+        }
+    }
+
+    fn into_value(self) -> Value {
+        self.points.into_iter().map(Vector).collect::<Vec<_>>().into_value()
+    }
+}
+
+/// The place that a value is as a point.
+pub(crate) fn vector(value: &Value) -> Option<Vector> {
+    match value {
+        Value::Object(object) => place(GeometryObject::of(&**object)?),
+        _ => None,
+    }
+}

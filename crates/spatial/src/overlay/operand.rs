@@ -1,0 +1,64 @@
+//! A geometry as its areas, lines and points, with nothing of them twice.
+
+use geo::bool_ops::FillRule;
+use geo::{BooleanOps, MultiPolygon, Validation};
+use glam::DVec2;
+
+use super::areas::{FILL, corners, snap};
+use super::arrangement::{Way, WayOrigin};
+use crate::Geometry;
+use crate::plane::{Plane, collect_lines, collect_points};
+
+/// One of the two that an operation takes.
+pub(crate) struct Operand {
+    pub(crate) areas: MultiPolygon,
+    pub(crate) lines: Vec<Vec<DVec2>>,
+    pub(crate) points: Vec<DVec2>,
+}
+
+impl Operand {
+    pub(crate) fn new(plane: Plane, geometry: &Geometry) -> Self {
+        let (mut lines, mut points) = (Vec::new(), Vec::new());
+        if geometry.is_sound() {
+            collect_lines(geometry, &mut |line| {
+                let line: Vec<DVec2> = line.iter().map(|point| plane.flat(*point)).collect();
+                match line.first() {
+                    // A line without length is its place.
+                    Some(first) if line.iter().all(|place| place == first) => points.push(*first),
+                    Some(_) => lines.push(line),
+                    None => {}
+                }
+            });
+            collect_points(geometry, &mut |point| points.push(plane.flat(point)));
+        }
+        Self { areas: dissolved(plane.polygons(geometry)), lines, points }
+    }
+
+    /// Its lines and rings.
+    pub(super) fn ways(&self, second: bool) -> Vec<Way> {
+        let origin = |ring| WayOrigin { second, ring };
+        let lines = self.lines.iter().map(|line| Way { origin: origin(false), places: line.clone() });
+        let rings = self.areas.iter().flat_map(|it| std::iter::once(it.exterior()).chain(it.interiors()));
+        let rings = rings.map(|ring| {
+            let places = ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
+            Way { origin: origin(true), places }
+        });
+        lines.chain(rings).collect()
+    }
+
+    pub(super) fn is_of_areas(&self) -> bool {
+        self.lines.is_empty() && self.points.is_empty()
+    }
+}
+
+/// Areas whose rings neither cross nor overlap: as they are if that holds already, else all that the rings go around.
+pub(crate) fn dissolved(areas: MultiPolygon) -> MultiPolygon {
+    if areas.0.is_empty() || areas.is_valid() { areas } else { filled(&areas, FILL) }
+}
+
+/// What rings go around, by a rule.
+pub(crate) fn filled(areas: &MultiPolygon, rule: FillRule) -> MultiPolygon {
+    let mut made = areas.union_with_fill_rule(&MultiPolygon::new(Vec::new()), rule);
+    snap(&mut made, corners(areas));
+    made
+}

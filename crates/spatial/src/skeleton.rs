@@ -1,0 +1,83 @@
+//! The straight skeleton of areas, and what is left when their borders move inwards.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_geometry::skeleton::{Pace, Skeleton};
+use burgeon_geometry::{Polygon, Rings};
+use glam::DVec2;
+
+use super::Geometry;
+use super::edges::with_heights;
+use super::plane::Plane;
+
+impl Geometry {
+    /// The lines inside of its areas on which borders meet that all move inwards alike: the ridges and hips of a roof over
+    /// them. Fails if it has no areas, or their rings touch.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let hall = Geometry::from_wkt("POLYGON ((0 0, 12 0, 12 8, 0 8, 0 0))")?;
+    /// assert!((hall.straight_skeleton()?.length() - (4.0 + 4.0 * 32f64.sqrt())).abs() < 1e-9);
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn straight_skeleton(&self) -> Result<Self> {
+        let (plane, polygons) = self.plans("straight_skeleton")?;
+        let mut lines = Vec::new();
+        for polygon in polygons {
+            let paces = vec![Pace::default(); polygon.size()];
+            let skeleton = Skeleton::new(&polygon, &paces)?;
+            for face in &skeleton.faces {
+                for (index, from) in face.iter().enumerate().skip(1) {
+                    let to = face[(index + 1) % face.len()];
+                    let [a, b] = [*from, to].map(|peak| skeleton.peaks[peak].at);
+                    // Each line is the border of two faces.
+                    if *from < to && a != b {
+                        lines.push(Self::Line(vec![plane.back(a), plane.back(b)]));
+                    }
+                }
+            }
+        }
+        Ok(with_heights(Self::gathered(lines), &[self]))
+    }
+
+    /// What is left of its areas when their borders move inwards by `distance` (m), or outwards if that is negative, with
+    /// corners that stay corners as far as they turn by less than 60 degrees; empty if nothing is left. Fails if it has
+    /// no areas, or the distance is not finite.
+    pub fn inset(&self, distance: f64) -> Result<Self> {
+        if !distance.is_finite() {
+            return Err(Error::argument(format!("inset takes a finite distance, not {distance}"))
+                .help("give metres: more goes further inwards"));
+        }
+        let (plane, polygons) = self.plans("inset")?;
+        let parts = polygons.iter().flat_map(|polygon| polygon.inset(distance)).map(|part| {
+            let rings = part.iter().map(|ring| ring.iter().map(|at| plane.back(*at)).collect());
+            Self::Polygon(rings.collect())
+        });
+        let made = Self::gathered(parts.collect());
+        Ok(if made.is_empty() { Self::empty(2) } else { with_heights(made, &[self]) })
+    }
+
+    /// Its areas as plans, whose rings neither cross nor overlap.
+    fn plans(&self, method: &str) -> Result<(Plane, Vec<Polygon>)> {
+        let plane = Plane::of(&[self]);
+        if self.dimension() < 2 || !self.is_sound() {
+            return Err(Error::argument(format!("{method} takes areas, not a {}", self.kind().name()))
+                .help("buffer makes an area of lines and points"));
+        }
+        let areas = super::overlay::dissolved(plane.polygons(self));
+        let polygons = areas.iter().map(|polygon| {
+            let open = |ring: &geo::LineString| -> Vec<DVec2> {
+                let mut ring: Vec<DVec2> = ring.0.iter().map(|at| DVec2::new(at.x, at.y)).collect();
+                ring.dedup();
+                if ring.len() > 1 && ring.first() == ring.last() {
+                    ring.pop();
+                }
+                ring
+            };
+            let rings: Rings<DVec2> =
+                std::iter::once(polygon.exterior()).chain(polygon.interiors()).map(open).collect();
+            Polygon::turned(rings)
+        });
+        Ok((plane, polygons.collect::<Result<_>>()?))
+    }
+}

@@ -1,0 +1,152 @@
+//! Points inside of geometries.
+
+use burgeon_base::error::{Error, Result};
+use geo::TriangulateEarcut;
+use glam::{DVec2, DVec3};
+
+use super::edges::with_heights;
+use super::measure::length;
+use super::overlay::dissolved;
+use super::plane::{Plane, collect_lines};
+use super::{Geometry, GeometryKind};
+
+impl Geometry {
+    /// A point of it that is well inside where it has an area, and none of its ends where it has a length. Empty of an
+    /// empty one.
+    ///
+    /// Method: the middle of the widest cut along x, half-way between the corners next to the middle of the area's
+    /// height (as JTS has it).
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let ring_road = Geometry::from_wkt("POLYGON ((0 0, 9 0, 9 9, 0 9, 0 0), (1 1, 8 1, 8 8, 1 8, 1 1))")?;
+    /// assert!(ring_road.contains(&ring_road.point_on_surface()) && !ring_road.contains(&ring_road.centroid()));
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn point_on_surface(&self) -> Self {
+        if !self.is_sound() {
+            return Self::Point(None);
+        }
+        let plane = Plane::of(&[self]);
+        let areas = dissolved(plane.polygons(self));
+        let cuts = areas.iter().filter_map(widest_cut);
+        let widest = cuts.reduce(|best, cut| if cut.0 > best.0 { cut } else { best });
+        let found =
+            widest.map(|(_, place)| plane.back(place)).or_else(|| self.middle_of_lines()).or_else(|| {
+                let centre = self.centroid();
+                let centre = centre.points().next()?.truncate();
+                let far = |point: &&DVec3| point.truncate().distance_squared(centre);
+                self.points().min_by(|a, b| far(a).total_cmp(&far(b))).copied()
+            });
+        with_heights(Self::Point(found), &[self])
+    }
+
+    /// The middle of its longest line; none if it has no lines with a length.
+    fn middle_of_lines(&self) -> Option<DVec3> {
+        let mut longest: Option<(f64, &[DVec3])> = None;
+        collect_lines(self, &mut |line| {
+            let long = length(line);
+            if long > longest.map_or(0.0, |(longest, _)| longest) {
+                longest = Some((long, line));
+            }
+        });
+        let (long, line) = longest?;
+        Some(super::lines::along(line, long / 2.0))
+    }
+
+    /// The point that two numbers from 0 to 1 choose: with random ones, each place of its areas is as likely as any
+    /// other; of its lines if it has no area, of its points if it has no lines. Empty of an empty one.
+    ///
+    /// Fails if one of the numbers is not from 0 to 1.
+    ///
+    /// ```
+    /// use burgeon_spatial::Geometry;
+    ///
+    /// let lawn = Geometry::from_wkt("POLYGON ((0 0, 8 0, 8 8, 4 1, 0 8, 0 0))")?;
+    /// for step in 0..=100 {
+    ///     let number = f64::from(step) / 100.0;
+    ///     assert!(lawn.covers(&lawn.random_point(number, 1.0 - number * number)?));
+    /// }
+    /// # Ok::<(), burgeon_base::error::Error>(())
+    /// ```
+    pub fn random_point(&self, u: f64, v: f64) -> Result<Self> {
+        if let Some(wrong) = [u, v].into_iter().find(|number| !(0.0..=1.0).contains(number)) {
+            return Err(Error::argument(format!("random_point takes two numbers from 0 to 1, not {wrong}"))
+                .help("write geometry:random_point(random(), random())"));
+        }
+        if !self.is_sound() {
+            return Ok(Self::Point(None));
+        }
+        let plane = Plane::of(&[self]);
+        let areas = dissolved(plane.polygons(self));
+        let place = |at: geo::Coord| DVec2::new(at.x, at.y);
+        let triangles: Vec<[DVec2; 3]> = areas
+            .iter()
+            .flat_map(|polygon| polygon.earcut_triangles())
+            .map(|triangle| triangle.to_array().map(place))
+            .collect();
+        let area = |[a, b, c]: &[DVec2; 3]| (*b - *a).perp_dot(*c - *a).abs();
+        let whole: f64 = triangles.iter().map(area).sum();
+        let found = if whole > 0.0 {
+            let mut rest = u * whole;
+            let mut chosen = triangles[0];
+            for triangle in &triangles {
+                chosen = *triangle;
+                if rest <= area(triangle) {
+                    break;
+                }
+                rest -= area(triangle);
+            }
+            let [a, b, c] = chosen;
+            // What is left of the first number is as random within the triangle.
+            let across = (rest / area(&chosen).max(f64::MIN_POSITIVE)).clamp(0.0, 1.0).sqrt();
+            Some(plane.back(a + (b - a) * (across * (1.0 - v)) + (c - a) * (across * v)))
+        } else if self.length() > 0.0 {
+            let mut lines = Vec::new();
+            collect_lines(self, &mut |line| lines.push(line));
+            let mut rest = u * self.length();
+            let mut found = None;
+            for line in lines {
+                found = Some(super::lines::along(line, rest));
+                if rest <= length(line) {
+                    break;
+                }
+                rest -= length(line);
+            }
+            found
+        } else {
+            let points: Vec<&DVec3> = self.points().collect();
+            #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to the count")]
+            let index = (u * points.len() as f64) as usize;
+            points.get(index.min(points.len().saturating_sub(1))).map(|point| **point)
+        };
+        let made = Self::Point(found);
+        Ok(if self.kind() == GeometryKind::Point { self.clone() } else { with_heights(made, &[self]) })
+    }
+}
+
+/// How wide a polygon is where it is cut along x, and the middle of the widest piece; none without an area.
+fn widest_cut(polygon: &geo::Polygon) -> Option<(f64, DVec2)> {
+    let corners = || polygon.exterior().0.iter();
+    let low = corners().map(|at| at.y).fold(f64::INFINITY, f64::min);
+    let high = corners().map(|at| at.y).fold(f64::NEG_INFINITY, f64::max);
+    let middle = low.midpoint(high);
+    let rings = || std::iter::once(polygon.exterior()).chain(polygon.interiors());
+    let heights = || rings().flat_map(|ring| ring.0.iter()).map(|at| at.y);
+    let below = heights().filter(|y| *y <= middle).fold(low, f64::max);
+    let above = heights().filter(|y| *y > middle).fold(high, f64::min);
+    let y = below.midpoint(above);
+    let mut crossed: Vec<f64> = rings()
+        .flat_map(geo::LineString::lines)
+        .filter(|edge| (edge.start.y <= y) != (edge.end.y <= y))
+        .map(|edge| {
+            let part = (y - edge.start.y) / (edge.end.y - edge.start.y);
+            edge.start.x + (edge.end.x - edge.start.x) * part
+        })
+        .collect();
+    crossed.sort_by(f64::total_cmp);
+    let cuts = crossed.chunks_exact(2).map(|pair| (pair[1] - pair[0], pair[0].midpoint(pair[1])));
+    let widest = cuts.reduce(|best, cut| if cut.0 > best.0 { cut } else { best });
+    widest.filter(|(wide, _)| *wide > 0.0).map(|(wide, x)| (wide, DVec2::new(x, y)))
+}
