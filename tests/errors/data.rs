@@ -548,7 +548,7 @@ local roads = source("town.osm.pbf", { tags = { highway = true, bridge = false }
 print(#houses, #all, #roads, houses.features[1].id, houses.features[1].levels, houses.features[1].roof_shape)
 print(all.features[2].id, #all.features[2].geometry.rings, roads.features[1].width + 1)
 "#;
-    let said = printed(script, &[]);
+    let said = folder().with("in/s.lua", script).burgeon(&["run", "in/s.lua"]).done().stderr;
     assert!(said.starts_with("1\t2\t1\tway/1\t2\tgabled\nrelation/1\t2\t8\n"), "{said}");
     for told in [
         "relation/2 of town.osm.pbf:buildings lacks way/77, which is a part of it",

@@ -5,7 +5,7 @@ use rustc_hash::{FxHashMap, FxHashSet};
 use super::block::{OsmBlock, TagNumbers, VisitResult, Visitor, WantedTags};
 use super::layers::{ReadyLayer, is_area};
 use super::places::Place;
-use super::shapes::{Record, Shape};
+use super::shapes::{OsmShape, Record};
 use super::wire::{Deltas, Varints};
 use crate::tags::TagFilter;
 use crate::{GeometryKind, SourceOptions};
@@ -81,7 +81,7 @@ impl TagSearch<'_> {
         &mut self,
         block: &OsmBlock<'_>,
         (id, tags, alternative): (i64, &[TagNumbers], usize),
-        shape: Shape,
+        shape: OsmShape,
     ) -> VisitResult<()> {
         let mut taken = Vec::with_capacity(tags.len());
         let mut weight = 100 + 8 * (shape.nodes().len() + shape.ways().len());
@@ -108,7 +108,7 @@ impl Visitor for TagSearch<'_> {
             return told_to_go_on(self.budget);
         }
         match self.chosen(block, tags)? {
-            Some(alternative) => self.take(block, (id, tags, alternative), Shape::Point(place)),
+            Some(alternative) => self.take(block, (id, tags, alternative), OsmShape::Point(place)),
             None => Ok(()),
         }
     }
@@ -135,8 +135,8 @@ impl Visitor for TagSearch<'_> {
                 false => value_of(block, tags, "area") != Some(b"no"),
             };
         match (is_area, lines) {
-            (true, _) => self.take(block, (id, tags, alternative), Shape::Area(nodes)),
-            (false, true) => self.take(block, (id, tags, alternative), Shape::Line(nodes)),
+            (true, _) => self.take(block, (id, tags, alternative), OsmShape::Area(nodes)),
+            (false, true) => self.take(block, (id, tags, alternative), OsmShape::Line(nodes)),
             (false, false) => Ok(()),
         }
     }
@@ -160,7 +160,7 @@ impl Visitor for TagSearch<'_> {
                 ways.push(member);
             }
         }
-        self.take(block, (id, tags, alternative), Shape::Ways(ways))
+        self.take(block, (id, tags, alternative), OsmShape::Ways(ways))
     }
 }
 

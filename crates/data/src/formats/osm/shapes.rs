@@ -15,7 +15,7 @@ pub(super) struct Record {
     /// Its number in OpenStreetMap.
     pub(super) id: i64,
     /// What its geometry is made of.
-    pub(super) shape: Shape,
+    pub(super) shape: OsmShape,
     /// Its tags.
     pub(super) tags: TagTexts,
     /// The alternative of the filter that held.
@@ -23,7 +23,7 @@ pub(super) struct Record {
 }
 
 /// What a geometry is made of.
-pub(super) enum Shape {
+pub(super) enum OsmShape {
     /// The place of a node.
     Point(Place),
     /// The nodes of a way.
@@ -41,15 +41,15 @@ impl Record {
     /// The feature's id, as OpenStreetMap's pages have it.
     pub(super) fn name(&self) -> String {
         let kind = match self.shape {
-            Shape::Point(_) => "node",
-            Shape::Line(_) | Shape::Area(_) => "way",
-            Shape::Ways(_) => "relation",
+            OsmShape::Point(_) => "node",
+            OsmShape::Line(_) | OsmShape::Area(_) => "way",
+            OsmShape::Ways(_) => "relation",
         };
         format!("{kind}/{}", self.id)
     }
 }
 
-impl Shape {
+impl OsmShape {
     /// The nodes that it is made of.
     pub(super) fn nodes(&self) -> &[i64] {
         match self {
@@ -75,13 +75,13 @@ pub(super) fn build(
     budget: &Budget,
 ) -> BuildResult {
     match &record.shape {
-        Shape::Point(place) => Ok((vec![Geometry::point(place.degrees())], false)),
-        Shape::Line(nodes) => lines(nodes, places),
-        Shape::Area(nodes) => {
+        OsmShape::Point(place) => Ok((vec![Geometry::point(place.degrees())], false)),
+        OsmShape::Line(nodes) => lines(nodes, places),
+        OsmShape::Area(nodes) => {
             let ring = all_places(nodes, places)?;
             Ok((polygons(rings::of_way(&ring, budget)?), false))
         }
-        Shape::Ways(members) => {
+        OsmShape::Ways(members) => {
             let mut borders = Vec::with_capacity(members.len());
             for way in members {
                 let nodes = ways.get(way).ok_or_else(|| format!("lacks way/{way}, which is a part of it"))?;
