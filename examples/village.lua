@@ -41,7 +41,8 @@ end
 
 -- The ground is a round plate with a bevelled edge.
 local low, high = village.bounds.min, village.bounds.max
-local ground = lsystem({ object = extruder({ color = "#8f9a6c", smooth = false, roughness = 1 }) })
+local ground =
+  lsystem({ object = extruder({ color = "#8f9a6c", smooth = false, roughness = 1 }), city = "LandUse" })
 local Plate = module("Plate", "width", "depth")
 ground:axiom(Plate(high[1] - low[1] + 40, high[2] - low[2] + 40))
 ground:interpret("Plate(w, d)", function(this, w, d)
@@ -53,7 +54,8 @@ ground:derive()
 
 -- A street is a band along its line, a little above the ground.
 local Street = module("Street", "points", "width")
-local ways = lsystem({ object = extruder({ color = "#b9b0a0", smooth = false, roughness = 1 }) })
+local ways =
+  lsystem({ object = extruder({ color = "#b9b0a0", smooth = false, roughness = 1 }), city = "Road" })
 ways:axiom(source(streets), function(feature)
   return Street(feature.geometry.points, feature.width)
 end)
@@ -116,7 +118,7 @@ if trees then
   local model = tree:derive()
 
   local Tree = module("Tree", "height", "turned")
-  local wood = lsystem({ object = turtle() })
+  local wood = lsystem({ object = turtle(), city = "SolitaryVegetationObject" })
   wood:axiom(source(plants), function(feature)
     return turtle({ position = feature.geometry.points[1] }), Tree(feature.height, random(0, 360))
   end)

@@ -130,7 +130,7 @@ fn every_script_writes_every_format_of_models_and_all_files_that_these_name() {
         let shown = script.display();
         let run = run(&script, 2);
         let folder = tempfile::tempdir().unwrap();
-        for format in ["glb", "gltf", "obj"] {
+        for format in ["glb", "gltf", "obj", "x3d", "city.json", "gpkg", "geojson"] {
             let path = folder.path().join(format!("a model.{format}"));
             export::write(&run.scene, &path, &Picture::default())
                 .unwrap_or_else(|error| panic!("{shown} as .{format}: {error}"));
@@ -138,6 +138,7 @@ fn every_script_writes_every_format_of_models_and_all_files_that_these_name() {
         }
         let mut named = files_of(&folder.path().join("a model.gltf"), "\"uri\":\"", "\"");
         named.extend(files_of(&folder.path().join("a model.obj"), "mtllib ", "\n"));
+        named.extend(files_of(&folder.path().join("a model.x3d"), "url='&quot;", "&quot;'"));
         let images = files_of(&folder.path().join("a_model.mtl"), "map_Kd ", "\n");
         textures += images.len();
         for file in named.iter().chain(&images) {

@@ -41,15 +41,22 @@ local function make(color: string)
   })
   local buttress = extruded(panel({ width = { 0.35, 0.35 } }), { depth = 0.55 })
   local function bay(model, below: number)
-    local face = bordered(panel({ model = model, width = 2 }), { bottom = { below, "max" }, top = 0.1 })
+    local face = bordered(
+      panel({ model = model, width = 2, surface = "window" }),
+      { bottom = { below, "max" }, top = 0.1 }
+    )
     return list({ buttress, face, buttress }, { width = { 2.6, 4, 6 } })
   end
-  local door =
-    bordered(panel({ model = portal, at = "bottom", width = { 3.6, 4 } }), { left = 0.3, right = 0.3 })
+  local door = bordered(
+    panel({ model = portal, at = "bottom", width = { 3.6, 4 }, surface = "door" }),
+    { left = 0.3, right = 0.3 }
+  )
   local plinth = walls.band(0.6, 0.6, stone)
   local cornice = walls.cornice({ { 0.2, 0.15 }, { 0.15, 0.3 } }, trim)
-  local slim =
-    bordered(panel({ model = window(0.3, 2.4) }), { left = 0.3, right = 0.3, bottom = { 2, "max" } })
+  local slim = bordered(
+    panel({ model = window(0.3, 2.4), surface = "window" }),
+    { left = 0.3, right = 0.3, bottom = { 2, "max" } }
+  )
   local slates = walls.surface("#59616b", "slates")
   local function storey(model, below: number, entry)
     return walls.storey({

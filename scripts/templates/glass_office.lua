@@ -28,7 +28,7 @@ local function make(tint: string, frame_color: string)
     box(frame, -0.71, 0.71, -0.08, 0.02, 0, 0.06),
   })
   local bay = extruded(
-    list({ panel({ height = 0.92, material = spandrel }), panel({ material = pane }) }, {
+    list({ panel({ height = 0.92, material = spandrel }), panel({ material = pane, surface = "window" }) }, {
       direction = "vertical",
       width = { 0.9, 1.5, 2.2 },
     }),
@@ -41,7 +41,7 @@ local function make(tint: string, frame_color: string)
     box(frame, -1.42, 1.42, -0.08, 0.02, 0, 0.18),
   })
   local hall = extruded(
-    panel({ material = hall_glass, width = { 1.8, 3, 4.2 } }),
+    panel({ material = hall_glass, width = { 1.8, 3, 4.2 }, surface = "window" }),
     { model = hall_frame, stretch = true }
   )
   local entrance = parts.model({
@@ -59,7 +59,7 @@ local function make(tint: string, frame_color: string)
     box(frame, -2.9, 2.9, -3.2, 0, 2.85, 3.05),
   })
   local entry = extruded(
-    panel({ model = entrance, stretch = true, background = false, width = { 4.5, 6, 7 } }),
+    panel({ model = entrance, stretch = true, background = false, width = { 4.5, 6, 7 }, surface = "door" }),
     { depth = -1.4, material = frame }
   )
   local edge = walls.band(0.35, 0.12, frame)

@@ -49,7 +49,7 @@ local function make(color: string, door_color: string)
   for side = -1, 1, 2 do
     table.insert(canted, box(white, side * 1.13 - 0.07, side * 1.13 + 0.07, -0.12, 0.02, 0.82, 2.42))
   end
-  local bow = panel({ model = parts.model(canted), at = "bottom", width = { 2.7, 2.7 } })
+  local bow = panel({ model = parts.model(canted), at = "bottom", width = { 2.7, 2.7 }, surface = "window" })
   local bow_bay = bordered(bow, { left = 0.2, right = 0.2, width = { 3.1, 3.4, 5 } })
 
   local bay = walls.bay(

@@ -25,7 +25,7 @@ function walls.surface(color, image: string?, roughness: number?)
 end
 
 -- A hole of exactly `width` by `height` in the wall with a model that fills it, and a surround that stands out.
--- { width, height, depth, model, surround, at, reveal }
+-- { width, height, depth, model, surround, at, reveal, open }: what is open goes down to the floor, as doors do.
 function walls.opening(o: any)
   local filled = panel({
     model = o.model,
@@ -33,6 +33,7 @@ function walls.opening(o: any)
     background = false,
     width = { o.width, o.width },
     height = { o.height, o.height },
+    surface = if o.open then "door" else "window",
   })
   return extruded(filled, {
     depth = -(o.depth or 0.18),

@@ -32,14 +32,47 @@ fn run_writes_every_format_and_the_chain() {
     let folder = folder();
     let said = folder
         .burgeon(&[
-            "run", "s.lua", "-o", "a.glb", "-o", "a.gltf", "-o", "a.obj", "-o", "a.svg", "-o", "a.png",
-            "--size", "64x48", "--chain", "a.txt",
+            "run",
+            "s.lua",
+            "-o",
+            "a.glb",
+            "-o",
+            "a.gltf",
+            "-o",
+            "a.obj",
+            "-o",
+            "a.svg",
+            "-o",
+            "a.png",
+            "-o",
+            "a.x3d",
+            "-o",
+            "a.city.json",
+            "--size",
+            "64x48",
+            "--chain",
+            "a.txt",
         ])
         .done();
     assert_eq!(said.stdout, "");
     assert!(said.stderr.starts_with("8 modules in 1 chain, 3 steps\n"), "{}", said.stderr);
     let files: Vec<String> = folder.files().into_keys().collect();
-    assert_eq!(files, ["a.bin", "a.glb", "a.gltf", "a.mtl", "a.obj", "a.png", "a.svg", "a.txt", "s.lua"]);
+    assert_eq!(
+        files,
+        [
+            "a.bin",
+            "a.city.json",
+            "a.glb",
+            "a.gltf",
+            "a.mtl",
+            "a.obj",
+            "a.png",
+            "a.svg",
+            "a.txt",
+            "a.x3d",
+            "s.lua"
+        ]
+    );
     assert_eq!(folder.read("a.txt").matches("A(").count(), 8);
     let before = folder.files();
     folder.burgeon(&["run", "s.lua", "-o", "a.glb", "--chain", "a.txt"]).done();
@@ -228,7 +261,7 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "-o", "model.xyz"]), @r"
     error: invalid value 'model.xyz' for '--output <FILE>': cannot write model.xyz: .xyz is not a format
-      help: the formats are .glb, .gltf, .obj, .png and .svg
+      help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
 
     For more information, try '--help'.
     ");
@@ -240,7 +273,7 @@ fn a_wrong_command_line_is_status_2_and_says_what_is_right() {
     ");
     assert_snapshot!(wrong(&["run", "s.lua", "-o", "model"]), @r"
     error: invalid value 'model' for '--output <FILE>': cannot write model: its name does not end in a format
-      help: the formats are .glb, .gltf, .obj, .png and .svg
+      help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
 
     For more information, try '--help'.
     ");
@@ -304,7 +337,8 @@ fn help_reads_well() {
           --threads <N>         Works with N threads; the result does not depend on it [default: one for each core]
           --stdlib <FILE>       Reads this file in the place of the built-in standard library
           --json                Prints one JSON document, for machines, in place of text for people
-      -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
+      -o, --output <FILE>       Writes the model; the extension picks the format: .glb, .gltf, .obj, .x3d, .city.json, .geojson, .gpkg, .png or .svg. May be repeated
+          --metadata            Tells the ids and the attributes of features in .glb and .gltf files
           --chain <FILE>        Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
           --heights <FILE>      Writes the heights of the terrain as a map; the extension picks the format: .png, .asc, .tif, .r32 or .r64
           --edits <FILE>        Writes the changes of the ground of the terrain, for edits(FILE) in a script

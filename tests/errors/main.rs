@@ -10,6 +10,7 @@ mod command_line;
 mod data;
 mod determinism;
 mod elevation;
+mod exports;
 mod facades;
 mod files;
 mod fitting;

@@ -87,8 +87,26 @@ fn of_several_files_all_appear_or_none() {
     let before = names(folder.path());
     for last in [["--edits", "e.json"], ["--heights", "h.asc"], ["--tiles", "new/tiles"], ["-o", "full.glb"]]
     {
-        let all =
-            ["run", "s.lua", "-o", "a.glb", "-o", "b.gltf", "-o", "c.obj", "-o", "d.svg", "--chain", "e.txt"];
+        let all = [
+            "run",
+            "s.lua",
+            "-o",
+            "a.glb",
+            "-o",
+            "b.gltf",
+            "-o",
+            "c.obj",
+            "-o",
+            "d.svg",
+            "-o",
+            "f.x3d",
+            "-o",
+            "f.gpkg",
+            "-o",
+            "f.city.json",
+            "--chain",
+            "e.txt",
+        ];
         let text = folder.burgeon(&[&all, &last[..]].concat());
         assert_eq!(text.status, 1, "{last:?}: {}", text.stderr);
         assert_eq!(names(folder.path()), before, "{last:?}");

@@ -93,6 +93,27 @@ pub(crate) mod projection {
     }
 }
 
+pub(crate) mod output {
+    use super::{Result, left_out};
+    use crate::frame::ReferenceFrame;
+    use crate::output::RecordTable;
+    use burgeon_base::stop::Stop;
+
+    /// Refuses GeoPackages.
+    pub fn check_geopackage() -> Result<()> {
+        left_out()
+    }
+
+    /// A GeoPackage, of which there is none without the feature `data`.
+    pub fn write_geopackage(
+        _tables: &[RecordTable],
+        _frame: Option<&ReferenceFrame>,
+        _stop: &Stop,
+    ) -> Result<Vec<u8>> {
+        left_out()
+    }
+}
+
 pub(crate) mod geotiff {
     use super::{Error, Result, left_out};
     use crate::heights::RasterHeader;

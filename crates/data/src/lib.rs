@@ -15,6 +15,7 @@ mod heights;
 mod id;
 mod layer;
 mod listing;
+pub mod output;
 mod source;
 mod table;
 mod tags;
@@ -25,6 +26,7 @@ pub use burgeon_spatial::{Geometry, GeometryKind};
 pub use cache::Cache;
 #[cfg(feature = "data")]
 pub use formats::TableShape;
+pub use formats::output::{check_geopackage, write_geopackage};
 pub use formats::{FlatGeobuf, GeoPackage, GmlFile, OsmFile};
 pub use frame::{Crs, Passage, ReferenceFrame};
 pub use id::FeatureId;

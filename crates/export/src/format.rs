@@ -17,11 +17,32 @@ pub enum Format {
     Png,
     /// A drawing to scale: a plan, or an elevation of what stands upright and thin.
     Svg,
+    /// X3D 3.3 in XML, with the textures beside it.
+    X3d,
+    /// CityJSON 2.0: buildings with their surfaces, and other city objects.
+    CityJson,
+    /// GeoJSON: the modules of the final chains that have a geometry, in degrees.
+    GeoJson,
+    /// A GeoPackage of the same, with a layer for each symbol.
+    GeoPackage,
 }
 
 impl Format {
     /// Every format, in the order in which messages list them.
-    pub const ALL: [Self; 5] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg];
+    pub const ALL: [Self; 9] = [
+        Self::Glb,
+        Self::Gltf,
+        Self::Obj,
+        Self::Png,
+        Self::Svg,
+        Self::X3d,
+        Self::CityJson,
+        Self::GeoJson,
+        Self::GeoPackage,
+    ];
+
+    /// Those that show what is seen, and need to know nothing else of a run.
+    pub const OF_SCENES: [Self; 6] = [Self::Glb, Self::Gltf, Self::Obj, Self::Png, Self::Svg, Self::X3d];
 
     /// The extension, in lower case and without a dot.
     pub const fn extension(self) -> &'static str {
@@ -31,26 +52,42 @@ impl Format {
             Self::Obj => "obj",
             Self::Png => "png",
             Self::Svg => "svg",
+            Self::X3d => "x3d",
+            Self::CityJson => "city.json",
+            Self::GeoJson => "geojson",
+            Self::GeoPackage => "gpkg",
         }
+    }
+
+    /// Whether it holds layers of what rules made and nothing of the scene.
+    pub fn has_layers(self) -> bool {
+        matches!(self, Self::GeoJson | Self::GeoPackage)
     }
 
     /// Refuses the format that this program was built without.
     pub fn check(self) -> Result<()> {
-        if self == Self::Png { image::check() } else { Ok(()) }
+        match self {
+            Self::Png => image::check(),
+            Self::GeoPackage => burgeon_data::check_geopackage(),
+            _ => Ok(()),
+        }
     }
 
     /// The format that the extension of `path` names, in upper or lower case.
     ///
     /// Fails on an unknown or missing extension and says which there are.
     pub fn of(path: &Path) -> Result<Self> {
-        let known = "the formats are .glb, .gltf, .obj, .png and .svg";
+        let known = "the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg";
         let Some(extension) = path.extension() else {
             let message = format!("cannot write {}: its name does not end in a format", path.display());
             return Err(Error::usage(message).help(known));
         };
         let extension = extension.to_string_lossy();
-        if let Some(format) = Self::ALL.into_iter().find(|it| extension.eq_ignore_ascii_case(it.extension()))
-        {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
+        let ends = |format: &Self| {
+            name.strip_suffix(format.extension()).is_some_and(|stem| stem.len() > 1 && stem.ends_with('.'))
+        };
+        if let Some(format) = Self::ALL.into_iter().find(ends) {
             return Ok(format);
         }
         let message = format!("cannot write {}: .{extension} is not a format", path.display());
@@ -69,6 +106,7 @@ mod tests {
         assert_eq!(Format::of(Path::new("out/a.b/tower.GLB")).unwrap(), Format::Glb);
         for format in Format::ALL {
             assert_eq!(Format::of(Path::new(&format!("x.{}", format.extension()))).unwrap(), format);
+            assert!(Format::of(Path::new(&format!("x{}", format.extension()))).is_err());
         }
     }
 
@@ -80,7 +118,7 @@ mod tests {
         ");
         insta::assert_snapshot!(Format::of(Path::new("tower.step")).unwrap_err(), @r"
         cannot write tower.step: .step is not a format
-          help: the formats are .glb, .gltf, .obj, .png and .svg
+          help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
         ");
     }
 
@@ -88,7 +126,7 @@ mod tests {
     fn a_missing_extension_is_refused() {
         insta::assert_snapshot!(Format::of(Path::new("a.b/tower")).unwrap_err(), @r"
         cannot write a.b/tower: its name does not end in a format
-          help: the formats are .glb, .gltf, .obj, .png and .svg
+          help: the formats are .glb, .gltf, .obj, .png, .svg, .x3d, .city.json, .geojson and .gpkg
         ");
     }
 }

@@ -16,7 +16,10 @@
 )]
 
 mod check;
+mod city;
 mod color;
+mod decompose;
+mod facts;
 mod files;
 mod format;
 pub mod gltf;
@@ -27,16 +30,19 @@ pub mod svg;
 mod target;
 mod temporary;
 mod texture;
+mod x3d;
 
 #[cfg(test)]
 mod samples;
 
+pub use facts::{Export, SceneFacts, SystemFacts};
 pub use files::{Files, Out, Stoppable};
 pub use format::Format;
 pub use temporary::abandon;
 
 use burgeon_base::error::Result;
 use burgeon_base::stop::Stop;
+use burgeon_data::output;
 use burgeon_scene::Scene;
 use picture::Picture;
 use std::io::{self, Write};
@@ -44,7 +50,7 @@ use std::path::Path;
 
 /// Writes `scene` to `path` in the format of its extension; `picture` matters to `.png` alone.
 ///
-/// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. On failure everything is as
+/// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. On failure everything is as
 /// it was before. Fails as [`Files::scene`] does.
 pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
     let mut files = Files::default();
@@ -55,15 +61,26 @@ pub fn write(scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
 impl Files {
     /// Writes what will be `scene` at `path`, in the format of its extension; `picture` matters to `.png` alone.
     ///
-    /// `.gltf` and `.obj` bring files beside `path` whose names begin with its stem. Fails as [`write`](Files::write)
-    /// does, if the extension is no format, if the scene is not sound and if a texture cannot be read.
+    /// Nothing is known of it but what is seen. Fails as [`export`](Files::export) does.
     pub fn scene(&mut self, scene: &Scene, path: &Path, picture: &Picture) -> Result<()> {
+        self.export(&Export { scene, picture, facts: SceneFacts::default() }, path)
+    }
+
+    /// Writes what will be at `path`, in the format of its extension.
+    ///
+    /// `.gltf`, `.obj` and `.x3d` bring files beside `path` whose names begin with its stem. Fails as
+    /// [`write`](Files::write) does, if the extension is no format, if the scene is not sound, if a texture cannot be read
+    /// and if something has no place where the format counts from.
+    pub fn export(&mut self, export: &Export<'_>, path: &Path) -> Result<()> {
         let format = Format::of(path)?;
         format.check()?;
+        let Export { scene, picture, facts } = export;
         match format {
-            Format::Glb => gltf::write_glb(scene, path, self),
-            Format::Gltf => gltf::write_gltf(scene, path, self),
+            Format::Glb => gltf::write_glb(scene, facts, path, self),
+            Format::Gltf => gltf::write_gltf(scene, facts, path, self),
             Format::Obj => obj::write(scene, path, self),
+            Format::X3d => x3d::write(scene, path, self),
+            Format::CityJson => city::write(export, path, self),
             Format::Png => {
                 let png = png(scene, picture, &self.stop())?;
                 self.write(path, |out| out.write_all(&png))
@@ -71,6 +88,15 @@ impl Files {
             Format::Svg => {
                 let drawing = svg::svg(scene, &self.stop())?;
                 self.write(path, |out| out.write_all(drawing.as_bytes()))
+            }
+            Format::GeoJson => {
+                let mut text = Vec::new();
+                output::write_geojson(facts.layers, facts.frame, &mut text)?;
+                self.write(path, |out| out.write_all(&text))
+            }
+            Format::GeoPackage => {
+                let package = burgeon_data::write_geopackage(facts.layers, facts.frame, &self.stop())?;
+                self.write(path, |out| out.write_all(&package))
             }
         }
     }
@@ -95,6 +121,18 @@ pub fn check_files<'a>(paths: impl IntoIterator<Item = &'a Path>) -> Result<()> 
 /// The name of `path` without its extension.
 fn stem(path: &Path) -> String {
     path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// A file name as a relative reference of RFC 3986.
+fn uri(name: &str) -> String {
+    let mut uri = String::with_capacity(name.len());
+    for byte in name.bytes() {
+        match byte {
+            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(byte)),
+            _ => uri.push_str(&format!("%{byte:02X}")),
+        }
+    }
+    uri
 }
 
 /// The picture of `scene` as a PNG file. Fails as [`picture::render`] does.

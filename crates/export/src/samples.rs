@@ -24,7 +24,15 @@ pub(super) fn cube(name: &str, material: usize) -> Mesh {
 }
 
 fn instance(mesh: usize, name: &str, transform: DAffine3) -> Instance {
-    Instance { mesh, transform, name: name.into(), feature: None, origin: None, placement: None }
+    Instance {
+        mesh,
+        transform,
+        name: name.into(),
+        feature: None,
+        origin: None,
+        placement: None,
+        meaning: None,
+    }
 }
 
 fn plaster() -> Material {

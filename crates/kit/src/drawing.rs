@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::Model;
 use super::distance::Nearest;
 use super::makers::Makers;
-use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene};
+use burgeon_scene::{Instance, Material, Mesh, Normal, Part, Scene, SurfaceMeaning};
 
 /// The faces that an object has drawn, by material, and the models that it has placed.
 #[derive(Clone, Default)]
@@ -16,8 +16,8 @@ pub struct Drawing {
     origin: DVec3,
     materials: Vec<Material>,
     parts: Vec<Part>,
-    /// What was placed, and where; the same thing once.
-    placed: Vec<(Arc<Model>, Vec<DAffine3>)>,
+    /// What was placed, as what, and where; the same thing once.
+    placed: Vec<(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)>,
     /// How many instances that makes.
     instances: usize,
     /// Emptied parts, whose memory is used again: fresh pages cost more than drawing.
@@ -78,6 +78,14 @@ impl Drawing {
         &mut self.parts[index]
     }
 
+    /// The same, where what is added next is known to be a surface of this kind.
+    #[inline]
+    pub fn surface(&mut self, index: usize, meaning: SurfaceMeaning) -> &mut Part {
+        let part = self.part(index);
+        part.surfaces.mark(part.triangles.len(), Some(meaning));
+        part
+    }
+
     /// The parts, in the order of the first use of their materials.
     pub fn parts(&self) -> &[Part] {
         &self.parts
@@ -90,22 +98,30 @@ impl Drawing {
 
     /// Places `model` at `frame`; the same model many times is one mesh with many instances.
     pub fn place(&mut self, model: &Arc<Model>, frame: DAffine3) {
-        let index = match self.placed.iter().position(|(known, _)| Arc::ptr_eq(known, model)) {
+        self.place_as(model, frame, None);
+    }
+
+    /// The same, where all of it is known to be a surface of some kind.
+    pub fn place_as(&mut self, model: &Arc<Model>, frame: DAffine3, meaning: Option<SurfaceMeaning>) {
+        let known = |(known, known_meaning, _): &(Arc<Model>, Option<SurfaceMeaning>, Vec<DAffine3>)| {
+            Arc::ptr_eq(known, model) && *known_meaning == meaning
+        };
+        let index = match self.placed.iter().position(known) {
             Some(index) => index,
             None => {
-                self.placed.push((Arc::clone(model), Vec::new()));
+                self.placed.push((Arc::clone(model), meaning, Vec::new()));
                 self.placed.len() - 1
             }
         };
         self.instances += model.instances();
-        self.placed[index].1.push(frame);
+        self.placed[index].2.push(frame);
         if let Some(makers) = &mut self.makers {
             makers.place(index);
         }
     }
 
-    /// Draws the faces of `model` at `frame`, as if they were its own.
-    pub fn draw_model(&mut self, model: &Model, frame: &DAffine3) {
+    /// Draws the faces of `model` at `frame`, as if they were its own; `meaning` is what all of it is.
+    pub fn draw_model(&mut self, model: &Model, frame: &DAffine3, meaning: Option<SurfaceMeaning>) {
         for (mesh, transform) in model.meshes() {
             let frame = *frame * transform;
             let turned = frame.matrix3.inverse().transpose();
@@ -115,6 +131,10 @@ impl Drawing {
                 let into = self.part(index);
                 let Ok(base) = u32::try_from(into.positions.len()) else { return };
                 into.make_room(part.positions.len(), part.triangles.len());
+                let first = into.triangles.len();
+                for (range, own) in part.surfaces.stretches(part.triangles.len()) {
+                    into.surfaces.mark(first + range.start, meaning.or(own));
+                }
                 into.positions
                     .extend(part.positions.iter().map(|at| frame.transform_point3(at.as_dvec3()).as_vec3()));
                 into.normals.extend(
@@ -196,12 +216,13 @@ impl Drawing {
                 feature: feature.map(str::to_owned),
                 origin: None,
                 placement: None,
+                meaning: None,
             });
         }
         let mut first = 0;
-        for (model, frames) in &self.placed {
+        for (model, meaning, frames) in &self.placed {
             let placed: Vec<DAffine3> = frames.iter().map(|frame| origin * *frame).collect();
-            model.place(scene, &placed, first, name, feature);
+            model.place(scene, &placed, first, name, feature, *meaning);
             first += frames.len();
         }
     }

@@ -7,7 +7,7 @@ use glam::{DAffine3, DVec3};
 use super::{ObjectParameter, Show};
 use burgeon_base::error::Result;
 use burgeon_macros::{methods, object};
-use burgeon_scene::{Instance, Material, Part, Scene};
+use burgeon_scene::{Instance, Material, Part, Scene, SurfaceMeaning};
 
 /// What a derived system has drawn, or a glTF file holds, for placing elsewhere.
 ///
@@ -69,7 +69,7 @@ impl Model {
 
     /// Adds an instance of everything to `scene` at each of `frames`; its meshes are added once.
     ///
-    /// The frames are numbered from `first` on, as [`Instance::placement`] tells.
+    /// The frames are numbered from `first` on, as [`Instance::placement`] tells; `meaning` is what all of it is.
     pub fn place(
         &self,
         scene: &mut Scene,
@@ -77,6 +77,7 @@ impl Model {
         first: usize,
         name: &str,
         feature: Option<&str>,
+        meaning: Option<SurfaceMeaning>,
     ) {
         for (number, frame) in (first..).zip(frames) {
             for instance in &self.scene.instances {
@@ -88,6 +89,7 @@ impl Model {
                     feature: feature.map(str::to_owned),
                     origin: None,
                     placement: Some(number),
+                    meaning: meaning.or(instance.meaning),
                 });
             }
         }
@@ -111,7 +113,7 @@ impl Show for Model {
     }
 
     fn show(&self, scene: &mut Scene, name: &str, feature: Option<&str>) -> Result<()> {
-        self.place(scene, &[DAffine3::IDENTITY], 0, name, feature);
+        self.place(scene, &[DAffine3::IDENTITY], 0, name, feature, None);
         Ok(())
     }
 }

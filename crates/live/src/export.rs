@@ -110,6 +110,10 @@ fn media_type(format: Format) -> &'static str {
         Format::Obj => "model/obj",
         Format::Png => "image/png",
         Format::Svg => "image/svg+xml",
+        Format::X3d => "model/x3d+xml",
+        Format::CityJson => "application/city+json",
+        Format::GeoJson => "application/geo+json",
+        Format::GeoPackage => "application/geopackage+sqlite3",
     }
 }
 

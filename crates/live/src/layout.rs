@@ -153,6 +153,7 @@ mod tests {
             feature: None,
             origin: None,
             placement: None,
+            meaning: None,
         };
         let scene = Scene {
             meshes: vec![Mesh::default(), mesh],

@@ -189,7 +189,8 @@ async fn measured(site: &Arc<Site>, name: &str) -> Response {
 async fn save(site: &Arc<Site>, name: &str, query: &str) -> Response {
     let refuse = |text: String| plain_text(StatusCode::BAD_REQUEST, text);
     let Some(name) = decoded(name) else { return missing() };
-    if burgeon_export::Format::of(name.as_ref()).is_err() {
+    let format = burgeon_export::Format::of(name.as_ref());
+    if !format.is_ok_and(|format| burgeon_export::Format::OF_SCENES.contains(&format)) {
         return missing();
     }
     let picture = match export::picture(query) {

@@ -206,7 +206,7 @@ impl ServerState {
             script: self.script_name(),
             path: self.script.display().to_string(),
             editor: self.editor.is_some(),
-            formats: Format::ALL.map(Format::extension).to_vec(),
+            formats: Format::OF_SCENES.map(Format::extension).to_vec(),
             presets,
         }
     }

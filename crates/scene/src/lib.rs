@@ -3,17 +3,21 @@
 //! Comes in: meshes and instances from objects, in chain order. Goes out: the same, unchanged.
 //! It never builds geometry and never looks at rules.
 
+mod city;
 pub mod image;
 mod material;
 mod mesh;
 mod normal;
 mod shared;
+mod surface;
 mod triangles;
 
+pub use city::CityClass;
 pub use material::{Material, Texture};
 pub use mesh::{Mesh, Part};
 pub use normal::Normal;
 pub use shared::SharedMeshes;
+pub use surface::{SurfaceMeaning, SurfaceRuns};
 pub use triangles::{Iter, Triangles};
 
 use glam::{DAffine3, DVec3};
@@ -49,6 +53,8 @@ pub struct Instance {
     pub origin: Option<Origin>,
     /// Which of the models that the object placed it belongs to, from 0; `None` for what the object drew itself.
     pub placement: Option<usize>,
+    /// What all of it is, if that is known: a model stands in one wall as a window and in another as a door.
+    pub meaning: Option<SurfaceMeaning>,
 }
 
 /// A chain, among all that a run has derived.

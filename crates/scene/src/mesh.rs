@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec2, Vec3};
 
-use super::{Normal, Origin, Triangles};
+use super::{Normal, Origin, SurfaceRuns, Triangles};
 use burgeon_base::memory::make_room;
 
 /// A shape: parts that share one coordinate system, one part for each material.
@@ -34,6 +34,8 @@ pub struct Part {
     pub uvs: Vec<Vec2>,
     /// Indices of corners.
     pub triangles: Triangles,
+    /// What they are surfaces of, as far as an object tells.
+    pub surfaces: SurfaceRuns,
 }
 
 impl Part {
@@ -43,6 +45,7 @@ impl Part {
         self.normals.clear();
         self.uvs.clear();
         self.triangles.clear();
+        self.surfaces.clear();
     }
 
     /// Makes room for more vertices and triangles, on huge pages where they are many.

@@ -10,7 +10,7 @@ pub(super) type Page = (String, String);
 /// The pages that follow from what scripts can use, and the list of all pages.
 pub(super) fn pages(entries: &[Entry]) -> Vec<Page> {
     let mut summary = String::from(
-        "# Summary\n\n[Burgeon](introduction.md)\n[Data and heights](data.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
+        "# Summary\n\n[Burgeon](introduction.md)\n[Data and heights](data.md)\n[Ground and planets](ground.md)\n[What scripts can use](objects.md)\n[Running scripts](running.md)\n[Files for other programs](formats.md)\n[Live](live.md)\n[Types of objects of your own](types.md)\n[Packages](packages.md)\n[Scripts from others](threats.md)\n[Editors](editors.md)\n[Speed](speed.md)\n\n# Types of objects\n\n",
     );
     let mut pages = Vec::new();
     for entry in entries.iter().filter(|entry| entry.group == EntryGroup::Type) {

@@ -8,9 +8,10 @@ use super::watch;
 use crate::commands::progress::ProgressDisplay;
 use crate::commands::report;
 use crate::commands::shared::{PictureFlags, ScriptFlags, end_on_interrupt, size};
-use burgeon::export;
+use burgeon::export::Format;
 use burgeon::presets::Presets;
-use burgeon::script::{Param, Preset, Session};
+use burgeon::results::layers;
+use burgeon::script::{Param, Preset, RunOptions, Session};
 use burgeon::{Result, Warning, WarningKind};
 use clap::Args;
 
@@ -20,9 +21,14 @@ pub(crate) struct RunCommand {
     #[command(flatten)]
     pub(super) script: ScriptFlags,
 
-    /// Writes the model; the extension picks the format: .glb, .gltf, .obj, .png or .svg. May be repeated
+    /// Writes the model; the extension picks the format: .glb, .gltf, .obj, .x3d, .city.json,
+    /// .geojson, .gpkg, .png or .svg. May be repeated
     #[arg(short, long, value_name = "FILE", value_parser = output)]
     pub(super) output: Vec<PathBuf>,
+
+    /// Tells the ids and the attributes of features in .glb and .gltf files
+    #[arg(long)]
+    pub(super) metadata: bool,
 
     /// Writes the final chains as text, a line for each; - is standard output, in the JSON document if there is one
     #[arg(long, value_name = "FILE")]
@@ -85,7 +91,8 @@ impl RunCommand {
 
     /// The script as it was named, and how it is run.
     pub(super) fn session(&self) -> Result<Arc<Session>> {
-        Session::new(&self.script.script, self.script.options()?)
+        let records = self.metadata || self.writes(|format| format == Format::CityJson);
+        Session::new(&self.script.script, RunOptions { records, ..self.script.options()? })
     }
 
     /// Runs `session`, writes everything, and says what came of it, unless it is `stale` before anything is written.
@@ -126,9 +133,21 @@ impl RunCommand {
 
     /// Warns of files without a model in them; such a run fails if it is to be strict.
     fn warn_of_nothing(&self, session: &Session, run: &mut burgeon::Run) -> Result<()> {
+        if self.writes(Format::has_layers) && layers(&run.systems).is_empty() {
+            let text = "there are no layers to write, for no module of the final chains has a geometry";
+            let warning = Warning::new(WarningKind::EmptyModel, text)
+                .at(run.systems.first().and_then(|system| system.place.clone()))
+                .help("pass a geometry on, such as Lot(feature.geometry, area)");
+            if session.options.strict {
+                return Err(warning.into_error());
+            }
+            run.warnings.push(warning);
+        }
         let known = run.warnings.iter().any(|warning| warning.kind() == WarningKind::EmptyModel);
         let place = run.systems.first().map(|system| system.place.clone());
-        let (Some(place), false) = (place, known || self.output.is_empty()) else { return Ok(()) };
+        let (Some(place), false) = (place, known || !self.writes(|format| !format.has_layers())) else {
+            return Ok(());
+        };
         if run.scene.triangles() > 0 || session.options.steps.is_some() {
             return Ok(());
         }
@@ -141,6 +160,11 @@ impl RunCommand {
         }
         run.warnings.push(warning);
         Ok(())
+    }
+
+    /// Whether it writes a file of such a format.
+    pub(super) fn writes(&self, is_such: impl Fn(Format) -> bool) -> bool {
+        self.output.iter().any(|output| Format::of(output).is_ok_and(&is_such))
     }
 
     /// Saves what this run was given.
@@ -157,5 +181,5 @@ impl RunCommand {
 
 fn output(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    export::Format::of(&path).map(|_| path).map_err(|error| error.to_string())
+    Format::of(&path).map(|_| path).map_err(|error| error.to_string())
 }

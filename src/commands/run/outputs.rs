@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use burgeon::export::{self, Files, Format, heights::HeightMap};
+use burgeon::export::{self, Export, Files, Format, SceneFacts, SystemFacts, heights::HeightMap};
 use burgeon::kit::declare::as_ref;
 use burgeon::objects::Terrain;
 use burgeon::picture::Picture;
-use burgeon::results::{DerivedSystem, FeatureReport};
+use burgeon::results::{DerivedSystem, FeatureReport, layers};
 use burgeon::script::Session;
 use burgeon::terrain::{GroundMap, TilePlace};
 use burgeon::{Error, Result};
@@ -101,12 +101,22 @@ impl RunCommand {
             files.write(path, |out| std::io::Write::write_all(out, text.as_bytes()))?;
         }
         let picture = self.picture.picture(self.size);
+        let (systems, layers) =
+            (systems(run), if self.writes(Format::has_layers) { layers(&run.systems) } else { Vec::new() });
+        let facts = SceneFacts {
+            frame: run.frame.as_ref(),
+            detail: session.options.lod,
+            systems: &systems,
+            layers: &layers,
+            metadata: self.metadata,
+        };
         // Copies of textures find names that nothing else has if they come last.
-        let has_copies =
-            |output: &&std::path::PathBuf| matches!(Format::of(output), Ok(Format::Gltf | Format::Obj));
+        let has_copies = |output: &&std::path::PathBuf| {
+            matches!(Format::of(output), Ok(Format::Gltf | Format::Obj | Format::X3d))
+        };
         let (last, first): (Vec<_>, Vec<_>) = self.output.iter().partition(has_copies);
         for output in first.into_iter().chain(last) {
-            files.scene(&run.scene, output, &picture)?;
+            files.export(&Export { scene: &run.scene, picture: &picture, facts }, output)?;
         }
         if let Some(folder) = &self.tiles {
             write_tiles(run, folder, &mut files)?;
@@ -124,6 +134,17 @@ impl RunCommand {
     pub(super) fn chain_in_json(&self) -> bool {
         self.script.json && self.chain.as_deref() == Some(Path::new(STANDARD))
     }
+}
+
+/// What is known of the systems of a run, where something is.
+fn systems(run: &burgeon::Run) -> Vec<SystemFacts> {
+    let known = run.systems.iter().filter_map(|system| {
+        let records = system.records();
+        let is_known = records.is_some() || system.city.is_some();
+        let (records, class) = (records.unwrap_or_default(), system.city);
+        is_known.then_some(SystemFacts { system: system.system, records, class })
+    });
+    known.collect()
 }
 
 /// Writes each tile of the terrain as a file of its own, called by level, column and row.

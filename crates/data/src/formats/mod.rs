@@ -9,6 +9,7 @@ pub(crate) mod geotiff;
 mod gml;
 mod meaning;
 mod osm;
+pub(crate) mod output;
 mod packed;
 pub(crate) mod png;
 pub(crate) mod projection;

@@ -27,6 +27,11 @@ pub(crate) fn known(code: u32) -> Result<Option<(u16, &'static str)>> {
     Ok(found.map(|found| (found.code, found.proj4)))
 }
 
+/// The definition of a coordinate system in well-known text, if the registry has it.
+pub(crate) fn definition(code: u16) -> Result<Option<&'static str>> {
+    Ok(crs_definitions::from_code(code).map(|found| found.wkt))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

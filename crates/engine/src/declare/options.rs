@@ -108,6 +108,8 @@ pub struct RunOptions {
     ///
     /// [`DerivedSystem::remarks`]: crate::results::DerivedSystem::remarks
     pub strict: bool,
+    /// Whether what is known of the features in lists that scripts make is kept, for files that tell it.
+    pub records: bool,
     /// The chains to note the lineage of; see [`trace`](crate::trace).
     pub trace: Option<TraceRequest>,
 }
@@ -146,6 +148,7 @@ impl Default for RunOptions {
             forgiving: false,
             profile: false,
             strict: false,
+            records: false,
             trace: None,
         }
     }

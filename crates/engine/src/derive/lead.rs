@@ -176,6 +176,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
     }
     let undrawn =
         machine.library.systems.borrow()[plan.system].undrawn(&machine.library, &grown.chain.symbols);
+    let city = machine.library.systems.borrow()[plan.system].city;
     drop(declared);
     machine.current.objects.replace(None);
     session.keep(&grown.chain.params);
@@ -222,6 +223,7 @@ fn settle(machine: &Machine, derivation: Derivation, grown: StepResults) -> Resu
     );
     (derived.given, derived.remarks, derived.undrawn) = (axiom.given, axiom.remarks, undrawn);
     derived.draws = draws;
+    (derived.source, derived.city) = (axiom.known, city);
     Ok(Ending::Derived(derived))
 }
 

@@ -4,14 +4,16 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
+use super::records::SourceFeatures;
 use super::remark::Remark;
 use super::trace::RuleName;
 use super::uses::Use;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_base::warning::Warning;
+use burgeon_data::output::RecordTable;
 use burgeon_kit::rules::{Chain, Symbols, Values, chain_text, write_chains};
 use burgeon_kit::{Model, Object};
-use burgeon_scene::{Origin, Scene};
+use burgeon_scene::{CityClass, Origin, Scene};
 
 /// Where the time of a derivation went.
 #[derive(Debug, Clone, Copy, Default)]
@@ -63,6 +65,9 @@ pub struct DerivedSystem {
     pub given: usize,
     /// What could not be built as asked: features that got no chain, then the chains in their order.
     pub remarks: Vec<Remark>,
+    /// What its chains are in a city, if the script says.
+    pub city: Option<CityClass>,
+    pub(crate) source: SourceFeatures,
     /// Whether it has an object that draws.
     pub(crate) draws: bool,
     /// What its chains hold that nothing draws; it counts unless the script reads the chains.
@@ -101,6 +106,8 @@ impl DerivedSystem {
             place,
             given: 0,
             remarks: Vec::new(),
+            city: None,
+            source: SourceFeatures::None,
             draws: false,
             undrawn: Vec::new(),
             read: AtomicBool::new(false),
@@ -113,6 +120,12 @@ impl DerivedSystem {
     /// The number of modules in all chains, without brackets.
     pub fn modules(&self) -> usize {
         self.modules
+    }
+
+    /// What is known of the features that its chains came from, in the order of the chains; nothing without features.
+    /// What a list of the script knows is kept if [`RunOptions::records`](crate::script::RunOptions::records) says so.
+    pub fn records(&self) -> Option<RecordTable> {
+        self.source.table(&self.features, self.system + 1)
     }
 
     /// The chains as text, a line for each.

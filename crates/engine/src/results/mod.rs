@@ -4,11 +4,15 @@
 //! It never runs a rule.
 
 mod derived_system;
+mod layers;
+mod records;
 mod remark;
 mod trace;
 mod uses;
 
 pub use derived_system::{DerivedSystem, RuleReport, Times};
+pub use layers::layers;
+pub(crate) use records::SourceFeatures;
 pub use remark::{FeatureReport, Remark};
 pub use trace::{Ancestor, Module, RuleName, RuleProducts, Trace};
 pub(crate) use trace::{Step, around};

@@ -38,6 +38,8 @@ pub(super) enum ArrayKind {
     /// Normals as four i16, of which the last is nothing.
     ShortNormals,
     TexCoords,
+    /// Numbers of features.
+    Features,
     /// Indices as u16.
     Short,
     /// Indices as u32.
@@ -72,7 +74,11 @@ pub(super) enum BodyArray<'a> {
     ShortFaces(Arc<FaceCorners<'a>>, usize, usize),
     LongFaces(Arc<FaceCorners<'a>>, usize, usize),
     Floats(Vec<f32>),
+    /// The same number so many times.
+    Same(f32, usize),
     Shorts(Vec<i16>),
+    /// What is no array of numbers, such as text.
+    Blob(Vec<u8>),
     Bytes(&'a [u8]),
 }
 
@@ -92,6 +98,8 @@ struct BufferSection<'a> {
     batch: usize,
     blocks: Vec<BodyArray<'a>>,
     length: u64,
+    /// Its end is at a multiple of this (bytes).
+    alignment: u64,
 }
 
 /// Some blocks, or a part of one.
@@ -119,6 +127,13 @@ impl<'a> Body<'a> {
         section.length += block.length();
         section.blocks.push(block);
         (index as u32, offset)
+    }
+
+    /// Adds `block` as a view of its own that begins at a multiple of 8, if there are only such before it.
+    pub(super) fn add_aligned(&mut self, block: BodyArray<'a>) -> u32 {
+        let index = self.add(block);
+        self.sections[index as usize].alignment = 8;
+        index
     }
 
     /// Adds `block` as a view of its own.
@@ -151,13 +166,13 @@ impl<'a> Body<'a> {
 
     fn section(&mut self, shared: Option<ArrayKind>) -> usize {
         let batch = self.batches.len();
-        self.sections.push(BufferSection { shared, batch, blocks: Vec::new(), length: 0 });
+        self.sections.push(BufferSection { shared, batch, blocks: Vec::new(), length: 0, alignment: 4 });
         self.sections.len() - 1
     }
 
     /// Length (bytes) with padding; each view begins at a multiple of 4.
     pub(super) fn length(&self) -> u64 {
-        self.sections.iter().map(|section| section.length.next_multiple_of(4)).sum()
+        self.sections.iter().map(BufferSection::end).sum()
     }
 
     /// Adds the buffer and its views to `root`. Fails beyond 4 GiB.
@@ -186,7 +201,7 @@ impl<'a> Body<'a> {
                 extensions: None,
                 extras: None,
             });
-            offset += section.length.next_multiple_of(4);
+            offset += section.end();
         }
         Ok(())
     }
@@ -246,7 +261,7 @@ impl<'a> Body<'a> {
                 stretches.push(Stretch { blocks, items: 0..usize::MAX, padding: 0, batch });
                 rest = others;
             }
-            let padding = section.length.next_multiple_of(4) - section.length;
+            let padding = section.end() - section.length;
             if let Some(last) = stretches.last_mut() {
                 last.padding = padding as usize;
             }
@@ -267,6 +282,11 @@ impl Stretch<'_> {
 }
 
 impl BufferSection<'_> {
+    /// Its length (bytes) with padding.
+    fn end(&self) -> u64 {
+        self.length.next_multiple_of(self.alignment)
+    }
+
     fn target(&self) -> Option<Target> {
         Some(match self.shared? {
             ArrayKind::Short | ArrayKind::Long => Target::ElementArrayBuffer,
@@ -279,7 +299,7 @@ impl BufferSection<'_> {
         match self.shared? {
             ArrayKind::Positions | ArrayKind::Normals => Some(12),
             ArrayKind::TexCoords | ArrayKind::ShortNormals => Some(8),
-            ArrayKind::ByteNormals => Some(4),
+            ArrayKind::ByteNormals | ArrayKind::Features => Some(4),
             ArrayKind::Short | ArrayKind::Long => None,
         }
     }
@@ -302,6 +322,8 @@ impl BodyArray<'_> {
             Self::ShortFaces(_, _, triangles) => triangles * 6,
             Self::LongFaces(_, _, triangles) => triangles * 12,
             Self::Floats(floats) => floats.len() * 4,
+            Self::Same(_, count) => count * 4,
+            Self::Blob(bytes) => bytes.len(),
             Self::Shorts(shorts) => shorts.len() * 2,
             Self::Bytes(bytes) => bytes.len(),
         };
@@ -325,6 +347,8 @@ impl BodyArray<'_> {
                 corners.faces(*faces).part.triangles.len()
             }
             Self::Floats(floats) => floats.len(),
+            Self::Same(_, count) => *count,
+            Self::Blob(bytes) => bytes.len(),
             Self::Shorts(shorts) => shorts.len(),
             Self::Bytes(bytes) => bytes.len(),
         }
@@ -373,6 +397,8 @@ impl BodyArray<'_> {
                 put(out, shown.map(|face| face.map(|vertex| list.of[*faces][vertex as usize])));
             }
             Self::Floats(floats) => out.extend_from_slice(bytemuck::cast_slice(&floats[range])),
+            Self::Same(number, _) => range.for_each(|_| out.extend_from_slice(&number.to_le_bytes())),
+            Self::Blob(bytes) => out.extend_from_slice(&bytes[range]),
             Self::Shorts(shorts) => out.extend_from_slice(bytemuck::cast_slice(&shorts[range])),
             Self::Bytes(bytes) => out.extend_from_slice(&bytes[range]),
         }

@@ -19,6 +19,8 @@ const CHUNK: usize = 4096;
 pub(super) struct Description<'a> {
     /// What there are few of; it has no accessors, meshes and nodes.
     pub(super) root: json::Root,
+    /// Extensions of the whole.
+    pub(super) extensions: Option<serde_json::Value>,
     pub(super) accessors: Vec<Accessor>,
     pub(super) meshes: Vec<MeshDescription<'a>>,
     pub(super) nodes: Vec<Node<'a>>,
@@ -53,9 +55,11 @@ pub(super) struct MeshDescription<'a> {
 }
 
 /// The triangles of one material; numbers of accessors.
-#[derive(Clone, Copy, Serialize)]
+#[derive(Clone, Serialize)]
 pub(super) struct Primitive {
     pub(super) attributes: Attributes,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(super) extensions: Option<serde_json::Value>,
     #[serde(rename = "extras", skip_serializing_if = "Option::is_none")]
     pub(super) shading: Option<ShadingExtras>,
     pub(super) indices: usize,
@@ -80,6 +84,9 @@ pub(super) struct Attributes {
     pub(super) normals: Option<usize>,
     #[serde(rename = "TEXCOORD_0", skip_serializing_if = "Option::is_none")]
     pub(super) tex_coords: Option<usize>,
+    /// The features that vertices are of.
+    #[serde(rename = "_FEATURE_ID_0", skip_serializing_if = "Option::is_none")]
+    pub(super) features: Option<usize>,
 }
 
 #[derive(Default, Serialize)]
@@ -134,6 +141,8 @@ struct DocumentHead<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     buffer_views: &'a [json::buffer::View],
     scene: usize,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    extensions: Option<&'a serde_json::Value>,
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     extensions_used: &'a [String],
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
@@ -176,6 +185,7 @@ impl<'a> Description<'a> {
                 buffers: &root.buffers,
                 buffer_views: &root.buffer_views,
                 scene: 0,
+                extensions: self.extensions.as_ref(),
                 extensions_used: &root.extensions_used,
                 extensions_required: &root.extensions_required,
                 images: &root.images,

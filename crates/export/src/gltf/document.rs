@@ -5,11 +5,12 @@ use std::path::Path;
 use super::body::Body;
 use super::description::Description;
 use super::mesh::Arrays;
+use super::metadata::Metadata;
 use super::{InstancePlace, body, material, mesh, place};
 use crate::check::{SceneCheck, check};
 use crate::files::Files;
-use crate::stem;
 use crate::texture::Images;
+use crate::{SceneFacts, stem, uri};
 use burgeon_base::error::{Error, Result};
 use burgeon_base::stop::Stop;
 use burgeon_scene::Scene;
@@ -66,7 +67,8 @@ pub fn glb_with_texture_coordinates(scene: &Scene, stop: &Stop) -> Result<Vec<u8
 fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
-    let document = Document::new(&checked, &images, &Textures::Embedded, arrays, stop)?;
+    let document =
+        Document::new(&checked, &SceneFacts::default(), &images, &Textures::Embedded, arrays, stop)?;
     let mut bytes = Vec::new();
     let head = document.head()?;
     let length: usize = head.iter().map(Vec::len).sum();
@@ -77,17 +79,22 @@ fn bytes(scene: &Scene, arrays: Arrays, stop: &Stop) -> Result<(Vec<u8>, Layout)
 }
 
 /// Writes one `.glb` file to `path`.
-pub(crate) fn write_glb(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+pub(crate) fn write_glb(scene: &Scene, facts: &SceneFacts<'_>, path: &Path, files: &mut Files) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let stop = files.stop();
-    let document = Document::new(&checked, &images, &Textures::Embedded, Arrays::default(), &stop)?;
+    let document = Document::new(&checked, facts, &images, &Textures::Embedded, Arrays::default(), &stop)?;
     let head = document.head()?;
     files.write(path, |out| document.body.write(head, out, &stop))
 }
 
 /// Writes a `.gltf` file to `path`, and its `.bin` file and copies of the textures beside it.
-pub(crate) fn write_gltf(scene: &Scene, path: &Path, files: &mut Files) -> Result<()> {
+pub(crate) fn write_gltf(
+    scene: &Scene,
+    facts: &SceneFacts<'_>,
+    path: &Path,
+    files: &mut Files,
+) -> Result<()> {
     let checked = check(scene)?;
     let images = Images::load(&checked)?;
     let names = images.copy_names(path, files);
@@ -95,7 +102,8 @@ pub(crate) fn write_gltf(scene: &Scene, path: &Path, files: &mut Files) -> Resul
         files.copy(&path.with_file_name(name), &file.bytes)?;
     }
     let stop = files.stop();
-    let mut document = Document::new(&checked, &images, &Textures::Beside(names), Arrays::default(), &stop)?;
+    let mut document =
+        Document::new(&checked, facts, &images, &Textures::Beside(names), Arrays::default(), &stop)?;
     if let Some(buffer) = document.description.root.buffers.first_mut() {
         let name = format!("{}.bin", stem(path));
         buffer.uri = Some(uri(&name));
@@ -107,6 +115,7 @@ pub(crate) fn write_gltf(scene: &Scene, path: &Path, files: &mut Files) -> Resul
 impl<'a> Document<'a> {
     fn new(
         checked: &SceneCheck<'a>,
+        facts: &SceneFacts<'a>,
         images: &'a Images,
         textures: &Textures,
         arrays: Arrays,
@@ -120,10 +129,16 @@ impl<'a> Document<'a> {
             ..json::Asset::default()
         };
         let mut body = Body::default();
+        let metadata = Metadata::of(checked.scene, facts);
+        if let Some(metadata) = &metadata {
+            description.extensions = Some(metadata.write(&mut body));
+            metadata.use_extensions(&mut description.root);
+        }
+        let metadata = metadata.as_ref();
         let materials = material::write(checked, images, textures, &mut description.root, &mut body);
-        let meshes = mesh::write(checked, arrays, &materials, &mut description, &mut body, stop);
+        let meshes = mesh::write(checked, metadata, arrays, &materials, &mut description, &mut body, stop);
         stop.check()?;
-        let placed = place::write(checked, &meshes, arrays, &mut description, &mut body);
+        let placed = place::write(checked, metadata, &meshes, arrays, &mut description, &mut body);
         if arrays.small {
             material::use_extension(&mut description.root, QUANTIZATION);
             description.root.extensions_required.push(QUANTIZATION.into());
@@ -159,18 +174,6 @@ impl<'a> Document<'a> {
         }
         Ok(pieces)
     }
-}
-
-/// A file name as a relative reference of RFC 3986.
-pub(super) fn uri(name: &str) -> String {
-    let mut uri = String::with_capacity(name.len());
-    for byte in name.bytes() {
-        match byte {
-            b'A'..=b'Z' | b'a'..=b'z' | b'0'..=b'9' | b'-' | b'.' | b'_' | b'~' => uri.push(char::from(byte)),
-            _ => uri.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    uri
 }
 
 /// A name for people, or nothing.

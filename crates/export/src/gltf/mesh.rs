@@ -4,6 +4,7 @@ use super::super::check::{PartExtent, SceneCheck};
 use super::body::{ArrayKind, Body, BodyArray, y_up};
 use super::corners::{self, CornerRange, FaceChoice, FaceCorners, PartFaces, flat_faces};
 use super::description::{Accessor, Attributes, Description, MeshDescription, Primitive, ShadingExtras};
+use super::metadata::{FeaturePlace, Metadata};
 use super::weld::FlatPart;
 use burgeon_base::stop::Stop;
 use burgeon_scene::Part;
@@ -18,6 +19,7 @@ use std::sync::Arc;
 /// Texture coordinates are left out where no texture needs them, unless `arrays` says that they are metres there.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
+    metadata: Option<&Metadata<'_>>,
     arrays: Arrays,
     materials: &[Option<json::Index<json::Material>>],
     description: &mut Description<'a>,
@@ -44,14 +46,20 @@ pub(super) fn write<'a>(
     description.accessors.reserve(2 * scene.meshes.len() + parts);
     description.meshes.reserve(scene.meshes.len());
     let mut written = Vec::with_capacity(scene.meshes.len());
-    for (mesh, parts) in scene.meshes.iter().zip(&shown) {
+    for (number, (mesh, parts)) in scene.meshes.iter().zip(&shown).enumerate() {
         body.begin_mesh();
         written.push((!parts.is_empty()).then(|| {
-            let vertices = Vertices::of(parts, arrays, description, body);
+            let mut vertices = Vertices::of(parts, arrays, description, body);
+            let feature = metadata.and_then(|metadata| metadata.of_mesh(number));
+            if let Some(feature) = feature {
+                Vertices::note(&mut vertices, feature, description, body);
+            }
             let primitives = parts.iter().zip(&vertices);
             let primitives = primitives
                 .map(|(shown, vertices)| {
-                    shown.primitive(vertices, materials[shown.part.material], description, body)
+                    let primitive =
+                        shown.primitive(vertices, materials[shown.part.material], description, body);
+                    Primitive { extensions: feature.map(FeaturePlace::of_primitive), ..primitive }
                 })
                 .collect();
             description.meshes.push(MeshDescription { name: &mesh.name, primitives });
@@ -195,6 +203,23 @@ impl Vertices {
         found.into_iter().flatten().collect()
     }
 
+    /// Notes that all vertices of a mesh are of one feature.
+    fn note(all: &mut [Self], feature: FeaturePlace, description: &mut Description<'_>, body: &mut Body<'_>) {
+        let mut known: Vec<(usize, usize)> = Vec::new();
+        for vertices in all {
+            let positions = vertices.accessors.positions;
+            let array = known.iter().find(|(known, _)| *known == positions).map(|(_, array)| *array);
+            vertices.accessors.features = Some(array.unwrap_or_else(|| {
+                let block = BodyArray::Same(feature.row as f32, vertices.count);
+                let place = body.share(ArrayKind::Features, block);
+                let array = accessor(place, ComponentType::F32, Type::Scalar, vertices.count);
+                let array = description.accessor(array);
+                known.push((positions, array));
+                array
+            }));
+        }
+    }
+
     /// Adds corners: for parts without and with texture coordinates, as far as there are such. Parts without refer to
     /// those of the others, too.
     fn at_corners<'a>(
@@ -222,7 +247,7 @@ impl Vertices {
                         body.share(ArrayKind::TexCoords, BodyArray::CornerTexCoords(Arc::clone(corners)));
                     description.accessor(accessor(place, ComponentType::F32, Type::Vec2, count))
                 });
-                let accessors = Attributes { positions, normals, tex_coords };
+                let accessors = Attributes { positions, normals, tex_coords, features: None };
                 Self { accessors, first: 0, count }
             })
         })
@@ -282,6 +307,7 @@ impl Vertices {
             positions: description.accessor(positions),
             normals: Some(description.accessor(normals)),
             tex_coords: tex_coords.map(|accessor| description.accessor(accessor)),
+            features: None,
         };
         Self { accessors, first: 0, count }
     }
@@ -326,6 +352,7 @@ impl<'a> PartView<'a> {
         let shading = self.welded.is_some().then_some(ShadingExtras { flat: true });
         Primitive {
             attributes: vertices.accessors,
+            extensions: None,
             shading,
             indices: description.accessor(indices),
             material,

@@ -8,11 +8,14 @@
 
 mod body;
 mod corners;
-mod decompose;
+
 mod description;
 mod document;
 mod material;
 mod mesh;
+mod metadata;
+#[cfg(test)]
+mod metadata_tests;
 mod place;
 #[cfg(test)]
 mod tests;

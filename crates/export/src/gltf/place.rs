@@ -1,11 +1,12 @@
 //! Where meshes stand: a node for each instance, or one node for many.
 
 use super::super::check::{PartExtent, SceneCheck};
+use super::super::decompose::{Steps, Trs, decompose, y_up};
 use super::body::{Body, BodyArray, short};
-use super::decompose::{Steps, Trs, decompose, y_up};
 use super::description::{Accessor, Description, FeatureExtras, Node};
 use super::material::use_extension;
 use super::mesh::{Arrays, accessor};
+use super::metadata::{FeaturePlace, INSTANCE_FEATURES, Metadata, instance_features};
 use burgeon_scene::Instance;
 use glam::{DAffine3, DQuat, DVec3};
 use gltf_json as json;
@@ -29,6 +30,8 @@ struct InstanceKind<'a> {
     name: &'a str,
     /// Renderers choose the side that is seen once for all instances of a node.
     mirrored: bool,
+    /// The property table that tells of the features which they are of.
+    table: Option<usize>,
 }
 
 /// The attribute that tells which feature an instance is of, as `EXT_instance_features` names it: a number in the list
@@ -82,6 +85,7 @@ pub(super) struct InstanceNodes<'a> {
 /// Adds the instances.
 pub(super) fn write<'a>(
     checked: &SceneCheck<'a>,
+    metadata: Option<&Metadata<'_>>,
     meshes: &[Option<usize>],
     arrays: Arrays,
     description: &mut Description<'a>,
@@ -92,7 +96,7 @@ pub(super) fn write<'a>(
     let mut known = FxHashMap::default();
     let mut group_of = Vec::with_capacity(scene.instances.len());
     for instance in &scene.instances {
-        group_of.push(InstanceKind::of(instance).map(|kind| {
+        group_of.push(InstanceKind::of(instance, metadata).map(|kind| {
             let group = *known.entry(kind).or_insert_with(|| {
                 groups.push((kind, InstanceGroup::default()));
                 groups.len() - 1
@@ -111,22 +115,31 @@ pub(super) fn write<'a>(
         transform.translation -= checked.origin;
         let transform = y_up(&transform);
         let at = group;
-        let shared = group.map(|group| &mut groups[group]).filter(|(_, group)| group.count >= ENOUGH);
+        let shared = group
+            .map(|group| &mut groups[group])
+            .filter(|(kind, group)| group.count >= ENOUGH || kind.has_features(metadata));
         if let Some((kind, group)) = shared
             && group.take(&kind.mirror(transform))
         {
-            group.features.push(features.number(instance.feature.as_deref()));
+            group.features.push(match metadata {
+                Some(metadata) => metadata.number_of(instance),
+                None => features.number(instance.feature.as_deref()),
+            });
             members[at.unwrap_or_default()].push(number);
             continue;
         }
         let (node, shown) = alone(instance, mesh, &transform, description);
+        if let Some(metadata) = metadata.filter(|metadata| metadata.is_shared(instance.mesh)) {
+            instance_alone(shown, metadata.of_instance(instance), description, body);
+        }
         nodes.push(node);
         places[number] = Some(InstancePlace { node: shown, shared: None });
     }
     for ((kind, group), members) in groups.into_iter().zip(members) {
         if let Some(mesh) = meshes[kind.mesh].filter(|_| !group.translations.is_empty()) {
             let reach = if arrays.small { f64::INFINITY } else { reach(checked, kind.mesh) };
-            let node = together(kind, group, (mesh, reach), description, body);
+            let features = metadata.is_some().then_some(kind.table).flatten();
+            let node = together(kind, group, features, (mesh, reach), description, body);
             nodes.push(node);
             for (shared, number) in members.into_iter().enumerate() {
                 places[number] = Some(InstancePlace { node, shared: Some(shared) });
@@ -148,12 +161,19 @@ pub(super) fn write<'a>(
 
 impl<'a> InstanceKind<'a> {
     /// The kind of an instance that may share its node: what is drawn for a feature has its own, which bears its id.
-    fn of(instance: &'a Instance) -> Option<Self> {
-        (instance.feature.is_none() || instance.placement.is_some()).then(|| Self {
+    fn of(instance: &'a Instance, metadata: Option<&Metadata<'_>>) -> Option<Self> {
+        let shared = metadata.is_some_and(|metadata| metadata.is_shared(instance.mesh));
+        (instance.feature.is_none() || instance.placement.is_some() || shared).then(|| Self {
             mesh: instance.mesh,
             name: &instance.name,
             mirrored: instance.transform.matrix3.determinant() < 0.0,
+            table: metadata.and_then(|metadata| metadata.of_instance(instance)).map(|place| place.table),
         })
+    }
+
+    /// Whether its instances have to tell whose they are, since their mesh cannot.
+    fn has_features(&self, metadata: Option<&Metadata<'_>>) -> bool {
+        self.table.is_some() && metadata.is_some_and(|metadata| metadata.is_shared(self.mesh))
     }
 
     /// What is left for the instance if its node mirrors.
@@ -248,6 +268,7 @@ fn alone<'a>(
 fn together<'a>(
     kind: InstanceKind<'a>,
     group: InstanceGroup,
+    table: Option<usize>,
     (mesh, reach): (usize, f64),
     description: &mut Description<'a>,
     body: &mut Body<'a>,
@@ -267,7 +288,10 @@ fn together<'a>(
         attributes.insert(key.into(), description.accessor(array).into());
     };
     let differs = |floats: &[f32], default: &[f32]| floats.chunks(default.len()).any(|item| item != default);
-    if group.features.iter().any(|feature| *feature >= 0.0) {
+    let told = table.map(|table| instance_features(&group.features, table));
+    if table.is_some() {
+        add(FEATURE, AttributeColumn::Floats(group.features), Type::Scalar);
+    } else if group.features.iter().any(|feature| *feature >= 0.0) {
         add(FEATURE, AttributeColumn::whole(group.features), Type::Scalar);
     }
     // No default, since one array has to be there to tell the number of instances.
@@ -278,13 +302,41 @@ fn together<'a>(
     if differs(&group.scales, &[1.0, 1.0, 1.0]) {
         add("SCALE", AttributeColumn::Floats(group.scales), Type::Vec3);
     }
+    let mut extensions = serde_json::json!({ INSTANCING: { "attributes": attributes } });
+    if let Some(told) = told {
+        use_extension(&mut description.root, INSTANCE_FEATURES);
+        extensions[INSTANCE_FEATURES] = told;
+    }
     description.node(Node {
         mesh: Some(mesh),
         name: kind.name,
         scale: kind.mirrored.then_some([-1.0, 1.0, 1.0]),
-        extensions: Some(serde_json::json!({ INSTANCING: { "attributes": attributes } })),
+        extensions: Some(extensions),
         ..Node::default()
     })
+}
+
+/// Makes the node of an instance that is sheared, and cannot share it, tell whose it is.
+fn instance_alone(
+    node: usize,
+    feature: Option<FeaturePlace>,
+    description: &mut Description<'_>,
+    body: &mut Body<'_>,
+) {
+    let Some(FeaturePlace { table, row }) = feature else { return };
+    for extension in [INSTANCING, INSTANCE_FEATURES] {
+        use_extension(&mut description.root, extension);
+    }
+    description.root.extensions_required = vec![INSTANCING.into()];
+    let mut add = |numbers: Vec<f32>, kind: Type| {
+        let place = (body.add(BodyArray::Floats(numbers)), 0);
+        description.accessor(accessor(place, ComponentType::F32, kind, 1))
+    };
+    let (features, translation) = (add(vec![row as f32], Type::Scalar), add(vec![0.0; 3], Type::Vec3));
+    description.nodes[node].extensions = Some(serde_json::json!({
+        INSTANCING: { "attributes": { FEATURE: features, "TRANSLATION": translation } },
+        INSTANCE_FEATURES: instance_features(&[row as f32], table),
+    }));
 }
 
 /// `node` with a transform; what is the default is left out.

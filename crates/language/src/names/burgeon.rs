@@ -152,6 +152,12 @@ pub static LSYSTEM: LazyLock<Name> = LazyLock::new(|| {
                     "With \"last\", only the last chain is interpreted, and not that of every step.",
                 ),
                 field(
+                    "city",
+                    "string?",
+                    "nil",
+                    "What its chains are in a city model, such as \"Road\"; houses are known without.",
+                ),
+                field(
                     "seed",
                     "number?",
                     "nil",

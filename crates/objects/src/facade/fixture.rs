@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 
 use burgeon_kit::{Expectation, Model, Parameter, Value};
+use burgeon_scene::SurfaceMeaning;
 
 /// A model and how it sits on a wall.
 ///
@@ -21,18 +22,44 @@ pub struct Fixture {
     pub low: DVec3,
     /// The highest corner of the box around it (m).
     pub high: DVec3,
+    /// What it is, if that was said.
+    pub meaning: Option<SurfaceMeaning>,
 }
 
 impl Fixture {
     /// A fixture of `model`.
     pub fn new(model: Arc<Model>, stretch: bool, at: Anchor) -> Self {
         let (low, high) = (model.low(), model.high());
-        Self { model, stretch, anchor: at.0, low, high }
+        Self { model, stretch, anchor: at.0, low, high, meaning: None }
     }
 
     /// Its width and height (m).
     pub fn extent(&self) -> [f64; 2] {
         [self.high.x - self.low.x, self.high.z - self.low.z]
+    }
+}
+
+/// What a piece of wall is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct PanelMeaning(pub SurfaceMeaning);
+
+const MEANINGS: [(&str, SurfaceMeaning); 3] =
+    [("wall", SurfaceMeaning::Wall), ("window", SurfaceMeaning::Window), ("door", SurfaceMeaning::Door)];
+
+impl Parameter for PanelMeaning {
+    fn luau() -> String {
+        "string".into()
+    }
+
+    fn from_value(value: Value) -> Result<Self, Expectation> {
+        let named = MEANINGS.iter().find(|(name, _)| matches!(&value, Value::Text(text) if **text == **name));
+        let what = || Expectation::new("\"wall\", \"window\" or \"door\"");
+        named.map(|(_, meaning)| Self(*meaning)).ok_or_else(what)
+    }
+
+    fn into_value(self) -> Value {
+        let named = MEANINGS.iter().find(|(_, meaning)| *meaning == self.0);
+        named.map_or("wall", |(name, _)| name).to_owned().into_value()
     }
 }
 

@@ -7,6 +7,7 @@ use glam::DVec3;
 
 use super::lay::FacadeFace;
 use burgeon_geometry::{Crossing, Union, UnionCell};
+use burgeon_scene::SurfaceMeaning;
 
 /// Coordinates (m) that differ by less are one.
 const SAME: f64 = 1e-9;
@@ -50,6 +51,7 @@ struct SurfaceGroup {
     part: usize,
     /// The number of how far it stands out.
     depth: u32,
+    meaning: SurfaceMeaning,
 }
 
 /// Some faces as one.
@@ -111,7 +113,8 @@ impl Joiner {
         for (number, (face, bounds)) in faces.iter().zip(&self.bounds).enumerate() {
             match bounds.as_front().filter(|_| !face.stretched) {
                 Some(cell) => {
-                    let front = SurfaceGroup { part: parts[number], depth: bounds.ends[0][2] };
+                    let depth = bounds.ends[0][2];
+                    let front = SurfaceGroup { part: parts[number], depth, meaning: face.meaning };
                     self.fronts.push((front, cell, number));
                 }
                 None => {

@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3};
 use super::fixture::Fixture;
 use super::grid::count;
 use super::wall::{Wall, WallRule};
-use burgeon_scene::Material;
+use burgeon_scene::{Material, SurfaceMeaning};
 
 /// A part of a frontage: its lowest left corner and its size (m).
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -29,6 +29,21 @@ pub struct FacadeFace<'a> {
     pub material: Option<&'a Material>,
     /// Whether the material's image covers it once.
     pub stretched: bool,
+    /// What it is.
+    pub meaning: SurfaceMeaning,
+}
+
+impl<'a> FacadeFace<'a> {
+    /// A piece of wall of the template's material.
+    pub fn new(at: DVec3, right: DVec3, up: DVec3) -> Self {
+        Self { at, right, up, material: None, stretched: false, meaning: SurfaceMeaning::Wall }
+    }
+
+    /// The same of another material, and as something else.
+    #[must_use]
+    pub fn of(self, material: Option<&'a Material>, stretched: bool, meaning: SurfaceMeaning) -> Self {
+        Self { material, stretched, meaning, ..self }
+    }
 }
 
 /// What a wall is laid out into. Faces of no area are left out.
@@ -69,13 +84,14 @@ impl<'a> FacadeLayout<'a> {
         let material = inner.material.as_ref();
         let Rectangle { at, size } = over;
         match &inner.rule {
-            WallRule::Panel { decoration, fixture, background } => {
+            WallRule::Panel { decoration, fixture, background, meaning } => {
                 if *background {
                     let (material, stretched) = match decoration {
                         Some(decoration) => (Some(decoration), true),
                         None => (material, false),
                     };
-                    self.front(over, depth, material, stretched);
+                    let face = self.front(over, depth).of(material, stretched, *meaning);
+                    self.face(face);
                 }
                 self.fixture(fixture.as_ref(), over, depth);
                 true
@@ -86,8 +102,10 @@ impl<'a> FacadeLayout<'a> {
                 };
                 let low = at + DVec2::new(columns[0], rows[0]);
                 let high = low + DVec2::new(columns[1], rows[1]);
-                let mut margin =
-                    |at: DVec2, size: DVec2| self.front(Rectangle { at, size }, depth, material, false);
+                let mut margin = |at: DVec2, size: DVec2| {
+                    let face = FacadeFace { material, ..self.front(Rectangle { at, size }, depth) };
+                    self.face(face);
+                };
                 margin(at, DVec2::new(columns[0], size.y));
                 margin(DVec2::new(low.x, at.y), DVec2::new(columns[1], rows[0]));
                 margin(DVec2::new(low.x, high.y), DVec2::new(columns[1], rows[2]));
@@ -107,7 +125,7 @@ impl<'a> FacadeLayout<'a> {
                 ];
                 for ((at, right, up), shown) in faces.into_iter().zip(sides) {
                     if *shown {
-                        self.face(FacadeFace { at, right, up, material, stretched: false });
+                        self.face(FacadeFace { material, ..FacadeFace::new(at, right, up) });
                     }
                 }
                 self.fixture(fixture.as_ref(), over, depth);
@@ -162,9 +180,10 @@ impl<'a> FacadeLayout<'a> {
         true
     }
 
-    fn front(&mut self, over: Rectangle, depth: f64, material: Option<&'a Material>, stretched: bool) {
+    /// A face that looks out of the building.
+    fn front(&self, over: Rectangle, depth: f64) -> FacadeFace<'a> {
         let (right, up) = (DVec3::new(over.size.x, 0.0, 0.0), DVec3::new(0.0, over.size.y, 0.0));
-        self.face(FacadeFace { at: over.at.extend(depth), right, up, material, stretched });
+        FacadeFace::new(over.at.extend(depth), right, up)
     }
 
     fn face(&mut self, face: FacadeFace<'a>) {

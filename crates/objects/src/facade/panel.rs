@@ -2,13 +2,14 @@
 
 use std::sync::{Arc, LazyLock};
 
-use super::fixture::{Anchor, Fixture};
+use super::fixture::{Anchor, Fixture, PanelMeaning};
 use super::size::Size;
 use super::wall::{Wall, WallRule};
 use crate::MaterialOptions;
 use burgeon_base::error::Result;
 use burgeon_geometry::Sizes;
 use burgeon_kit::{Kind, Model, fields};
+use burgeon_scene::SurfaceMeaning;
 
 /// What `panel { ... }` takes.
 #[fields("panel")]
@@ -30,6 +31,8 @@ pub struct PanelOptions {
     /// Whether it has a face of its own; false where a model leads into the building.
     #[default(true)]
     pub background: bool,
+    /// What it is, with its model: "wall", "window" or "door"; city models tell them apart.
+    pub surface: Option<PanelMeaning>,
 }
 
 /// The type, as scripts see it.
@@ -49,12 +52,14 @@ pub fn kind() -> &'static Arc<Kind> {
 fn make(options: &PanelOptions) -> Result<Wall> {
     let decoration = options.decoration.as_ref().map(MaterialOptions::material).transpose()?;
     let model = options.model.clone();
-    let fixture = model.map(|model| Fixture::new(model, options.stretch, options.at));
+    let meaning = options.surface.map(|PanelMeaning(meaning)| meaning);
+    let fixture = model.map(|model| Fixture { meaning, ..Fixture::new(model, options.stretch, options.at) });
     let extent = fixture.as_ref().map(Fixture::extent);
     // A model that is not stretched needs its room.
     let room = extent.filter(|_| !options.stretch).unwrap_or_default();
     let sizes = room.map(|room| Sizes::between(room, f64::INFINITY));
     let targets = [0, 1].map(|side| extent.map(|extent| extent[side]));
-    let rule = WallRule::Panel { decoration, fixture, background: options.background };
+    let meaning = meaning.unwrap_or(SurfaceMeaning::Wall);
+    let rule = WallRule::Panel { decoration, fixture, background: options.background, meaning };
     Wall::new(rule, sizes, targets, [options.width, options.height], options.material.as_ref())
 }

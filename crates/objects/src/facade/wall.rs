@@ -10,7 +10,7 @@ use crate::MaterialOptions;
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Sizes, Split};
 use burgeon_kit::{Expectation, Kind, Object, Parameter, Value, methods};
-use burgeon_scene::Material;
+use burgeon_scene::{Material, SurfaceMeaning};
 
 /// A wall of a facade, made by one of five rules. It never changes.
 #[derive(Clone)]
@@ -33,11 +33,32 @@ const DEEPEST: usize = 100;
 
 /// How a wall is made up.
 pub(super) enum WallRule {
-    Panel { decoration: Option<Material>, fixture: Option<Fixture>, background: bool },
-    Bordered { columns: Split, rows: Split, wall: Wall },
-    Extruded { depth: f64, sides: [bool; 4], fixture: Option<Fixture>, wall: Wall },
-    List { upwards: bool, split: Split, walls: Vec<Wall> },
-    Grid { counts: [RangeInclusive<u32>; 2], wall: Wall },
+    Panel {
+        decoration: Option<Material>,
+        fixture: Option<Fixture>,
+        background: bool,
+        meaning: SurfaceMeaning,
+    },
+    Bordered {
+        columns: Split,
+        rows: Split,
+        wall: Wall,
+    },
+    Extruded {
+        depth: f64,
+        sides: [bool; 4],
+        fixture: Option<Fixture>,
+        wall: Wall,
+    },
+    List {
+        upwards: bool,
+        split: Split,
+        walls: Vec<Wall>,
+    },
+    Grid {
+        counts: [RangeInclusive<u32>; 2],
+        wall: Wall,
+    },
 }
 
 #[methods("wall")]

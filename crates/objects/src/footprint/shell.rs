@@ -7,6 +7,7 @@ use super::Footprint;
 use super::object::{along, unknown};
 use burgeon_base::error::{Error, Result};
 use burgeon_geometry::{Plan, Ring, fill};
+use burgeon_scene::SurfaceMeaning;
 
 /// How far a building has got.
 #[derive(Debug, Clone, Copy)]
@@ -47,12 +48,13 @@ impl Footprint {
         if self.detail == 0 {
             let plan = self.plan.flat().at_height(base);
             self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
-            return fill(self.drawing.part(part), &plan, DVec3::X, DVec3::ZERO).map_err(Error::of_data);
+            return fill(self.drawing.surface(part, SurfaceMeaning::Ground), &plan, DVec3::X, DVec3::ZERO)
+                .map_err(Error::of_data);
         }
         self.shell = Shell { top: base, bottom: base, begun: true, closed: false };
         let plan = std::sync::Arc::clone(&self.plan);
-        let part = self.drawing.part(part);
         if kind == "extruded" {
+            let part = self.drawing.surface(part, SurfaceMeaning::Wall);
             for [a, b] in plan.polygon().edges() {
                 let face = Ring::without_repeats(vec![a, b, b.with_z(base), a.with_z(base)]);
                 if let Some(face) = face {
@@ -65,6 +67,7 @@ impl Footprint {
             "extruded" => plan.polygon().from_below(),
             _ => plan.flat().at_height(base).from_below(),
         };
+        let part = self.drawing.surface(part, SurfaceMeaning::Ground);
         fill(part, &floor, DVec3::X, DVec3::ZERO).map_err(Error::of_data)
     }
 }

@@ -14,7 +14,7 @@ use burgeon_base::error::{Error, Limit, Result};
 use burgeon_geometry::{Ring, SAME, fill};
 use burgeon_kit::random::Stream;
 use burgeon_kit::{Color, Note, fields};
-use burgeon_scene::{Material, Part};
+use burgeon_scene::{Material, Part, SurfaceMeaning};
 
 /// What `footprint:walls { ... }` takes.
 #[fields("footprint:walls")]
@@ -125,7 +125,7 @@ impl Footprint {
 
     fn draw_plain(&mut self, part: usize, from: f64, to: f64) -> Result<()> {
         for frontage in self.frontages(from, to) {
-            frontage.fill(self.drawing.part(part))?;
+            frontage.fill(self.drawing.surface(part, SurfaceMeaning::Wall))?;
         }
         Ok(())
     }
@@ -134,8 +134,13 @@ impl Footprint {
         let part = self.drawing.material(photo);
         for frontage in self.frontages(from, to) {
             let (right, up) = (DVec3::new(frontage.size.x, 0.0, 0.0), DVec3::new(0.0, frontage.size.y, 0.0));
-            let face = FacadeFace { at: DVec3::ZERO, right, up, material: None, stretched: true };
-            frontage.draw(self.drawing.part(part), &face, &FaceMesh::of(&face), photo);
+            let face = FacadeFace::new(DVec3::ZERO, right, up).of(None, true, SurfaceMeaning::Wall);
+            frontage.draw(
+                self.drawing.surface(part, SurfaceMeaning::Wall),
+                &face,
+                &FaceMesh::of(&face),
+                photo,
+            );
         }
     }
 
@@ -168,7 +173,7 @@ impl Footprint {
                 if !blind {
                     without.push(frontage.size);
                 }
-                frontage.fill(self.drawing.part(plain))?;
+                frontage.fill(self.drawing.surface(plain, SurfaceMeaning::Wall))?;
                 continue;
             };
             self.draw_laid(&laid, template, frontage, &mut parts, &mut joiner);
@@ -183,9 +188,9 @@ impl Footprint {
                 let turned = DMat3::from_cols(x_axis * scale.x, -z_axis * scale.y, y_axis * scale.z);
                 let frame = DAffine3 { matrix3: turned, translation: frontage.place(at) };
                 if expand {
-                    self.drawing.draw_model(&fixture.model, &frame);
+                    self.drawing.draw_model(&fixture.model, &frame, fixture.meaning);
                 } else {
-                    self.drawing.place(&fixture.model, frame);
+                    self.drawing.place_as(&fixture.model, frame, fixture.meaning);
                 }
             }
         }
@@ -241,7 +246,8 @@ impl Footprint {
         let of_faces: Vec<usize> = laid.faces.iter().map(part_of).collect();
         joiner.join(&laid.faces, &of_faces, |number, mesh| {
             let face = &laid.faces[number];
-            frontage.draw(self.drawing.part(of_faces[number]), face, mesh, material_of(face));
+            let part = self.drawing.surface(of_faces[number], face.meaning);
+            frontage.draw(part, face, mesh, material_of(face));
         });
     }
 

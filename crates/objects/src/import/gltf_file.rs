@@ -210,6 +210,7 @@ impl Import<'_> {
             feature: None,
             origin: None,
             placement: None,
+            meaning: None,
         });
         Ok(())
     }

@@ -53,6 +53,7 @@ fn sample() -> Scene {
             feature: None,
             origin: None,
             placement: None,
+            meaning: None,
         });
     }
     scene

@@ -290,6 +290,7 @@ impl Show for Planet {
                 feature: feature.map(str::to_owned),
                 origin: None,
                 placement: None,
+                meaning: None,
             });
         }
         Ok(())

@@ -56,6 +56,7 @@ impl Terrain {
                 feature: feature.map(str::to_owned),
                 origin: None,
                 placement: None,
+                meaning: None,
             });
         }
         let mut drawing = Drawing::at(lift);

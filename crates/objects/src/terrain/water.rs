@@ -97,6 +97,7 @@ impl Water {
             normals: vec![Normal::Z; 4],
             uvs: uvs.map(|uv| Vec2::new(uv.x, uv.y)).to_vec(),
             triangles: vec![[0, 1, 2], [0, 2, 3]].into(),
+            ..Part::default()
         };
         Some((part, bytes, across))
     }

@@ -7,7 +7,7 @@ use mlua::{AnyUserData, Function, MultiValue, Table, Value as LuaValue};
 use crate::machine::Machine;
 use crate::machine::convert::to_value;
 use crate::machine::types::ObjectHandle;
-use crate::results::Remark;
+use crate::results::{Remark, SourceFeatures};
 use burgeon_base::error::{Error, Limit, Result};
 use burgeon_kit::rules::{CLOSE, Chain, DEEPEST, END, ModuleKey, OPEN, Symbol};
 use burgeon_kit::{Object, Prefetch, Value};
@@ -24,6 +24,8 @@ pub(crate) struct Axiom {
     pub objects: Vec<Box<dyn Object>>,
     /// The id of each chain's feature.
     pub features: Vec<Option<String>>,
+    /// What is known of the features.
+    pub known: SourceFeatures,
     /// What the features come from; empty without any, and for a list that the script made.
     pub source: String,
     /// How many features there were, those that were left out among them.
@@ -39,6 +41,7 @@ impl Axiom {
             chain: self.chain.only(index, arities),
             objects: self.objects.drain(..).skip(index).take(1).collect(),
             features: self.features.drain(..).skip(index).take(1).collect(),
+            known: std::mem::take(&mut self.known).only(index),
             ..self
         }
     }
@@ -117,6 +120,7 @@ impl SystemDeclaration {
         let prefetch = self.prefetch(machine, source)?;
         let mut refused: Option<Error> = None;
         axiom.source = shown(source);
+        let (layer, records) = (layer_of(source), machine.session.options.records);
         for (id, error) in refused_of(source) {
             axiom.given += 1;
             axiom.remarks.push(Remark { unread: true, ..Remark::skipped(&axiom.source, Some(&id), &error) });
@@ -139,6 +143,7 @@ impl SystemDeclaration {
             };
             let key = key.feature(&id);
             axiom.given += 1;
+            let value = (!from_file && records).then(|| to_value(&feature, true).unwrap_or(Value::Nil));
             let made: MultiValue = match machine.call(function, feature) {
                 Ok(made) => made,
                 Err(error) => {
@@ -174,6 +179,7 @@ impl SystemDeclaration {
             }
             axiom.objects.extend(object.map(|object| prepared(machine, &*object, key)));
             axiom.features.push(Some(id));
+            axiom.known.push(layer.as_ref(), index - 1, value);
             let mut builder = Builder { machine, chain: &mut axiom.chain, random };
             builder.list(&made, key)?;
             builder.push(END, &[], key);

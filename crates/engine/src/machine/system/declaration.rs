@@ -10,6 +10,7 @@ use crate::machine::types::methods_key;
 use burgeon_base::error::{Result, SourcePlace};
 use burgeon_kit::Object;
 use burgeon_kit::rules::{CLOSE, END, FIRST_SYMBOL, Grammar, OPEN, Rule, Symbol};
+use burgeon_scene::CityClass;
 use mlua::{Function, Table, Value as LuaValue};
 
 /// What a script declared of one system.
@@ -18,6 +19,8 @@ pub(crate) struct SystemDeclaration {
     pub object: Option<Arc<dyn Object>>,
     /// Whether only the last step is interpreted.
     pub last_only: bool,
+    /// What its chains are in a city.
+    pub city: Option<CityClass>,
     /// Its own seed, in place of the run's.
     pub seed: Option<u64>,
     /// Its place among the systems of the script.

@@ -14,6 +14,7 @@ use burgeon_base::error::{Error, Result, SourcePlace};
 use burgeon_kit::rules::Symbol;
 use burgeon_kit::{Object, Value};
 use burgeon_language::{LSYSTEM, SYSTEM};
+use burgeon_scene::CityClass;
 
 use super::SystemDeclaration;
 
@@ -32,6 +33,7 @@ impl SystemHandle {
         let mut system = SystemDeclaration {
             object: None,
             last_only: false,
+            city: None,
             seed: None,
             index: library.systems.borrow().len(),
             place,
@@ -58,6 +60,13 @@ impl SystemHandle {
                     return Err(Error::argument("lsystem: interpret must be \"last\"")
                         .help("leave it out to interpret after every step"));
                 }
+                ("city", value) => match to_value(&value, false)? {
+                    Value::Text(class) => {
+                        system.city =
+                            Some(CityClass::of(&class).map_err(|error| error.about("lsystem: city"))?);
+                    }
+                    _ => return Err(Error::argument("lsystem: city must be a text, such as \"Road\"")),
+                },
                 #[allow(
                     clippy::cast_possible_truncation,
                     clippy::cast_sign_loss,

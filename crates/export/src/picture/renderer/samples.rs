@@ -15,7 +15,15 @@ pub(super) fn scene_of(part: Part, material: Material) -> Scene {
 /// Mesh 0 put at `place`.
 pub(super) fn instance(place: DVec3) -> Instance {
     let transform = DAffine3::from_translation(place);
-    Instance { mesh: 0, transform, name: String::new(), feature: None, origin: None, placement: None }
+    Instance {
+        mesh: 0,
+        transform,
+        name: String::new(),
+        feature: None,
+        origin: None,
+        placement: None,
+        meaning: None,
+    }
 }
 
 /// Adds a quadrilateral, counter-clockwise seen from outside, with texture coordinates along its first sides.

@@ -10,6 +10,7 @@ use burgeon_geometry::roof::{
 use burgeon_geometry::{Plan, fill};
 use burgeon_kit::Color;
 use burgeon_kit::{Note, fields};
+use burgeon_scene::SurfaceMeaning;
 use glam::DVec3;
 
 /// What `footprint:roof { ... }` takes.
@@ -121,7 +122,8 @@ impl Footprint {
         let base = self.shell.top;
         let top = self.plan.flat().at_height(base);
         let part = self.part(options.color, options.material.as_ref())?;
-        fill(self.drawing.part(part), &top, DVec3::X, DVec3::ZERO).map_err(Error::of_data)
+        fill(self.drawing.surface(part, SurfaceMeaning::Roof), &top, DVec3::X, DVec3::ZERO)
+            .map_err(Error::of_data)
     }
 
     fn draw(&mut self, options: &Roof, patches: &[Patch]) -> Result<()> {
@@ -145,7 +147,9 @@ impl Footprint {
             };
             let Some(&origin) = patch.rings.first().and_then(|ring| ring.first()) else { continue };
             let right = if patch.along == glam::DVec2::ZERO { DVec3::X } else { patch.along.extend(0.0) };
-            fill(self.drawing.part(part), &patch.rings, right, origin)?;
+            let meaning =
+                if patch.kind == PatchKind::Gable { SurfaceMeaning::Wall } else { SurfaceMeaning::Roof };
+            fill(self.drawing.surface(part, meaning), &patch.rings, right, origin)?;
         }
         Ok(())
     }

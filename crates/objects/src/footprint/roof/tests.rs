@@ -41,6 +41,7 @@ fn model(size: DVec3) -> Arc<Model> {
         feature: None,
         origin: None,
         placement: None,
+        meaning: None,
     };
     Arc::new(Model::new(Scene {
         shared: burgeon_scene::SharedMeshes::default(),

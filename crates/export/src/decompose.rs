@@ -1,4 +1,4 @@
-//! Transforms as glTF wants them: a translation, a rotation and a scale.
+//! Transforms as formats want them: a translation, a rotation and a scale.
 
 use glam::{DAffine3, DMat3, DQuat, DVec3};
 

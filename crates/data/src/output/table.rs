@@ -1,0 +1,49 @@
+//! A table of records.
+
+use crate::Attribute;
+use burgeon_spatial::Geometry;
+
+/// Records with the same attributes.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct RecordTable {
+    /// What it is called; tables of one file may not have the same name.
+    pub name: String,
+    /// The names of attributes, which may not repeat.
+    pub columns: Vec<String>,
+    /// The records.
+    pub records: Vec<Record>,
+}
+
+/// What is known of one thing.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Record {
+    /// Tells it from all others of its table.
+    pub id: String,
+    /// Where it is, in metres of a frame, if it is anywhere.
+    pub geometry: Option<Geometry>,
+    /// The number of the column, and the value; in the order of the columns.
+    pub values: Vec<(usize, Attribute)>,
+}
+
+impl Record {
+    /// Its value in column number `column`; numbers that are not finite are none.
+    pub fn value(&self, column: usize) -> Option<&Attribute> {
+        let (_, value) = self.values.iter().find(|(known, _)| *known == column)?;
+        match value {
+            Attribute::Number(number) if !number.is_finite() => None,
+            value => Some(value),
+        }
+    }
+}
+
+/// `name`, or with a number behind it if one of `taken` is called so: databases do not tell small letters from capitals.
+pub(crate) fn apart(name: &str, taken: &[String]) -> String {
+    let is_taken = |name: &str| taken.iter().any(|known| known.to_lowercase() == name.to_lowercase());
+    let mut free = name.to_owned();
+    let mut count = 1;
+    while is_taken(&free) {
+        count += 1;
+        free = format!("{name}_{count}");
+    }
+    free
+}

@@ -1,0 +1,125 @@
+//! What is known of the features that chains came from, for files that tell it.
+
+use std::sync::Arc;
+
+use burgeon_data::output::{Record, RecordTable};
+use burgeon_data::{Attribute, Layer};
+use burgeon_kit::{Table, TableKey, Value};
+
+/// The features that the chains of a system came from, one for each chain.
+#[derive(Default)]
+pub(crate) enum SourceFeatures {
+    /// None, or it is not asked for.
+    #[default]
+    None,
+    /// Those with these numbers of a layer.
+    Layer(Arc<Layer>, Vec<usize>),
+    /// Those of a list that the script made.
+    List(Vec<Value>),
+}
+
+impl SourceFeatures {
+    /// Adds the feature of the next chain: number `index` of a layer, or a value of the script.
+    pub(crate) fn push(&mut self, layer: Option<&Arc<Layer>>, index: usize, value: Option<Value>) {
+        match (&mut *self, layer, value) {
+            (Self::Layer(_, rows), Some(_), _) => rows.push(index),
+            (Self::List(list), None, Some(value)) => list.push(value),
+            (Self::None, Some(layer), _) => *self = Self::Layer(Arc::clone(layer), vec![index]),
+            (Self::None, None, Some(value)) => *self = Self::List(vec![value]),
+            _ => {}
+        }
+    }
+
+    /// That of chain number `index` alone.
+    pub(crate) fn only(self, index: usize) -> Self {
+        match self {
+            Self::None => Self::None,
+            Self::Layer(layer, rows) => Self::Layer(layer, rows.into_iter().skip(index).take(1).collect()),
+            Self::List(list) => Self::List(list.into_iter().skip(index).take(1).collect()),
+        }
+    }
+
+    /// What is known of them as a table, where chains have these `ids`; nothing without features.
+    pub(crate) fn table(&self, ids: &[Option<String>], number: usize) -> Option<RecordTable> {
+        let id = |chain: usize| ids.get(chain).cloned().flatten().unwrap_or_default();
+        match self {
+            Self::None => None,
+            Self::Layer(layer, rows) => {
+                let record = |(chain, row): (usize, &usize)| Record {
+                    id: id(chain),
+                    geometry: None,
+                    values: layer.features.get(*row).map(|it| it.attributes.to_vec()).unwrap_or_default(),
+                };
+                let records = rows.iter().enumerate().map(record).collect();
+                Some(RecordTable { name: layer.name.clone(), columns: layer.names.clone(), records })
+            }
+            Self::List(list) => {
+                let mut columns = Columns::default();
+                let records = list.iter().enumerate().map(|(chain, value)| {
+                    let Value::Table(table) = value else {
+                        return Record { id: id(chain), ..Record::default() };
+                    };
+                    Record { id: id(chain), geometry: None, values: columns.values(table) }
+                });
+                let records = records.collect();
+                Some(RecordTable { name: format!("system {number}"), columns: columns.0, records })
+            }
+        }
+    }
+}
+
+/// The names of attributes, in the order in which they are found.
+#[derive(Default)]
+pub(super) struct Columns(pub(super) Vec<String>);
+
+impl Columns {
+    fn number(&mut self, name: &str) -> usize {
+        self.0.iter().position(|known| known == name).unwrap_or_else(|| {
+            self.0.push(name.to_owned());
+            self.0.len() - 1
+        })
+    }
+
+    /// The values of a feature's table, but for its id, its geometry and what no file can hold.
+    fn values(&mut self, table: &Table) -> Vec<(usize, Attribute)> {
+        let values = table.entries.iter().filter_map(|(key, value)| match key {
+            TableKey::Name(name) if !["id", "geometry"].contains(&&**name) => {
+                Some((self.number(name), attribute(value)?))
+            }
+            _ => None,
+        });
+        values.collect()
+    }
+}
+
+/// A value as files hold it; none for what they cannot.
+pub(super) fn attribute(value: &Value) -> Option<Attribute> {
+    match value {
+        Value::Nil | Value::Object(_) => None,
+        Value::Boolean(value) => Some(Attribute::Boolean(*value)),
+        Value::Number(number) => Some(Attribute::Number(*number)),
+        Value::Text(text) => Some(Attribute::Text(Arc::clone(text))),
+        Value::Table(_) => Some(Attribute::Nested(Arc::new(json(value)))),
+    }
+}
+
+/// A value as JSON: a table whose keys are 1, 2, 3 and so on is a list.
+fn json(value: &Value) -> serde_json::Value {
+    match value {
+        Value::Nil | Value::Object(_) => serde_json::Value::Null,
+        Value::Boolean(value) => (*value).into(),
+        Value::Number(number) => (*number).into(),
+        Value::Text(text) => (&**text).into(),
+        Value::Table(table) => {
+            let list = table.list();
+            if list.len() == table.entries.len() {
+                return list.iter().map(json).collect();
+            }
+            let name = |key: &TableKey| match key {
+                TableKey::Index(index) => index.to_string(),
+                TableKey::Name(name) => name.to_string(),
+            };
+            table.entries.iter().map(|(key, value)| (name(key), json(value))).collect()
+        }
+    }
+}

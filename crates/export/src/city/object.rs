@@ -1,0 +1,206 @@
+//! The city objects: which there are, what they are called, and what they are made of.
+
+use burgeon_base::error::{Error, Result};
+use burgeon_data::output::{Outward, Record};
+use burgeon_scene::{CityClass, Instance, Origin, Scene, SurfaceMeaning};
+use glam::{DAffine3, DMat3, DVec3};
+use rustc_hash::FxHashMap;
+
+use super::super::check::{SceneCheck, shown};
+use super::faces::{Face, Triangle, TriangleEdges, faces, volume};
+use crate::SceneFacts;
+
+/// All that a chain has put into the scene.
+pub(super) struct CityObject<'a> {
+    pub(super) id: String,
+    pub(super) class: CityClass,
+    pub(super) record: Option<(&'a [String], &'a Record)>,
+    /// What it has drawn itself.
+    drawn: Vec<&'a Instance>,
+    /// The models that it has placed.
+    pub(super) placed: Vec<&'a Instance>,
+}
+
+/// What a city object has drawn, in quantised coordinates.
+pub(super) struct ObjectShape {
+    pub(super) points: Vec<[i64; 3]>,
+    pub(super) faces: Vec<Face>,
+    /// Whether the faces enclose it.
+    pub(super) closed: bool,
+}
+
+/// Where points of the scene are in the file.
+pub(super) struct Quantiser<'a> {
+    pub(super) outward: &'a Outward<'a>,
+    /// Where the numbers are counted from.
+    pub(super) origin: DVec3,
+}
+
+/// Numbers in a metre.
+pub(super) const STEPS: f64 = 1000.0;
+/// How far (m) from a plane a point may be that lies in it: twice what rounding moves it.
+const NEAR: f64 = 2e-3;
+
+impl Quantiser<'_> {
+    /// Where a point (m) is. Fails if it has no place in the projection.
+    pub(super) fn place(&self, at: DVec3) -> Result<[i64; 3]> {
+        let place = self.outward.place(at).ok_or_else(|| nowhere(at))?;
+        let steps = ((place - self.origin) * STEPS).round();
+        #[allow(clippy::cast_possible_truncation, reason = "a scene that was checked ends before")]
+        Ok(steps.to_array().map(|step| step as i64))
+    }
+
+    /// How the projection turns what lies around a point (m).
+    pub(super) fn turn(&self, at: DVec3) -> DMat3 {
+        let east = self.outward.place(at + DVec3::X).zip(self.outward.place(at)).map(|(to, from)| to - from);
+        let angle = east.map_or(0.0, |east| east.y.atan2(east.x));
+        DMat3::from_rotation_z(angle)
+    }
+}
+
+fn nowhere(at: DVec3) -> Error {
+    Error::data(format!(
+        "what lies at {}, {} m cannot be brought to the coordinate system of the data",
+        at.x, at.y
+    ))
+    .help("leave it out, or read the data in a projection that reaches that far")
+}
+
+/// The city objects of a scene, in the order of their first instances.
+pub(super) fn objects<'a>(checked: &SceneCheck<'a>, facts: &SceneFacts<'a>) -> Vec<CityObject<'a>> {
+    let scene = checked.scene;
+    let mut known: FxHashMap<Option<(usize, usize)>, usize> = FxHashMap::default();
+    let mut objects: Vec<CityObject<'a>> = Vec::new();
+    let mut ids = Identifiers::default();
+    for instance in scene.instances.iter().filter(|instance| checked.meshes[instance.mesh]) {
+        let key = instance.origin.map(|Origin { system, chain }| (system, chain));
+        let index = *known.entry(key).or_insert_with(|| {
+            let system = key.and_then(|(system, _)| facts.systems.iter().find(|it| it.system == system));
+            let record = system.zip(key).and_then(|(system, (_, chain))| {
+                Some((system.records.columns.as_slice(), system.records.records.get(chain)?))
+            });
+            let id = match (&instance.feature, key) {
+                (Some(feature), _) => feature.clone(),
+                (None, Some((system, chain))) => format!("system {} chain {}", system + 1, chain + 1),
+                (None, None) => "model".to_owned(),
+            };
+            objects.push(CityObject {
+                id: ids.apart(id),
+                class: system.and_then(|system| system.class).unwrap_or(CityClass::GENERIC),
+                record,
+                drawn: Vec::new(),
+                placed: Vec::new(),
+            });
+            objects.len() - 1
+        });
+        let object = &mut objects[index];
+        if object.class == CityClass::GENERIC && is_building(scene, instance) {
+            object.class = CityClass::BUILDING;
+        }
+        if instance.placement.is_some() { &mut object.placed } else { &mut object.drawn }.push(instance);
+    }
+    for object in objects.iter_mut().filter(|object| !object.class.takes_instances()) {
+        let placed = std::mem::take(&mut object.placed);
+        object.drawn.extend(placed);
+    }
+    objects
+}
+
+/// Whether something of an instance is known to be a surface of a building.
+fn is_building(scene: &Scene, instance: &Instance) -> bool {
+    let parts = &scene.meshes[instance.mesh].parts;
+    instance.placement.is_none() && parts.iter().any(|part| !part.surfaces.is_empty())
+}
+
+/// Ids that are taken, each with the number that was tried last behind it.
+#[derive(Default)]
+pub(super) struct Identifiers(FxHashMap<String, usize>);
+
+impl Identifiers {
+    pub(super) fn apart(&mut self, id: String) -> String {
+        let id = if id.is_empty() { "_".to_owned() } else { id };
+        let mut free = id.clone();
+        while self.0.contains_key(&free) {
+            let count = self.0.get(&id).copied().unwrap_or(1) + 1;
+            self.0.insert(id.clone(), count);
+            free = format!("{id}.{count}");
+        }
+        self.0.insert(free.clone(), 1);
+        free
+    }
+}
+
+impl CityObject<'_> {
+    /// What it has drawn.
+    pub(super) fn shape(&self, scene: &Scene, quantiser: &Quantiser<'_>) -> Result<ObjectShape> {
+        let mut builder = ShapeBuilder::default();
+        for instance in &self.drawn {
+            let mirrored = instance.transform.matrix3.determinant() < 0.0;
+            for part in &scene.meshes[instance.mesh].parts {
+                let place = |at: &glam::Vec3| {
+                    quantiser
+                        .place(instance.transform.transform_point3(at.as_dvec3()))
+                        .map(|at| builder.point(at))
+                };
+                let numbers: Vec<u32> = part.positions.iter().map(place).collect::<Result<_>>()?;
+                for (range, own) in part.surfaces.stretches(part.triangles.len()) {
+                    let meaning = instance.meaning.or(own).filter(|_| self.class.has_surfaces());
+                    for [a, b, c] in shown(part.triangles.range(range)) {
+                        let [a, b, c] = if mirrored { [a, c, b] } else { [a, b, c] };
+                        builder.triangle([a, b, c].map(|corner| numbers[corner as usize]), meaning);
+                    }
+                }
+            }
+        }
+        Ok(builder.finish())
+    }
+}
+
+/// Points without repeats, and triangles.
+#[derive(Default)]
+struct ShapeBuilder {
+    points: Vec<[i64; 3]>,
+    numbers: FxHashMap<[i64; 3], u32>,
+    triangles: Vec<Triangle>,
+}
+
+impl ShapeBuilder {
+    fn point(&mut self, at: [i64; 3]) -> u32 {
+        *self.numbers.entry(at).or_insert_with(|| {
+            self.points.push(at);
+            (self.points.len() - 1) as u32
+        })
+    }
+
+    fn triangle(&mut self, corners: [u32; 3], meaning: Option<SurfaceMeaning>) {
+        let [a, b, c] = corners;
+        if a != b && b != c && c != a {
+            self.triangles.push((corners, meaning));
+        }
+    }
+
+    fn finish(self) -> ObjectShape {
+        let first = self.points.first().copied().unwrap_or_default();
+        let near = |at: &[i64; 3]| DVec3::from([0, 1, 2].map(|axis| (at[axis] - first[axis]) as f64 / STEPS));
+        let near: Vec<DVec3> = self.points.iter().map(near).collect();
+        let edges = TriangleEdges::of(&self.triangles);
+        let closed = edges.are_closed() && volume(&near, &self.triangles) > 0.0;
+        let mut faces = faces(&near, &self.triangles, &edges, NEAR);
+        // Those that nothing uses are left out.
+        let mut numbers: Vec<Option<u32>> = vec![None; self.points.len()];
+        let mut points = Vec::new();
+        for point in faces.iter_mut().flat_map(|face| face.rings.iter_mut().flatten()) {
+            *point = *numbers[*point as usize].get_or_insert_with(|| {
+                points.push(self.points[*point as usize]);
+                points.len() as u32 - 1
+            });
+        }
+        ObjectShape { points, faces, closed }
+    }
+}
+
+/// The transform of a placed model: turned as the projection turns, and where it stands.
+pub(super) fn placed(instance: &Instance, quantiser: &Quantiser<'_>) -> Result<(DMat3, [i64; 3])> {
+    let DAffine3 { matrix3, translation } = instance.transform;
+    Ok((quantiser.turn(translation) * matrix3, quantiser.place(translation)?))
+}

@@ -1,0 +1,242 @@
+//! Whose everything is, and what is known of them: feature ids and tables of properties.
+//!
+//! A mesh that shows one feature has its number at each vertex (`EXT_mesh_features`); where instances of a mesh are of
+//! several features, each instance has it (`EXT_instance_features`). The number is a row of a table of properties
+//! (`EXT_structural_metadata`), one table for each system.
+//!
+//! Specification: Cesium GS, "3D Metadata Specification" and the three extensions of glTF, 2023.
+
+use burgeon_data::Attribute;
+use burgeon_data::output::{ColumnKind, RecordTable, column_kinds};
+use burgeon_scene::{Instance, Scene};
+use gltf_json as json;
+use rustc_hash::FxHashSet;
+use serde_json::{Map, Value as Json, json};
+
+use super::body::{Body, BodyArray};
+use super::material::use_extension;
+use crate::SceneFacts;
+
+const MESH_FEATURES: &str = "EXT_mesh_features";
+pub(super) const INSTANCE_FEATURES: &str = "EXT_instance_features";
+const STRUCTURAL: &str = "EXT_structural_metadata";
+
+/// What stands for a number that is not there.
+const NO_NUMBER: f64 = f64::MIN;
+
+/// A feature: its table and its row there.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct FeaturePlace {
+    pub(super) table: usize,
+    pub(super) row: usize,
+}
+
+/// Which features a mesh shows.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum MeshFeatures {
+    None,
+    One(FeaturePlace),
+    /// Several, or one and what is of none.
+    Several,
+}
+
+/// Whose the things of a scene are.
+pub(super) struct Metadata<'a> {
+    /// The tables, and the systems that they are of.
+    tables: Vec<(usize, &'a RecordTable)>,
+    meshes: Vec<MeshFeatures>,
+}
+
+impl<'a> Metadata<'a> {
+    /// What is to be told of `scene`; none if that is not asked for or there are no features.
+    pub(super) fn of(scene: &Scene, facts: &SceneFacts<'a>) -> Option<Self> {
+        let systems =
+            facts.systems.iter().filter(|system| facts.metadata && !system.records.records.is_empty());
+        let tables: Vec<_> = systems.map(|system| (system.system, &system.records)).collect();
+        if tables.is_empty() {
+            return None;
+        }
+        let mut metadata = Self { tables, meshes: Vec::new() };
+        let mut meshes: Vec<Option<MeshFeatures>> = vec![None; scene.meshes.len()];
+        for instance in &scene.instances {
+            let features = metadata.of_instance(instance).map_or(MeshFeatures::None, MeshFeatures::One);
+            let known = &mut meshes[instance.mesh];
+            *known = Some(match known {
+                Some(known) if *known != features => MeshFeatures::Several,
+                _ => features,
+            });
+        }
+        metadata.meshes = meshes.into_iter().map(|known| known.unwrap_or(MeshFeatures::None)).collect();
+        Some(metadata)
+    }
+
+    /// The feature that an instance is of.
+    pub(super) fn of_instance(&self, instance: &Instance) -> Option<FeaturePlace> {
+        let origin = instance.origin?;
+        let table = self.tables.iter().position(|(system, _)| *system == origin.system)?;
+        (origin.chain < self.tables[table].1.records.len())
+            .then_some(FeaturePlace { table, row: origin.chain })
+    }
+
+    /// The number of that feature in its table; -1 for none.
+    pub(super) fn number_of(&self, instance: &Instance) -> f32 {
+        self.of_instance(instance).map_or(-1.0, |place| place.row as f32)
+    }
+
+    /// The one feature that a mesh shows.
+    pub(super) fn of_mesh(&self, mesh: usize) -> Option<FeaturePlace> {
+        match self.meshes[mesh] {
+            MeshFeatures::One(place) => Some(place),
+            _ => None,
+        }
+    }
+
+    /// Whether a mesh shows several features, so that its instances have to tell.
+    pub(super) fn is_shared(&self, mesh: usize) -> bool {
+        self.meshes[mesh] == MeshFeatures::Several
+    }
+
+    /// Lists the extensions that every document with features uses.
+    pub(super) fn use_extensions(&self, root: &mut json::Root) {
+        use_extension(root, STRUCTURAL);
+        if self.meshes.iter().any(|mesh| matches!(mesh, MeshFeatures::One(_))) {
+            use_extension(root, MESH_FEATURES);
+        }
+    }
+
+    /// Writes the tables, before anything else is written; returns the extensions of the document.
+    pub(super) fn write(&self, body: &mut Body<'_>) -> Json {
+        let (mut classes, mut tables) = (Map::new(), Vec::new());
+        let mut names = FxHashSet::default();
+        for (_, table) in &self.tables {
+            let class = identifier(&table.name, &mut names);
+            let (mut described, mut values) = (Map::new(), Map::new());
+            let mut known = FxHashSet::default();
+            let id = identifier("id", &mut known);
+            let ids: Vec<Option<String>> =
+                table.records.iter().map(|record| Some(record.id.clone())).collect();
+            values.insert(id.clone(), strings(&ids, "", body));
+            described.insert(id, json!({ "type": "STRING", "required": true, "semantic": "ID" }));
+            for (column, kind) in column_kinds(table).into_iter().enumerate() {
+                let name = identifier(&table.columns[column], &mut known);
+                let (mut description, value) = property(table, column, kind, body);
+                description["name"] = table.columns[column].as_str().into();
+                described.insert(name.clone(), description);
+                values.insert(name, value);
+            }
+            classes.insert(class.clone(), json!({ "name": table.name, "properties": described }));
+            tables.push(json!({
+                "name": table.name, "class": class, "count": table.records.len(), "properties": values,
+            }));
+        }
+        json!({ STRUCTURAL: { "schema": { "id": "burgeon", "classes": classes }, "propertyTables": tables } })
+    }
+}
+
+impl FeaturePlace {
+    /// The extension of a primitive that shows it alone.
+    pub(super) fn of_primitive(self) -> Json {
+        let ids = json!([{ "featureCount": 1, "attribute": 0, "propertyTable": self.table }]);
+        json!({ MESH_FEATURES: { "featureIds": ids } })
+    }
+}
+
+/// What a node says of the features that its instances are of.
+pub(super) fn instance_features(features: &[f32], table: usize) -> Json {
+    let different: FxHashSet<u32> = features.iter().map(|number| number.to_bits()).collect();
+    json!({ "featureIds": [{ "featureCount": different.len(), "attribute": 0, "propertyTable": table }] })
+}
+
+/// `name` as an identifier that none of `taken` is.
+fn identifier(name: &str, taken: &mut FxHashSet<String>) -> String {
+    let letter = |letter: char| if letter.is_ascii_alphanumeric() { letter } else { '_' };
+    let plain: String = name.chars().map(letter).collect();
+    let first = plain.starts_with(|letter: char| letter.is_ascii_alphabetic() || letter == '_');
+    let plain = if first { plain } else { format!("_{plain}") };
+    let mut free = plain.clone();
+    let mut count = 1;
+    while !taken.insert(free.clone()) {
+        count += 1;
+        free = format!("{plain}_{count}");
+    }
+    free
+}
+
+/// What the schema says of a column, and where its values are.
+fn property(table: &RecordTable, column: usize, kind: ColumnKind, body: &mut Body<'_>) -> (Json, Json) {
+    let cells = || table.records.iter().map(|record| record.value(column));
+    let complete = cells().all(|cell| cell.is_some());
+    match kind {
+        ColumnKind::Number | ColumnKind::Integer => {
+            let number = |cell: Option<&Attribute>| match cell {
+                Some(Attribute::Number(number)) => *number,
+                _ => NO_NUMBER,
+            };
+            let bytes = cells().flat_map(|cell| number(cell).to_le_bytes()).collect();
+            let mut described = json!({ "type": "SCALAR", "componentType": "FLOAT64", "required": complete });
+            if !complete {
+                described["noData"] = NO_NUMBER.into();
+            }
+            (described, json!({ "values": body.add_aligned(BodyArray::Blob(bytes)) }))
+        }
+        ColumnKind::Boolean if complete => {
+            let mut bytes = vec![0_u8; table.records.len().div_ceil(8)];
+            for (row, cell) in cells().enumerate() {
+                if matches!(cell, Some(Attribute::Boolean(true))) {
+                    bytes[row / 8] |= 1 << (row % 8);
+                }
+            }
+            (
+                json!({ "type": "BOOLEAN", "required": true }),
+                json!({ "values": body.add_aligned(BodyArray::Blob(bytes)) }),
+            )
+        }
+        // A boolean cannot be missing.
+        ColumnKind::Boolean => {
+            let byte = |cell: Option<&Attribute>| match cell {
+                Some(Attribute::Boolean(value)) => u8::from(*value),
+                _ => u8::MAX,
+            };
+            let described = json!({
+                "type": "SCALAR", "componentType": "UINT8", "noData": u8::MAX, "description": "1 is true, 0 is false",
+            });
+            (described, json!({ "values": body.add_aligned(BodyArray::Blob(cells().map(byte).collect())) }))
+        }
+        ColumnKind::Text => {
+            let texts: Vec<Option<String>> = cells().map(|cell| cell.map(Attribute::text)).collect();
+            let is_free = |text: &String| !texts.iter().flatten().any(|known| known == text);
+            let mut missing =
+                (0..).map(|number| if number == 0 { String::new() } else { format!("missing {number}") });
+            let missing = missing.find(is_free).unwrap_or_default();
+            let mut described = json!({ "type": "STRING", "required": complete });
+            if !complete {
+                described["noData"] = missing.as_str().into();
+            }
+            (described, strings(&texts, &missing, body))
+        }
+    }
+}
+
+/// Writes texts one behind the other, and where each begins; returns where they are.
+fn strings(texts: &[Option<String>], missing: &str, body: &mut Body<'_>) -> Json {
+    let (mut bytes, mut offsets) = (Vec::new(), Vec::new());
+    for text in texts {
+        offsets.push(bytes.len() as u64);
+        bytes.extend_from_slice(text.as_deref().unwrap_or(missing).as_bytes());
+    }
+    offsets.push(bytes.len() as u64);
+    // A view has at least one byte.
+    if bytes.is_empty() {
+        bytes.push(0);
+    }
+    let long = bytes.len() > u32::MAX as usize;
+    let kind = if long { "UINT64" } else { "UINT32" };
+    let offsets = offsets.into_iter().flat_map(|offset| {
+        let bytes = offset.to_le_bytes();
+        bytes.into_iter().take(if long { 8 } else { 4 })
+    });
+    let offsets = offsets.collect();
+    let (values, offsets) =
+        (body.add_aligned(BodyArray::Blob(bytes)), body.add_aligned(BodyArray::Blob(offsets)));
+    json!({ "values": values, "stringOffsets": offsets, "stringOffsetType": kind })
+}

@@ -1,0 +1,97 @@
+//! What surfaces are, for formats that tell walls from roofs.
+
+use std::ops::Range;
+
+/// What a surface of a building is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum SurfaceMeaning {
+    /// Where it stands on the ground.
+    Ground,
+    /// A side, gables and groundwork among them.
+    Wall,
+    /// What covers it, with eaves and undersides.
+    Roof,
+    /// A window.
+    Window,
+    /// A door.
+    Door,
+}
+
+/// What the triangles of a part are, from place to place; nothing is known before the first one.
+///
+/// It is empty unless an object tells, and has one entry for each change and not for each triangle.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct SurfaceRuns(Vec<(usize, Option<SurfaceMeaning>)>);
+
+impl SurfaceRuns {
+    /// From triangle number `first` on, which is not before an earlier one, all are this.
+    #[inline]
+    pub fn mark(&mut self, first: usize, meaning: Option<SurfaceMeaning>) {
+        if self.0.last().map_or(None, |(_, known)| *known) == meaning {
+            return;
+        }
+        match self.0.last_mut() {
+            Some((known, last)) if *known == first => *last = meaning,
+            _ => self.0.push((first, meaning)),
+        }
+    }
+
+    /// Whether nothing is known of any triangle.
+    pub fn is_empty(&self) -> bool {
+        self.0.is_empty()
+    }
+
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// What triangle number `index` is, if that is known.
+    pub fn of(&self, index: usize) -> Option<SurfaceMeaning> {
+        let behind = self.0.partition_point(|(first, _)| *first <= index);
+        self.0[..behind].last().and_then(|(_, meaning)| *meaning)
+    }
+
+    /// The stretches of so many triangles, each with what it is.
+    pub fn stretches(
+        &self,
+        triangles: usize,
+    ) -> impl Iterator<Item = (Range<usize>, Option<SurfaceMeaning>)> {
+        let before = self.0.first().map_or(triangles, |(first, _)| *first).min(triangles);
+        let ends = self.0.iter().skip(1).map(|(first, _)| *first).chain([triangles]);
+        let known = self
+            .0
+            .iter()
+            .zip(ends)
+            .map(move |((first, meaning), end)| ((*first).min(triangles)..end.min(triangles), *meaning));
+        std::iter::once((0..before, None)).chain(known).filter(|(range, _)| !range.is_empty())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn meaning() -> impl Strategy<Value = Option<SurfaceMeaning>> {
+        use SurfaceMeaning::{Door, Roof, Wall};
+        prop::sample::select(vec![None, Some(Wall), Some(Roof), Some(Door)])
+    }
+
+    proptest! {
+        #[test]
+        fn each_triangle_is_what_it_was_marked_last(marks in prop::collection::vec((0usize..4, meaning()), 0..12)) {
+            let (mut runs, mut plain) = (SurfaceRuns::default(), Vec::new());
+            for (more, meaning) in &marks {
+                runs.mark(plain.len(), *meaning);
+                plain.extend(std::iter::repeat_n(*meaning, *more));
+            }
+            for (index, meaning) in plain.iter().enumerate() {
+                prop_assert_eq!(runs.of(index), *meaning);
+            }
+            let told: Vec<_> = runs.stretches(plain.len()).flat_map(|(range, meaning)| range.map(move |_| meaning)).collect();
+            prop_assert_eq!(told, plain);
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! What goes out with what it means: layers, city models, features and their attributes in glTF.
+
+use insta::assert_snapshot;
+use serde_json::{Value, json};
+
+use super::support::Folder;
+
+const PLOTS: &str = r#"{"type":"FeatureCollection","features":[
+{"type":"Feature","id":"way/1","properties":{"use":"house","levels":2,"lit":true},
+ "geometry":{"type":"Polygon","coordinates":[[[7.42,43.73],[7.4202,43.73],[7.4202,43.7301],[7.42,43.7301],[7.42,43.73]]]}},
+{"type":"Feature","id":"way/2","properties":{"use":"shop \"&\u0007<b>","levels":3},
+ "geometry":{"type":"Polygon","coordinates":[[[7.421,43.73],[7.4212,43.73],[7.4212,43.7301],[7.421,43.73]]]}}]}"#;
+
+const SCRIPT: &str = r#"local Seed, Lot, Mast = module("Seed", "shape", "use", "floors"), module("Lot", "shape", "use", "floors"), module("Mast", "at", "tags")
+local lots = lsystem({ object = footprint })
+lots:axiom(source("plots.geojson"), function(feature)
+  return footprint(feature.geometry), Seed(feature.geometry, feature.use, feature.levels)
+end)
+lots:rule("Seed(shape, use, floors)", function(this, shape, use, floors)
+  return Lot(shape, use, floors), Mast(shape:centroid(), { "a", 2 }), Mast(shape:centroid(), { high = true })
+end)
+lots:interpret("Lot(shape, use, floors)", function(this, shape, use, floors)
+  this:walls({ height = 3 * floors }):roof({ kind = "hip" })
+end)
+lots:interpret("Mast", function(this) end)
+lots:derive()
+"#;
+
+fn folder() -> Folder {
+    Folder::new().with("s.lua", SCRIPT).with("plots.geojson", PLOTS)
+}
+
+fn read(folder: &Folder, name: &str) -> Value {
+    serde_json::from_slice(&std::fs::read(folder.path().join(name)).unwrap()).unwrap()
+}
+
+#[test]
+fn modules_with_a_geometry_become_layers_that_read_back_where_they_were() {
+    let folder = folder();
+    let outputs =
+        ["-o", "a.gpkg", "-o", "a.geojson", "-o", "a.city.json", "-o", "a.glb", "--metadata", "-o", "a.x3d"];
+    let mut known: Option<Vec<Vec<u8>>> = None;
+    for threads in ["1", "2", "7"] {
+        let flags = ["run", "s.lua", "--strict", "--threads", threads, "--batch", "1"];
+        folder.burgeon(&[&flags, &outputs[..]].concat()).done();
+        let names = ["a.gpkg", "a.geojson", "a.city.json", "a.glb", "a.x3d"];
+        let bytes: Vec<Vec<u8>> =
+            names.iter().map(|name| std::fs::read(folder.path().join(name)).unwrap()).collect();
+        assert!(known.get_or_insert_with(|| bytes.clone()) == &bytes, "{threads} threads");
+    }
+    let collection = read(&folder, "a.geojson");
+    let features = collection["features"].as_array().unwrap();
+    assert_eq!(features.len(), 6);
+    let given: Value = serde_json::from_str(PLOTS).unwrap();
+    let ring = |collection: &Value, index: usize| -> Vec<[f64; 2]> {
+        serde_json::from_value(collection["features"][index]["geometry"]["coordinates"][0].clone()).unwrap()
+    };
+    for index in 0..2 {
+        for (a, b) in ring(&collection, index).iter().zip(ring(&given, index)) {
+            assert!((a[0] - b[0]).abs() < 2e-9 && (a[1] - b[1]).abs() < 2e-9, "{a:?} {b:?}");
+        }
+    }
+    assert_eq!(features[1]["properties"], json!({ "layer": "Lot", "use": "shop \"&\u{7}<b>", "floors": 3 }));
+    let masts: Vec<&Value> = features[2..].iter().map(|feature| &feature["id"]).collect();
+    assert_eq!(masts, ["way/1", "way/1.2", "way/2", "way/2.2"]);
+    assert_eq!(
+        (&features[2]["properties"]["tags"], &features[3]["properties"]["tags"]),
+        (&json!(["a", 2.0]), &json!({ "high": true }))
+    );
+    let listing = folder.burgeon(&["sources", "a.gpkg", "--json"]).done().json().to_string();
+    assert!(
+        listing.contains("\"Lot\"") && listing.contains("\"Mast\"") && listing.contains("EPSG:4326"),
+        "{listing}"
+    );
+}
+
+#[test]
+fn buildings_of_a_city_have_surfaces_and_the_attributes_of_their_features() {
+    let folder = folder();
+    for (lod, kind) in [("0", "MultiSurface"), ("1", "Solid"), ("2", "Solid"), ("3", "Solid")] {
+        folder.burgeon(&["run", "s.lua", "--lod", lod, "-o", "a.city.json"]).done();
+        let city = read(&folder, "a.city.json");
+        assert_eq!(city["metadata"]["referenceSystem"], "https://www.opengis.net/def/crs/EPSG/0/32632");
+        let building = &city["CityObjects"]["way/1"];
+        assert_eq!(building["type"], "Building");
+        assert_eq!(building["attributes"], json!({ "use": "house", "levels": 2.0, "lit": true }));
+        let geometry = &building["geometry"][0];
+        assert_eq!((geometry["lod"].as_str(), geometry["type"].as_str()), (Some(lod), Some(kind)));
+        let surfaces = geometry["semantics"]["surfaces"].to_string();
+        let has = |name: &str| surfaces.contains(name);
+        assert!(
+            has("GroundSurface") && has("WallSurface") == (lod != "0") && has("RoofSurface") == (lod != "0")
+        );
+    }
+}
+
+#[test]
+fn lists_of_a_script_tell_their_attributes_and_systems_their_class() {
+    let script = r#"local Trunk = module("Trunk")
+local trees = lsystem({ object = turtle({ width = 0.2 }), city = "SolitaryVegetationObject" })
+trees:axiom(source({ { id = "a", kind = "oak", age = 0 / 0 }, { id = "b", tall = true } }), function(feature) return Trunk() end)
+trees:interpret("Trunk", function(this) this:forward(2) end)
+trees:derive()
+"#;
+    let folder = Folder::new().with("s.lua", script);
+    folder.burgeon(&["run", "s.lua", "--strict", "-o", "a.city.json", "-o", "a.gltf", "--metadata"]).done();
+    let objects = &read(&folder, "a.city.json")["CityObjects"];
+    assert_eq!(
+        (&objects["a"]["type"], &objects["a"]["attributes"]),
+        (&json!("SolitaryVegetationObject"), &json!({ "kind": "oak" }))
+    );
+    assert_eq!(objects["b"]["attributes"], json!({ "tall": true }));
+    let classes = &read(&folder, "a.gltf")["extensions"]["EXT_structural_metadata"]["schema"]["classes"];
+    assert_eq!(classes["system_1"]["properties"]["kind"]["noData"], "");
+}
+
+#[test]
+fn what_goes_out_without_a_meaning_says_so() {
+    let told = |script: &str, output: &str| {
+        let folder = Folder::new().with("s.lua", script);
+        folder.burgeon(&["run", "s.lua", "--strict", "-o", output]).failed()
+    };
+    let plain = "local A = module('A')\nlocal s = lsystem({ object = turtle() })\ns:axiom(A())\ns:interpret('A', function(this) this:forward(1) end)\ns:derive()\n";
+    assert_snapshot!(told(plain, "a.gpkg"), @"");
+    let nowhere = "local A = module('A', 'shape')\nlocal s = lsystem()\ns:axiom(A(geometry('POINT (1 2)')))\ns:derive()\n";
+    assert_snapshot!(told(nowhere, "a.geojson"), @"");
+    Folder::new().with("s.lua", nowhere).burgeon(&["run", "s.lua", "--strict", "-o", "a.gpkg"]).done();
+    assert_snapshot!(told("lsystem({ city = 'Raod' })", "a.glb"), @"");
+    assert_snapshot!(told("print(panel({ surface = 'roof' }))", "a.glb"), @"");
+}
